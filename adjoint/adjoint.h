@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "adjoint/derivative_tape.h"
+
+namespace carom {
+
+/// Reverse pass: the gradient, by every number of the scene, of the sum of the seeds. Walks only the events that the
+/// seeds depend on; its cost does not depend on the number of controls. Equations 5.3 of docs/equations.md.
+/// Throws InputError for an instant after the end of the motion.
+SceneGradient adjoint(const Motion& motion, std::span<const StateSeed> seeds, Reliability* reliability = nullptr);
+
+/// The same for many rows of one motion: linearisations are shared.
+SceneGradient adjoint(DerivativeTape& tape, std::span<const StateSeed> seeds, Reliability* reliability = nullptr);
+
+}  // namespace carom

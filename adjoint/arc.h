@@ -1,0 +1,86 @@
+#pragma once
+
+#include <vector>
+
+#include "adjoint/body_model.h"
+#include "adjoint/flight_triaxial.h"
+
+namespace carom {
+
+/// Kinds of arc in a world-line. Lasting contact will add kinds; the passes ask an arc, not its kind.
+enum class ArcKind { flight };
+
+/// How the rotation of a flight is carried; see docs/equations.md section 2.
+enum class Tier { none, spherical, symmetric, triaxial };
+const char* nameOf(Tier tier);
+
+/// Pose and velocity at one time, of the shape: R is R_WG (shape axes to world). With Tier::none R is the start's.
+struct Kinematics {
+  Vec3 x = Vec3::Zero();
+  Mat3 R = Mat3::Identity();
+  Vec3 v = Vec3::Zero();
+  Vec3 w = Vec3::Zero();
+};
+
+/// Derivative of the rotation vector theta at the end of a stretch of free rotation by theta and L at its start and by
+/// the principal moments (every one of them 3x3).
+struct RotationSensitivity {
+  Mat3 dtheta_dtheta = Mat3::Identity();
+  Mat3 dtheta_dL = Mat3::Zero();
+  Mat3 dtheta_dI = Mat3::Zero();
+};
+
+/// One stretch of a world-line: free flight of one body from `start()` on, known in closed form or as Taylor segments.
+/// A fixed body has one arc, which stays where it is.
+class Arc {
+ public:
+  /// A flight under gravity from the given state.
+  Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
+
+  ArcKind kind() const { return ArcKind::flight; }
+  Tier tier() const { return tier_; }
+  double start() const { return start_; }
+  const State& startState() const { return state_; }
+  const BodyModel& model() const { return *model_; }
+  const Vec3& acceleration() const { return gravity_; }
+  bool moving() const { return model_->moving; }
+
+  /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do).
+  void extendTo(double t);
+
+  State stateAt(double t) const;
+  Kinematics kinematicsAt(double t) const;
+  Vec3 positionAt(double t) const;
+  Vec3 velocityAt(double t) const;
+  /// d(state)/dt of the flow: (v, omega, g, 0).
+  StateDerivative rate(const State& state) const;
+
+  /// Bounds over the whole arc: |omega| <= spinBound(), |d omega/dt| <= spinRateBound().
+  double spinBound() const { return spin_bound_; }
+  double spinRateBound() const { return spin_rate_bound_; }
+
+  /// Sensitivity of the rotation from start() to t. `tier` is the one the derivative needs: Tier::triaxial gives
+  /// dtheta_dI for free, independent moments; Tier::symmetric only for changes that keep the symmetry.
+  RotationSensitivity rotationSensitivity(double t, Tier tier) const;
+
+ private:
+  Quat rotationAt(double elapsed) const;
+
+  const BodyModel* model_;  // outlives the arc: held by the Motion
+  Tier tier_;
+  Vec3 gravity_;
+  double start_;
+  State state_;
+  double spin_bound_ = 0, spin_rate_bound_ = 0;
+  int symmetry_axis_ = 2;
+  TriaxialRotation triaxial_;
+};
+
+/// Tangent of the flight from arc.start() to t at fixed times: ds(t) from ds(start), dg and the model's derivative.
+StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& dstart,
+                              const Vec3& dgravity, const BodyModelDerivative& dmodel);
+/// Its adjoint: from the adjoint at t to the adjoint at start; adds to those of gravity and the model.
+StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& end_bar,
+                               Vec3& gravity_bar, BodyModelDerivative& model_bar);
+
+}  // namespace carom

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adjoint/arc.h"
+#include "adjoint/scene.h"
+
+namespace carom {
+
+/// A frozen pair of features (vertex of a on face of b, edge on edge, ...). The numbers mean something only to the
+/// ContactSource that made them; equal numbers are the same features.
+struct FeaturePair {
+  std::int16_t kind = -1;  ///< row of the source's table of gaps
+  std::int16_t a = -1;     ///< feature of the first body
+  std::int16_t b = -1;     ///< feature of the second body
+  std::int16_t sign = 1;   ///< side of the pair, where the gap needs one (edge-edge)
+  bool operator==(const FeaturePair&) const = default;
+};
+
+/// Position of the shape's origin and R_WG, shape axes to world.
+struct Pose {
+  Vec3 x = Vec3::Zero();
+  Mat3 R = Mat3::Identity();
+};
+
+/// Gap [m], unit normal pointing from b to a, and contact point, all in world axes.
+struct ContactPoint {
+  double gap = 0;
+  Vec3 normal = Vec3::UnitZ();
+  Vec3 point = Vec3::Zero();
+};
+
+/// d(gap, normal, point) by (x_a, theta_a, x_b, theta_b, size_a, size_b): 7 x 18, theta a world rotation vector,
+/// size the shape's dimensions in their own order (unused columns are 0).
+using ContactJacobian = Eigen::Matrix<double, 7, 18>;
+
+/// The smooth gap of frozen feature pairs, for the shapes of one scene. Immutable: a Motion keeps it.
+class ContactGeometry {
+ public:
+  virtual ~ContactGeometry() = default;
+  virtual ContactPoint contact(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const = 0;
+  virtual ContactJacobian jacobian(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const = 0;
+  /// Such as "vertex 3 on face +z", in the order a, b.
+  virtual std::string describe(int a, int b, const FeaturePair& f) const = 0;
+};
+
+/// The first impact of a pair: gap = 0 with a decreasing gap.
+struct PredictedImpact {
+  double time = 0;
+  FeaturePair features;
+};
+
+/// Who may touch whom, and when: collision detection as the simulator sees it.
+class ContactSource {
+ public:
+  virtual ~ContactSource() = default;
+
+  /// Takes over the shapes of a scene. Throws InputError when two bodies overlap at the start.
+  virtual void begin(const Scene& scene) = 0;
+
+  /// Body `body` follows `arc` from `from` on; the source may have to look at it up to `until`.
+  virtual void setPath(int body, const Arc& arc, double from, double until) = 0;
+
+  /// Bodies that may touch `body` on the paths set so far, in increasing order; may name too many, never too few.
+  virtual void neighbours(int body, std::vector<int>& out) = 0;
+
+  /// First impact of bodies a and b on the given arcs in [from, until]. Extends the arcs as far as it looks. Bodies that
+  /// touch at `from` and do not approach are not an impact.
+  virtual std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
+                                                     double until) = 0;
+
+  virtual std::shared_ptr<const ContactGeometry> geometry() const = 0;
+};
+
+}  // namespace carom

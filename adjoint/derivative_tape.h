@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adjoint/motion.h"
+
+namespace carom {
+
+/// When a state is read: at a time, or just before an event (then the time itself moves with the causes).
+struct Instant {
+  double time = 0;
+  int event = -1;
+
+  static Instant at(double time) { return {time, -1}; }
+  static Instant before(int event) { return {0, event}; }
+};
+
+/// One linear functional of the state of a body at an instant, in the terms of BodyState: the weights of position,
+/// orientation (world rotation vector), velocity and angular velocity, and of the time of the event.
+struct StateSeed {
+  int body = -1;
+  Instant at;
+  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  double time = 0;
+};
+
+/// How far a derivative can be trusted: the smallest margins of the events that it passed through.
+struct Reliability {
+  bool reliable = true;
+  int events = 0;               ///< events that the quantity depends on
+  double smallest_margin = 1;   ///< see Margins
+  std::string message;          ///< a sentence when not reliable
+
+  void pass(const Motion& motion, int event);
+};
+
+/// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.
+/// Not for use from two threads at once. Keeps a reference to the motion.
+class DerivativeTape {
+ public:
+  explicit DerivativeTape(const Motion& motion);
+  ~DerivativeTape();
+
+  const Motion& motion() const { return motion_; }
+  /// Sensitivity over the whole of arc k of a body, which ends in an event.
+  const RotationSensitivity& arc(int body, int k);
+  /// Sensitivity from the start of arc k to time t.
+  RotationSensitivity arcUntil(int body, int k, double t) const;
+  const struct EventLinearization& event(int event);
+
+ private:
+  const Motion& motion_;
+  std::vector<std::vector<std::unique_ptr<RotationSensitivity>>> arcs_;
+  std::vector<std::unique_ptr<struct EventLinearization>> events_;
+};
+
+}  // namespace carom

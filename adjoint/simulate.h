@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+
+#include "adjoint/motion.h"
+
+namespace carom {
+
+struct SimulateOptions {
+  std::size_t impact_limit = 20000;  ///< events, after which the motion ends with MotionStatus::impact_limit
+  std::vector<Asked> asked;          ///< a body each; empty asks for everything
+};
+
+/// Simulates a scene from impact to impact up to `duration` seconds.
+/// Throws InputError for bad input (see validate); ends early, with a status and a sentence, where the motion cannot be
+/// continued. The same input gives the same motion to the last bit.
+Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
+
+}  // namespace carom

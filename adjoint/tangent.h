@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "adjoint/derivative_tape.h"
+
+namespace carom {
+
+/// Rate of a BodyState as the scene varies: world rotation vector for the orientation. `time` is the rate of the
+/// instant itself (0 at a given time).
+struct BodyStateRate {
+  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  double time = 0;
+
+  double dot(const StateSeed& seed) const;
+};
+
+/// Forward pass: how the whole motion changes when the scene changes along `direction`. Equations 5.1 and 5.2 of
+/// docs/equations.md.
+class MotionTangent {
+ public:
+  BodyStateRate at(int body, const Instant& instant) const;
+  /// d(time of event).
+  double eventTime(int event) const { return event_time_[event]; }
+
+ private:
+  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction);
+  DerivativeTape* tape_ = nullptr;
+  Vec3 dgravity_ = Vec3::Zero();
+  std::vector<BodyModelDerivative> dmodels_;
+  std::vector<std::vector<StateDerivative>> starts_;  // of every arc of every body, at fixed time
+  std::vector<double> event_time_;
+  StateDerivative stateTangent(int body, int arc, double t) const;
+};
+
+/// The tape must outlive the result.
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction);
+
+}  // namespace carom

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjoint/scene.h"
+#include "editing/constraint.h"
+#include "editing/control.h"
+
+namespace carom {
+
+/// A scene document: the scene, how long it is simulated, and the edit asked for.
+struct Document {
+  Scene scene;
+  double duration = 1;  ///< s
+  std::vector<Control> controls;
+  std::vector<Constraint> constraints;
+};
+
+}  // namespace carom
