@@ -22,14 +22,6 @@ struct Kinematics {
   Vec3 w = Vec3::Zero();
 };
 
-/// Derivative of the rotation vector theta at the end of a stretch of free rotation by theta and L at its start and by
-/// the principal moments (every one of them 3x3).
-struct RotationSensitivity {
-  Mat3 dtheta_dtheta = Mat3::Identity();
-  Mat3 dtheta_dL = Mat3::Zero();
-  Mat3 dtheta_dI = Mat3::Zero();
-};
-
 /// One stretch of a world-line: free flight of one body from `start()` on, known in closed form or as Taylor segments.
 /// A fixed body has one arc, which stays where it is.
 class Arc {

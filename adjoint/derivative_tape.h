@@ -8,6 +8,8 @@
 
 namespace carom {
 
+class EventLinearization;
+
 /// When a state is read: at a time, or just before an event (then the time itself moves with the causes).
 struct Instant {
   double time = 0;
@@ -48,12 +50,12 @@ class DerivativeTape {
   const RotationSensitivity& arc(int body, int k);
   /// Sensitivity from the start of arc k to time t.
   RotationSensitivity arcUntil(int body, int k, double t) const;
-  const struct EventLinearization& event(int event);
+  const EventLinearization& event(int event);
 
  private:
   const Motion& motion_;
   std::vector<std::vector<std::unique_ptr<RotationSensitivity>>> arcs_;
-  std::vector<std::unique_ptr<struct EventLinearization>> events_;
+  std::vector<std::unique_ptr<EventLinearization>> events_;
 };
 
 }  // namespace carom

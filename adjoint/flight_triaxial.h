@@ -1,12 +1,19 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "adjoint/body_model.h"
+#include "adjoint/types.h"
 
 namespace carom {
 
-struct RotationSensitivity;
+/// Derivative of the rotation vector theta at the end of a stretch of free rotation by theta and L at its start and by
+/// the principal moments (every one of them 3x3).
+struct RotationSensitivity {
+  Mat3 dtheta_dtheta = Mat3::Identity();
+  Mat3 dtheta_dL = Mat3::Zero();
+  Mat3 dtheta_dI = Mat3::Zero();
+};
 
 /// Torque-free rotation with three different moments, as Taylor segments of the quadratic system
 ///   M' = M x (D M),  q' = 1/2 q o (0, D M),   M = R(q)^T L,  D = diag(1/I),
@@ -18,21 +25,24 @@ class TriaxialRotation {
   static constexpr int kOrder = 20;
 
   void begin(const Vec3& inverse_inertia, const Quat& q, const Vec3& L);
+  /// Makes [0, elapsed] available.
   void extendTo(double elapsed);
   Quat orientationAt(double elapsed) const;
-  /// Sensitivity over [0, elapsed] by the variational equations of the same system.
+  /// Sensitivity over [0, elapsed] by the variational equations of the same system, see flight_triaxial.cpp.
   RotationSensitivity sensitivityAt(double elapsed) const;
 
  private:
   struct Segment {
-    double start, length;
-    Eigen::Matrix<double, 3, kOrder + 1> M;
-    Eigen::Matrix<double, 4, kOrder + 1> q;  // x y z w
+    double start = 0, length = 0;
+    std::array<std::array<double, 4>, kOrder + 1> q;  // x y z w
+    std::array<std::array<double, 3>, kOrder + 1> M;
   };
-  Segment makeSegment(double start, const Quat& q) const;
+  void append(double start, const Quat& q);
   const Segment& segmentAt(double elapsed) const;
+  RotationSensitivity segmentSensitivity(const Segment& segment, double h) const;
 
   Vec3 D_ = Vec3::Zero(), L_ = Vec3::Zero();
+  Quat q_ = Quat::Identity();
   std::vector<Segment> segments_;
 };
 

@@ -1,0 +1,146 @@
+#include "adjoint/arc.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/flight_symmetric.h"
+
+namespace carom {
+
+const char* nameOf(Tier tier) {
+  switch (tier) {
+    case Tier::none: return "none";
+    case Tier::spherical: return "spherical";
+    case Tier::symmetric: return "symmetric";
+    case Tier::triaxial: return "triaxial";
+  }
+  return "";
+}
+
+namespace {
+
+// Largest |omega| on the polhode: with y = omega_i^2 >= 0, sum I_i y_i and sum I_i^2 y_i are constant, so the greatest
+// sum y_i is found where one component vanishes.
+double largestSpin(const Vec3& I, const Vec3& M) {
+  const double twice_energy = M.cwiseAbs2().dot(I.cwiseInverse()), L2 = M.squaredNorm();
+  double best = M.cwiseQuotient(I).squaredNorm();
+  for (int i = 0; i < 3; ++i) {
+    const double a = I[(i + 1) % 3], b = I[(i + 2) % 3];
+    if (!(std::abs(a - b) > 1e-12 * std::max(a, b))) {  // a pair of equal moments: bound by the smallest one
+      best = std::max(best, L2 / (std::min(a, b) * std::min(a, b)));
+      continue;
+    }
+    const double ya = (L2 - b * twice_energy) / (a * (a - b)), yb = (L2 - a * twice_energy) / (b * (b - a));
+    if (ya >= 0 && yb >= 0) best = std::max(best, ya + yb);
+  }
+  return std::sqrt(best);
+}
+
+}  // namespace
+
+Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state)
+    : model_(&model), tier_(tier), gravity_(model.moving ? gravity : Vec3::Zero()), start_(start), state_(state) {
+  if (!model.moving) return;
+  if (tier == Tier::triaxial) triaxial_.begin(model.inverse_inertia, state.q, state.L);
+  if (tier == Tier::symmetric) symmetry_axis_ = symmetryAxis(model.inertia);
+  const Mat3 R = state.q.toRotationMatrix();
+  const Vec3& I = model.inertia;
+  const Vec3 M = R.transpose() * state.L;
+  if (tier == Tier::none || tier == Tier::spherical || tier == Tier::symmetric) {
+    spin_bound_ = M.cwiseQuotient(I).norm() * (1 + 1e-12);  // |omega| is constant
+  } else {
+    spin_bound_ = largestSpin(I, M) * (1 + 1e-12);
+  }
+  // omega'_i = (I_j - I_k)/I_i omega_j omega_k, and sum of (omega_j omega_k)^2 <= |omega|^4 / 3
+  double k = 0;
+  for (int i = 0; i < 3; ++i) k = std::max(k, std::abs(I[(i + 1) % 3] - I[(i + 2) % 3]) / I[i]);
+  spin_rate_bound_ = k * spin_bound_ * spin_bound_ / std::sqrt(3.0);
+}
+
+void Arc::extendTo(double t) {
+  if (tier_ == Tier::triaxial && model_->moving) triaxial_.extendTo(t - start_);
+}
+
+Quat Arc::rotationAt(double s) const {
+  if (!model_->moving || s == 0) return state_.q;
+  switch (tier_) {
+    case Tier::none: return state_.q;
+    case Tier::spherical: return sphericalOrientation(model_->inertia[0], state_.q, state_.L, s);
+    case Tier::symmetric: return symmetricOrientation(model_->inertia, symmetry_axis_, state_.q, state_.L, s);
+    case Tier::triaxial: return triaxial_.orientationAt(s);
+  }
+  return state_.q;
+}
+
+Vec3 Arc::positionAt(double t) const {
+  const double s = t - start_;
+  return state_.x + s * (state_.v + 0.5 * s * gravity_);
+}
+
+Vec3 Arc::velocityAt(double t) const { return state_.v + (t - start_) * gravity_; }
+
+State Arc::stateAt(double t) const { return {positionAt(t), rotationAt(t - start_), velocityAt(t), state_.L}; }
+
+Kinematics Arc::kinematicsAt(double t) const {
+  Kinematics k;
+  k.x = positionAt(t);
+  k.v = velocityAt(t);
+  k.R = rotationAt(t - start_).toRotationMatrix();
+  if (model_->moving) k.w = k.R * model_->inverse_inertia.cwiseProduct(k.R.transpose() * state_.L);
+  if (model_->has_offset) k.R = k.R * model_->R_BG;
+  return k;
+}
+
+StateDerivative Arc::rate(const State& s) const {
+  StateDerivative ds;
+  if (!model_->moving) return ds;
+  const Mat3 R = s.q.toRotationMatrix();
+  ds.x = s.v;
+  ds.theta = R * model_->inverse_inertia.cwiseProduct(R.transpose() * s.L);
+  ds.v = gravity_;
+  return ds;
+}
+
+RotationSensitivity Arc::rotationSensitivity(double t, Tier tier) const {
+  const double s = t - start_;
+  switch (tier) {
+    case Tier::none: return {};
+    case Tier::spherical: return sphericalSensitivity(model_->inertia[0], state_.L, s);
+    case Tier::symmetric:
+      return symmetricSensitivity(model_->inertia, symmetryAxis(model_->inertia), state_.q, state_.L, s);
+    case Tier::triaxial: break;
+  }
+  if (tier_ == Tier::triaxial) return triaxial_.sensitivityAt(s);
+  TriaxialRotation general;  // the motion needed less than its derivative does
+  general.begin(model_->inverse_inertia, state_.q, state_.L);
+  general.extendTo(s);
+  return general.sensitivityAt(s);
+}
+
+StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& dstart,
+                              const Vec3& dgravity, const BodyModelDerivative& dmodel) {
+  if (!arc.moving()) return dstart;
+  const double s = t - arc.start();
+  StateDerivative d;
+  d.x = dstart.x + s * (dstart.v + 0.5 * s * dgravity);
+  d.v = dstart.v + s * dgravity;
+  d.theta = S.dtheta_dtheta * dstart.theta + S.dtheta_dL * dstart.L + S.dtheta_dI * dmodel.inertia;
+  d.L = dstart.L;
+  return d;
+}
+
+StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& end_bar,
+                               Vec3& gravity_bar, BodyModelDerivative& model_bar) {
+  if (!arc.moving()) return end_bar;
+  const double s = t - arc.start();
+  StateDerivative d;
+  d.x = end_bar.x;
+  d.v = end_bar.v + s * end_bar.x;
+  d.theta = S.dtheta_dtheta.transpose() * end_bar.theta;
+  d.L = end_bar.L + S.dtheta_dL.transpose() * end_bar.theta;
+  gravity_bar += 0.5 * s * s * end_bar.x + s * end_bar.v;
+  model_bar.inertia += S.dtheta_dI.transpose() * end_bar.theta;
+  return d;
+}
+
+}  // namespace carom

@@ -1,0 +1,59 @@
+#include "adjoint/derivative_tape.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "adjoint/event_linearization.h"
+
+namespace carom {
+
+DerivativeTape::DerivativeTape(const Motion& motion) : motion_(motion), events_(motion.events.size()) {
+  for (const WorldLine& line : motion.world_lines) arcs_.emplace_back(line.arcs.size());
+}
+
+DerivativeTape::~DerivativeTape() = default;
+
+const RotationSensitivity& DerivativeTape::arc(int body, int k) {
+  const auto b = static_cast<std::size_t>(body), kk = static_cast<std::size_t>(k);
+  auto& slot = arcs_[b][kk];
+  if (!slot) {
+    const WorldLine& line = motion_.world_lines[b];
+    slot = std::make_unique<RotationSensitivity>(
+        arcUntil(body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
+  }
+  return *slot;
+}
+
+RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) const {
+  const auto b = static_cast<std::size_t>(body);
+  return motion_.world_lines[b].arcs[static_cast<std::size_t>(k)].rotationSensitivity(
+      t, motion_.plan.bodies[b].derivative_tier);
+}
+
+const EventLinearization& DerivativeTape::event(int event) {
+  auto& slot = events_[static_cast<std::size_t>(event)];
+  if (!slot) slot = std::make_unique<EventLinearization>(motion_, event);
+  return *slot;
+}
+
+void Reliability::pass(const Motion& motion, int index) {
+  const Event& event = motion.events[static_cast<std::size_t>(index)];
+  ++events;
+  smallest_margin = std::min(smallest_margin, event.margins.smallest());
+  if (!reliable) return;
+  std::ostringstream text;
+  text << "the impact " << motion.describeEvent(index) << " at t = " << event.time << " s ";
+  if (event.mode == ImpactMode::joint) {
+    text << "joins several contacts: the derivative is that of the joint law";
+  } else if (event.margins.grazing < kReliableMargin) {
+    text << "is nearly grazing (margin " << event.margins.grazing << ")";
+  } else if (event.margins.stick_slip < kReliableMargin) {
+    text << "is at the boundary of stick and slide (margin " << event.margins.stick_slip << "): one-sided derivative";
+  } else {
+    return;
+  }
+  reliable = false;
+  message = text.str();
+}
+
+}  // namespace carom

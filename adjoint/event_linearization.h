@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "adjoint/impact/impact.h"
+#include "adjoint/motion.h"
+
+namespace carom {
+
+/// One event, linearised: impact law, contact geometry and guard (equations 5.1 to 5.3 of docs/equations.md).
+/// The guard of a joint event is the mean gap of its contacts, weighted by their normal impulses.
+class EventLinearization {
+ public:
+  EventLinearization(const Motion& motion, int event);
+
+  struct Tangent {
+    std::vector<StateDerivative> after;  ///< of the participants, at the fixed nominal time
+    double time = 0;                     ///< d tau
+  };
+  /// `before`: of the participants at the fixed nominal time, just before; `dmodel`: one a body of the scene.
+  Tangent tangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,
+                  const std::vector<BodyModelDerivative>& dmodel) const;
+
+  /// Adjoint just before the event from that just after (`after_bar`), plus adjoints of the state just before
+  /// (`before_bar`) and of the time of the event (`time_bar`) that are read at the event itself.
+  std::vector<StateDerivative> pullback(const std::vector<StateDerivative>& after_bar,
+                                        const std::vector<StateDerivative>& before_bar, double time_bar,
+                                        SceneGradient& scene_bar, std::vector<BodyModelDerivative>& model_bar) const;
+
+  /// F- of a participant, d(state)/dt just before.
+  const StateDerivative& rateBefore(int participant) const { return rate_before_[static_cast<std::size_t>(participant)]; }
+  const StateDerivative& rateAfter(int participant) const { return rate_after_[static_cast<std::size_t>(participant)]; }
+  /// D = d(guard)/dt < 0, m/s.
+  double guardRate() const { return D_; }
+
+ private:
+  using Vec7 = Eigen::Matrix<double, 7, 1>;
+  using Vec18 = Eigen::Matrix<double, 18, 1>;
+  struct Side {
+    int body, participant;  // participant -1: a fixed body
+  };
+  struct ContactPart {
+    Side a, b;
+    double weight = 0;
+    ContactJacobian jacobian;
+    bool tilted = false;
+    Eigen::Matrix<double, 3, 7> tilt;  // d(impulse normal) by (normal, tilt a, tilt b)
+    int material_a = -1, material_b = -1;
+  };
+
+  Vec18 gather(const ContactPart& part, const std::vector<StateDerivative>& before, const SceneTangent& dscene) const;
+  void scatter(const ContactPart& part, const Vec7& bar, std::vector<StateDerivative>& before_bar,
+               SceneGradient& scene_bar) const;
+
+  const Motion& motion_;
+  const Event& event_;
+  ImpactAssembly assembly_;
+  Eigen::VectorXd P_;
+  std::vector<ContactPart> parts_;
+  std::vector<StateDerivative> rate_before_, rate_after_;
+  double D_ = 0;
+};
+
+}  // namespace carom

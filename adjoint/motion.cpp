@@ -1,0 +1,115 @@
+#include "adjoint/motion.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "adjoint/errors.h"
+
+namespace carom {
+
+const char* nameOf(ImpactMode mode) {
+  switch (mode) {
+    case ImpactMode::frictionless: return "frictionless";
+    case ImpactMode::stick: return "stick";
+    case ImpactMode::slide: return "slide";
+    case ImpactMode::joint: return "joint";
+  }
+  return "";
+}
+
+const char* nameOf(MotionStatus status) {
+  switch (status) {
+    case MotionStatus::complete: return "complete";
+    case MotionStatus::impact_limit: return "impact_limit";
+    case MotionStatus::cascade: return "cascade";
+    case MotionStatus::unresolved_impact: return "unresolved_impact";
+  }
+  return "";
+}
+
+const Participant* Event::find(int body) const {
+  for (const Participant& p : participants)
+    if (p.body == body) return &p;
+  return nullptr;
+}
+
+bool Event::touches(int body, int with) const {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+    return (c.a == body && c.b == with) || (c.a == with && c.b == body);
+  });
+}
+
+BodyState toBodyState(const BodyModel& model, const State& s) {
+  BodyState out;
+  out.position = s.x;
+  out.orientation = model.has_offset ? Quat(s.q * Quat(model.R_BG)).normalized() : s.q;
+  out.velocity = s.v;
+  if (model.moving) {
+    const Mat3 R = s.q.toRotationMatrix();
+    out.angular_velocity = R * model.inverse_inertia.cwiseProduct(R.transpose() * s.L);
+  }
+  return out;
+}
+
+int Motion::arcAt(int body, double t) const {
+  const auto& arcs = world_lines[static_cast<std::size_t>(body)].arcs;
+  const auto next = std::upper_bound(arcs.begin(), arcs.end(), t, [](double x, const Arc& a) { return x < a.start(); });
+  return std::max(0, static_cast<int>(next - arcs.begin()) - 1);
+}
+
+BodyState Motion::stateAt(const std::string& body, double t) const { return stateAt(bodyIndex(*scene, body), t); }
+
+BodyState Motion::stateAt(int body, double t) const {
+  if (!(t >= 0 && t <= end)) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "found the time " << t << ", expected one in [0, " << end << "]";
+    if (status != MotionStatus::complete) text << "; " << message;
+    throw InputError(text.str());
+  }
+  const auto b = static_cast<std::size_t>(body);
+  const Arc& arc = world_lines[b].arcs[static_cast<std::size_t>(arcAt(body, t))];
+  return toBodyState((*models)[b], arc.stateAt(t));
+}
+
+BodyState Motion::stateBefore(int event, int body) const {
+  const Participant* p = events.at(static_cast<std::size_t>(event)).find(body);
+  if (!p) throw InputError("body '" + scene->bodies[static_cast<std::size_t>(body)].name + "' has no part in event " +
+                           std::to_string(event));
+  return toBodyState((*models)[static_cast<std::size_t>(body)], p->before);
+}
+
+std::optional<int> Motion::findImpact(int body, int n, int with) const {
+  int count = 0;
+  for (int e : world_lines[static_cast<std::size_t>(body)].events) {
+    if (with >= 0 && !events[static_cast<std::size_t>(e)].touches(body, with)) continue;
+    if (++count == n) return e;
+  }
+  return std::nullopt;
+}
+
+std::string Motion::describeEvent(int index) const {
+  const Event& event = events[static_cast<std::size_t>(index)];
+  std::string text;
+  for (const Contact& c : event.contacts) {
+    if (!text.empty()) text += " + ";
+    text += scene->bodies[static_cast<std::size_t>(c.a)].name + "-" + scene->bodies[static_cast<std::size_t>(c.b)].name +
+            " (" + geometry->describe(c.a, c.b, c.features) + ")";
+  }
+  return text + " " + nameOf(event.mode);
+}
+
+std::string Motion::signature() const {
+  std::string text;
+  for (const Event& event : events) {
+    for (const Contact& c : event.contacts)
+      for (int part : {c.a, c.b, static_cast<int>(c.features.kind), static_cast<int>(c.features.a),
+                       static_cast<int>(c.features.b), static_cast<int>(c.features.sign)})
+        text += std::to_string(part) + ",";
+    text += nameOf(event.mode);
+    text += ';';
+  }
+  return text;
+}
+
+}  // namespace carom

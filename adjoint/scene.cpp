@@ -1,0 +1,78 @@
+#include "adjoint/scene.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/errors.h"
+
+namespace carom {
+
+Inertia Inertia::fromMoments(const Vec3& moments) {
+  Inertia inertia;
+  inertia.source = Source::moments;
+  inertia.moments = moments;
+  return inertia;
+}
+
+Inertia Inertia::fromMatrix(const Mat3& matrix) {
+  Inertia inertia;
+  inertia.source = Source::matrix;
+  if (matrix.isDiagonal(0)) {  // already principal: keep the order that was written
+    inertia.moments = matrix.diagonal();
+    return inertia;
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(0.5 * (matrix + matrix.transpose()));
+  inertia.moments = solver.eigenvalues();
+  Mat3 axes = solver.eigenvectors();
+  if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
+  inertia.axes = Quat(axes).normalized();
+  return inertia;
+}
+
+Mat3 Inertia::matrix() const {
+  const Mat3 R = axes.toRotationMatrix();
+  return R * moments.asDiagonal() * R.transpose();
+}
+
+namespace {
+
+template <class Items>
+int indexByName(const Items& items, const std::string& name, const char* what) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (items[i].name == name) return static_cast<int>(i);
+  std::string known;
+  for (const auto& item : items) known += (known.empty() ? "'" : ", '") + item.name + "'";
+  throw InputError(std::string("there is no ") + what + " '" + name + "'; found " + (known.empty() ? "none" : known));
+}
+
+}  // namespace
+
+int bodyIndex(const Scene& scene, const std::string& name) { return indexByName(scene.bodies, name, "body"); }
+int materialIndex(const Scene& scene, const std::string& name) {
+  return indexByName(scene.materials, name, "material");
+}
+
+const Material& materialOf(const Scene& scene, const Body& body) {
+  static const Material plain;
+  if (body.material.empty()) return plain;
+  return scene.materials[static_cast<std::size_t>(materialIndex(scene, body.material))];
+}
+
+double SceneDerivative::dot(const SceneDerivative& o) const {
+  double sum = gravity.dot(o.gravity);
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const MaterialDerivative &m = materials[i], &n = o.materials[i];
+    sum += m.elasticity * n.elasticity + m.friction * n.friction + m.tangential_elasticity * n.tangential_elasticity;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const BodyDerivative &b = bodies[i], &c = o.bodies[i];
+    sum += b.position.dot(c.position) + b.orientation.dot(c.orientation) + b.velocity.dot(c.velocity) +
+           b.angular_velocity.dot(c.angular_velocity) + b.mass * c.mass + b.density * c.density +
+           b.inertia.dot(c.inertia) + b.size.dot(c.size);
+  }
+  for (std::size_t i = 0; i < tilts.size(); ++i) sum += tilts[i].dot(o.tilts[i]);
+  return sum;
+}
+
+}  // namespace carom

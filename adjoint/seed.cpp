@@ -1,0 +1,50 @@
+#include "adjoint/seed.h"
+
+#include "adjoint/errors.h"
+
+namespace carom {
+
+StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
+                             BodyModelDerivative& model_bar) {
+  StateDerivative bar;
+  bar.x = seed.position;
+  bar.theta = seed.orientation;
+  bar.v = seed.velocity;
+  if (!model.moving || seed.angular_velocity.isZero(0)) return bar;
+  const Mat3 R = state.q.toRotationMatrix();
+  const Vec3 &w_bar = seed.angular_velocity, A_w_bar = model.inverseInertiaWorld(R) * w_bar;
+  const Vec3 omega = R * model.inverse_inertia.cwiseProduct(R.transpose() * state.L);
+  bar.L = A_w_bar;
+  // w_bar.(theta x omega) - A w_bar.(theta x L)
+  bar.theta += omega.cross(w_bar) - state.L.cross(A_w_bar);
+  const Vec3 D_bar = (R.transpose() * w_bar).cwiseProduct(R.transpose() * state.L);
+  model_bar.inertia -= D_bar.cwiseProduct(model.inverse_inertia).cwiseProduct(model.inverse_inertia);
+  return bar;
+}
+
+Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const StateDerivative& ds,
+                            const BodyModelDerivative& dmodel) {
+  if (!model.moving) return Vec3::Zero();
+  const Mat3 R = state.q.toRotationMatrix(), A = model.inverseInertiaWorld(R);
+  const Vec3 omega = A * state.L;
+  const Vec3 dD = -dmodel.inertia.cwiseProduct(model.inverse_inertia).cwiseProduct(model.inverse_inertia);
+  return A * (ds.L - ds.theta.cross(state.L)) + ds.theta.cross(omega) +
+         R * dD.cwiseProduct(R.transpose() * state.L);
+}
+
+ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
+  const auto b = static_cast<std::size_t>(body);
+  if (instant.event >= 0) {
+    const Participant* p = motion.events.at(static_cast<std::size_t>(instant.event)).find(body);
+    if (!p) throw InputError("body '" + motion.scene->bodies[b].name + "' has no part in the impact that is read");
+    return {p->arc, p->before};
+  }
+  if (!(instant.time >= 0 && instant.time <= motion.end))
+    throw InputError("found the time " + std::to_string(instant.time) + ", expected one in [0, " +
+                     std::to_string(motion.end) + "]" +
+                     (motion.status == MotionStatus::complete ? "" : "; " + motion.message));
+  const int k = motion.arcAt(body, instant.time);
+  return {k, motion.world_lines[b].arcs[static_cast<std::size_t>(k)].stateAt(instant.time)};
+}
+
+}  // namespace carom

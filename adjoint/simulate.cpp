@@ -1,0 +1,274 @@
+#include "adjoint/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "adjoint/errors.h"
+#include "adjoint/impact/impact.h"
+#include "adjoint/impact/tilt.h"
+#include "adjoint/simulator.h"
+
+namespace carom {
+
+Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options) {
+  if (!(duration >= 0 && duration <= 1e9))
+    throw InputError("found a duration of " + std::to_string(duration) + " s, expected a finite number >= 0");
+  validate(scene);
+  return Simulator(scene, contacts, duration, options).run();
+}
+
+Motion Simulator::run() {
+  start();
+  for (Prediction next; takeNext(next);) {
+    if (motion_.events.size() >= impact_limit_) {
+      finish(MotionStatus::impact_limit, next.time,
+             "stopped after " + std::to_string(impact_limit_) + " impacts, the limit that was set");
+      return std::move(motion_);
+    }
+    Draft draft = resolve(next);
+    if (!separates(draft)) return std::move(motion_);
+    const bool last = accumulates(draft);
+    commit(std::move(draft));
+    if (last) return std::move(motion_);
+  }
+  finish(MotionStatus::complete, motion_.duration, "complete");
+  return std::move(motion_);
+}
+
+Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
+    : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit) {
+  const std::size_t n = scene.bodies.size();
+  motion_.scene = std::make_shared<const Scene>(scene);
+  auto models = std::make_shared<std::vector<BodyModel>>();
+  for (const Body& body : scene.bodies) {
+    models->push_back(modelOf(body));
+    material_.push_back(&materialOf(scene, body));
+  }
+  motion_.models = std::move(models);
+  motion_.plan = makePlan(scene, options.asked);
+  motion_.duration = duration;
+  motion_.world_lines.resize(n);
+  version_.assign(n, 0);
+  impacts_.assign(n, 0);
+}
+
+void Simulator::start() {
+  contacts_.begin(scene_);
+  motion_.geometry = contacts_.geometry();
+  const int n = static_cast<int>(scene_.bodies.size());
+  for (int b = 0; b < n; ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    const BodyModel& model = (*motion_.models)[i];
+    motion_.world_lines[i].arcs.emplace_back(model, motion_.plan.bodies[i].tier, scene_.gravity, 0.0,
+                                             startState(scene_.bodies[i], model));
+    contacts_.setPath(b, arcOf(b), 0, motion_.duration);
+  }
+  for (int a = 0; a < n; ++a) {
+    if (!arcOf(a).moving()) continue;
+    contacts_.neighbours(a, neighbours_);
+    for (int b : neighbours_) {
+      if (arcOf(b).moving() && b < a) continue;  // seen from b
+      const int lo = std::min(a, b), hi = std::max(a, b);
+      if (const auto p = contacts_.firstImpact(lo, hi, arcOf(lo), arcOf(hi), 0, motion_.duration))
+        queue_.push({p->time, lo, hi, p->features, 0, 0});
+    }
+  }
+}
+
+// The earliest prediction whose arcs still are what they were.
+bool Simulator::takeNext(Prediction& next) {
+  while (!queue_.empty()) {
+    next = queue_.top();
+    queue_.pop();
+    if (version_[static_cast<std::size_t>(next.a)] == next.version_a &&
+        version_[static_cast<std::size_t>(next.b)] == next.version_b)
+      return true;
+  }
+  return false;
+}
+
+// Contacts of one instant are solved together: as long as the motion after the impact has another impact within the
+// instant, on a contact that was not separating before, that contact joins and the impact is solved again.
+Simulator::Draft Simulator::resolve(const Prediction& first) {
+  std::vector<Contact> contacts{makeContact(first.time, first.a, first.b, first.features)};
+  for (;;) {
+    Draft result = draft(first.time, contacts);
+    predict(result);
+    if (!joinInstant(result, contacts)) return result;
+  }
+}
+
+Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& features) {
+  const Kinematics ka = arcOf(a).kinematicsAt(time), kb = arcOf(b).kinematicsAt(time);
+  Contact c;
+  c.a = a;
+  c.b = b;
+  c.features = features;
+  c.at = motion_.geometry->contact(a, b, features, {ka.x, ka.R}, {kb.x, kb.R});
+  c.pair = combine(*material_[static_cast<std::size_t>(a)], *material_[static_cast<std::size_t>(b)]);
+  const auto tilt = [&](int body) {
+    return arcOf(body).moving() ? tiltOf(body, impacts_[static_cast<std::size_t>(body)] + 1) : -1;
+  };
+  c.tilt_a = tilt(a);
+  c.tilt_b = tilt(b);
+  const auto value = [&](int t) { return t < 0 ? Vec2(0, 0) : scene_.tilts[static_cast<std::size_t>(t)].value; };
+  c.impulse_normal =
+      c.tilt_a < 0 && c.tilt_b < 0 ? c.at.normal : tiltedNormal(c.at.normal, value(c.tilt_a), value(c.tilt_b));
+  c.approach = c.at.normal.dot(ka.v + ka.w.cross(c.at.point - ka.x) - kb.v - kb.w.cross(c.at.point - kb.x));
+  return c;
+}
+
+int Simulator::tiltOf(int body, int impact) const {
+  for (std::size_t i = 0; i < scene_.tilts.size(); ++i)
+    if (scene_.tilts[i].impact == impact && scene_.bodies[static_cast<std::size_t>(body)].name == scene_.tilts[i].body)
+      return static_cast<int>(i);
+  return -1;
+}
+
+Simulator::Draft Simulator::draft(double time, const std::vector<Contact>& contacts) {
+  Draft d;
+  d.event.time = time;
+  d.event.contacts = contacts;
+  std::vector<int> bodies;
+  for (const Contact& c : contacts)
+    for (int body : {c.a, c.b})
+      if (arcOf(body).moving()) bodies.push_back(body);
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  for (int body : bodies) {
+    const auto& arcs = motion_.world_lines[static_cast<std::size_t>(body)].arcs;
+    d.event.participants.push_back({body, static_cast<int>(arcs.size()) - 1,
+                                    impacts_[static_cast<std::size_t>(body)] + 1, arcs.back().stateAt(time)});
+  }
+  const std::vector<State> after = solveImpact(d.event, *motion_.models);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto b = static_cast<std::size_t>(bodies[i]);
+    d.arcs.emplace_back((*motion_.models)[b], motion_.plan.bodies[b].tier, scene_.gravity, time, after[i]);
+  }
+  return d;
+}
+
+// First impacts of the participants with whoever may be near, on the arcs of the draft.
+void Simulator::predict(Draft& d) {
+  const auto draftArc = [&](int body) -> Arc* {
+    const Participant* p = d.event.find(body);
+    return p ? &d.arcs[static_cast<std::size_t>(p - d.event.participants.data())] : nullptr;
+  };
+  for (std::size_t i = 0; i < d.arcs.size(); ++i)
+    contacts_.setPath(d.event.participants[i].body, d.arcs[i], d.event.time, motion_.duration);
+  for (const Participant& p : d.event.participants) {
+    contacts_.neighbours(p.body, neighbours_);
+    for (int other : neighbours_) {
+      Arc* other_arc = draftArc(other);
+      if (other_arc && other < p.body) continue;  // seen from the other
+      const int a = std::min(p.body, other), b = std::max(p.body, other);
+      Arc& arc_a = a == p.body ? *draftArc(a) : other_arc ? *other_arc : arcOf(a);
+      Arc& arc_b = b == p.body ? *draftArc(b) : other_arc ? *other_arc : arcOf(b);
+      const auto impact = contacts_.firstImpact(a, b, arc_a, arc_b, d.event.time, motion_.duration);
+      if (!impact) continue;
+      const auto version = [&](int body) { return version_[static_cast<std::size_t>(body)] + (draftArc(body) ? 1 : 0); };
+      d.predictions.push_back({impact->time, a, b, impact->features, version(a), version(b)});
+    }
+  }
+}
+
+bool Simulator::joinInstant(const Draft& d, std::vector<Contact>& contacts) {
+  const Prediction* soonest = nullptr;
+  for (const Prediction& p : d.predictions)
+    if (p.time <= d.event.time + kInstant && (!soonest || *soonest > p)) {
+      const bool known = std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+        return c.a == p.a && c.b == p.b && c.features == p.features;
+      });
+      if (known) continue;
+      // a contact that was separating before is an impact of its own, after this one
+      if (makeContact(d.event.time, p.a, p.b, p.features).approach > kLowestBounce) continue;
+      soonest = &p;
+    }
+  if (!soonest) return false;
+  contacts.push_back(makeContact(d.event.time, soonest->a, soonest->b, soonest->features));
+  return true;
+}
+
+// An impulse along a tilted normal may fail to part the bodies: there is no motion after it.
+bool Simulator::separates(const Draft& d) {
+  for (const Contact& c : d.event.contacts) {
+    if (c.tilt_a < 0 && c.tilt_b < 0) continue;
+    Vec3 u = Vec3::Zero();
+    const auto add = [&](int body, double sign) {
+      const Participant* p = d.event.find(body);
+      if (!p) return;
+      const Kinematics k = d.arcs[static_cast<std::size_t>(p - d.event.participants.data())].kinematicsAt(d.event.time);
+      u += sign * (k.v + k.w.cross(c.at.point - k.x));
+    };
+    add(c.a, 1);
+    add(c.b, -1);
+    if (c.at.normal.dot(u) >= 0 && c.impulse.dot(c.impulse_normal) > 0) continue;
+    std::ostringstream text;
+    text << "the tilted normal at the impact of '" << scene_.bodies[static_cast<std::size_t>(c.a)].name << "' and '"
+         << scene_.bodies[static_cast<std::size_t>(c.b)].name << "' at t = " << d.event.time
+         << " s does not part the bodies";
+    finish(MotionStatus::unresolved_impact, d.event.time, text.str());
+    return false;
+  }
+  return true;
+}
+
+// True when the impacts of a pair pile up in finite time, or every impact does; sets status and message.
+bool Simulator::accumulates(const Draft& d) {
+  for (const Contact& c : d.event.contacts) {
+    auto low = std::find_if(low_bounces_.begin(), low_bounces_.end(),
+                            [&](const LowBounces& l) { return l.a == c.a && l.b == c.b; });
+    const auto next = std::find_if(d.predictions.begin(), d.predictions.end(),
+                                   [&](const Prediction& p) { return p.a == c.a && p.b == c.b; });
+    const double leaving = std::abs(c.pair.elasticity * c.approach);
+    const bool is_low =
+        next != d.predictions.end() && 0.25 * leaving * (next->time - d.event.time) < kLowestBounce;
+    if (!is_low) {
+      if (low != low_bounces_.end()) low->count = 0;
+      continue;
+    }
+    if (low == low_bounces_.end()) low = low_bounces_.insert(low_bounces_.end(), {c.a, c.b, 0});
+    if (!(next->features == c.features) && ++low->count < kRattles) continue;
+    // gaps shrink by e each, so the rest of the cascade takes gap / (1 - e)
+    const double gap = next->time - d.event.time, e = c.pair.elasticity;
+    std::ostringstream text;
+    text.precision(10);
+    text << "'" << scene_.bodies[static_cast<std::size_t>(c.a)].name << "' and '"
+         << scene_.bodies[static_cast<std::size_t>(c.b)].name << "' stay in contact from t = "
+         << d.event.time + (e < 1 ? gap / (1 - e) : gap) << " s on, at (" << c.at.point.x() << ", " << c.at.point.y()
+         << ", " << c.at.point.z() << "), after " << motion_.events.size() + 1
+         << " impacts; lasting contact is not modelled, so the motion ends there";
+    finish(MotionStatus::cascade, d.event.time, text.str());
+    return true;
+  }
+  const auto& events = motion_.events;
+  if (events.size() < kStallEvents || d.event.time - events[events.size() - kStallEvents].time >= kStall) return false;
+  std::ostringstream text;
+  text << "impacts accumulate at t = " << d.event.time << " s, at (" << d.event.contacts[0].at.point.transpose()
+       << "): " << kStallEvents << " within " << kStall << " s; the motion ends there";
+  finish(MotionStatus::cascade, d.event.time, text.str());
+  return true;
+}
+
+void Simulator::commit(Draft&& d) {
+  const int index = static_cast<int>(motion_.events.size());
+  for (std::size_t i = 0; i < d.arcs.size(); ++i) {
+    const auto b = static_cast<std::size_t>(d.event.participants[i].body);
+    motion_.world_lines[b].arcs.push_back(std::move(d.arcs[i]));
+    motion_.world_lines[b].events.push_back(index);
+    ++version_[b];
+    ++impacts_[b];
+  }
+  for (const Prediction& p : d.predictions) queue_.push(p);
+  motion_.events.push_back(std::move(d.event));
+}
+
+void Simulator::finish(MotionStatus status, double end, std::string message) {
+  motion_.status = status;
+  motion_.end = end;
+  motion_.message = std::move(message);
+  for (WorldLine& line : motion_.world_lines) line.arcs.back().extendTo(end);
+}
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+#include "adjoint/tangent.h"
+
+#include "adjoint/event_linearization.h"
+#include "adjoint/seed.h"
+
+namespace carom {
+
+double BodyStateRate::dot(const StateSeed& s) const {
+  return position.dot(s.position) + orientation.dot(s.orientation) + velocity.dot(s.velocity) +
+         angular_velocity.dot(s.angular_velocity) + time * s.time;
+}
+
+StateDerivative MotionTangent::stateTangent(int body, int k, double t) const {
+  const auto b = static_cast<std::size_t>(body), kk = static_cast<std::size_t>(k);
+  return flightTangent(tape_->motion().world_lines[b].arcs[kk], t, tape_->arcUntil(body, k, t), starts_[b][kk],
+                       dgravity_, dmodels_[b]);
+}
+
+BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
+  const Motion& motion = tape_->motion();
+  const auto b = static_cast<std::size_t>(body);
+  const ReadPlace place = readPlace(motion, body, instant);
+  BodyStateRate rate;
+  const bool at_event = instant.event >= 0;
+  const double t = at_event ? motion.events[static_cast<std::size_t>(instant.event)].time : instant.time;
+  StateDerivative ds = stateTangent(body, place.arc, t);
+  if (at_event) {  // the instant moves along
+    rate.time = eventTime(instant.event);
+    ds.addScaled(rate.time, motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state));
+  }
+  rate.position = ds.x;
+  rate.orientation = ds.theta;
+  rate.velocity = ds.v;
+  rate.angular_velocity = angularVelocityTangent((*motion.models)[b], place.state, ds, dmodels_[b]);
+  return rate;
+}
+
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
+  const Motion& motion = tape.motion();
+  MotionTangent t;
+  t.tape_ = &tape;
+  t.dgravity_ = direction.gravity;
+  t.starts_.resize(motion.world_lines.size());
+  for (std::size_t b = 0; b < motion.world_lines.size(); ++b) {
+    const Body& body = motion.scene->bodies[b];
+    t.dmodels_.push_back(modelTangent(body, direction.bodies[b]));
+    t.starts_[b].push_back(startTangent(body, (*motion.models)[b], direction.bodies[b], t.dmodels_[b]));
+  }
+  for (std::size_t e = 0; e < motion.events.size(); ++e) {
+    const Event& event = motion.events[e];
+    std::vector<StateDerivative> before;
+    for (const Participant& p : event.participants) {
+      const auto b = static_cast<std::size_t>(p.body), k = static_cast<std::size_t>(p.arc);
+      before.push_back(flightTangent(motion.world_lines[b].arcs[k], event.time, tape.arc(p.body, p.arc),
+                                     t.starts_[b][k], t.dgravity_, t.dmodels_[b]));
+    }
+    const EventLinearization::Tangent d = tape.event(static_cast<int>(e)).tangent(before, direction, t.dmodels_);
+    t.event_time_.push_back(d.time);
+    for (std::size_t i = 0; i < d.after.size(); ++i)
+      t.starts_[static_cast<std::size_t>(event.participants[i].body)].push_back(d.after[i]);
+  }
+  return t;
+}
+
+}  // namespace carom

@@ -1,0 +1,25 @@
+# Installs the libraries, their headers and the command, and the package for find_package(carom).
+include(CMakePackageConfigHelpers)
+
+set(carom_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
+
+install(TARGETS carom_adjoint carom_ode_bridge carom_editing carom_formats EXPORT caromTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET carom)
+  install(TARGETS carom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+foreach(folder adjoint ode_bridge editing formats)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/carom
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/generated/carom/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/carom/carom)
+
+install(EXPORT caromTargets NAMESPACE carom:: DESTINATION ${carom_package_dir})
+configure_package_config_file(cmake/caromConfig.cmake.in ${PROJECT_BINARY_DIR}/caromConfig.cmake
+  INSTALL_DESTINATION ${carom_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/caromConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/caromConfig.cmake
+  ${PROJECT_BINARY_DIR}/caromConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/carom_solvers.cmake
+  DESTINATION ${carom_package_dir})

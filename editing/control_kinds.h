@@ -1,0 +1,49 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "adjoint/scene.h"
+
+namespace carom {
+
+/// Whose numbers a kind of control varies.
+enum class OwnerKind { body, moving_body, material, impact, scene };
+
+/// The owner, as indices into a scene (-1 where it does not apply).
+struct ControlOwner {
+  int body = -1, material = -1, tilt = -1;
+};
+
+/// One row of the table of controls: what the editor asks of a kind. A kind has up to three numbers; unused entries of
+/// the vectors are 0. A new kind adds a row to control_kinds.cpp and its functions to a family file (controls_of_*.cpp).
+struct ControlKind {
+  const char* word;      ///< in the scene document
+  OwnerKind owner;
+  bool logarithmic;      ///< changes are weighed as log(value / start); otherwise as (value - start) / scale
+  double lower, upper;   ///< physical bounds
+  bool strictly_positive;
+
+  std::vector<std::string> (*components)(const Scene&, const ControlOwner&);
+  /// Rewrites how the scene says things, without changing the motion, so that the numbers of this kind are written in
+  /// it and everything else stays as written. May be null.
+  void (*prepare)(Scene&, const ControlOwner&);
+  Vec3 (*get)(const Scene&, const ControlOwner&);
+  /// Writes values into `scene`, a copy of `start`.
+  void (*set)(const Vec3& values, const Scene& start, const ControlOwner&, Scene& scene);
+  /// Derivative by the values (at `values`) from the derivative by the fields of the scene; and its adjoint.
+  Vec3 (*gather)(const SceneGradient&, const ControlOwner&, const Vec3& values);
+  void (*scatter)(const Vec3& rates, const ControlOwner&, const Vec3& values, SceneTangent&);
+  /// Natural scale of a change; not used by logarithmic kinds.
+  Vec3 (*scale)(const Scene& start, const ControlOwner&);
+};
+
+/// All kinds, in the order of control.h.
+std::span<const ControlKind* const> controlKinds();
+
+/// The kind of a word; nullptr when there is none.
+const ControlKind* findControlKind(const std::string& word);
+
+}  // namespace carom

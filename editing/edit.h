@@ -1,0 +1,151 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adjoint/derivative_tape.h"
+#include "adjoint/motion.h"
+#include "editing/constraint.h"
+#include "editing/control.h"
+#include "editing/jacobian.h"
+
+namespace carom {
+
+class Edit;
+
+/// A handle to one constraint of an Edit, which holds until Edit::unnail. Each function nails one more quantity down
+/// (again: replaces its target). A component `any` stays free. Valid as long as its Edit.
+class Nail {
+ public:
+  Nail& position(const Vec3& p_W);            ///< m
+  Nail& orientation(const Quat& q);           ///< shape to world, unit
+  Nail& velocity(const Vec3& v_W);            ///< m/s
+  Nail& angularVelocity(const Vec3& w_W);     ///< rad/s, world axes
+  Nail& time(double t);                       ///< s, of the impact; only for nails at an impact
+  Nail& point(const Vec3& body_point, const Vec3& world);  ///< a point in shape axes comes to a place in the world
+
+ private:
+  friend class Edit;
+  Nail(Edit* edit, int id) : edit_(edit), id_(id) {}
+  Nail& set(Target target);
+
+  Edit* edit_;
+  int id_;
+};
+
+enum class EditStatus {
+  solved,                   ///< verified, in the impact sequence of the start
+  solved_sequence_changed,  ///< verified, but other impacts than before happen on the way
+  infeasible,               ///< the constraints cannot all be met, or no way was found from anywhere that was tried
+  not_converged,            ///< the limit of iterations, or no progress
+  out_of_time,
+  cancelled,                ///< by the progress callback
+  bad_start,                ///< a constraint that the start's motion does not have: after its end, an impact not there
+};
+const char* nameOf(EditStatus status);
+
+/// May an edit change which impacts happen?
+enum class SequencePolicy {
+  prefer_start,  ///< only where the start's sequence does not reach the constraints
+  stay,          ///< never
+};
+
+struct EditProgress {
+  int iteration = 0;
+  double objective = 0;
+  double violation = 0;  ///< dimensionless
+};
+
+struct EditOptions {
+  int max_iterations = 200;
+  double time_budget_seconds = std::numeric_limits<double>::infinity();
+  double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
+  SequencePolicy sequence = SequencePolicy::prefer_start;
+  std::function<bool(const EditProgress&)> progress;  ///< false cancels; must not solve an edit itself
+};
+
+/// One number that was free to change.
+struct ChangedNumber {
+  int control = -1;       ///< index of the Control
+  std::string name;       ///< "velocity.x of 'hat'"
+  std::string component;  ///< "x"
+  double before = 0, after = 0;
+};
+
+/// One number that was held, in the verified motion.
+struct HeldNumber {
+  int constraint = -1;  ///< index of the Constraint
+  std::string name;     ///< "position.x of 'hat' at 1.4 s"
+  std::string component;  ///< "position.x"
+  double value = 0, target = 0, error = 0;  ///< SI; NaN where the motion does not have it
+  double scaled_error = 0;                  ///< dimensionless
+};
+
+struct EditResult {
+  EditStatus status = EditStatus::not_converged;
+  std::string message;  ///< what happened, in sentences
+  Scene scene;          ///< with its new values: the best that was found, whatever the status
+  Motion motion;        ///< of that scene, simulated afresh
+  std::vector<ChangedNumber> changed;
+  std::vector<HeldNumber> residuals;
+  double residual = 0;         ///< largest |error| of that motion, SI (m, m/s, rad, rad/s, s mixed)
+  double scaled_residual = 0;  ///< the same, dimensionless: this is compared with EditOptions::tolerance
+  double objective = 0;        ///< 1/2 sum (w_i z_i)^2
+  int iterations = 0;
+  double milliseconds = 0;
+  std::vector<std::string> sequence_before, sequence_after;  ///< one line an impact
+  bool signature_changed = false;  ///< impacts that can matter to the constraints (up to the last one) are others
+  Reliability reliability;         ///< of the derivatives at the result, worst row
+
+  bool solved() const { return status == EditStatus::solved || status == EditStatus::solved_sequence_changed; }
+};
+
+/// Finds the smallest weighted change of some numbers of a scene such that its motion meets constraints:
+///   minimise 1/2 sum (w_i z_i)^2  subject to  rows = targets, physical validity and bounds,
+/// with z_i the change of a number in units of its natural scale (logarithmic for mass and moments of inertia).
+/// Nothing is claimed that was not verified: the resulting scene is simulated afresh, and residuals are of that motion.
+class Edit {
+ public:
+  /// Keeps `contacts` by reference, and uses it for all simulations.
+  Edit(const Scene& scene, ContactSource& contacts, double duration);
+  Edit(const Scene& scene, ContactSource& contacts, double duration, std::vector<Control> controls,
+       std::vector<Constraint> constraints);
+  Edit(const Edit&) = delete;  // nails refer to their edit
+  Edit& operator=(const Edit&) = delete;
+
+  /// Lets numbers vary: vary(velocity("hat"), elasticity("felt").within(0.2, 0.9)).
+  template <class... Controls>
+  Edit& vary(Controls... controls) {
+    (controls_.push_back(std::move(controls)), ...);
+    return *this;
+  }
+  Nail nail(const std::string& body, When at);
+  void unnail(const Nail& nail);
+
+  const std::vector<Control>& controls() const { return controls_; }
+  std::vector<Constraint> constraints() const;
+
+  /// Throws InputError for bad input; everything else is a status and a message.
+  EditResult solve(const EditOptions& options = {}) const;
+  /// The same controls and constraints as rows and derivatives, at the start.
+  EditProblem problem() const;
+
+ private:
+  friend class Nail;
+  struct Nailed {
+    int id;
+    Constraint constraint;
+  };
+
+  Scene scene_;
+  ContactSource& contacts_;
+  double duration_;
+  std::vector<Control> controls_;
+  std::vector<Nailed> nails_;
+  int next_id_ = 0;
+};
+
+}  // namespace carom

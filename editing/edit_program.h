@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "editing/edit_search.h"
+#include "editing/nonlinear_program.h"
+
+/// An edit as a nonlinear program. Internal to editing/.
+namespace carom {
+
+/// minimise 1/2 |y|^2 subject to chosen rows = 0, validity >= 0, bounds; y the changes of ControlSet.
+///
+/// The objective's second derivative is the identity; those of the rows are learnt from their gradients, row by row, by
+/// Powell's symmetric rank-one-two (PSB) secant update. This costs a fraction of the solver's own limited-memory
+/// approximation. Exact second derivatives would replace `hessian` and nothing else.
+class EditProgram final : public NonlinearProgram {
+ public:
+  /// With a signature, points whose motion has another impact sequence are refused.
+  EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature);
+
+  int variables() const override { return static_cast<int>(start_.size()); }
+  int constraints() const override;
+  Bounds bounds() const override;
+  Eigen::VectorXd start() const override { return start_; }
+  bool objective(const Eigen::VectorXd& x, double& f) override;
+  bool gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) override;
+  bool constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g) override;
+  bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) override;
+  bool hasHessian() const override { return true; }
+  bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+               Eigen::MatrixXd& h) override;
+  bool iteration(const Iteration& i) override;
+
+ private:
+  EditPointPtr at(const Eigen::VectorXd& x);
+  void learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd& dg_dx);
+
+  EditSearch& search_;
+  Eigen::VectorXd start_;
+  std::vector<int> rows_;
+  const std::string* signature_;
+  std::vector<Eigen::MatrixXd> curvature_;  // of each constraint
+  Eigen::VectorXd last_x_;
+  Eigen::MatrixXd last_dg_dx_;
+};
+
+}  // namespace carom

@@ -1,0 +1,121 @@
+#include "editing/edit_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "adjoint/adjoint.h"
+#include "adjoint/simulate.h"
+#include "editing/text.h"
+
+namespace carom {
+namespace {
+
+std::vector<std::string> describeEvents(const Motion& motion) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < static_cast<int>(motion.events.size()); ++i) lines.push_back(motion.describeEvent(i));
+  return lines;
+}
+
+std::vector<ChangedNumber> changesOf(const ControlSet& controls, const Eigen::VectorXd& values) {
+  std::vector<ChangedNumber> changed;
+  for (int i = 0; i < controls.size(); ++i) {
+    const Variable& v = controls.variables()[i];
+    changed.push_back({v.control, controls.describeVariable(i), v.component, v.before, values[i]});
+  }
+  return changed;
+}
+
+std::vector<HeldNumber> heldNumbers(const ConstraintSet& constraints, const RowValues& rows) {
+  std::vector<HeldNumber> held;
+  for (int i = 0; i < constraints.size(); ++i) {
+    const Row& row = constraints.rows()[i];
+    held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.wanted,
+                    rows.residuals[i], rows.scaled[i]});
+  }
+  return held;
+}
+
+/// Largest magnitude; NaN if any entry is.
+double largest(const Eigen::VectorXd& values) {
+  double most = 0;
+  for (double value : values) most = std::isnan(value) ? value : std::max(most, std::abs(value));
+  return values.hasNaN() ? std::numeric_limits<double>::quiet_NaN() : most;
+}
+
+/// Of the derivatives of all rows, the worst.
+Reliability reliabilityOf(const Motion& motion, const RowValues& rows) {
+  Reliability worst;
+  DerivativeTape tape(motion);
+  for (const StateSeed& seed : rows.seeds) {
+    if (seed.body < 0) continue;
+    Reliability one;
+    adjoint(tape, {&seed, 1}, &one);
+    worst.events = std::max(worst.events, one.events);
+    worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
+    if (worst.reliable && !one.reliable) worst.message = one.message;
+    worst.reliable = worst.reliable && one.reliable;
+  }
+  return worst;
+}
+
+/// The impact sequence as written, up to the horizon. The start of the search is that, unless its bounds moved it.
+std::string signatureBefore(const Scene& written, const EditProblem& problem, const EditSolution& solution) {
+  if (!problem.controls.startMoved()) return solution.start->signature;
+  return simulate(written, *problem.contacts, problem.horizon).signature();
+}
+
+/// Fills in everything that is read from the motion of result.scene.
+void readMotion(const EditProblem& problem, EditResult& result) {
+  const RowValues rows = problem.constraints.evaluate(result.motion);
+  result.residuals = heldNumbers(problem.constraints, rows);
+  result.residual = largest(rows.residuals);
+  result.scaled_residual = largest(rows.scaled);
+  result.sequence_after = describeEvents(result.motion);
+  result.reliability = reliabilityOf(result.motion, rows);
+}
+
+void conclude(const EditOptions& options, const EditSolution& solution, EditResult& result) {
+  result.status = solution.status;
+  result.message = solution.message;
+  if (solution.status != EditStatus::solved) return;
+  // Written so that a NaN does not pass.
+  if (!(result.scaled_residual <= options.tolerance)) {
+    result.status = EditStatus::not_converged;
+    result.message = "The solution was not confirmed by simulating it afresh: it misses by " +
+                     number(result.scaled_residual) + " of the natural scales.";
+    return;
+  }
+  const bool unchanged = result.objective == 0 && result.iterations == 0;
+  result.message = unchanged ? "The start meets all constraints already."
+                             : "All constraints are met, the largest error is " + number(result.residual) + ".";
+  if (result.signature_changed) {
+    result.status = EditStatus::solved_sequence_changed;
+    result.message += " The impacts on the way are others than before.";
+  }
+  if (!result.reliability.reliable) result.message += " " + result.reliability.message;
+}
+
+}  // namespace
+
+EditResult verify(const Scene& written, const EditSearch& search, const EditSolution& solution) {
+  const EditProblem& problem = search.problem();
+  const EditPoint& point = *solution.point;
+  EditResult result;
+  const bool untouched = point.objective == 0 && !problem.controls.startMoved();
+  result.scene = untouched ? written : problem.controls.sceneAt(point.values);
+  result.changed = changesOf(problem.controls, point.values);
+  result.objective = point.objective;
+  result.iterations = search.iterations();
+  result.signature_changed = point.signature != signatureBefore(written, problem, solution);
+
+  result.motion = simulate(result.scene, *problem.contacts, problem.duration);
+  result.sequence_before = untouched ? describeEvents(result.motion)
+                                     : describeEvents(simulate(written, *problem.contacts, problem.duration));
+  readMotion(problem, result);
+  conclude(search.options(), solution, result);
+  for (const std::string& note : problem.controls.notes()) result.message += " " + note;
+  return result;
+}
+
+}  // namespace carom

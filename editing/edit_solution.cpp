@@ -1,0 +1,112 @@
+#include "editing/edit_solution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editing/edit_program.h"
+#include "editing/ipopt_solver.h"
+#include "editing/row_choice.h"
+#include "editing/text.h"
+
+namespace carom {
+namespace {
+
+constexpr int kPolishSteps = 15;
+
+/// The best point, once more brought as near to the constraints as rounding allows, within its own impact sequence.
+EditPointPtr polished(EditSearch& search) {
+  const EditPointPtr best = search.best();
+  return projectOntoConstraints(search, best, kPolishSteps, &best->signature);
+}
+
+/// "position.x of 'hat' at 1.4 s by 0.02 and ..."
+std::string unmetRows(const EditSearch& search, const EditPoint& point) {
+  std::vector<std::string> unmet;
+  for (int i = 0; i < search.problem().constraints.size(); ++i) {
+    if (std::abs(point.rows.scaled[i]) <= search.options().tolerance) continue;
+    unmet.push_back(search.problem().constraints.describeRow(i) + " by " + number(point.rows.residuals[i]));
+  }
+  return listOf(unmet);
+}
+
+/// Whether even the linearised rows cannot be brought much nearer to their targets from here.
+bool isStuck(EditSearch& search, EditPoint& point) {
+  search.differentiate(point);
+  const double before = point.rows.scaled.norm();
+  const double after = (point.rows.scaled + *point.row_jacobian * smallestStep(search, point)).norm();
+  return !(after < 0.5 * before);
+}
+
+EditSolution unsolved(EditSearch& search, EditSolution solution) {
+  const std::string nearest = "The nearest that was found misses " + unmetRows(search, *solution.point) + ".";
+  const bool stays = search.options().sequence == SequencePolicy::stay;
+  const std::string where = stays ? " within the impact sequence of the start" : "";
+  if (search.halt() == Halt::out_of_time) {
+    solution.status = EditStatus::out_of_time;
+    solution.message = "The time budget ran out before the constraints were met. " + nearest;
+  } else if (search.halt() == Halt::cancelled) {
+    solution.status = EditStatus::cancelled;
+    solution.message = "The edit was cancelled before the constraints were met. " + nearest;
+  } else if (isStuck(search, *solution.point)) {
+    solution.status = EditStatus::infeasible;
+    solution.message = "No way was found to meet all constraints" + where + " with these controls. " + nearest;
+  } else {
+    solution.status = EditStatus::not_converged;
+    solution.message = "The search ended after " + std::to_string(search.iterations()) +
+                       " iterations without meeting the constraints" + where + ". " + nearest;
+  }
+  return solution;
+}
+
+}  // namespace
+
+EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+                            const std::string* signature, int max_iterations, std::string* message) {
+  if (max_iterations <= 0) return from;
+  EditProgram program(search, from->changes, rows, signature);
+  SolverOptions options;
+  options.max_iterations = max_iterations;
+  options.tolerance = 1e-8;
+  options.constraint_tolerance = std::max(search.options().tolerance, 1e-10);
+  options.deadline = search.deadline();
+  const SolverResult result = solveWithIpopt(program, options);
+  if (message) *message = result.message;
+  EditPointPtr end = search.evaluate(result.x);
+  if (!end || (signature && end->signature != *signature)) return from;
+  return projectOntoConstraints(search, end, kPolishSteps, signature);
+}
+
+EditSolution findSolution(EditSearch& search) {
+  EditSolution solution;
+  const EditPointPtr start = solution.start = solution.point = search.evaluateStart();
+  if (!start->rows.available) {
+    solution.status = EditStatus::bad_start;
+    solution.message = start->rows.message;
+    return solution;
+  }
+  if (search.reached(*start)) {
+    solution.status = EditStatus::solved;
+    return solution;
+  }
+  const RowChoice choice = chooseRows(search, start);
+  if (!choice.contradiction.empty()) {
+    solution.status = EditStatus::infeasible;
+    solution.message = choice.contradiction;
+    return solution;
+  }
+
+  const bool may_leave = search.options().sequence != SequencePolicy::stay;
+  const int share = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
+  minimiseChange(search, choice.from, choice.rows, &start->signature, share);
+  if (!search.reached() && may_leave && search.halt() == Halt::none) {
+    minimiseChange(search, search.best(), choice.rows, nullptr, search.iterationsLeft() / 2);
+  }
+  if (!search.reached() && may_leave && search.halt() == Halt::none) searchElsewhere(search);
+
+  solution.point = search.halt() == Halt::none ? polished(search) : search.best();
+  if (!search.reached(*solution.point)) return unsolved(search, std::move(solution));
+  solution.status = EditStatus::solved;
+  return solution;
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "adjoint/types.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace carom {
+
+/// Appends arrays to the one buffer of a model and returns the index of the accessor of each. Throws InputError, with
+/// `what` as the place, for a number that is not finite as a float.
+class GltfBuffer {
+ public:
+  explicit GltfBuffer(tinygltf::Model& model) : model_(model) {}
+
+  int addTimes(const std::vector<float>& times, const std::string& what);
+  int addVectors(const std::vector<Vec3>& vectors, const std::string& what);
+  int addQuaternions(const std::vector<Quat>& quaternions, const std::string& what);  ///< stored x, y, z, w
+  int addVertices(const std::vector<Vec3>& vertices, const std::string& what);
+  int addIndices(const std::vector<std::uint32_t>& indices);
+
+ private:
+  int addFloats(const std::vector<float>& numbers, int width, int type, int target, bool bounds,
+                const std::string& what);
+  int addView(const void* data, std::size_t bytes, int target);
+  tinygltf::Model& model_;
+};
+
+}  // namespace carom

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "adjoint/scene.h"
+
+namespace carom {
+
+/// Triangles of one surface, counter-clockwise seen from outside; `accent` triangles take a second shade, so that the
+/// turning of a round body can be seen.
+struct TriangleMesh {
+  std::vector<Vec3> positions, normals;
+  std::vector<std::uint32_t> triangles, accent;
+};
+
+/// Mesh of a shape in its own axes; a plane becomes a square of the given half width in x and z about the origin,
+/// facing +y (as glTF's implicit plane).
+TriangleMesh meshOf(const Shape& shape, double plane_half_width);
+
+}  // namespace carom

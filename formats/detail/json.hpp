@@ -1,0 +1,33 @@
+// Private to formats/*.cpp: a .hpp is not installed, so that no public header shows a JSON type.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace carom::detail {
+
+using Json = nlohmann::ordered_json;  // members in the order of the document
+
+/// Text -> tree, within limits of nesting and number of values. Throws InputError for text that is not JSON (where =
+/// line and column), numbers too large for a double, and members given twice (where = JSON pointer).
+Json parseJson(std::string_view text);
+
+/// Throws InputError at the deepest place where the document breaks formats/scene.schema.json.
+void requireSchema(const Json& document);
+
+/// One step deeper, escaped as RFC 6901 asks.
+std::string pointerTo(const std::string& parent, std::string_view member);
+std::string pointerTo(const std::string& parent, std::size_t index);
+
+/// A short text for messages: the value itself when it is small, what it is otherwise.
+std::string describe(const Json& value);
+
+/// The member of `known` that `word` is most likely a misspelling of; empty when none is near.
+std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
+/// "a, b, c"
+std::string listed(const std::vector<std::string>& words);
+
+[[noreturn]] void fail(const std::string& where, const std::string& found, const std::string& expected);
+
+}  // namespace carom::detail

@@ -1,0 +1,24 @@
+// Private to formats/*.cpp.
+#pragma once
+
+#include "formats/detail/json.hpp"
+#include "formats/document.h"
+
+namespace carom::detail {
+
+// From a document that follows the schema. Throw InputError for what the schema cannot say.
+Scene readScene(const Json& document);
+std::vector<Control> readControls(const Json& document, const Scene& scene);
+std::vector<Constraint> readConstraints(const Json& document, const Scene& scene, double duration);
+
+Vec3 readVector(const Json& value);
+/// Unit quaternion from [w, x, y, z]; accepts numbers that were rounded to three digits.
+Quat readQuaternion(const Json& value, const std::string& where);
+/// Index of the named body of a scene; InputError at `where`, with the names that there are.
+int readBodyName(const Json& value, const std::string& where, const Scene& scene);
+[[noreturn]] void failUnknownMaterial(const std::string& where, const std::string& name, const Scene& scene);
+
+/// Words of the format for the rules of combination, in the order of Combine.
+const std::vector<std::string>& combineWords();
+
+}  // namespace carom::detail

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjoint/motion.h"
+#include "formats/detail/svg_canvas.hpp"
+
+namespace carom {
+
+/// An orthographic view of the world in a panel of the picture, to scale. The viewer looks along -(right x up).
+struct View {
+  std::string name;  ///< "side" or "top"
+  std::string title;
+  int across_axis = 0;  ///< world axis that runs to the right
+  int up_axis = 2;      ///< world axis that runs upwards, or downwards
+  bool up_is_negative = false;
+  Vec2 low = Vec2::Zero();  ///< world (across, up) at the panel's lower left corner, m
+  double scale = 1;         ///< pixels a metre
+  PixelBox panel;
+
+  Vec3 right() const { return Vec3::Unit(across_axis); }
+  Vec3 up() const { return (up_is_negative ? -1.0 : 1.0) * Vec3::Unit(up_axis); }
+  Vec3 towardsViewer() const { return right().cross(up()); }
+
+  Vec2 project(const Vec3& p) const { return {p.dot(right()), p.dot(up())}; }
+  Vec2 pixelOf(const Vec2& across_up) const {
+    const Vec2 offset = scale * (across_up - low);
+    return {panel.x + offset.x(), panel.y + panel.height - offset.y()};
+  }
+  Vec2 pixel(const Vec3& p) const { return pixelOf(project(p)); }
+};
+
+/// Outline in pixels of a box at a pose (convex hull of its corners), and its faces that the viewer sees.
+std::vector<Vec2> outlineOf(const Box& box, const Vec3& x, const Quat& q, const View& view);
+std::vector<std::vector<Vec2>> visibleFaces(const Box& box, const Vec3& x, const Quat& q, const View& view);
+
+/// Convex hull in two dimensions, in order around it.
+std::vector<Vec2> convexHull(std::vector<Vec2> points);
+
+/// The part of a convex polygon where normal . p <= offset.
+std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, const Vec2& normal, double offset);
+
+/// SVG path data of the path of a body's origin; arcs of flight are parabolas, which SVG draws exactly.
+std::string pathData(const Motion& motion, int body, const View& view);
+
+}  // namespace carom

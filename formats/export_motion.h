@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/export_gltf.h"
+
+namespace carom {
+
+struct ExportOptions {
+  GltfOptions gltf;
+  double csv_rate = 60;            ///< rows a second
+  const Motion* before = nullptr;  ///< drawn behind the motion in pictures
+};
+
+/// Writes a motion in the format that the extension of `path` names (.glb, .gltf, .csv, .svg; capitals allowed). The
+/// file appears whole or not at all. Throws InputError naming the path.
+void exportMotion(const std::string& path, const Document& document, const Motion& motion,
+                  const ExportOptions& options = {});
+
+/// The extensions there are, with their dots.
+std::vector<std::string> exportExtensions();
+
+}  // namespace carom

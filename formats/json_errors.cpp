@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "adjoint/errors.h"
+#include "formats/detail/json.hpp"
+#include "formats/json_writer.h"
+
+namespace carom::detail {
+namespace {
+
+constexpr std::size_t kLongestExcerpt = 60;
+
+std::string shortened(std::string_view text) {
+  if (text.size() <= kLongestExcerpt) return quotedText(text);
+  std::size_t end = kLongestExcerpt;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;  // not inside a character
+  return quotedText(std::string(text.substr(0, end)) + "...");
+}
+
+/// Number of letters to add, leave out, change or swap with their neighbour.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (lower(a[i - 1]) != lower(b[j - 1]) ? 1u : 0u)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = last;
+    last = row;
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string pointerTo(const std::string& parent, std::string_view member) {
+  std::string pointer = parent + "/";
+  for (const char c : member) {
+    if (c == '~') {
+      pointer += "~0";
+    } else if (c == '/') {
+      pointer += "~1";
+    } else {
+      pointer += c;
+    }
+  }
+  return pointer;
+}
+
+std::string pointerTo(const std::string& parent, std::size_t index) { return parent + "/" + std::to_string(index); }
+
+std::string describe(const Json& value) {
+  switch (value.type()) {
+    case Json::value_t::null:
+      return "null";
+    case Json::value_t::boolean:
+      return value.get<bool>() ? "true" : "false";
+    case Json::value_t::number_integer:
+      return std::to_string(value.get<long long>());
+    case Json::value_t::number_unsigned:
+      return std::to_string(value.get<unsigned long long>());
+    case Json::value_t::number_float:
+      return numberText(value.get<double>());
+    case Json::value_t::string:
+      return shortened(value.get_ref<const std::string&>());
+    case Json::value_t::array: {
+      const bool flat = std::none_of(value.begin(), value.end(), [](const Json& v) { return v.is_structured(); });
+      if (value.empty()) return "an empty array";
+      if (!flat || value.size() > 6) return "an array of " + std::to_string(value.size());
+      std::string text;
+      for (const Json& item : value) text += (text.empty() ? "[" : ", ") + describe(item);
+      return text + "]";
+    }
+    case Json::value_t::object: {
+      if (value.empty()) return "an empty object";
+      std::string text = "an object with ";
+      std::size_t count = 0;
+      for (const auto& member : value.items()) {
+        if (++count > 4) return text + ", ...";
+        text += (count > 1 ? ", " : "") + shortened(member.key());
+      }
+      return text;
+    }
+    default:
+      return "an unknown value";
+  }
+}
+
+std::string nearestWord(std::string_view word, const std::vector<std::string>& known) {
+  if (word.size() > kLongestExcerpt) return {};
+  std::string nearest;
+  std::size_t best = 2 + word.size() / 6;  // more changes than this are another word
+  for (const std::string& candidate : known) {
+    const std::size_t distance = editDistance(word, candidate);
+    if (distance < best && distance < candidate.size()) best = distance, nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t kMost = 30;
+  std::string text;
+  for (std::size_t i = 0; i < words.size() && i < kMost; ++i) text += (i > 0 ? ", " : "") + shortened(words[i]);
+  return words.empty() ? "none" : words.size() > kMost ? text + ", ..." : text;
+}
+
+void fail(const std::string& where, const std::string& found, const std::string& expected) {
+  throw InputError(where, "found " + found + ", expected " + expected);
+}
+
+}  // namespace carom::detail

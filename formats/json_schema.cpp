@@ -1,0 +1,175 @@
+#include <cmath>
+#include <utility>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+#include <vector>
+
+#include "formats/detail/json.hpp"
+
+namespace carom::detail {
+
+extern const char* const kSceneSchema;  // made from scene.schema.json
+
+namespace {
+
+struct SceneSchema {
+  SceneSchema() : tree(Json::parse(kSceneSchema)) {
+    const nlohmann::json plain = tree;
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), checker);
+  }
+
+  Json tree;                 // for what the messages say
+  valijson::Schema checker;  // for whether and where the document breaks it
+};
+
+const SceneSchema& sceneSchema() {
+  static const SceneSchema schema;
+  return schema;
+}
+
+const Json* memberOf(const Json* object, const char* name) {
+  if (object == nullptr || !object->is_object()) return nullptr;
+  const auto found = object->find(name);
+  return found == object->end() ? nullptr : &*found;
+}
+
+/// The definition that a node refers to.
+const Json* resolved(const Json* node) {
+  while (const Json* reference = memberOf(node, "$ref"))
+    node = &sceneSchema().tree.at(Json::json_pointer(reference->get<std::string>().substr(1)));
+  return node;
+}
+
+bool typeMatches(const Json* node, const Json& value) {
+  const Json* type = memberOf(node, "type");
+  return type == nullptr || (*type == "object" && value.is_object()) || (*type == "array" && value.is_array()) ||
+         (*type == "number" && value.is_number());
+}
+
+/// The definition that says what is inside `value`: of alternatives the one of its type.
+const Json* alternativeFor(const Json* node, const Json& value) {
+  node = resolved(node);
+  if (const Json* alternatives = memberOf(node, "anyOf"))
+    for (const Json& alternative : *alternatives)
+      if (const Json* candidate = resolved(&alternative); typeMatches(candidate, value)) return candidate;
+  return node;
+}
+
+/// A place in the document, and what the schema says about it (null where it says nothing).
+struct Place {
+  const Json* value;
+  const Json* node;
+  std::string pointer;
+};
+
+/// One step of a path as valijson writes it: "[name]" or "[2]".
+bool step(Place& place, const std::string& context) {
+  const std::string token = context.substr(1, context.size() - 2);
+  const Json* node = alternativeFor(place.node, *place.value);
+  if (place.value->is_object()) {
+    const auto member = place.value->find(token);
+    if (member == place.value->end()) return false;
+    const Json* known = memberOf(memberOf(node, "properties"), token.c_str());
+    place = {&*member, known != nullptr ? known : memberOf(node, "additionalProperties"),
+             pointerTo(place.pointer, token)};
+    return true;
+  }
+  if (!place.value->is_array()) return false;
+  const auto index = static_cast<std::size_t>(std::stoul(token));
+  if (index >= place.value->size()) return false;
+  place = {&(*place.value)[index], memberOf(node, "items"), pointerTo(place.pointer, index)};
+  return true;
+}
+
+std::vector<std::string> keysOf(const Json* object) {
+  std::vector<std::string> keys;
+  if (object != nullptr)
+    for (const auto& member : object->items()) keys.push_back(member.key());
+  return keys;
+}
+
+bool lists(const Json* words, const std::string& word) {
+  if (words != nullptr)
+    for (const Json& listed : *words)
+      if (listed == word) return true;
+  return false;
+}
+
+[[noreturn]] void failUnknown(const Place& place, const std::string& member, const Json* node) {
+  const std::vector<std::string> known = keysOf(memberOf(node, "properties"));
+  const std::string nearest = nearestWord(member, known);
+  const std::string hint = nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+  fail(pointerTo(place.pointer, member), "an unknown member", "one of " + listed(known) + hint);
+}
+
+/// What `value` must be, in the words of the schema.
+std::string expected(const Json* node, const Json& value) {
+  const Json* named = resolved(node);
+  const Json* title = memberOf(named, "title");
+  if (title == nullptr) {
+    named = alternativeFor(node, value);
+    title = memberOf(named, "title");
+  }
+  const std::string text = title != nullptr ? title->get<std::string>() : "what scene.schema.json says";
+  constexpr double kLargest = 1e9;
+  const bool large = value.is_number() && !(std::abs(value.get<double>()) <= kLargest);
+  return large ? text + " of magnitude at most 1e9" : text;
+}
+
+/// Throws what is wrong at a place that the schema refuses.
+[[noreturn]] void explain(const Place& place) {
+  const Json& value = *place.value;
+  const Json* node = alternativeFor(place.node, value);
+  if (value.is_object()) {
+    const Json* later = memberOf(node, "x-later");
+    for (const auto& member : value.items())
+      if (lists(later, member.key())) {
+        const bool range = memberOf(node, "properties") == nullptr;
+        const std::string what = range ? "a range {\"min\", \"max\"}" : member.key();
+        fail(range ? place.pointer : pointerTo(place.pointer, member.key()),
+             what + ", which is part of the format but not supported by this version",
+             range ? expected(place.node, value) : "one of " + listed(keysOf(memberOf(node, "properties"))));
+      }
+    const Json* properties = memberOf(node, "properties");
+    const Json* others = memberOf(node, "additionalProperties");
+    if (others != nullptr && others->is_boolean())
+      for (const auto& member : value.items())
+        if (memberOf(properties, member.key().c_str()) == nullptr) failUnknown(place, member.key(), node);
+    if (const Json* required = memberOf(node, "required"))
+      for (const Json& name : *required)
+        if (!value.contains(name.get<std::string>()))
+          fail(place.pointer, "no member " + name.dump(),
+               name.dump() + ": " + expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json()));
+  }
+  fail(place.pointer, describe(value), expected(place.node, value));
+}
+
+}  // namespace
+
+void requireSchema(const Json& document) {
+  const nlohmann::json plain = document;
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  if (validator.validate(sceneSchema().checker, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
+
+  // Causes are reported before what follows from them, and outer alternatives before inner ones: so the first error
+  // counts, unless a later one lies deeper inside the same place.
+  std::vector<std::string> deepest;
+  bool first = true;
+  for (const valijson::ValidationResults::Error& error : results) {
+    const auto& path = error.context;
+    const bool inside = path.size() > deepest.size() && std::equal(deepest.begin(), deepest.end(), path.begin());
+    if (first || inside) deepest = path;
+    first = false;
+  }
+  Place place{&document, &sceneSchema().tree, ""};
+  for (std::size_t i = 1; i < deepest.size(); ++i)  // the first is the document itself
+    if (!step(place, deepest[i])) break;
+  explain(place);
+}
+
+}  // namespace carom::detail

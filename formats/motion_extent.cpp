@@ -1,0 +1,39 @@
+#include "formats/motion_extent.h"
+
+namespace carom {
+
+double arcEnd(const Motion& motion, int body, int k) {
+  const auto& arcs = motion.world_lines[body].arcs;
+  return k + 1 < static_cast<int>(arcs.size()) ? arcs[k + 1].start() : motion.end;
+}
+
+Extent pathExtent(const Motion& motion, int body) {
+  Extent extent;
+  const auto& arcs = motion.world_lines[body].arcs;
+  for (int k = 0; k < static_cast<int>(arcs.size()); ++k) {
+    const Arc& arc = arcs[k];
+    const double end = arcEnd(motion, body, k);
+    extent.extend(arc.positionAt(arc.start()));
+    extent.extend(arc.positionAt(end));
+    const Vec3 v = arc.velocityAt(arc.start());
+    for (int axis = 0; axis < 3; ++axis) {
+      const double turn = arc.start() - v[axis] / arc.acceleration()[axis];  // not finite without acceleration
+      if (turn > arc.start() && turn < end) extent.extend(arc.positionAt(turn));
+    }
+  }
+  return extent;
+}
+
+Extent motionExtent(const Motion& motion) {
+  Extent all;
+  const auto& bodies = motion.scene->bodies;
+  for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+    if (bodies[body].fixed) continue;
+    Extent extent = pathExtent(motion, body);
+    const Vec3 margin = Vec3::Constant(kindOf(bodies[body].shape).boundingRadius(bodies[body].shape));
+    all.extend(Extent(extent.min() - margin, extent.max() + margin));
+  }
+  return all.isEmpty() ? Extent(Vec3::Constant(-0.5), Vec3::Constant(0.5)) : all;
+}
+
+}  // namespace carom

@@ -1,0 +1,98 @@
+#include "formats/detail/svg_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "formats/motion_extent.h"
+
+namespace carom {
+namespace {
+
+constexpr double kLeft = 74, kRight = 24;
+constexpr double kTallest = 430, kLowest = 110;  // panel heights
+constexpr double kTitleRoom = 30;                // above each panel
+constexpr double kMargin = 0.06;                 // around the content, share of its longest side
+
+Extent boxExtent(const Body& body, const Box& box) {
+  Extent extent;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    extent.extend(body.position + body.orientation * (0.5 * box.size.cwiseProduct(sign)));
+  }
+  return extent;
+}
+
+Extent fixedExtent(const Body& body, const Vec3& centre) {
+  if (const Box* box = std::get_if<Box>(&body.shape)) return boxExtent(body, *box);
+  if (const Sphere* sphere = std::get_if<Sphere>(&body.shape))
+    return Extent(body.position - Vec3::Constant(sphere->radius), body.position + Vec3::Constant(sphere->radius));
+  const Plane& plane = std::get<Plane>(body.shape);
+  const Vec3 n = body.orientation * plane.normal;
+  const Vec3 foot = centre + (n.dot(body.position) + plane.offset - n.dot(centre)) * n;
+  return Extent(foot, foot);
+}
+
+// What moves and is nailed, and of the fixed bodies as much as lies near it: a floor of a kilometre is not shown whole.
+Extent shownExtent(const Picture& picture) {
+  Extent shown = motionExtent(picture.motion);
+  if (picture.before) shown.extend(motionExtent(*picture.before));
+  for (const Nail& nail : picture.nails) {
+    Vec3 target = nail.target;
+    for (int i = 0; i < 3; ++i)
+      if (!std::isfinite(target[i])) target[i] = shown.center()[i];
+    shown.extend(target);
+    if (nail.pose_origin) {
+      const Shape& shape = picture.motion.scene->bodies[nail.body].shape;
+      const Vec3 radius = Vec3::Constant(kindOf(shape).boundingRadius(shape));
+      shown.extend(Extent(*nail.pose_origin - radius, *nail.pose_origin + radius));
+    }
+  }
+  const Vec3 reach = Vec3::Constant(0.35 * shown.sizes().maxCoeff()), centre = shown.center();
+  const Extent near(shown.min() - reach, shown.max() + reach);
+  for (const Body& body : picture.motion.scene->bodies) {
+    if (!body.fixed) continue;
+    const Extent part = near.intersection(fixedExtent(body, centre));
+    if (!part.isEmpty()) shown.extend(part);
+  }
+  return shown;
+}
+
+int acrossAxis(const Picture& picture) {
+  double travel[2] = {0, 0};
+  const auto& bodies = picture.motion.scene->bodies;
+  for (int body = 0; body < static_cast<int>(bodies.size()); ++body)
+    if (!bodies[body].fixed)
+      for (int axis = 0; axis < 2; ++axis)
+        travel[axis] = std::max(travel[axis], pathExtent(picture.motion, body).sizes()[axis]);
+  return travel[1] > 1.0001 * travel[0] ? 1 : 0;
+}
+
+}  // namespace
+
+std::vector<View> layOutViews(const Picture& picture, double width, double top) {
+  const Extent shown = shownExtent(picture);
+  const double margin = kMargin * shown.sizes().maxCoeff();
+  const Extent framed(shown.min() - Vec3::Constant(margin), shown.max() + Vec3::Constant(margin));
+  const int across = acrossAxis(picture), depth = 1 - across;
+  const double panel_width = width - kLeft - kRight;
+  const Vec3 size = framed.sizes();
+  const double scale = std::min({panel_width / size[across], kTallest / size.z(), kTallest / size[depth]});
+
+  View side, above;
+  side.name = "side", side.title = "Side view";
+  above.name = "top", above.title = "Top view";
+  side.up_axis = 2, above.up_axis = depth;
+  above.up_is_negative = across == 1;  // right-handed seen from above: with y to the right, x runs downwards
+  for (View* view : {&side, &above}) {
+    view->across_axis = across;
+    view->scale = scale;
+    const double height = std::max(kLowest, scale * size[view->up_axis]);
+    view->panel = {kLeft, top + kTitleRoom, panel_width, height};
+    view->low = view->project(framed.center()) - Vec2(panel_width, height) / (2 * scale);
+    top += kTitleRoom + height + kAxisRoom;
+  }
+  return {side, above};
+}
+
+}  // namespace carom

@@ -1,0 +1,92 @@
+#include "ode_bridge/broad_phase.h"
+
+#include <algorithm>
+
+#include "ode_bridge/library.h"
+
+#include <ode/ode.h>
+
+namespace carom {
+
+struct BroadPhase::Space {
+  dSpaceID space = nullptr;
+  std::vector<dGeomID> geoms;
+
+  ~Space() {
+    const auto guard = lockOde();
+    clear();
+    dSpaceDestroy(space);
+  }
+  void clear() {
+    for (dGeomID geom : geoms)
+      if (geom) dGeomDestroy(geom);
+    geoms.clear();
+  }
+  // Keeps the geometry of a body when it is of the wanted class already.
+  dGeomID ofClass(int body, int wanted) {
+    dGeomID& geom = geoms[static_cast<std::size_t>(body)];
+    if (geom && dGeomGetClass(geom) == wanted) return geom;
+    const auto guard = lockOde();
+    if (geom) dGeomDestroy(geom);
+    geom = wanted == dPlaneClass ? dCreatePlane(space, 0, 0, 1, 0) : dCreateBox(space, 1, 1, 1);
+    dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
+    return geom;
+  }
+};
+
+namespace {
+
+constexpr unsigned long kMoving = 1, kFixed = 2;
+
+// The callback only notes pairs: an exception here would leave the space locked for good.
+void note(void* data, dGeomID a, dGeomID b) {
+  auto& pairs = *static_cast<std::vector<std::pair<int, int>>*>(data);
+  const auto index = [](dGeomID g) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(g))); };
+  pairs.emplace_back(index(a), index(b));
+}
+
+}  // namespace
+
+BroadPhase::BroadPhase() : space_(std::make_unique<Space>()) {
+  const auto guard = lockOde();
+  space_->space = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+  dSpaceSetCleanup(space_->space, 0);
+}
+
+BroadPhase::~BroadPhase() = default;
+
+void BroadPhase::reset(std::size_t count) {
+  if (space_->geoms.size() == count) return;  // every body gets its bounds anew
+  const auto guard = lockOde();
+  space_->clear();
+  space_->geoms.assign(count, nullptr);
+}
+
+void BroadPhase::setBounds(int body, const Bounds& b, bool moving) {
+  const dGeomID geom = space_->ofClass(body, dBoxClass);
+  const Vec3 centre = 0.5 * (b.low + b.high), size = (b.high - b.low).cwiseMax(1e-12);
+  dGeomSetPosition(geom, centre.x(), centre.y(), centre.z());
+  dGeomBoxSetLengths(geom, size.x(), size.y(), size.z());
+  dGeomSetCategoryBits(geom, moving ? kMoving : kFixed);
+  dGeomSetCollideBits(geom, moving ? kMoving | kFixed : kMoving);
+}
+
+void BroadPhase::setHalfSpace(int body, const Vec3& normal, double offset) {
+  const dGeomID geom = space_->ofClass(body, dPlaneClass);
+  dGeomPlaneSetParams(geom, normal.x(), normal.y(), normal.z(), offset);
+  dGeomSetCategoryBits(geom, kFixed);
+  dGeomSetCollideBits(geom, kMoving);
+}
+
+void BroadPhase::neighbours(int body, std::vector<int>& out) const {
+  prepareOdeThread();
+  std::vector<std::pair<int, int>> pairs;
+  dSpaceCollide2(space_->geoms[static_cast<std::size_t>(body)], reinterpret_cast<dGeomID>(space_->space), &pairs, note);
+  out.clear();
+  for (const auto& [a, b] : pairs)
+    if (const int other = a == body ? b : a; other != body) out.push_back(other);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+}
+
+}  // namespace carom

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "adjoint/contact_source.h"
+
+namespace carom {
+
+/// Collision detection for spheres, boxes and planes. The Open Dynamics Engine's sweep-and-prune space proposes the pairs
+/// whose swept boxes meet; exact geometry in double precision decides when, where and with which features they touch.
+/// One object serves one simulation at a time; different objects may be used from different threads.
+class OdeContacts final : public ContactSource {
+ public:
+  /// Throws InputError when two bodies of the scene overlap at the start.
+  explicit OdeContacts(const Scene& scene);
+  ~OdeContacts() override;
+  OdeContacts(const OdeContacts&) = delete;
+  OdeContacts& operator=(const OdeContacts&) = delete;
+
+  void begin(const Scene& scene) override;
+  void setPath(int body, const Arc& arc, double from, double until) override;
+  void neighbours(int body, std::vector<int>& out) override;
+  std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
+                                             double until) override;
+  std::shared_ptr<const ContactGeometry> geometry() const override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace carom

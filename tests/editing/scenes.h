@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "adjoint/scene.h"
+#include "editing/edit.h"
+
+/// Scenes that several tests of editing/ use.
+namespace carom::testing_scenes {
+
+Material material(const std::string& name, double elasticity, double friction);
+Body fixedPlane(const std::string& name, const std::string& material, const Vec3& normal, double offset);
+Body ball(const std::string& name, const std::string& material, double radius, const Vec3& position,
+          const Vec3& velocity);
+
+/// docs/equations.md section 8, "floor and wall", in the plane y = 0: z is the height.
+Scene floorAndWall();
+/// The same section, "many bounces": a ball of radius .1 released at rest from 50 above its lowest place.
+Scene manyBounces();
+/// A box thrown against a floor with friction; everything about it can vary.
+Scene thrownBox();
+
+/// One control of every kind, for a scene with a body "box" of material "felt".
+std::vector<Control> everyControl();
+
+}  // namespace carom::testing_scenes

@@ -1,0 +1,278 @@
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "adjoint/errors.h"
+#include "formats/export_gltf.h"
+#include "tests/export/hand_motion.h"
+
+namespace carom::export_tests {
+namespace {
+
+tinygltf::Model load(const std::string& path) {
+  tinygltf::Model model;
+  std::string error, warning;
+  tinygltf::TinyGLTF reader;
+  const bool ok = path.ends_with(".glb") ? reader.LoadBinaryFromFile(&model, &error, &warning, path)
+                                         : reader.LoadASCIIFromFile(&model, &error, &warning, path);
+  EXPECT_TRUE(ok) << error;
+  EXPECT_EQ(error + warning, "");
+  return model;
+}
+
+tinygltf::Model exported(const std::string& name, const GltfOptions& options = {}) {
+  const std::string path = temporaryPath(name);
+  exportGltf(path, handDocument(), handMotion(), options);
+  return load(path);
+}
+
+std::vector<double> floatsOf(const tinygltf::Model& model, int accessor) {
+  const auto& a = model.accessors.at(accessor);
+  const auto& view = model.bufferViews.at(a.bufferView);
+  const std::size_t count = a.count * static_cast<std::size_t>(tinygltf::GetNumComponentsInType(a.type));
+  std::vector<float> out(count);
+  std::memcpy(out.data(), model.buffers.at(0).data.data() + view.byteOffset + a.byteOffset, count * sizeof(float));
+  return {out.begin(), out.end()};
+}
+
+struct Track {
+  std::vector<double> times, values;
+  std::string interpolation;
+};
+
+Track trackOf(const tinygltf::Model& model, const std::string& body, const std::string& path) {
+  for (const auto& channel : model.animations.at(0).channels)
+    if (model.nodes.at(channel.target_node).name == body && channel.target_path == path) {
+      const auto& sampler = model.animations[0].samplers.at(channel.sampler);
+      return {floatsOf(model, sampler.input), floatsOf(model, sampler.output), sampler.interpolation};
+    }
+  ADD_FAILURE() << body << " " << path;
+  return {};
+}
+
+std::size_t intervalOf(const Track& track, double t) {
+  const auto next = std::upper_bound(track.times.begin(), track.times.end(), t);
+  const auto k = static_cast<std::size_t>(next - track.times.begin());
+  return std::clamp<std::size_t>(k, 1, track.times.size() - 1) - 1;
+}
+
+Vec3 vectorAt(const Track& track, std::size_t index) { return Eigen::Map<const Vec3>(&track.values[3 * index]); }
+
+// As a player of glTF 2.0 evaluates it (specification, appendix C).
+Vec3 translationAt(const Track& track, double t) {
+  const std::size_t k = intervalOf(track, t);
+  const double d = track.times[k + 1] - track.times[k], s = (t - track.times[k]) / d;
+  if (track.interpolation == "LINEAR") return (1 - s) * vectorAt(track, k) + s * vectorAt(track, k + 1);
+  return (2 * s * s * s - 3 * s * s + 1) * vectorAt(track, 3 * k + 1) +
+         d * (s * s * s - 2 * s * s + s) * vectorAt(track, 3 * k + 2) +
+         (-2 * s * s * s + 3 * s * s) * vectorAt(track, 3 * k + 4) +
+         d * (s * s * s - s * s) * vectorAt(track, 3 * k + 3);
+}
+
+Quat quaternionAt(const Track& track, std::size_t k) {
+  return Quat(track.values[4 * k + 3], track.values[4 * k], track.values[4 * k + 1], track.values[4 * k + 2]);
+}
+
+const std::vector<std::string> kMoving = {"book", "ball <1>", "top"};
+constexpr int kSamples = 997;
+
+class Profiles : public testing::TestWithParam<GltfOptions> {};
+
+TEST_P(Profiles, TranslationFollowsTheMotion) {
+  const Motion motion = handMotion();
+  const tinygltf::Model model = exported("m.glb", GetParam());
+  const bool web = GetParam().profile == GltfProfile::web;
+  // Between straight keys a parabola sags by g h^2 / 8.
+  const double sag = 9.81 / 8 / std::pow(GetParam().frames_per_second, 2);
+  double worst = 0;
+  for (const std::string& name : kMoving) {
+    const Track track = trackOf(model, name, "translation");
+    EXPECT_EQ(track.interpolation, web ? "CUBICSPLINE" : "LINEAR");
+    for (int i = 0; i <= kSamples; ++i) {
+      const double t = motion.end * i / kSamples;
+      const double error = (translationAt(track, t) - motion.stateAt(name, t).position).norm();
+      EXPECT_TRUE(error <= (web ? 0 : 1.01 * sag) + 1e-5) << name << " at " << t << ": " << error;
+      worst = std::max(worst, error);
+    }
+  }
+  RecordProperty("worst_mm", std::to_string(1e3 * worst));  // seen with --gtest_output=xml
+}
+
+TEST_P(Profiles, RotationFollowsTheMotion) {
+  const Motion motion = handMotion();
+  const tinygltf::Model model = exported("m.glb", GetParam());
+  for (const std::string& name : kMoving) {
+    const Track track = trackOf(model, name, "rotation");
+    for (int i = 0; i <= kSamples; ++i) {
+      const double t = motion.end * i / kSamples;
+      const std::size_t k = intervalOf(track, t);
+      const double s = (t - track.times[k]) / (track.times[k + 1] - track.times[k]);
+      const Quat q = quaternionAt(track, k).slerp(s, quaternionAt(track, k + 1)).normalized();
+      const double error = q.angularDistance(motion.stateAt(name, t).orientation);
+      EXPECT_TRUE(error <= 1e-3) << name << " at " << t << ": " << error;
+    }
+    for (std::size_t k = 0; k + 1 < track.times.size(); ++k) {
+      EXPECT_LT(track.times[k], track.times[k + 1]);
+      EXPECT_GT(quaternionAt(track, k).dot(quaternionAt(track, k + 1)), 0) << "hemisphere at key " << k;
+    }
+  }
+}
+
+TEST_P(Profiles, EveryImpactHasAKeyInBothTracks) {
+  const Motion motion = handMotion();
+  const tinygltf::Model model = exported("m.glb", GetParam());
+  for (const Event& event : motion.events)
+    for (const Participant& p : event.participants)
+      for (const std::string path : {"translation", "rotation"}) {
+        const Track track = trackOf(model, motion.scene->bodies[p.body].name, path);
+        EXPECT_TRUE(std::count(track.times.begin(), track.times.end(), static_cast<float>(event.time)) == 1)
+            << path << " at " << event.time;
+        EXPECT_EQ(track.times.front(), 0);
+        EXPECT_EQ(track.times.back(), static_cast<float>(motion.end));
+      }
+}
+
+std::string nameOf(const testing::TestParamInfo<GltfOptions>& info) {
+  if (info.param.profile == GltfProfile::web) return "web";
+  return "blender_" + std::to_string(std::lround(info.param.frames_per_second));
+}
+
+INSTANTIATE_TEST_SUITE_P(ExportGltf, Profiles,
+                         testing::Values(GltfOptions{GltfProfile::web, 24}, GltfOptions{GltfProfile::blender, 24},
+                                         GltfOptions{GltfProfile::blender, 60}),
+                         nameOf);
+
+TEST(ExportGltf, WebKeysAreStartImpactsAndEnd) {
+  const tinygltf::Model model = exported("m.glb");
+  EXPECT_EQ(trackOf(model, "book", "translation").times.size(), 4u);
+  EXPECT_EQ(trackOf(model, "ball <1>", "translation").times.size(), 3u);
+  EXPECT_EQ(trackOf(model, "top", "translation").times.size(), 2u);
+}
+
+TEST(ExportGltf, TextAndBinaryHoldTheSame) {
+  const tinygltf::Model binary = exported("m.glb"), text = exported("m.gltf");
+  EXPECT_EQ(binary.buffers.at(0).data, text.buffers.at(0).data);
+  EXPECT_EQ(binary.nodes, text.nodes);
+  EXPECT_EQ(binary.extensions, text.extensions);
+}
+
+TEST(ExportGltf, ZIsUp) {
+  const tinygltf::Model model = exported("m.glb");
+  const auto& r = model.nodes.at(model.scenes.at(0).nodes.at(0)).rotation;
+  EXPECT_LT((Quat(r[3], r[0], r[1], r[2]) * Vec3::UnitZ() - Vec3::UnitY()).norm(), 1e-15);
+}
+
+TEST(ExportGltf, MeshesFaceOutwards) {
+  const tinygltf::Model model = exported("m.glb");
+  EXPECT_EQ(model.meshes.size(), 5u);
+  for (const auto& mesh : model.meshes)
+    for (const auto& primitive : mesh.primitives) {
+      const auto x = floatsOf(model, primitive.attributes.at("POSITION"));
+      const auto n = floatsOf(model, primitive.attributes.at("NORMAL"));
+      ASSERT_EQ(x.size(), n.size());
+      const auto& a = model.accessors.at(primitive.indices);
+      const auto* index = reinterpret_cast<const std::uint32_t*>(model.buffers.at(0).data.data() +
+                                                                 model.bufferViews.at(a.bufferView).byteOffset);
+      for (std::size_t i = 0; i < a.count; i += 3) {
+        const auto at = [&](const std::vector<double>& v, std::size_t k) { return Vec3(&v[3 * index[i + k]]); };
+        const Vec3 face = (at(x, 1) - at(x, 0)).cross(at(x, 2) - at(x, 0));
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_GT(face.normalized().dot(at(n, k)), 0.9) << mesh.name << " " << i;
+      }
+    }
+}
+
+const tinygltf::Value& rigidBody(const tinygltf::Node& node) { return node.extensions.at("KHR_physics_rigid_bodies"); }
+
+double number(const tinygltf::Value& value) { return value.GetNumberAsDouble(); }
+
+const tinygltf::Node& nodeOf(const tinygltf::Model& model, const std::string& name) {
+  return *std::find_if(model.nodes.begin(), model.nodes.end(), [&](const auto& node) { return node.name == name; });
+}
+
+TEST(ExportGltf, PhysicsIsWrittenButNotRequired) {
+  const Motion motion = handMotion();
+  const tinygltf::Model model = exported("m.glb");
+  EXPECT_TRUE(model.extensionsRequired.empty());
+  for (const char* name : {"KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_gravity"})
+    EXPECT_EQ(std::count(model.extensionsUsed.begin(), model.extensionsUsed.end(), name), 1) << name;
+
+  const int book = bodyIndex(*motion.scene, "book");
+  const Body& body = motion.scene->bodies[book];
+  const auto& moves = rigidBody(nodeOf(model, "book")).Get("motion");
+  EXPECT_EQ(number(moves.Get("mass")), 0.7);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(number(moves.Get("inertiaDiagonal").Get(i)), (*motion.models)[book].inertia[i]);
+    EXPECT_NEAR(number(moves.Get("linearVelocity").Get(i)), (body.orientation.conjugate() * body.velocity)[i], 1e-14);
+    EXPECT_NEAR(number(moves.Get("angularVelocity").Get(i)), (body.orientation.conjugate() * body.angular_velocity)[i],
+                1e-14);
+  }
+  const auto& collider = rigidBody(nodeOf(model, "book")).Get("collider");
+  const auto& shapes = model.extensions.at("KHR_implicit_shapes").Get("shapes");
+  const auto& shape = shapes.Get(collider.Get("geometry").Get("shape").GetNumberAsInt());
+  EXPECT_EQ(shape.Get("type").Get<std::string>(), "box");
+  EXPECT_EQ(number(shape.Get("box").Get("size").Get(0)), 0.3);
+  const auto& materials = model.extensions.at("KHR_physics_rigid_bodies").Get("physicsMaterials");
+  const auto& felt = materials.Get(collider.Get("physicsMaterial").GetNumberAsInt());
+  EXPECT_EQ(number(felt.Get("restitution")), 0.45);
+  EXPECT_EQ(number(felt.Get("staticFriction")), 0.6);
+  EXPECT_EQ(felt.Get("frictionCombine").Get<std::string>(), "multiply");
+  EXPECT_FALSE(rigidBody(nodeOf(model, "wall")).Has("motion"));
+  EXPECT_TRUE(rigidBody(nodeOf(model, "floor surface")).Has("collider"));
+  EXPECT_EQ(number(model.extensions.at("OMI_physics_gravity").Get("direction").Get(1)), -1);
+}
+
+TEST(ExportGltf, TheEditTravelsInExtras) {
+  const std::string path = temporaryPath("m.gltf");
+  exportGltf(path, handDocument(), handMotion(), GltfProfile::web);
+  const tinygltf::Model model = load(path);
+  const auto& edit = model.scenes.at(0).extras.Get("carom");
+  EXPECT_EQ(edit.Get("controls").ArrayLen(), 2u);
+  EXPECT_EQ(edit.Get("controls").Get(1).Get("vary").Get<std::string>(), "elasticity");
+  EXPECT_EQ(edit.Get("constraints").ArrayLen(), 2u);
+  EXPECT_EQ(number(edit.Get("constraints").Get(0).Get("at")), 1.1);
+  std::string text = contentOf(path);  // free components are null
+  text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); }), text.end());
+  EXPECT_NE(text.find("\"position\":[0.9,null,null]"), std::string::npos);
+}
+
+TEST(ExportGltf, OddMotionsAreWritten) {
+  Document document = handDocument();
+  document.constraints.clear(), document.controls.clear();
+  const std::string path = temporaryPath("m.glb");
+  exportGltf(path, document, handMotion(document.scene, 0, {}), GltfProfile::web);  // no time passes
+  EXPECT_TRUE(load(path).animations.empty());
+  // Two impacts that a float cannot tell apart.
+  exportGltf(
+      path, document,
+      handMotion(document.scene, 1, {{0.5, 2, 0, {1, 0, 1}, {1, 2, 3}}, {0.5 + 1e-9, 2, 0, {0, 0, 2}, {3, 2, 1}}}),
+      GltfProfile::web);
+  const Track track = trackOf(load(path), "book", "translation");
+  ASSERT_EQ(track.times.size(), 3u);
+  EXPECT_EQ(vectorAt(track, 5), Vec3(0, 0, 2));  // the last one counts
+  document.scene.gravity.setZero();
+  document.scene.bodies.resize(2);
+  exportGltf(path, document, handMotion(document.scene, 1, {}), GltfProfile::blender);  // nothing moves
+  EXPECT_EQ(load(path).meshes.size(), 2u);
+}
+
+TEST(ExportGltf, NumbersThatDoNotFitAreRefused) {
+  Document document = handDocument();
+  document.scene.bodies[2].angular_velocity = {1e7, 2e7, 3e7};
+  const auto write = [&] {
+    exportGltf(temporaryPath("m.glb"), document, handMotion(document.scene, 10, {}), GltfProfile::web);
+  };
+  document.scene.bodies[2].shape = Sphere{0.1};
+  EXPECT_THROW(write(), InputError);  // more rotation keys than anybody wants
+  document.scene.bodies[2].angular_velocity.setZero();
+  document.scene.bodies[2].position.x() = 1e39;
+  EXPECT_THROW(write(), InputError);  // beyond floats
+  for (const double fps : {0.0, -24.0, any})
+    EXPECT_THROW(exportGltf(temporaryPath("m.glb"), handDocument(), handMotion(), {GltfProfile::blender, fps}),
+                 InputError);
+}
+
+}  // namespace
+}  // namespace carom::export_tests

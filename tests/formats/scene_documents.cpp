@@ -1,0 +1,90 @@
+#include "tests/formats/scene_documents.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace carom::formats_test {
+
+std::string textOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  EXPECT_TRUE(in) << path;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> exampleScenes() {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes"))
+    if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+const std::string& documentWithEverything() {
+  static const std::string text = R"({
+  "carom": 1,
+  "gravity": [0.1, -0.2, -9.81],
+  "duration": 2.5,
+  "materials": {
+    "wood": { "elasticity": 0.6, "friction": 0.3, "tangential_elasticity": -0.25 },
+    "felt": {
+      "elasticity": 0.45, "friction": 0, "tangential_elasticity": 0.5,
+      "combine": { "elasticity": "minimum", "friction": "multiply" }
+    },
+    "a/b~c \"quoted\" é": { "combine": { "friction": "maximum" } }
+  },
+  "bodies": [
+    { "name": "floor", "fixed": true, "material": "wood",
+      "shape": { "plane": { "normal": [0, 0.6, 0.8], "offset": -0.125 } } },
+    { "name": "wall", "fixed": true, "mass": 3, "position": [7, 0, 1], "orientation": [0.6, 0, 0.8, 0],
+      "shape": { "box": { "size": [0.1, 2, 0.3] } } },
+    { "name": "ball", "fixed": false, "density": 700.5, "material": "a/b~c \"quoted\" é",
+      "shape": { "sphere": { "radius": 0.1 } }, "position": [0, 0, 3] },
+    { "name": "book", "mass": 0.4, "inertia": [0.0011, 0.0012, 0.0019], "material": "felt",
+      "shape": { "box": { "size": [0.21, 0.15, 0.03] } },
+      "position": [1, 2, 3.3], "orientation": [0.5, -0.5, 0.5, -0.5],
+      "velocity": [2.2, 1e-7, -2.5e8], "angular_velocity": [0.1, 0.2, 0.30000000000000004] },
+    { "name": "crate", "mass": 2,
+      "inertia": [[0.2, 0.01, 0.005], [0.01, 0.25, -0.02], [0.005, -0.02, 0.3]],
+      "shape": { "box": { "size": [1, 1, 1] } }, "position": [-5, 0, 6] }
+  ],
+  "tilts": [
+    { "body": "book", "impact": 1, "value": [0.01, -0.02] },
+    { "body": "book", "impact": 2, "value": [0, 0.1] }
+  ],
+  "controls": [
+    { "vary": "position", "body": "wall", "components": ["x", "z"], "min": [-1, -2], "max": 3, "weight": 0.5 },
+    { "vary": "orientation", "body": "book" },
+    { "vary": "velocity", "body": "book", "min": -4 },
+    { "vary": "angular_velocity", "body": "book", "max": [1, 2, 3] },
+    { "vary": "elasticity", "material": "felt", "min": 0.2, "max": 0.9 },
+    { "vary": "friction", "material": "wood" },
+    { "vary": "tangential_elasticity", "material": "felt" },
+    { "vary": "mass", "body": "ball" },
+    { "vary": "inertia", "body": "book" },
+    { "vary": "size", "body": "ball", "components": ["radius"] },
+    { "vary": "size", "body": "book", "components": ["y"] },
+    { "vary": "tilt", "body": "book", "impact": 2, "max": 0.15 },
+    { "vary": "gravity", "components": ["z"] }
+  ],
+  "constraints": [
+    { "body": "book", "at": 1.4, "position": [1.9, null, 1.7], "orientation": [0.8, 0, 0.6, 0] },
+    { "body": "book", "at": { "impact": 3, "with": "floor" }, "position": [2.5, 0.1, null], "time": 1.25 },
+    { "body": "ball", "at": { "impact": 1 }, "velocity": [null, null, 0], "angular_velocity": [0, 0, 1] },
+    { "body": "crate", "at": 0, "point": { "body_point": [0.5, 0, 0], "world": [null, 1, 2] } }
+  ]
+})";
+  return text;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << from << " occurs twice";
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+}  // namespace carom::formats_test

@@ -1,0 +1,209 @@
+// The product against the reference, on every row of the table of cases, in both orders of the bodies.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "adjoint/adjoint.h"
+#include "adjoint/simulate.h"
+#include "adjoint/tangent.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/reference/cases.h"
+#include "tests/reference/replay.h"
+#include "tests/reference/worst.h"
+
+namespace carom::reference {
+namespace {
+
+constexpr double kStateTolerance = 1e-12;    ///< of the component, at least of 1
+constexpr double kTimeTolerance = 1e-13;     ///< s
+constexpr double kGradientTolerance = 1e-9;  ///< of the column's scale
+constexpr double kSmallestScale = 1e-2;      ///< of a column; so that columns that are exactly zero can be compared
+
+Sequence sequenceOf(const Motion& motion) {
+  Sequence sequence;
+  for (const Event& event : motion.events) {
+    if (event.contacts.size() != 1) throw std::runtime_error("the reference knows no joint impacts");
+    const Contact& c = event.contacts[0];
+    sequence.push_back({event.time, c.a, c.b, c.at.point, c.at.normal});
+  }
+  return sequence;
+}
+
+/// A scene simulated, and replayed along the product's own sequence.
+struct Run {
+  Scene scene;
+  Motion motion;
+  Reference reference;
+};
+
+Run runOf(const Case& c, bool backwards) {
+  Scene scene = backwards ? reversed(c.scene()) : c.scene();
+  OdeContacts contacts(scene);
+  Motion motion = simulate(scene, contacts, c.duration);
+  Reference reference(scene, sequenceOf(motion));
+  return {std::move(scene), std::move(motion), std::move(reference)};
+}
+
+std::vector<Row> rowsOf(const Run& run, double duration) {
+  std::vector<Row> rows;
+  for (std::size_t body = 0; body < run.scene.bodies.size(); ++body) {
+    if (run.scene.bodies[body].fixed) continue;
+    for (int i = 0; i < kTimeComponent; ++i) rows.push_back({static_cast<int>(body), -1, duration, i});
+  }
+  for (std::size_t event = 0; event < run.motion.events.size(); ++event) {
+    for (const Participant& p : run.motion.events[event].participants) {
+      for (int i = 0; i <= kTimeComponent; ++i) rows.push_back({p.body, static_cast<int>(event), 0, i});
+    }
+  }
+  return rows;
+}
+
+StateSeed seedOf(const Row& row) {
+  StateSeed seed;
+  seed.body = row.body;
+  seed.at = row.event < 0 ? Instant::at(row.time) : Instant::before(row.event);
+  Vec3* const parts[] = {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity};
+  (row.component == kTimeComponent ? seed.time : (*parts[row.component / 3])[row.component % 3]) = 1;
+  return seed;
+}
+
+Vec3 turnBetween(const Quat& from, const Quat& to) {
+  const Quat d = to * from.conjugate();
+  return 2 * (d.w() < 0 ? -1 : 1) * d.vec();
+}
+
+/// Largest difference of two states, each component by its own size, at least 1.
+double difference(const BodyState& found, const BodyState& expected) {
+  double error = 0;
+  const auto compare = [&error](const Vec3& f, const Vec3& e) {
+    for (int i = 0; i < 3; ++i) keepWorst(error, std::abs(f[i] - e[i]) / std::max(1.0, std::abs(e[i])));
+  };
+  compare(turnBetween(expected.orientation, found.orientation), Vec3::Zero());
+  compare(found.position, expected.position);
+  compare(found.velocity, expected.velocity);
+  compare(found.angular_velocity, expected.angular_velocity);
+  return error;
+}
+
+struct Worst {
+  double error = 0;
+  std::string where = "none";
+};
+
+/// Compares matrix rows with the reference's columns; `found(row, knob)` is the product's entry.
+Worst compareGradients(const Run& run, const std::vector<Row>& rows, ImpactTimes times, const auto& found) {
+  Worst worst;
+  const std::vector<Knob> knobs = knobsOf(run.scene);
+  for (const Knob& knob : knobs) {
+    const std::vector<double> expected = run.reference.derivative(knob, rows, times);
+    double scale = kSmallestScale;
+    for (const double e : expected) scale = std::max(scale, std::abs(e));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double value = found(i, knob);
+      const double error = std::abs(value - expected[i]) / scale;
+      if (error <= worst.error || std::isnan(worst.error)) continue;
+      worst.error = error;
+      worst.where = "d(" + describe(rows[i]) + ")/d(" + knob.name + ") = " + std::to_string(value) + ", expected " +
+                    std::to_string(expected[i]) + ", column's scale " + std::to_string(scale);
+    }
+  }
+  return worst;
+}
+
+class MotionAgainstReference : public testing::TestWithParam<std::tuple<std::size_t, bool>> {
+ protected:
+  const Case& row() const { return cases()[std::get<0>(GetParam())]; }
+  bool backwards() const { return std::get<1>(GetParam()); }
+  Run run() const { return runOf(row(), backwards()); }
+};
+
+TEST_P(MotionAgainstReference, Sequence) {
+  const Run r = run();
+  ASSERT_EQ(r.motion.status, MotionStatus::complete) << r.motion.message;
+  const Sequence scouted = scout(r.scene, row().duration);
+  ASSERT_EQ(r.motion.events.size(), row().modes.size());
+  ASSERT_EQ(scouted.size(), row().modes.size());
+  for (std::size_t i = 0; i < scouted.size(); ++i) {
+    const Event& event = r.motion.events[i];
+    const int n = static_cast<int>(i);
+    EXPECT_EQ(event.mode, row().modes[i]) << "event " << i;
+    EXPECT_EQ(r.reference.mode(n), row().modes[i]) << "event " << i;
+    EXPECT_NE(r.reference.features(n).find(row().features[i]), std::string::npos) << r.reference.features(n);
+    EXPECT_EQ(std::minmax(event.contacts[0].a, event.contacts[0].b), std::minmax(scouted[i].a, scouted[i].b));
+    EXPECT_NEAR(event.time, scouted[i].time, 1e-11);
+  }
+}
+
+TEST_P(MotionAgainstReference, StatesAndTimes) {
+  const Run r = run();
+  double worst_state = 0, worst_time = 0;
+  for (int event = 0; event < r.reference.events(); ++event) {
+    const Event& e = r.motion.events[event];
+    keepWorst(worst_time, std::abs(e.time - r.reference.eventTime(event)));
+    for (const Participant& p : e.participants) {
+      keepWorst(worst_state, difference(r.motion.stateBefore(event, p.body), r.reference.stateBefore(event, p.body)));
+    }
+    for (int i = 0; i < 3; ++i) {
+      keepWorst(worst_state, std::abs(e.contacts[0].impulse[i] - r.reference.impulse(event)[i]));
+    }
+  }
+  constexpr int kTimes = 11;
+  for (int k = 0; k <= kTimes; ++k) {
+    const double t = row().duration * k / kTimes;
+    for (int body = 0; body < static_cast<int>(r.scene.bodies.size()); ++body) {
+      keepWorst(worst_state, difference(r.motion.stateAt(body, t), r.reference.stateAt(body, t)));
+    }
+  }
+  std::cout << row().name << ": worst state " << worst_state << ", worst event time " << worst_time << " s\n";
+  EXPECT_LE(worst_state, kStateTolerance);
+  EXPECT_LE(worst_time, kTimeTolerance);
+}
+
+TEST_P(MotionAgainstReference, Gradients) {
+  const Run r = run();
+  const std::vector<Row> rows = rowsOf(r, row().duration);
+  DerivativeTape tape(r.motion);
+  std::vector<SceneGradient> gradients;
+  for (const Row& one : rows) gradients.push_back(adjoint(tape, std::vector{seedOf(one)}));
+  const auto by_adjoint = [&](std::size_t i, const Knob& knob) { return entryOf(gradients[i], knob); };
+
+  const Worst worst = compareGradients(r, rows, ImpactTimes::follow, by_adjoint);
+  std::cout << row().name << ": worst of " << rows.size() << " x " << knobsOf(r.scene).size() << " entries "
+            << worst.error << ": " << worst.where << '\n';
+  EXPECT_LE(worst.error, kGradientTolerance) << worst.where;
+
+  // What fixed-step engines leave out matters: without it the very same comparison fails by far.
+  EXPECT_GT(compareGradients(r, rows, ImpactTimes::frozen, by_adjoint).error, 1e-2);
+}
+
+TEST_P(MotionAgainstReference, Tangents) {
+  const Run r = run();
+  const std::vector<Row> rows = rowsOf(r, row().duration);
+  DerivativeTape tape(r.motion);
+  std::string current;
+  std::optional<MotionTangent> pass;
+  const auto by_tangent = [&](std::size_t i, const Knob& knob) {
+    if (current != knob.name) {
+      SceneTangent direction(r.scene);
+      entryOf(direction, knob) = 1;
+      pass = tangent(tape, direction);
+      current = knob.name;
+    }
+    const StateSeed seed = seedOf(rows[i]);
+    return pass->at(seed.body, seed.at).dot(seed);
+  };
+  const Worst worst = compareGradients(r, rows, ImpactTimes::follow, by_tangent);
+  EXPECT_LE(worst.error, kGradientTolerance) << worst.where;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, MotionAgainstReference,
+                         testing::Combine(testing::Range<std::size_t>(0, cases().size()), testing::Bool()),
+                         [](const auto& info) {
+                           return std::string(cases()[std::get<0>(info.param)].name) +
+                                  (std::get<1>(info.param) ? "_reversed" : "");
+                         });
+
+}  // namespace
+}  // namespace carom::reference

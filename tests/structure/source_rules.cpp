@@ -1,0 +1,132 @@
+#include "tests/structure/source_rules.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+namespace carom::structure {
+namespace {
+
+constexpr int kLongestFile = 450;
+
+const std::vector<std::string> kFolders = {"adjoint", "ode_bridge", "editing", "formats", "cli",
+                                           "studio",  "examples",   "tests",   "bench"};
+
+// Which folders of the project a library may include; a folder that is not listed may include all.
+const std::map<std::string, std::vector<std::string>> kMayInclude = {
+    {"adjoint", {"adjoint"}},
+    {"ode_bridge", {"ode_bridge", "adjoint"}},
+    {"editing", {"editing", "adjoint"}},
+    {"formats", {"formats", "editing", "ode_bridge", "adjoint"}},
+};
+
+// A library that only some files may include. The patterns match whole include names and whole paths.
+struct Confined {
+  const char* library;
+  std::regex include;
+  std::regex allowed;
+  const char* allowed_text;
+};
+
+const std::vector<Confined>& confinedLibraries() {
+  static const std::vector<Confined> rows = {
+      {"ODE", std::regex("ode/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
+      {"Ipopt", std::regex("(.*/)?Ip[A-Z]\\w*\\.(h|hpp)"), std::regex("editing/.*\\.cpp"), "one editing/*.cpp"},
+      {"nlohmann", std::regex("nlohmann/.*"), std::regex("(formats|studio|tests)/.*\\.cpp"),
+       "formats/*.cpp, studio/*.cpp and tests"},
+      {"valijson", std::regex("valijson/.*"), std::regex("(formats|studio)/.*\\.cpp"),
+       "formats/*.cpp and studio/*.cpp"},
+      {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests)/.*\\.cpp"),
+       "formats/*.cpp and tests"},
+      {"Boost.Multiprecision", std::regex("boost/multiprecision/.*"), std::regex("tests/.*"), "tests"},
+      {"Boost", std::regex("boost/(?!multiprecision/).*"), std::regex("(studio/.*\\.cpp|tests/.*)"),
+       "studio/*.cpp and tests"},
+  };
+  return rows;
+}
+
+std::string folderOf(const std::string& path) { return path.substr(0, path.find('/')); }
+
+bool contains(const std::vector<std::string>& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+// "../formats/x.h" in editing/a.cpp means formats/x.h.
+std::string resolved(const std::string& path, const std::string& include) {
+  if (!include.starts_with(".")) return include;
+  return (std::filesystem::path(path).parent_path() / include).lexically_normal().generic_string();
+}
+
+bool includesIpopt(const std::string& text) {
+  const auto includes = includesOf(text);
+  return std::any_of(includes.begin(), includes.end(),
+                     [](const std::string& name) { return std::regex_match(name, confinedLibraries()[1].include); });
+}
+
+}  // namespace
+
+Sources readSources(const std::filesystem::path& root) {
+  Sources sources;
+  for (const std::string& folder : kFolders) {
+    if (!std::filesystem::exists(root / folder)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (!entry.is_regular_file() || !contains({".h", ".hpp", ".cpp"}, extension)) continue;
+      std::ifstream in(entry.path(), std::ios::binary);
+      sources[entry.path().lexically_relative(root).generic_string()] = {std::istreambuf_iterator<char>(in), {}};
+    }
+  }
+  return sources;
+}
+
+std::vector<std::string> includesOf(const std::string& text) {
+  static const std::regex directive("(?:^|\\n)[ \\t]*#[ \\t]*include[ \\t]*[<\"]([^>\"\\n]+)[>\"]");
+  std::vector<std::string> result;
+  for (std::sregex_iterator it(text.begin(), text.end(), directive), end; it != end; ++it) result.push_back((*it)[1]);
+  return result;
+}
+
+std::vector<std::string> violations(const std::string& path, const std::string& text) {
+  std::vector<std::string> found;
+  const std::string folder = folderOf(path);
+  const auto may_include = kMayInclude.find(folder);
+  for (const std::string& written : includesOf(text)) {
+    const std::string include = resolved(path, written);
+    for (const Confined& row : confinedLibraries()) {
+      if (std::regex_match(include, row.include) && !std::regex_match(path, row.allowed)) {
+        found.push_back(path + " includes " + include + "; " + row.library + " belongs in " + row.allowed_text);
+      }
+    }
+    const std::string target = folderOf(include);
+    if (may_include != kMayInclude.end() && contains(kFolders, target) && !contains(may_include->second, target)) {
+      found.push_back(path + " includes " + include + "; " + folder + "/ must not know " + target + "/");
+    }
+  }
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  if (lines > kLongestFile) {
+    found.push_back(path + " has " + std::to_string(lines) + " lines; the most is " + std::to_string(kLongestFile));
+  }
+  return found;
+}
+
+std::vector<std::string> violations(const Sources& sources) {
+  std::vector<std::string> found;
+  std::vector<std::string> with_ipopt;
+  bool editing_exists = false;
+  for (const auto& [path, text] : sources) {
+    const auto here = violations(path, text);
+    found.insert(found.end(), here.begin(), here.end());
+    if (includesIpopt(text)) with_ipopt.push_back(path);
+    editing_exists |= folderOf(path) == "editing" && path.ends_with(".cpp");
+  }
+  if (editing_exists && with_ipopt.size() != 1) {
+    std::string sentence =
+        "Ipopt's headers must be in exactly one file, found in " + std::to_string(with_ipopt.size()) + ":";
+    for (const std::string& path : with_ipopt) sentence += " " + path;
+    found.push_back(sentence);
+  }
+  return found;
+}
+
+}  // namespace carom::structure

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "tests/structure/source_rules.h"
+
+namespace carom::structure {
+namespace {
+
+TEST(Structure, SourcesKeepTheLayering) {
+  const Sources sources = readSources(CAROM_SOURCE_DIR);
+  ASSERT_TRUE(sources.contains("adjoint/scene.h")) << "no sources under " CAROM_SOURCE_DIR;
+  for (const std::string& violation : violations(sources)) ADD_FAILURE() << violation;
+}
+
+// The rules themselves: planted violations are found, what is allowed is not reported.
+struct Planted {
+  const char* path;
+  const char* include;
+  bool allowed;
+};
+
+class IncludeRule : public testing::TestWithParam<Planted> {};
+
+TEST_P(IncludeRule, JudgesOneInclude) {
+  const Planted& row = GetParam();
+  const std::string text = std::string("#pragma once\n#include ") + row.include + "\nint x;\n";
+  EXPECT_EQ(violations(row.path, text).empty(), row.allowed) << row.path << " with " << row.include;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, IncludeRule,
+    testing::Values(
+        Planted{"ode_bridge/world.cpp", "<ode/ode.h>", true}, Planted{"ode_bridge/world.h", "<ode/ode.h>", false},
+        Planted{"adjoint/simulate.cpp", "<ode/collision.h>", false}, Planted{"cli/main.cpp", "<ode/ode.h>", false},
+        Planted{"editing/ipopt_adapter.cpp", "<IpTNLP.hpp>", true},
+        Planted{"editing/ipopt_adapter.cpp", "<coin/IpTNLP.hpp>", true},
+        Planted{"editing/edit.h", "<IpTNLP.hpp>", false}, Planted{"cli/main.cpp", "<coin/IpTNLP.hpp>", false},
+        Planted{"formats/read.cpp", "<nlohmann/json.hpp>", true},
+        Planted{"formats/read.h", "<nlohmann/json_fwd.hpp>", false},
+        Planted{"formats/detail/json.hpp", "<nlohmann/json.hpp>", false},
+        Planted{"cli/main.cpp", "<nlohmann/json.hpp>", false}, Planted{"studio/serve.cpp", "<nlohmann/json.hpp>", true},
+        Planted{"formats/schema.cpp", "<valijson/validator.hpp>", true},
+        Planted{"editing/edit.cpp", "<valijson/validator.hpp>", false},
+        Planted{"formats/gltf.cpp", "<tiny_gltf.h>", true}, Planted{"cli/export.cpp", "\"tiny_gltf.h\"", false},
+        Planted{"tests/reference/flight.cpp", "<boost/multiprecision/cpp_bin_float.hpp>", true},
+        Planted{"adjoint/flight.cpp", "<boost/multiprecision/cpp_bin_float.hpp>", false},
+        Planted{"editing/edit.cpp", "<boost/beast.hpp>", false}, Planted{"adjoint/arc.cpp", "\"adjoint/arc.h\"", true},
+        Planted{"adjoint/arc.cpp", "\"ode_bridge/ode_contacts.h\"", false},
+        Planted{"adjoint/arc.cpp", "\"editing/edit.h\"", false},
+        Planted{"adjoint/arc.cpp", "\"formats/document.h\"", false},
+        Planted{"adjoint/impact/law.cpp", "\"../../formats/document.h\"", false},
+        Planted{"editing/edit.cpp", "\"adjoint/contact_source.h\"", true},
+        Planted{"editing/edit.cpp", "\"ode_bridge/ode_contacts.h\"", false},
+        Planted{"editing/edit.cpp", "\"formats/document.h\"", false},
+        Planted{"ode_bridge/world.cpp", "\"editing/edit.h\"", false},
+        Planted{"ode_bridge/world.cpp", "\"formats/document.h\"", false},
+        Planted{"formats/document.h", "\"editing/control.h\"", true},
+        Planted{"formats/read.cpp", "\"cli/options.h\"", false},
+        Planted{"cli/main.cpp", "\"ode_bridge/ode_contacts.h\"", true}));
+
+TEST(Structure, IncludesAreReadAsTheCompilerReadsThem) {
+  const std::string text =
+      "#include <a.h>\n  #  include \"b/c.h\"\n// #include <commented.h>\nint x;  // see #include <prose.h>\n";
+  EXPECT_EQ(includesOf(text), (std::vector<std::string>{"a.h", "b/c.h"}));
+}
+
+TEST(Structure, LongFilesAreFound) {
+  std::string text;
+  for (int i = 0; i < 450; ++i) text += "int x;\n";
+  EXPECT_TRUE(violations("cli/main.cpp", text).empty());
+  EXPECT_EQ(violations("cli/main.cpp", text + "\n").size(), 1u);
+}
+
+TEST(Structure, IpoptMustBeInExactlyOneFile) {
+  const std::string with = "#include <IpTNLP.hpp>\n";
+  EXPECT_TRUE(violations(Sources{{"editing/a.cpp", with}, {"editing/b.cpp", ""}}).empty());
+  EXPECT_EQ(violations(Sources{{"editing/a.cpp", with}, {"editing/b.cpp", with}}).size(), 1u);
+  EXPECT_EQ(violations(Sources{{"editing/a.cpp", ""}}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace carom::structure
