@@ -7,7 +7,7 @@
 namespace carom {
 namespace {
 
-constexpr int K = TriaxialRotation::kOrder;
+constexpr std::size_t K = TriaxialRotation::kOrder;
 
 // Truncated to ten binary digits, so that a sum of steps is exact.
 double shortBinary(double h) {
@@ -26,9 +26,9 @@ double norm(const std::array<double, N>& c) {
 // Radius of convergence seen from the last two coefficients of a series of size `scale`.
 template <class Series>
 double radius(const Series& c, double scale) {
-  const auto from = [&](int k) {
-    const double size = norm(c[static_cast<std::size_t>(k)]);
-    return size > 0 ? std::pow(scale / size, 1.0 / k) : 1e30;
+  const auto from = [&](std::size_t k) {
+    const double size = norm(c[k]);
+    return size > 0 ? std::pow(scale / size, 1.0 / static_cast<double>(k)) : 1e30;
   };
   return std::min(from(K), from(K - 1));
 }
@@ -36,8 +36,8 @@ double radius(const Series& c, double scale) {
 template <std::size_t N>
 std::array<double, N> horner(const std::array<std::array<double, N>, K + 1>& c, double h) {
   std::array<double, N> sum = c[K];
-  for (int k = K - 1; k >= 0; --k)
-    for (std::size_t i = 0; i < N; ++i) sum[i] = sum[i] * h + c[static_cast<std::size_t>(k)][i];
+  for (std::size_t k = K; k-- > 0;)
+    for (std::size_t i = 0; i < N; ++i) sum[i] = sum[i] * h + c[k][i];
   return sum;
 }
 
@@ -52,32 +52,34 @@ void TriaxialRotation::begin(const Vec3& inverse_inertia, const Quat& q, const V
   segments_.clear();
 }
 
-// Taylor coefficients from M' = M x (D M), q' = 1/2 q o (0, D M), order by order.
+// Taylor coefficients from M' = M x (D M), q' = 1/2 q o (0, D M), order by order. With w = D M / 2 the product is
+//   q o (0, w) = w_0 (q_w, q_z, -q_y, -q_x) + w_1 (-q_z, q_w, q_x, -q_y) + w_2 (q_y, -q_x, q_w, -q_z),
+// written over four lanes so that the compiler keeps them in vector registers.
 void TriaxialRotation::append(double start, const Quat& q0) {
+  using Lanes = std::array<double, 4>;
   Segment& s = segments_.emplace_back();
   s.start = start;
   const Vec3 M0 = q0.toRotationMatrix().transpose() * L_;
   s.M[0] = {M0.x(), M0.y(), M0.z()};
   s.q[0] = {q0.x(), q0.y(), q0.z(), q0.w()};
   const double d32 = D_[2] - D_[1], d13 = D_[0] - D_[2], d21 = D_[1] - D_[0];
-  std::array<std::array<double, 3>, K + 1> w;  // half the angular velocity, 1/2 D M
-  for (int k = 0; k <= K; ++k) {
-    const auto kk = static_cast<std::size_t>(k);
-    for (int i = 0; i < 3; ++i) w[kk][static_cast<std::size_t>(i)] = 0.5 * D_[i] * s.M[kk][static_cast<std::size_t>(i)];
-    if (k == K) break;
-    double m23 = 0, m31 = 0, m12 = 0, qx = 0, qy = 0, qz = 0, qw = 0;
-    for (std::size_t j = 0; j <= kk; ++j) {
-      const auto &a = s.M[j], &b = s.M[kk - j], &o = w[kk - j];
-      const auto& p = s.q[j];
+  std::array<std::array<double, 3>, K> w;
+  std::array<std::array<Lanes, 3>, K> turned;  // q by each component of w
+  for (std::size_t k = 0; k < K; ++k) {
+    const Lanes& q = s.q[k];
+    turned[k] = {Lanes{q[3], q[2], -q[1], -q[0]}, Lanes{-q[2], q[3], q[0], -q[1]}, Lanes{q[1], -q[0], q[3], -q[2]}};
+    for (std::size_t i = 0; i < 3; ++i) w[k][i] = 0.5 * D_[static_cast<Eigen::Index>(i)] * s.M[k][i];
+    double m23 = 0, m31 = 0, m12 = 0;
+    Lanes sum{};
+    for (std::size_t j = 0; j <= k; ++j) {
+      const auto &a = s.M[j], &b = s.M[k - j], &o = w[k - j];
+      const auto& p = turned[j];
       m23 += a[1] * b[2], m31 += a[2] * b[0], m12 += a[0] * b[1];
-      qx += p[3] * o[0] + p[1] * o[2] - p[2] * o[1];
-      qy += p[3] * o[1] + p[2] * o[0] - p[0] * o[2];
-      qz += p[3] * o[2] + p[0] * o[1] - p[1] * o[0];
-      qw -= p[0] * o[0] + p[1] * o[1] + p[2] * o[2];
+      for (std::size_t l = 0; l < 4; ++l) sum[l] += o[0] * p[0][l] + o[1] * p[1][l] + o[2] * p[2][l];
     }
-    const double f = 1.0 / (k + 1);
-    s.M[kk + 1] = {d32 * m23 * f, d13 * m31 * f, d21 * m12 * f};
-    s.q[kk + 1] = {qx * f, qy * f, qz * f, qw * f};
+    const double f = 1.0 / static_cast<double>(k + 1);
+    s.M[k + 1] = {d32 * m23 * f, d13 * m31 * f, d21 * m12 * f};
+    for (std::size_t l = 0; l < 4; ++l) s.q[k + 1][l] = f * sum[l];
   }
   // h = radius / e^2 makes the first neglected term about e^(-2 K) = 4e-18 of the whole
   const double rho = std::min(radius(s.q, 1.0), radius(s.M, std::max(M0.norm(), 1e-300)));
@@ -131,24 +133,24 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& s, doubl
   }
   Columns dD0(0, 0, -D_[0] * D_[0], 0), dD1(0, 0, 0, -D_[1] * D_[1]);  // columns 2, 3: unit dI1, dI2
   const double d32 = D_[2] - D_[1], d13 = D_[0] - D_[2], d21 = D_[1] - D_[0];
+  std::array<std::array<double, 3>, K> w;
+  for (std::size_t k = 0; k < K; ++k) w[k] = {D_[0] * s.M[k][0], D_[1] * s.M[k][1], D_[2] * s.M[k][2]};
   for (std::size_t k = 0; k < K; ++k) {
-    Columns p23 = Columns::Zero(), p32 = p23, p31 = p23, p13 = p23, p12 = p23, p21 = p23;
-    Columns e1 = p23, e2 = p23, e3 = p23;
+    Columns p23 = Columns::Zero(), p31 = p23, p12 = p23, e1 = p23, e2 = p23, e3 = p23;
     double m23 = 0, m31 = 0, m12 = 0;
     for (std::size_t j = 0; j <= k; ++j) {
-      const auto &M = s.M[j], &Mk = s.M[k - j];
+      const auto &M = s.M[j], &Mk = s.M[k - j], &o = w[j];
       const Triple &d = dM[k - j], &e = eta[k - j];
-      p23 += M[1] * d[2], p32 += M[2] * d[1], p31 += M[2] * d[0];
-      p13 += M[0] * d[2], p12 += M[0] * d[1], p21 += M[1] * d[0];
-      const double w1 = D_[0] * M[0], w2 = D_[1] * M[1], w3 = D_[2] * M[2];
-      e1 += w3 * e[1] - w2 * e[2];
-      e2 += w1 * e[2] - w3 * e[0];
-      e3 += w2 * e[0] - w1 * e[1];
+      p23 += M[1] * d[2] + M[2] * d[1];
+      p31 += M[2] * d[0] + M[0] * d[2];
+      p12 += M[0] * d[1] + M[1] * d[0];
+      e1 += o[2] * e[1] - o[1] * e[2];
+      e2 += o[0] * e[2] - o[2] * e[0];
+      e3 += o[1] * e[0] - o[0] * e[1];
       m23 += M[1] * Mk[2], m31 += M[2] * Mk[0], m12 += M[0] * Mk[1];
     }
     const double f = 1.0 / static_cast<double>(k + 1);
-    dM[k + 1] = {f * (d32 * (p23 + p32) - dD1 * m23), f * (d13 * (p31 + p13) + dD0 * m31),
-                 f * (d21 * (p12 + p21) + (dD1 - dD0) * m12)};
+    dM[k + 1] = {f * (d32 * p23 - dD1 * m23), f * (d13 * p31 + dD0 * m31), f * (d21 * p12 + (dD1 - dD0) * m12)};
     eta[k + 1] = {f * (e1 + D_[0] * dM[k][0] + dD0 * s.M[k][0]), f * (e2 + D_[1] * dM[k][1] + dD1 * s.M[k][1]),
                   f * (e3 + D_[2] * dM[k][2])};
   }

@@ -99,9 +99,10 @@ std::string Motion::describeEvent(int index) const {
   return text + " " + nameOf(event.mode);
 }
 
-std::string Motion::signature() const {
+std::string Motion::signature(std::size_t count) const {
   std::string text;
-  for (const Event& event : events) {
+  for (std::size_t i = 0; i < std::min(count, events.size()); ++i) {
+    const Event& event = events[i];
     for (const Contact& c : event.contacts)
       for (int part : {c.a, c.b, static_cast<int>(c.features.kind), static_cast<int>(c.features.a),
                        static_cast<int>(c.features.b), static_cast<int>(c.features.sign)})

@@ -101,8 +101,8 @@ struct Motion {
   int arcAt(int body, double t) const;
 
   /// The collision sequence as text: who, with which features, in which mode. Two motions can be compared and
-  /// differentiated into one another only where it is equal.
-  std::string signature() const;
+  /// differentiated into one another only where it is equal. Of the first `count` events.
+  std::string signature(std::size_t count = static_cast<std::size_t>(-1)) const;
   /// The same for people: one line an event.
   std::string describeEvent(int event) const;
 };

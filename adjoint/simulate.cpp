@@ -64,16 +64,8 @@ void Simulator::start() {
                                              startState(scene_.bodies[i], model));
     contacts_.setPath(b, arcOf(b), 0, motion_.duration);
   }
-  for (int a = 0; a < n; ++a) {
-    if (!arcOf(a).moving()) continue;
-    contacts_.neighbours(a, neighbours_);
-    for (int b : neighbours_) {
-      if (arcOf(b).moving() && b < a) continue;  // seen from b
-      const int lo = std::min(a, b), hi = std::max(a, b);
-      if (const auto p = contacts_.firstImpact(lo, hi, arcOf(lo), arcOf(hi), 0, motion_.duration))
-        queue_.push({p->time, lo, hi, p->features, 0, 0});
-    }
-  }
+  for (int b = 0; b < n; ++b)
+    if (arcOf(b).moving()) predictBody(b, 0);
 }
 
 // The earliest prediction whose arcs still are what they were.
@@ -81,8 +73,10 @@ bool Simulator::takeNext(Prediction& next) {
   while (!queue_.empty()) {
     next = queue_.top();
     queue_.pop();
-    if (version_[static_cast<std::size_t>(next.a)] == next.version_a &&
-        version_[static_cast<std::size_t>(next.b)] == next.version_b)
+    if (version_[static_cast<std::size_t>(next.a)] != next.version_a) continue;
+    if (next.isHorizon())
+      predictBody(next.a, next.time);
+    else if (version_[static_cast<std::size_t>(next.b)] == next.version_b)
       return true;
   }
   return false;
@@ -149,7 +143,33 @@ Simulator::Draft Simulator::draft(double time, const std::vector<Contact>& conta
   return d;
 }
 
-// First impacts of the participants with whoever may be near, on the arcs of the draft.
+// First impacts of one body with whoever may be near, each searched no further than the earliest one found: nothing of
+// the body's arc beyond that will happen, unless the other body is struck before. For that case the time is put down as
+// a horizon, from which the search goes on when it is reached with the arc still in force.
+template <class ArcOf, class VersionOf>
+void Simulator::searchBody(int body, double from, const ArcOf& arc_of, const VersionOf& version_of,
+                           std::vector<Prediction>& found) {
+  double until = motion_.duration;
+  contacts_.neighbours(body, neighbours_);
+  for (int other : neighbours_) {
+    const int a = std::min(body, other), b = std::max(body, other);
+    const auto impact = contacts_.firstImpact(a, b, arc_of(a), arc_of(b), from, until);
+    if (!impact) continue;
+    until = std::max(impact->time, std::min(from + kInstant, motion_.duration));
+    found.push_back({impact->time, a, b, impact->features, version_of(a), version_of(b)});
+  }
+  if (until < motion_.duration) found.push_back({until, body, -1, {}, version_of(body), 0});
+}
+
+void Simulator::predictBody(int body, double from) {
+  std::vector<Prediction> found;
+  searchBody(
+      body, from, [&](int b) -> Arc& { return arcOf(b); },
+      [&](int b) { return version_[static_cast<std::size_t>(b)]; }, found);
+  for (const Prediction& p : found) queue_.push(p);
+}
+
+// The same for the participants of a draft, on their arcs after the event.
 void Simulator::predict(Draft& d) {
   const auto draftArc = [&](int body) -> Arc* {
     const Participant* p = d.event.find(body);
@@ -157,26 +177,20 @@ void Simulator::predict(Draft& d) {
   };
   for (std::size_t i = 0; i < d.arcs.size(); ++i)
     contacts_.setPath(d.event.participants[i].body, d.arcs[i], d.event.time, motion_.duration);
-  for (const Participant& p : d.event.participants) {
-    contacts_.neighbours(p.body, neighbours_);
-    for (int other : neighbours_) {
-      Arc* other_arc = draftArc(other);
-      if (other_arc && other < p.body) continue;  // seen from the other
-      const int a = std::min(p.body, other), b = std::max(p.body, other);
-      Arc& arc_a = a == p.body ? *draftArc(a) : other_arc ? *other_arc : arcOf(a);
-      Arc& arc_b = b == p.body ? *draftArc(b) : other_arc ? *other_arc : arcOf(b);
-      const auto impact = contacts_.firstImpact(a, b, arc_a, arc_b, d.event.time, motion_.duration);
-      if (!impact) continue;
-      const auto version = [&](int body) { return version_[static_cast<std::size_t>(body)] + (draftArc(body) ? 1 : 0); };
-      d.predictions.push_back({impact->time, a, b, impact->features, version(a), version(b)});
-    }
-  }
+  for (const Participant& p : d.event.participants)
+    searchBody(
+        p.body, d.event.time,
+        [&](int b) -> Arc& {
+          Arc* arc = draftArc(b);
+          return arc ? *arc : arcOf(b);
+        },
+        [&](int b) { return version_[static_cast<std::size_t>(b)] + (draftArc(b) ? 1 : 0); }, d.predictions);
 }
 
 bool Simulator::joinInstant(const Draft& d, std::vector<Contact>& contacts) {
   const Prediction* soonest = nullptr;
   for (const Prediction& p : d.predictions)
-    if (p.time <= d.event.time + kInstant && (!soonest || *soonest > p)) {
+    if (!p.isHorizon() && p.time <= d.event.time + kInstant && (!soonest || *soonest > p)) {
       const bool known = std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
         return c.a == p.a && c.b == p.b && c.features == p.features;
       });

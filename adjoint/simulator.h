@@ -25,13 +25,16 @@ class Simulator {
   Motion run();
 
  private:
+  // The first impact of a pair, or (b = -1) the time up to which the pairs of body a have been searched.
   struct Prediction {
     double time;
     int a, b;
     FeaturePair features;
     int version_a, version_b;  // of the arcs it was made for
+    bool isHorizon() const { return b < 0; }
     bool operator>(const Prediction& o) const {
       if (time != o.time) return time > o.time;
+      if (isHorizon() != o.isHorizon()) return isHorizon();  // an impact at its horizon comes first
       return a != o.a ? a > o.a : b > o.b;
     }
   };
@@ -50,6 +53,10 @@ class Simulator {
   Draft resolve(const Prediction& first);
   Draft draft(double time, const std::vector<Contact>& contacts);
   void predict(Draft& draft);
+  void predictBody(int body, double from);
+  template <class ArcOf, class VersionOf>
+  void searchBody(int body, double from, const ArcOf& arc_of, const VersionOf& version_of,
+                  std::vector<Prediction>& found);
   bool joinInstant(const Draft& draft, std::vector<Contact>& contacts);
   void commit(Draft&& draft);
   bool separates(const Draft& draft);

@@ -178,6 +178,20 @@ double ConstraintSet::horizon(double duration) const {
   return last > 0 ? std::min(last, duration) : duration;
 }
 
+ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion) const {
+  Extent extent;
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const When& at = constraints_[i].at;
+    if (at.impact == 0) {
+      extent.time = std::max(extent.time, at.time);
+    } else if (const auto event = motion.findImpact(bound_[i].body, at.impact, bound_[i].with)) {
+      extent.time = std::max(extent.time, motion.events[*event].time);
+    }
+  }
+  while (extent.events < motion.events.size() && motion.events[extent.events].time <= extent.time) ++extent.events;
+  return extent;
+}
+
 std::vector<bool> ConstraintSet::asksOrientation() const {
   std::vector<bool> asks(static_cast<std::size_t>(body_count_), false);
   for (const Bound& bound : bound_) {

@@ -49,6 +49,12 @@ class ConstraintSet {
 
   /// Nothing after this time counts: the last time nailed, or `duration` when an impact is.
   double horizon(double duration) const;
+  /// What of a motion counts for the constraints: its events up to the last of them, and the time of that.
+  struct Extent {
+    std::size_t events = 0;
+    double time = 0;
+  };
+  Extent extentIn(const Motion& motion) const;
   /// Bodies whose orientation some row depends on directly.
   std::vector<bool> asksOrientation() const;
 

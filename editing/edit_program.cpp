@@ -1,5 +1,6 @@
 #include "editing/edit_program.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace carom {
@@ -7,12 +8,18 @@ namespace {
 
 /// Validity is kept a little away from its limit, so that what the solver's tolerance lets through is still valid.
 constexpr double kValidityMargin = 1e-7;
+/// A solve is given up when so many iterations do not bring the violation below this fraction of what it was, unless it
+/// is small: then it is the change that is being minimised.
+constexpr int kPatience = 8;
+constexpr double kEnoughProgress = 0.7;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNearlyMet = 1e-5;
 
 }  // namespace
 
 EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows,
                          const std::string* signature)
-    : search_(search), start_(std::move(start)), rows_(std::move(rows)), signature_(signature) {}
+    : search_(search), start_(std::move(start)), rows_(std::move(rows)), signature_(signature), lowest_violation_(kInfinity), lowest_at_mark_(kInfinity) {}
 
 int EditProgram::constraints() const {
   return static_cast<int>(rows_.size()) + search_.problem().validity.size();
@@ -23,7 +30,7 @@ NonlinearProgram::Bounds EditProgram::bounds() const {
   Bounds bounds{search_.lower(), search_.upper(), Eigen::VectorXd::Zero(constraints()),
                 Eigen::VectorXd::Zero(constraints())};
   bounds.g_lower.tail(constraints() - rows).setConstant(kValidityMargin);
-  bounds.g_upper.tail(constraints() - rows).setConstant(std::numeric_limits<double>::infinity());
+  bounds.g_upper.tail(constraints() - rows).setConstant(kInfinity);
   return bounds;
 }
 
@@ -95,7 +102,12 @@ bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::
 
 bool EditProgram::iteration(const Iteration& i) {
   if (i.number == 0) return search_.halt() == Halt::none;
-  return search_.step(i.objective, i.violation);
+  if (!search_.step(i.objective, i.violation)) return false;
+  lowest_violation_ = std::min(lowest_violation_, i.violation);
+  if (i.number % kPatience != 0) return true;
+  const bool stalls = lowest_violation_ > kNearlyMet && lowest_violation_ > kEnoughProgress * lowest_at_mark_;
+  lowest_at_mark_ = lowest_violation_;
+  return !stalls;
 }
 
 }  // namespace carom

@@ -30,6 +30,7 @@ class EditProgram final : public NonlinearProgram {
   bool hasHessian() const override { return true; }
   bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                Eigen::MatrixXd& h) override;
+  /// Also stops where the violation hardly falls any more: at the border of the impact sequence, mostly.
   bool iteration(const Iteration& i) override;
 
  private:
@@ -41,6 +42,7 @@ class EditProgram final : public NonlinearProgram {
   std::vector<int> rows_;
   const std::string* signature_;
   std::vector<Eigen::MatrixXd> curvature_;  // of each constraint
+  double lowest_violation_, lowest_at_mark_;
   Eigen::VectorXd last_x_;
   Eigen::MatrixXd last_dg_dx_;
 };

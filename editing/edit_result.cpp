@@ -59,10 +59,11 @@ Reliability reliabilityOf(const Motion& motion, const RowValues& rows) {
   return worst;
 }
 
-/// The impact sequence as written, up to the horizon. The start of the search is that, unless its bounds moved it.
+/// The impacts that count, of the scene as written. The start of the search is that, unless its bounds moved it.
 std::string signatureBefore(const Scene& written, const EditProblem& problem, const EditSolution& solution) {
   if (!problem.controls.startMoved()) return solution.start->signature;
-  return simulate(written, *problem.contacts, problem.horizon).signature();
+  const Motion motion = simulate(written, *problem.contacts, problem.horizon);
+  return motion.signature(problem.constraints.extentIn(motion).events);
 }
 
 /// Fills in everything that is read from the motion of result.scene.

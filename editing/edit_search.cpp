@@ -11,6 +11,8 @@ namespace carom {
 namespace {
 
 constexpr std::size_t kRecentPoints = 4;
+/// An impact that is held may come later than at the start: so much of its time is simulated at first.
+constexpr double kMarginAfterLast = 1.25;
 /// Longest time budget that a clock can add.
 constexpr double kLongestBudget = 1e8;
 
@@ -20,7 +22,8 @@ EditSearch::EditSearch(const EditProblem& problem, const EditOptions& options)
     : problem_(problem),
       options_(options),
       lower_(problem.controls.lowerChanges()),
-      upper_(problem.controls.upperChanges()) {
+      upper_(problem.controls.upperChanges()),
+      until_(problem.horizon) {
   if (options.time_budget_seconds < kLongestBudget) {
     using Clock = std::chrono::steady_clock;
     const std::chrono::duration<double> budget(std::max(0.0, options.time_budget_seconds));
@@ -40,13 +43,13 @@ bool EditSearch::step(double objective, double violation) {
   return halt_ == Halt::none;
 }
 
-EditPointPtr EditSearch::simulatePoint(const Eigen::VectorXd& changes) const {
+EditPointPtr EditSearch::simulatePoint(const Eigen::VectorXd& changes, double until) const {
   auto point = std::make_shared<EditPoint>();
   point->changes = changes;
   point->values = problem_.controls.valuesOf(changes);
-  point->motion = simulateAt(problem_, point->values);
+  point->motion = simulateAt(problem_, point->values, until);
   point->rows = problem_.constraints.evaluate(point->motion);
-  point->signature = point->motion.signature();
+  point->signature = point->motion.signature(problem_.constraints.extentIn(point->motion).events);
   point->validity = problem_.validity.evaluate(problem_.controls, point->values);
   point->objective = 0.5 * changes.squaredNorm();
   point->violation = 0;
@@ -56,8 +59,11 @@ EditPointPtr EditSearch::simulatePoint(const Eigen::VectorXd& changes) const {
 }
 
 EditPointPtr EditSearch::evaluateStart() {
-  EditPointPtr point = simulatePoint(Eigen::VectorXd::Zero(problem_.controls.size()));
-  if (point->rows.available) recent_.push_back(point), consider(point);
+  EditPointPtr point = simulatePoint(Eigen::VectorXd::Zero(problem_.controls.size()), until_);
+  if (!point->rows.available) return point;
+  until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
+  recent_.push_back(point);
+  consider(point);
   return point;
 }
 
@@ -68,7 +74,8 @@ EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes) {
   if (expired() || !changes.allFinite()) return nullptr;
   EditPointPtr point;
   try {
-    point = simulatePoint(changes);
+    point = simulatePoint(changes, until_);
+    if (!point->rows.available && until_ < problem_.horizon) point = simulatePoint(changes, problem_.horizon);
   } catch (const InputError&) {
     return nullptr;  // this trial makes no sense (bodies overlap, moments are impossible): others may
   }

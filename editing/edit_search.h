@@ -15,9 +15,9 @@ namespace carom {
 /// One evaluated point of a search.
 struct EditPoint {
   Eigen::VectorXd changes, values;
-  Motion motion;  ///< up to the horizon
+  Motion motion;  ///< a little further than the constraints reach
   RowValues rows;
-  std::string signature;
+  std::string signature;  ///< of the events that count
   Eigen::VectorXd validity;  ///< h >= 0
   double violation = 0;      ///< largest scaled residual or lack of validity
   double objective = 0;
@@ -59,7 +59,7 @@ class EditSearch {
   std::optional<std::chrono::steady_clock::time_point> deadline() const { return deadline_; }
 
  private:
-  EditPointPtr simulatePoint(const Eigen::VectorXd& changes) const;
+  EditPointPtr simulatePoint(const Eigen::VectorXd& changes, double until) const;
   void consider(const EditPointPtr& point);
   bool expired();
 
@@ -67,6 +67,7 @@ class EditSearch {
   const EditOptions& options_;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   Eigen::VectorXd lower_, upper_;
+  double until_;  ///< simulated first; further where a row is not found by then
   std::vector<EditPointPtr> recent_;
   EditPointPtr best_;
   int iterations_ = 0;

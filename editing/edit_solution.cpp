@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editing/dependence.h"
 #include "editing/edit_program.h"
 #include "editing/ipopt_solver.h"
 #include "editing/row_choice.h"
@@ -11,6 +12,8 @@
 namespace carom {
 namespace {
 
+constexpr int kProjectionSteps = 15;
+constexpr int kCrossingSteps = 40;
 constexpr int kPolishSteps = 15;
 
 /// The best point, once more brought as near to the constraints as rounding allows, within its own impact sequence.
@@ -61,19 +64,44 @@ EditSolution unsolved(EditSearch& search, EditSolution solution) {
 }  // namespace
 
 EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
-                            const std::string* signature, int max_iterations, std::string* message) {
+                            const std::string* signature, int max_iterations) {
   if (max_iterations <= 0) return from;
-  EditProgram program(search, from->changes, rows, signature);
+  // From a point that meets the constraints the solver has only the change left to minimise.
+  const EditPointPtr projected = projectOntoConstraints(search, from, kProjectionSteps, signature);
+  const EditPointPtr start = search.reached(*projected) ? projected : from;
+  EditProgram program(search, start->changes, rows, signature);
   SolverOptions options;
   options.max_iterations = max_iterations;
   options.tolerance = 1e-8;
   options.constraint_tolerance = std::max(search.options().tolerance, 1e-10);
   options.deadline = search.deadline();
   const SolverResult result = solveWithIpopt(program, options);
-  if (message) *message = result.message;
   EditPointPtr end = search.evaluate(result.x);
-  if (!end || (signature && end->signature != *signature)) return from;
-  return projectOntoConstraints(search, end, kPolishSteps, signature);
+  if (!end || (signature && end->signature != *signature)) return start;
+  end = projectOntoConstraints(search, end, kPolishSteps, signature);
+  const bool worse = search.reached(*start) && (!search.reached(*end) || end->objective > start->objective);
+  return worse ? start : end;
+}
+
+namespace {
+
+/// Straight onto the constraints from the start and from the best point, whatever impacts that takes; then the smallest
+/// change within the sequence where the better of the two ended.
+void crossSequences(EditSearch& search, const EditPointPtr& start) {
+  EditPointPtr nearest;
+  for (const EditPointPtr& from : {start, search.best()}) {
+    const EditPointPtr point = projectOntoConstraints(search, from, kCrossingSteps);
+    if (search.reached(*point) && (!nearest || point->objective < nearest->objective)) nearest = point;
+  }
+  if (nearest) minimiseWithin(search, nearest);
+}
+
+}  // namespace
+
+EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point) {
+  search.differentiate(*point);
+  const RowSplit split = splitRows(*point->row_jacobian);
+  return minimiseChange(search, point, split.independent, &point->signature, search.iterationsLeft());
 }
 
 EditSolution findSolution(EditSearch& search) {
@@ -97,11 +125,11 @@ EditSolution findSolution(EditSearch& search) {
 
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
   const int share = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
+  const auto goesOn = [&] { return may_leave && !search.reached() && search.halt() == Halt::none; };
   minimiseChange(search, choice.from, choice.rows, &start->signature, share);
-  if (!search.reached() && may_leave && search.halt() == Halt::none) {
-    minimiseChange(search, search.best(), choice.rows, nullptr, search.iterationsLeft() / 2);
-  }
-  if (!search.reached() && may_leave && search.halt() == Halt::none) searchElsewhere(search);
+  if (goesOn()) crossSequences(search, start);
+  if (goesOn()) minimiseChange(search, search.best(), choice.rows, nullptr, search.iterationsLeft() / 2);
+  if (goesOn()) searchElsewhere(search);
 
   solution.point = search.halt() == Halt::none ? polished(search) : search.best();
   if (!search.reached(*solution.point)) return unsolved(search, std::move(solution));

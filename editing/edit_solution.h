@@ -22,8 +22,11 @@ EditSolution findSolution(EditSearch& search);
 /// reaches them.
 EditPointPtr searchElsewhere(EditSearch& search);
 
-/// Smallest change near `from` that meets `rows`, then all rows as well as possible.
+/// Smallest change near `from` that meets `rows`, then all rows as well as possible. With a signature, within that impact
+/// sequence. Returns the point where it ended; the search remembers the best of all.
 EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
-                            const std::string* signature, int max_iterations, std::string* message = nullptr);
+                            const std::string* signature, int max_iterations);
+/// The same within the impact sequence of a point that meets all rows.
+EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point);
 
 }  // namespace carom

@@ -52,10 +52,10 @@ EditProblem::EditProblem(const Scene& scene, ContactSource& contact_source, doub
       horizon(constraints.horizon(duration)),
       asked(askedOf(controls, constraints)) {}
 
-Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values) {
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until) {
   SimulateOptions options;
   options.asked = problem.asked;
-  return simulate(problem.controls.sceneAt(values), *problem.contacts, problem.horizon, options);
+  return simulate(problem.controls.sceneAt(values), *problem.contacts, until, options);
 }
 
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
@@ -89,7 +89,7 @@ Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::Vecto
 
 RowsAndJacobian evaluateByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values) {
   RowsAndJacobian out;
-  out.motion = simulateAt(problem, values);
+  out.motion = simulateAt(problem, values, problem.horizon);
   out.rows = problem.constraints.evaluate(out.motion);
   out.jacobian = jacobianByAdjoint(problem, values, out.motion, out.rows, &out.reliability);
   return out;
@@ -97,7 +97,7 @@ RowsAndJacobian evaluateByAdjoint(const EditProblem& problem, const Eigen::Vecto
 
 RowsAndJacobian evaluateByTangent(const EditProblem& problem, const Eigen::VectorXd& values) {
   RowsAndJacobian out;
-  out.motion = simulateAt(problem, values);
+  out.motion = simulateAt(problem, values, problem.horizon);
   out.rows = problem.constraints.evaluate(out.motion);
   out.jacobian = jacobianByTangent(problem, values, out.motion, out.rows);
   return out;

@@ -34,8 +34,8 @@ struct RowsAndJacobian {
   std::vector<Reliability> reliability;  ///< of each row; by adjoint only
 };
 
-/// Simulates up to the horizon.
-Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values);
+/// Simulates up to a time, with no more detail than the problem asks for.
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until);
 
 /// d(rows)/d(values) of a motion simulated at `values`: one reverse pass a row, whatever the number of controls.
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editing/dependence.h"
 #include "editing/edit_solution.h"
 
 namespace carom {
@@ -56,11 +55,7 @@ EditPointPtr searchElsewhere(EditSearch& search) {
   }
   if (!nearest) return nullptr;
 
-  search.differentiate(*nearest);
-  const RowSplit split = splitRows(*nearest->row_jacobian);
-  const EditPointPtr smallest =
-      minimiseChange(search, nearest, split.independent, &nearest->signature, search.iterationsLeft());
-  return search.reached(*smallest) && smallest->objective < nearest->objective ? smallest : nearest;
+  return minimiseWithin(search, nearest);
 }
 
 }  // namespace carom

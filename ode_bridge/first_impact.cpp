@@ -59,24 +59,64 @@ double touchTolerance(const Placed& a, const Placed& b) {
   return kTouch * scale;
 }
 
+namespace {
+
+// Bodies that glide along each other without approaching are followed in steps that the tolerance of contact allows. After
+// so many such steps in a row it is doubled, up to kLoosest times; what they may overlap by stays below 1e-10 m.
+constexpr int kGlideSteps = 64;
+constexpr double kLoosest = 1000;
+
+// The library proposes a direction when boxes first come near, grown by this share of their size.
+constexpr double kGrown = 0.01;
+
+// The candidate direction, if the exact geometry says that the solids are apart along it.
+std::optional<Witness> candidateWitness(const PairMotion& pair, const Placed& a, const Placed& b, double tolerance) {
+  if (!a.solid->box || !b.solid->box) return std::nullopt;
+  const auto n = pair.narrow_phase.candidateNormal(pair.a, pair.b, a, b, kGrown * std::min(a.solid->reach, b.solid->reach));
+  if (!n) return std::nullopt;
+  const Witness w = witnessAlong(a, b, *n);
+  return w.separation > tolerance ? std::optional(w) : std::nullopt;
+}
+
+// The earliest impact among the features that touch, if any of them approaches.
+std::optional<PredictedImpact> impactAtTouch(const PairMotion& pair, const Placed& a, const Placed& b,
+                                             const Witness& witness, double from, double t, double until,
+                                             double tolerance) {
+  std::optional<PredictedImpact> first;
+  const double reach = std::max(4 * tolerance, 2 * std::abs(witness.separation));
+  for (const FeaturePair& f : touchingFeatures(a, b, witness, reach)) {
+    const Root root = refine(pair, f, from, t, a, b);
+    if (root.approaching && root.time <= until && (!first || root.time < first->time))
+      first = PredictedImpact{root.time, f};
+  }
+  return first;
+}
+
+}  // namespace
+
 std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until) {
   const Solid &sa = pair.geometry.solid(pair.a), &sb = pair.geometry.solid(pair.b);
+  int gliding = 0;
+  double loose = 1;
+  bool near = false;
   for (double t = from;;) {
     pair.arc_a.extendTo(t);
     pair.arc_b.extendTo(t);
     const Placed a(sa, pair.arc_a, t), b(sb, pair.arc_b, t);
-    const Witness witness = findWitness(a, b);
     const double tolerance = touchTolerance(a, b);
-    if (witness.separation <= tolerance && !witness.bounding) {
-      std::optional<PredictedImpact> first;
-      for (const FeaturePair& f : touchingFeatures(a, b, witness, 4 * tolerance)) {
-        const Root root = refine(pair, f, from, t, a, b);
-        if (root.approaching && root.time <= until && (!first || root.time < first->time))
-          first = PredictedImpact{root.time, f};
-      }
-      if (first) return first;
+    Witness witness = findWitness(a, b);
+    if (!witness.bounding && !near) {
+      near = true;
+      if (const auto candidate = candidateWitness(pair, a, b, tolerance)) witness = *candidate;
     }
-    const double h = safeStep(a, b, witness, tolerance, until - t);
+    if (witness.separation <= tolerance && !witness.bounding) {
+      if (const auto first = impactAtTouch(pair, a, b, witness, from, t, until, tolerance)) return first;
+      if (++gliding % kGlideSteps == 0) loose = std::min(2 * loose, kLoosest);
+    } else {
+      gliding = 0;
+      loose = 1;
+    }
+    const double h = safeStep(a, b, witness, loose * tolerance, until - t);
     if (!(t + h < until)) return std::nullopt;
     t = std::max(t + h, std::nextafter(t, until));
   }

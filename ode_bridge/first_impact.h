@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "ode_bridge/narrow_phase.h"
 #include "ode_bridge/separation.h"
 
 namespace carom {
@@ -11,6 +12,7 @@ namespace carom {
 struct PairMotion {
   int a, b;
   const FeatureGeometry& geometry;
+  const NarrowPhase& narrow_phase;
   Arc& arc_a;
   Arc& arc_b;
 };

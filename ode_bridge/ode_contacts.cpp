@@ -39,6 +39,7 @@ Bounds sweptBounds(const Solid& solid, const Arc& arc, double from, double until
 
 struct OdeContacts::State {
   BroadPhase broad_phase;
+  NarrowPhase narrow_phase;
   std::shared_ptr<const FeatureGeometry> geometry;
 
   void refuseOverlap(const Scene& scene, const std::vector<BodyModel>& models);
@@ -57,6 +58,7 @@ void OdeContacts::begin(const Scene& scene) {
   }
   state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
   state_->broad_phase.reset(scene.bodies.size());
+  state_->narrow_phase.reset(state_->geometry->solids());
   state_->refuseOverlap(scene, models);
 }
 
@@ -93,7 +95,7 @@ void OdeContacts::neighbours(int body, std::vector<int>& out) { state_->broad_ph
 
 std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
                                                         double until) {
-  return findFirstImpact({a, b, *state_->geometry, arc_a, arc_b}, from, until);
+  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b}, from, until);
 }
 
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }

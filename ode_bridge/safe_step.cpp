@@ -91,7 +91,8 @@ void eachVertex(const Placed& p, const Visit& visit) {
   for (const Feature& v : p.solid->vertices) visit(Vec3(p.k.R * v.point));
 }
 
-// The direction turns with b, whose vertices therefore stay where they are along it. `spin_b` = 0: it does not turn.
+// The direction turns with b, whose vertices therefore stay where they are along it; or it stays as it is and the
+// vertices of both move (balls do not: they look the same from all sides).
 double stepInFrameOfB(const Placed& a, const Placed& b, const Witness& w, const Vec3& n, const PairBounds& bounds,
                       double slack, double limit) {
   const bool turns = w.frame != Witness::Frame::world && b.spin > 0 && !w.bounding;
@@ -115,16 +116,15 @@ double stepInFrameOfB(const Placed& a, const Placed& b, const Witness& w, const 
     f.b.add(0, 0);
     f.radii += b.solid->bound();
   } else {
-    double furthest = -std::numeric_limits<double>::infinity();
-    eachVertex(b, [&](const Vec3& r) { furthest = std::max(furthest, n.dot(r)); });
-    f.b.add(furthest, 0);
+    eachVertex(b, [&](const Vec3& r) { f.b.add(n.dot(r), turns ? 0 : n.dot(b.k.w.cross(r))); });
     f.radii += b.solid->radius;
   }
   const double lift = std::max(0.0, slack - w.separation);
   const double own = w.bounding ? 0 : bounds.turn_a * bounds.reach_a;
   if (!turns) {
     const double pull = n.dot(a.acceleration - b.acceleration);
-    return firstTouch(f, lift, std::max(0.0, own - pull), limit);
+    const double other = w.bounding ? 0 : bounds.turn_b * bounds.reach_b;
+    return firstTouch(f, lift, std::max(0.0, own + other - pull), limit);
   }
   // in the turning frame: relative, Coriolis and centrifugal parts, each at its largest within the window
   return bestWindow(limit, (std::abs(w.separation) + slack) / (bounds.speed + a.spin * bounds.reach_a), [&](double window) {

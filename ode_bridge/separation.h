@@ -38,6 +38,10 @@ struct Witness {
 /// Solids far apart are seen as bounding balls.
 Witness findWitness(const Placed& a, const Placed& b);
 
+/// The separation along a given direction from b to a, as a witness that stays as it is in the world: any direction along
+/// which solids are apart proves it.
+Witness witnessAlong(const Placed& a, const Placed& b, const Vec3& n);
+
 /// A time h in (0, limit] such that the solids cannot touch before t + h: along the witness direction every vertex is
 /// followed to first order, with a bound on its second derivative over the whole step. `slack` > 0 is added to a smaller
 /// separation, so that solids in contact which part can be stepped away from.

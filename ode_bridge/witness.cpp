@@ -178,6 +178,17 @@ Placed::Placed(const Solid& s, const Arc& arc, double t)
     : solid(&s), k(arc.kinematicsAt(t)), acceleration(arc.acceleration()), spin(s.ball ? 0 : arc.spinBound()),
       spin_rate(s.ball ? 0 : arc.spinRateBound()) {}
 
+Witness witnessAlong(const Placed& a, const Placed& b, const Vec3& n) {
+  Witness w;
+  w.n = n;
+  const auto vertex = [&](const Placed& p, const Vec3& direction) {
+    const auto v = static_cast<std::size_t>(supportVertex(p, direction));
+    return Vec3(p.k.x + p.k.R * p.solid->vertices[v].point);
+  };
+  w.separation = n.dot(vertex(a, -n) - vertex(b, n)) - a.solid->radius - b.solid->radius;
+  return w;
+}
+
 Witness findWitness(const Placed& a, const Placed& b) {
   if (b.solid->plane) return againstPlane(a, b);
   if (a.solid->plane) return swapped(againstPlane(b, a));

@@ -180,7 +180,7 @@ const std::vector<Case>& cases() {
       {"box_corner_on_face", boxCornerOnFace, 0.62, {stick, slide}, {"face", "edge"}},
       {"box_edge_on_edge", boxEdgeOnEdge, 0.7, {stick}, {"edge"}},
       {"ball_on_box_face", ballOnBoxFace, 0.4, {slide}, {"face"}},
-      {"ball_on_box_edge", ballOnBoxEdge, 0.5, {slide, slide}, {"edge", "edge"}},
+      {"ball_on_box_edge", ballOnBoxEdge, 0.5, {slide, slide}, {"edge", "face"}},
       {"ball_on_box_corner", ballOnBoxCorner, 0.4, {slide, slide}, {"vertex", "face"}},
       {"ball_on_ball", ballOnBall, 0.6, {slide, stick, stick}, {"sphere on sphere", "plane", "plane"}},
       {"box_on_wall", boxOnWall, 0.6, {slide, stick, slide}, {"vertex", "edge", "vertex"}},

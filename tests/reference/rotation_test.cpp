@@ -108,7 +108,7 @@ TEST(FreeRotation, SensitivityIdentities) {
 
 /// Arcs over about ten revolutions, entry by entry of the blocks' scales.
 TEST(FreeRotation, TriaxialArcs) {
-  constexpr int kBodies = 48, kWithSensitivities = 8;
+  constexpr int kBodies = 32, kWithSensitivities = 5;
   std::cout << "seed " << kSeed << '\n';
   std::mt19937 generator(kSeed);
   double worst_state = 0, worst_sensitivity = 0;

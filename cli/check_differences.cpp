@@ -1,0 +1,211 @@
+#include "cli/check_differences.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+#include "adjoint/errors.h"
+
+namespace carom::cli {
+namespace {
+
+constexpr double kSteps[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};  // of the natural scales
+/// Columns smaller than this, of the largest one, are compared on its scale: they may be nothing but rounding.
+constexpr double kSmallColumn = 1e-3;
+
+std::vector<std::string> sequenceOf(const Motion& motion) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < static_cast<int>(motion.events.size()); ++i) lines.push_back(motion.describeEvent(i));
+  return lines;
+}
+
+/// The rows of one scene near the one that is checked.
+struct Sample {
+  bool possible = false;
+  std::string why;
+  std::string signature;
+  Eigen::VectorXd rows;
+  std::vector<std::string> sequence;
+};
+
+Sample sampleAt(const EditProblem& problem, const Eigen::VectorXd& values) {
+  Sample sample;
+  try {
+    const Motion motion = simulateAt(problem, values);
+    const RowValues rows = problem.constraints.evaluate(motion);
+    sample.sequence = sequenceOf(motion);
+    sample.signature = motion.signature();
+    sample.rows = rows.values;
+    sample.possible = true;
+    if (!rows.available) sample.why = rows.message;
+  } catch (const InputError& error) {
+    sample.why = error.what();
+  }
+  return sample;
+}
+
+/// f'(x) from samples at x + offset h: sum_k weight[k] f(x + offset[k] h) / h. Second order all.
+struct Scheme {
+  const char* name;
+  double offset[3], weight[3];
+};
+constexpr Scheme kCentral{"central", {-1, 1, 0}, {-0.5, 0.5, 0}};
+constexpr Scheme kForward{"forward", {0, 1, 2}, {-1.5, 2, -0.5}};
+constexpr Scheme kBackward{"backward", {0, -1, -2}, {1.5, -2, 0.5}};
+
+class Checker {
+ public:
+  Checker(const EditProblem& problem, const Eigen::VectorXd& values) : problem_(problem), values_(values) {
+    const Motion motion = simulateAt(problem, values);
+    const RowValues rows = problem.constraints.evaluate(motion);
+    signature_ = motion.signature();
+    check_.sequence = sequenceOf(motion);
+    check_.by_adjoint = jacobianByAdjoint(problem, values, motion, rows);
+    check_.by_tangent = jacobianByTangent(problem, values, motion, rows);
+    check_.by_differences = Eigen::MatrixXd::Constant(check_.by_adjoint.rows(), check_.by_adjoint.cols(),
+                                                      std::numeric_limits<double>::quiet_NaN());
+    check_.steps.assign(std::begin(kSteps), std::end(kSteps));
+    findScales();
+  }
+
+  DerivativeCheck run(const std::function<void(const std::string&)>& progress) {
+    const Eigen::Index n = values_.size();
+    check_.columns.resize(static_cast<std::size_t>(n));
+    for (Eigen::Index j = 0; j < n; ++j) {
+      progress("column " + std::to_string(j + 1) + " of " + std::to_string(n));
+      for (const double step : kSteps) check_.columns[static_cast<std::size_t>(j)].push_back(difference(j, step));
+      takeBestStep(j);
+    }
+    compareTangent();
+    conclude();
+    return check_;
+  }
+
+ private:
+  void findScales() {
+    control_scale_.resize(values_.size());
+    row_scale_.resize(problem_.constraints.size());
+    for (int j = 0; j < problem_.controls.size(); ++j) {
+      const Variable& v = problem_.controls.variables()[static_cast<std::size_t>(j)];
+      const double weight = problem_.controls.controls()[static_cast<std::size_t>(v.control)].control.weight;
+      control_scale_[j] = v.scale * weight * (v.logarithmic ? values_[j] : 1);
+    }
+    for (int i = 0; i < problem_.constraints.size(); ++i)
+      row_scale_[i] = problem_.constraints.rows()[static_cast<std::size_t>(i)].scale;
+    const Eigen::MatrixXd dimensionless =
+        row_scale_.cwiseInverse().asDiagonal() * check_.by_adjoint * control_scale_.asDiagonal();
+    column_scale_ = dimensionless.cwiseAbs().colwise().maxCoeff().transpose();
+    const double largest = column_scale_.maxCoeff();
+    column_scale_ = column_scale_.cwiseMax(largest > 0 ? kSmallColumn * largest : 1.0);
+  }
+
+  /// Of one entry, relative to the scale of its column. NaN stays NaN.
+  double disagreement(Eigen::Index i, Eigen::Index j, double a, double b) const {
+    return std::abs(a - b) * control_scale_[j] / row_scale_[i] / column_scale_[j];
+  }
+
+  /// Row with the largest disagreement of a column; a NaN is larger than all.
+  DerivativeCheck::Entry worst(const Eigen::VectorXd& column, Eigen::Index j) const {
+    DerivativeCheck::Entry entry{0, static_cast<int>(j), -1};
+    for (Eigen::Index i = 0; i < column.size(); ++i) {
+      const double d = disagreement(i, j, column[i], check_.by_adjoint(i, j));
+      if (!(d <= entry.disagreement)) entry.row = static_cast<int>(i), entry.disagreement = d;
+      if (std::isnan(d)) break;
+    }
+    return entry;
+  }
+
+  DifferenceColumn difference(Eigen::Index j, double step) const {
+    const double h = step * control_scale_[j];
+    const auto shifted = [&](double offset) {
+      Eigen::VectorXd values = values_;
+      values[j] += offset * h;
+      return sampleAt(problem_, values);
+    };
+    const Sample below = shifted(-1), above = shifted(1);
+    DifferenceColumn column;
+    column.below = below.sequence, column.above = above.sequence;
+    const Scheme& scheme = !below.possible ? kForward : !above.possible ? kBackward : kCentral;
+    column.scheme = scheme.name;
+    column.values = Eigen::VectorXd::Zero(row_scale_.size());
+    for (int k = 0; k < 3; ++k) {
+      if (scheme.weight[k] == 0) continue;
+      const Sample sample = scheme.offset[k] == -1  ? below
+                            : scheme.offset[k] == 1 ? above
+                                                    : shifted(scheme.offset[k]);
+      column.why = whyNot(sample);
+      if (!column.why.empty()) return column;
+      column.values += scheme.weight[k] / h * sample.rows;
+    }
+    column.compared = true;
+    column.disagreement = worst(column.values, j).disagreement;
+    return column;
+  }
+
+  std::string whyNot(const Sample& sample) const {
+    if (!sample.possible) return "the scene is not possible there: " + sample.why;
+    if (sample.signature != signature_) return "the impact sequence is another one";
+    return sample.why;
+  }
+
+  void takeBestStep(Eigen::Index j) {
+    const auto& steps = check_.columns[static_cast<std::size_t>(j)];
+    int best = -1;
+    for (int s = 0; s < static_cast<int>(steps.size()); ++s) {
+      const auto index = static_cast<std::size_t>(s);
+      if (!steps[index].compared) continue;
+      if (best < 0 || !(steps[static_cast<std::size_t>(best)].disagreement <= steps[index].disagreement)) best = s;
+    }
+    check_.best_step.push_back(best);
+    if (best < 0) return;
+    check_.by_differences.col(j) = steps[static_cast<std::size_t>(best)].values;
+    const DerivativeCheck::Entry entry = worst(check_.by_differences.col(j), j);
+    if (check_.differences.row < 0 || !(entry.disagreement <= check_.differences.disagreement))
+      check_.differences = entry;
+  }
+
+  void compareTangent() {
+    for (Eigen::Index j = 0; j < values_.size(); ++j) {
+      const DerivativeCheck::Entry entry = worst(check_.by_tangent.col(j), j);
+      if (check_.adjoint_tangent.row < 0 || !(entry.disagreement <= check_.adjoint_tangent.disagreement))
+        check_.adjoint_tangent = entry;
+    }
+  }
+
+  void conclude() {
+    std::ostringstream text;
+    text.precision(3);
+    int never = 0;
+    for (const int best : check_.best_step) never += best < 0;
+    if (!(check_.adjoint_tangent.disagreement <= kTangentTolerance)) {
+      text << "Failed: adjoint and tangent disagree by " << check_.adjoint_tangent.disagreement << ", more than "
+           << kTangentTolerance << ".";
+    } else if (check_.differences.row >= 0 && !(check_.differences.disagreement <= kDifferencesTolerance)) {
+      text << "Failed: differences disagree by " << check_.differences.disagreement << " at the best step, more than "
+           << kDifferencesTolerance << ".";
+    } else if (never > 0) {
+      text << "Failed: " << never << " of " << check_.best_step.size()
+           << " columns could not be compared, because every step leads to another impact sequence.";
+    } else {
+      check_.passed = true;
+      text << "Passed: adjoint and tangent agree to " << check_.adjoint_tangent.disagreement << ", differences to "
+           << check_.differences.disagreement << ".";
+    }
+    check_.message = text.str();
+  }
+
+  const EditProblem& problem_;
+  Eigen::VectorXd values_, control_scale_, row_scale_, column_scale_;
+  std::string signature_;
+  DerivativeCheck check_;
+};
+
+}  // namespace
+
+DerivativeCheck checkDerivatives(const EditProblem& problem, const Eigen::VectorXd& values,
+                                 const std::function<void(const std::string&)>& progress) {
+  return Checker(problem, values).run(progress);
+}
+
+}  // namespace carom::cli

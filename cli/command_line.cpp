@@ -1,0 +1,119 @@
+#include "cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <new>
+#include <string_view>
+
+#include "carom/version.h"
+#include "cli/command.h"
+#include "formats/format_error.h"
+#include "formats/status_json.h"
+
+namespace carom::cli {
+namespace {
+
+constexpr const char* kIntroduction =
+    "Rigid motions with impacts, edited through their exact derivatives.\n"
+    "A scene document (JSON) says what there is, what may change and what the motion has to meet.";
+
+constexpr const char* kFooter =
+    "Start with:\n"
+    "  carom simulate examples/scenes/book-on-shelf.json    every impact, and the state at the end\n"
+    "  carom edit examples/scenes/book-on-shelf.json -o edited.json\n"
+    "                                                       finds the throw that meets the targets\n"
+    "  carom export edited.json -o edited.glb               the motion for Blender or any glTF viewer\n"
+    "\n"
+    "carom COMMAND --help explains a command, with examples. With --json every command prints one\n"
+    "JSON document on standard output, for errors as well; warnings and progress go to standard error.\n"
+    "\n"
+    "Exit codes: 0 done, 1 error in the input or the files, 2 wrong usage,\n"
+    "            3 the edit did not converge or is infeasible, 4 a check failed.";
+
+struct Settings {
+  bool json = false;
+  int digits = 6;
+};
+
+/// One error of a run, on the channel that was asked for.
+Exit report(bool json, Exit code, const std::string& line, const std::string& message, const std::string& file = "",
+            const std::string& pointer = "") {
+  std::cerr << "carom: " << line << '\n';
+  if (json) std::cout << errorJson(message, file, pointer) << std::flush;
+  return code;
+}
+
+// A place that is no JSON pointer ("line 3, column 12") is part of the sentence.
+Exit reportInput(bool json, const InputError& error, const std::string& file) {
+  const bool pointer = error.where().empty() || error.where().starts_with('/');
+  const std::string message = pointer ? error.message() : error.where() + ": " + error.message();
+  return report(json, Exit::input_error, error.what(), message, file, pointer ? error.where() : "");
+}
+
+Exit perform(const Action& action, const Settings& settings) {
+  try {
+    Output output(settings.json, settings.digits);
+    const Exit code = action(output);
+    output.finish();
+    return code;
+  } catch (const UsageError& error) {
+    return report(settings.json, Exit::wrong_usage, error.what(), error.what());
+  } catch (const FormatError& error) {
+    return reportInput(settings.json, error, error.file());
+  } catch (const InputError& error) {
+    return reportInput(settings.json, error, "");
+  } catch (const std::bad_alloc&) {
+    return report(settings.json, Exit::input_error, "out of memory", "out of memory");
+  } catch (const std::exception& error) {
+    return report(settings.json, Exit::input_error, error.what(), error.what());
+  }
+}
+
+void addSettings(CLI::App& app, Settings& settings) {
+  app.add_flag("--json", settings.json, "Print one JSON document, numbers to full precision");
+  app.add_option("--digits", settings.digits, "Significant digits of numbers in text, 6 if not given")
+      ->check(CLI::Range(1, 17))
+      ->type_name("N");
+}
+
+int runCommandLine(int argc, const char* const* argv) {
+  CLI::App app(kIntroduction, "carom");
+  app.footer(kFooter);
+  app.set_version_flag("--version", std::string("carom ") + kVersion, "Print the version and end");
+  app.get_formatter()->column_width(30);
+  Settings settings;
+  Action action;
+  for (const Command* command : commands()) {
+    CLI::App* sub = app.add_subcommand(command->name, command->summary);
+    sub->footer(command->examples);
+    addSettings(*sub, settings);
+    sub->final_callback([&action, run = command->declare(*sub)] { action = run; });
+  }
+  app.require_subcommand(1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    const bool json = std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+    const auto chosen = app.get_subcommands();
+    const std::string help = "carom " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help";
+    const std::string message = error.what();
+    return static_cast<int>(report(json, Exit::wrong_usage, message + "\nRun " + help + " for what it takes.", message));
+  }
+  return static_cast<int>(perform(action, settings));
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) try {
+  return runCommandLine(argc, argv);
+} catch (const std::exception& error) {
+  std::cerr << "carom: " << error.what() << '\n';
+  return static_cast<int>(Exit::input_error);
+} catch (...) {
+  std::cerr << "carom: an unknown error\n";
+  return static_cast<int>(Exit::input_error);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,11 @@
+#include "cli/command.h"
+
+namespace carom::cli {
+
+std::span<const Command* const> commands() {
+  static constexpr const Command* kTable[] = {&kSimulateCommand, &kGradientCommand, &kCheckCommand, &kEditCommand,
+                                              &kExportCommand,   &kValidateCommand, &kInfoCommand};
+  return kTable;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,100 @@
+// carom gradient: the exact derivative of every constrained number by every control number.
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/loading.h"
+#include "formats/gradient_json.h"
+
+namespace carom::cli {
+namespace {
+
+struct Options {
+  std::string scene, method = "adjoint";
+};
+
+/// The worst of all rows, with everything there is to say about it.
+Reliability judge(const EditProblem& problem, const std::vector<Reliability>& rows) {
+  Reliability all;
+  for (const Reliability& row : rows) {
+    if (all.reliable && !row.reliable) all = row;
+  }
+  for (const std::string& note : problem.controls.notes()) all.message += (all.message.empty() ? "" : " ") + note;
+  return all;
+}
+
+void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorXd& values,
+                   const RowsAndJacobian& result, const Reliability& reliability) {
+  out.text() << "Derivative of every number that is held (rows) by every number that may vary (columns), SI units\n";
+  Table columns({"column", "control", ">value"});
+  for (int j = 0; j < problem.controls.size(); ++j)
+    columns.row({std::to_string(j + 1), problem.controls.describeVariable(j), out.number(values[j])});
+  out.text() << '\n';
+  columns.print(out.text());
+
+  std::vector<std::string> headings{"held", ">value", ">target"};
+  for (int j = 0; j < problem.controls.size(); ++j) headings.push_back(">by " + std::to_string(j + 1));
+  Table rows(headings);
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    const Row& row = problem.constraints.rows()[static_cast<std::size_t>(i)];
+    std::vector<std::string> cells{problem.constraints.describeRow(i), out.number(result.rows.values[i]),
+                                   out.number(row.wanted)};
+    for (int j = 0; j < problem.controls.size(); ++j) cells.push_back(out.number(result.jacobian(i, j)));
+    rows.row(cells);
+  }
+  out.text() << '\n';
+  rows.print(out.text());
+  out.text() << (reliability.reliable ? "\nReliable: no impact on the way is near a place where derivatives stop.\n"
+                                      : "\nNot reliable.\n");
+  if (!reliability.message.empty()) out.text() << reliability.message << '\n';
+}
+
+Exit gradient(const Options& options, Output& out) {
+  Loaded loaded(options.scene);
+  const EditProblem problem = derivativeProblem(loaded);
+  const Eigen::VectorXd values = problem.controls.startValues();
+  RowsAndJacobian result;
+  result.motion = inFile(loaded.path, [&] { return simulateAt(problem, values); });
+  result.rows = problem.constraints.evaluate(result.motion);
+  requireRows(loaded.path, problem, result.rows);
+  // The adjoint pass walks the impacts that each row depends on, and so knows the margins.
+  result.jacobian = jacobianByAdjoint(problem, values, result.motion, result.rows, &result.reliability);
+  if (options.method == "tangent")
+    result.jacobian = jacobianByTangent(problem, values, result.motion, result.rows);
+
+  const Reliability reliability = judge(problem, result.reliability);
+  if (out.json()) {
+    out.document(gradientJson(problem, values, result, reliability.reliable, reliability.message));
+    if (!reliability.reliable) Output::warn("the gradient is not reliable: " + reliability.message);
+  } else {
+    printGradient(out, problem, values, result, reliability);
+  }
+  return Exit::done;
+}
+
+Action declare(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  addScene(app, options->scene);
+  app.add_option("--method", options->method, "adjoint: one reverse pass a row; tangent: one forward pass a control")
+      ->check(CLI::IsMember({"adjoint", "tangent"}))
+      ->type_name("NAME");
+  return [options](Output& out) { return gradient(*options, out); };
+}
+
+}  // namespace
+
+const Command kGradientCommand{
+    "gradient", "The exact derivative of every constrained number by every control",
+    "Derivatives are exact (no differences), through flights, impact times and impact laws, of the scene\n"
+    "as written: bounds of the controls do not matter. An orientation row is a component of the world\n"
+    "rotation vector log(R R_target^T). The answer warns where an impact on the way is so near grazing,\n"
+    "or the boundary of stick and slide, that derivatives mean little.\n"
+    "\n"
+    "Examples:\n"
+    "  carom gradient scene.json\n"
+    "  carom gradient scene.json --json | jq .jacobian\n"
+    "  carom gradient scene.json --method tangent",
+    declare};
+
+}  // namespace carom::cli

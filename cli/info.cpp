@@ -1,0 +1,169 @@
+// carom info: how a scene is computed, and why; without a scene, the program itself.
+#include <CLI/App.hpp>
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "carom/version.h"
+#include "cli/command.h"
+#include "cli/loading.h"
+#include "formats/export_motion.h"
+#include "formats/info_json.h"
+#include "formats/status_json.h"
+
+namespace carom::cli {
+namespace {
+
+constexpr std::size_t kMostPairs = 6;  // named in a line of text; --json has all
+
+const char* wordOf(Combine rule) {
+  constexpr const char* kWords[] = {"average", "minimum", "maximum", "product"};
+  return kWords[static_cast<int>(rule)];
+}
+
+/// "0.45, the average of 0.6 ('wood') and 0.3 ('felt')"
+std::string explain(const Output& out, double value, Combine rule_a, double a, const std::string& name_a,
+                    Combine rule_b, double b, const std::string& name_b) {
+  if (name_a == name_b && rule_a != Combine::multiply) return out.number(value) + " of both";
+  const auto quoted = [](const std::string& name) { return name.empty() ? "no material" : "'" + name + "'"; };
+  return out.number(value) + ", the " + wordOf(std::min(rule_a, rule_b)) + " of " + out.number(a) + " (" +
+         quoted(name_a) + ") and " + out.number(b) + " (" + quoted(name_b) + ")";
+}
+
+ScenePlan::Pair pairOf(const Output& out, const Scene& scene, int a, int b) {
+  const Body &body_a = scene.bodies[static_cast<std::size_t>(a)], &body_b = scene.bodies[static_cast<std::size_t>(b)];
+  const Material &m = materialOf(scene, body_a), &n = materialOf(scene, body_b);
+  ScenePlan::Pair pair;
+  pair.a = a, pair.b = b;
+  pair.coefficients = combine(m, n);
+  pair.law = lawOf(pair.coefficients);
+  pair.why = pair.law == Law::friction ? "friction > 0: sticks or slides (equation 4.2)"
+                                       : "friction 0: an impulse along the normal alone (equation 4.1)";
+  pair.elasticity_why = explain(out, pair.coefficients.elasticity, m.combine_elasticity, m.elasticity, m.name,
+                                n.combine_elasticity, n.elasticity, n.name);
+  pair.friction_why = explain(out, pair.coefficients.friction, m.combine_friction, m.friction, m.name,
+                              n.combine_friction, n.friction, n.name);
+  return pair;
+}
+
+ScenePlan planOf(const Output& out, Loaded& loaded) {
+  const Document& document = loaded.document;
+  const Scene& scene = document.scene;
+  const EditProblem problem = inFile(loaded.path, [&] {
+    return EditProblem(scene, loaded.contacts, document.duration, document.controls, document.constraints);
+  });
+  ScenePlan plan;
+  plan.duration = document.duration;
+  plan.controls = problem.controls.size();
+  plan.rows = problem.constraints.size();
+  const bool edits = plan.controls > 0 && plan.rows > 0;
+  plan.asked = edits ? "edit" : "simulate";
+  plan.plan = makePlan(scene, edits ? problem.asked : std::vector<Asked>{});
+  const int count = static_cast<int>(scene.bodies.size());
+  for (int a = 0; a < count; ++a)
+    for (int b = a + 1; b < count; ++b)
+      if (!scene.bodies[static_cast<std::size_t>(a)].fixed || !scene.bodies[static_cast<std::size_t>(b)].fixed)
+        plan.pairs.push_back(pairOf(out, scene, a, b));
+  return plan;
+}
+
+void printBodies(Output& out, const Scene& scene, const ScenePlan& plan) {
+  out.text() << "\nBodies, with the flight model that is exact for what the " << plan.asked << " asks:\n";
+  Table table({"body", "motion", "because", "derivatives", "because"});
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodyPlan& body = plan.plan.bodies[i];
+    table.row({scene.bodies[i].name, nameOf(body.tier), body.why, nameOf(body.derivative_tier), body.derivative_why});
+  }
+  table.print(out.text());
+}
+
+// Pairs of the same materials have the same law and coefficients.
+void printPairs(Output& out, const Scene& scene, const ScenePlan& plan) {
+  out.text() << "\nPairs that can touch, with their impact law:\n";
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<std::string>> members;
+  for (const ScenePlan::Pair& pair : plan.pairs) {
+    const std::string law = "    " + pair.why + "\n    elasticity " + pair.elasticity_why + "\n    friction " +
+                            pair.friction_why + "\n    tangential elasticity " +
+                            out.number(pair.coefficients.tangential_elasticity) + "\n";
+    auto& names = members[law];
+    if (names.empty()) order.push_back(law);
+    names.push_back(scene.bodies[static_cast<std::size_t>(pair.a)].name + "-" +
+                    scene.bodies[static_cast<std::size_t>(pair.b)].name);
+  }
+  for (const std::string& law : order) {
+    const auto& names = members[law];
+    out.text() << "  ";
+    for (std::size_t i = 0; i < std::min(names.size(), kMostPairs); ++i) out.text() << (i > 0 ? ", " : "") << names[i];
+    if (names.size() > kMostPairs) out.text() << " and " << names.size() - kMostPairs << " more";
+    out.text() << '\n' << law;
+  }
+  if (order.empty()) out.text() << "  none\n";
+  out.text() << "  Contacts of one instant are solved together (equation 4.3).\n";
+}
+
+Exit describeScene(const std::string& path, Output& out) {
+  Loaded loaded(path);
+  const ScenePlan plan = planOf(out, loaded);
+  if (out.json()) {
+    out.document(infoJson(loaded.document.scene, plan));
+    return Exit::done;
+  }
+  out.text() << path << ": " << out.number(plan.duration) << " s, " << counted(plan.controls, "number")
+             << " may vary, " << counted(plan.rows, "number") << " held\n";
+  printBodies(out, loaded.document.scene, plan);
+  printPairs(out, loaded.document.scene, plan);
+  return Exit::done;
+}
+
+ProgramInfo programInfo() {
+  ProgramInfo info;
+  info.version = kVersion;
+  info.build = CAROM_BUILD_TYPE;
+  info.compiler = CAROM_COMPILER;
+  info.libraries = {{"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                                  std::to_string(EIGEN_MINOR_VERSION)},
+                    {"Open Dynamics Engine", CAROM_ODE_VERSION},
+                    {"Ipopt", CAROM_IPOPT_VERSION},
+                    {"CLI11", CLI11_VERSION}};
+  info.exports = exportExtensions();
+  return info;
+}
+
+Exit describeProgram(Output& out) {
+  const ProgramInfo info = programInfo();
+  if (out.json()) {
+    out.document(programJson(info));
+    return Exit::done;
+  }
+  out.text() << "carom " << info.version << ", " << info.build << " build by " << info.compiler << "\nlibraries:";
+  for (const ProgramInfo::Library& library : info.libraries)
+    out.text() << (&library == &info.libraries.front() ? " " : ", ") << library.name << " " << library.version;
+  out.text() << "\nreads:     scene documents (JSON), version " << info.scene_format << "\nwrites:   ";
+  for (const std::string& extension : info.exports) out.text() << " " << extension;
+  out.text() << " (carom export), scene documents (carom edit -o)\n";
+  return Exit::done;
+}
+
+Action declare(CLI::App& app) {
+  const auto scene = std::make_shared<std::string>();
+  app.add_option("scene", *scene, "The scene document")->type_name("S.json");
+  return [scene](Output& out) { return scene->empty() ? describeProgram(out) : describeScene(*scene, out); };
+}
+
+}  // namespace
+
+const Command kInfoCommand{
+    "info", "How a scene is computed, and why; or about this program",
+    "For a scene: the flight model of every body, for motion and for derivatives, the impact law and the\n"
+    "combined coefficients of every pair that can touch, each with its reason, and how many numbers may\n"
+    "vary and are held. Without a scene: version, build, libraries and formats.\n"
+    "\n"
+    "Examples:\n"
+    "  carom info scene.json\n"
+    "  carom info --json",
+    declare};
+
+}  // namespace carom::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+
+#include "editing/jacobian.h"
+#include "formats/document.h"
+#include "formats/format_error.h"
+#include "ode_bridge/ode_contacts.h"
+
+namespace CLI {
+class App;
+}
+
+namespace carom::cli {
+
+/// Adds the scene document as the positional argument of a command.
+void addScene(CLI::App& app, std::string& path);
+
+/// Runs a function and adds the file to the places that its errors name.
+template <class Function>
+auto inFile(const std::string& path, Function function) {
+  try {
+    return function();
+  } catch (const FormatError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw FormatError(path, error.where(), error.message());
+  }
+}
+
+/// A scene document that is ready to be simulated.
+struct Loaded {
+  /// Throws FormatError: the file cannot be read, the document is not valid, bodies overlap at the start.
+  explicit Loaded(const std::string& path);
+
+  std::string path;
+  Document document;
+  OdeContacts contacts;
+
+  Motion simulate();
+};
+
+/// A warning for people when the motion ended before its duration.
+void warnIfEnded(const Motion& motion);
+
+/// The rows and controls of a document at the scene as written: bounds are checked, then left out, so that derivatives
+/// are those of what is written. Throws FormatError: nothing varies, nothing is held, or either is not possible.
+EditProblem derivativeProblem(Loaded& loaded);
+
+/// Throws FormatError naming the first constraint that the motion does not have.
+void requireRows(const std::string& path, const EditProblem& problem, const RowValues& rows);
+
+}  // namespace carom::cli

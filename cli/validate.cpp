@@ -1,0 +1,62 @@
+// carom validate: whether a document can be simulated and edited.
+#include <CLI/App.hpp>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/loading.h"
+#include "formats/status_json.h"
+
+namespace carom::cli {
+namespace {
+
+/// Everything that other commands could refuse, up to constraints that the motion does not have.
+void checkEdit(Loaded& loaded) {
+  const Document& document = loaded.document;
+  const EditProblem problem = inFile(loaded.path, [&] {
+    return EditProblem(document.scene, loaded.contacts, document.duration, document.controls, document.constraints);
+  });
+  if (document.constraints.empty()) return;
+  const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, problem.controls.startValues()); });
+  requireRows(loaded.path, problem, problem.constraints.evaluate(motion));
+  for (const std::string& note : problem.controls.notes()) Output::warn(note);
+}
+
+Exit validate(const std::string& path, Output& out) {
+  Loaded loaded(path);
+  checkEdit(loaded);
+  const Document& document = loaded.document;
+  const std::string message = "The document is valid.";
+  if (out.json()) {
+    out.document(validateJson(path, document, message));
+  } else {
+    const auto count = [](const auto& items, const char* noun) {
+      return counted(static_cast<long long>(items.size()), noun);
+    };
+    out.text() << path << ": valid: "
+               << (document.scene.bodies.size() == 1 ? "1 body" : std::to_string(document.scene.bodies.size()) + " bodies")
+               << ", " << count(document.controls, "control") << ", " << count(document.constraints, "constraint")
+               << '\n';
+  }
+  return Exit::done;
+}
+
+Action declare(CLI::App& app) {
+  const auto scene = std::make_shared<std::string>();
+  addScene(app, *scene);
+  return [scene](Output& out) { return validate(*scene, out); };
+}
+
+}  // namespace
+
+const Command kValidateCommand{
+    "validate", "Check a scene document, to the last constraint",
+    "Checks the text, every member, the physics (masses, moments, sizes), that no bodies overlap at the\n"
+    "start, and that the motion has every impact and time that constraints name. An error says where it\n"
+    "is (file and JSON pointer), what was found and what was expected, and ends with 1.\n"
+    "\n"
+    "Examples:\n"
+    "  carom validate scene.json\n"
+    "  carom validate scene.json --json",
+    declare};
+
+}  // namespace carom::cli

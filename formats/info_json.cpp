@@ -1,0 +1,49 @@
+#include "formats/info_json.h"
+
+#include "formats/json_writer.h"
+
+namespace carom {
+namespace {
+
+void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
+  out.beginObject();
+  out.key("name").text(body.name);
+  out.key("tier").text(nameOf(plan.tier));
+  out.key("why").text(plan.why);
+  out.key("derivative_tier").text(nameOf(plan.derivative_tier));
+  out.key("derivative_why").text(plan.derivative_why);
+  out.endObject();
+}
+
+void writePair(JsonWriter& out, const Scene& scene, const ScenePlan::Pair& pair) {
+  const auto nameAt = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].name; };
+  out.beginObject();
+  out.key("bodies").texts({nameAt(pair.a), nameAt(pair.b)});
+  out.key("law").text(pair.law == Law::friction ? "friction" : "frictionless");
+  out.key("why").text(pair.why);
+  out.key("elasticity").number(pair.coefficients.elasticity);
+  out.key("friction").number(pair.coefficients.friction);
+  out.key("tangential_elasticity").number(pair.coefficients.tangential_elasticity);
+  out.endObject();
+}
+
+}  // namespace
+
+std::string infoJson(const Scene& scene, const ScenePlan& plan) {
+  JsonWriter out;
+  out.beginObject();
+  out.key("duration").number(plan.duration);
+  out.key("asked").text(plan.asked);
+  out.key("bodies").beginArray();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) writeBody(out, scene.bodies[i], plan.plan.bodies[i]);
+  out.endArray();
+  out.key("pairs").beginArray();
+  for (const ScenePlan::Pair& pair : plan.pairs) writePair(out, scene, pair);
+  out.endArray();
+  out.key("controls").integer(plan.controls);
+  out.key("rows").integer(plan.rows);
+  out.endObject();
+  return out.take();
+}
+
+}  // namespace carom

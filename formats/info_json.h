@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjoint/plan.h"
+#include "adjoint/scene.h"
+
+namespace carom {
+
+/// How a scene is computed, and why.
+struct ScenePlan {
+  /// A pair of bodies that can touch: not both fixed.
+  struct Pair {
+    int a = -1, b = -1;
+    PairCoefficients coefficients;
+    Law law = Law::frictionless;
+    std::string why;  ///< the law
+    std::string elasticity_why, friction_why;  ///< how the materials' coefficients were combined
+  };
+  double duration = 0;
+  std::string asked;  ///< what the tiers are chosen for: "edit" or "simulate"
+  Plan plan;
+  std::vector<Pair> pairs;
+  int controls = 0;  ///< numbers that may vary
+  int rows = 0;      ///< numbers that are held
+};
+
+/// The answer of `carom info S.json --json`: duration, asked, bodies {name, tier, why, derivative_tier, derivative_why},
+/// pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
+std::string infoJson(const Scene& scene, const ScenePlan& plan);
+
+}  // namespace carom

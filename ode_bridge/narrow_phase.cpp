@@ -1,0 +1,61 @@
+#include "ode_bridge/narrow_phase.h"
+
+#include <ode/ode.h>
+
+#include "ode_bridge/library.h"
+
+namespace carom {
+
+struct NarrowPhase::Geoms {
+  std::vector<dGeomID> geoms;  // boxes only: the other pairs have one candidate each
+
+  ~Geoms() {
+    const auto guard = lockOde();
+    clear();
+  }
+  void clear() {
+    for (dGeomID g : geoms)
+      if (g) dGeomDestroy(g);
+    geoms.clear();
+  }
+};
+
+NarrowPhase::NarrowPhase() : geoms_(std::make_unique<Geoms>()) {}
+NarrowPhase::~NarrowPhase() = default;
+
+void NarrowPhase::reset(const std::vector<Solid>& solids) {
+  bool same = geoms_->geoms.size() == solids.size();
+  for (std::size_t i = 0; same && i < solids.size(); ++i) same = (geoms_->geoms[i] != nullptr) == solids[i].box;
+  if (same) return;  // sizes are set at every call
+  const auto guard = lockOde();
+  geoms_->clear();
+  for (const Solid& s : solids) geoms_->geoms.push_back(s.box ? dCreateBox(nullptr, 1, 1, 1) : nullptr);
+}
+
+namespace {
+
+void place(dGeomID geom, const Placed& p, double margin) {
+  const Vec3 size = 2 * p.solid->half.array() + 2 * margin;
+  const Mat3& R = p.k.R;
+  const dMatrix3 rotation = {R(0, 0), R(0, 1), R(0, 2), 0, R(1, 0), R(1, 1), R(1, 2), 0, R(2, 0), R(2, 1), R(2, 2), 0};
+  dGeomBoxSetLengths(geom, size.x(), size.y(), size.z());
+  dGeomSetPosition(geom, p.k.x.x(), p.k.x.y(), p.k.x.z());
+  dGeomSetRotation(geom, rotation);
+}
+
+}  // namespace
+
+std::optional<Vec3> NarrowPhase::candidateNormal(int a, int b, const Placed& placed_a, const Placed& placed_b,
+                                                 double margin) const {
+  const dGeomID ga = geoms_->geoms[static_cast<std::size_t>(a)], gb = geoms_->geoms[static_cast<std::size_t>(b)];
+  if (!ga || !gb) return std::nullopt;
+  place(ga, placed_a, margin);
+  place(gb, placed_b, margin);
+  dContactGeom contact;
+  if (dCollide(ga, gb, 1, &contact, sizeof contact) < 1) return std::nullopt;
+  const Vec3 n(contact.normal[0], contact.normal[1], contact.normal[2]);
+  if (!(std::abs(n.norm() - 1) < 1e-6)) return std::nullopt;
+  return n.normalized();
+}
+
+}  // namespace carom

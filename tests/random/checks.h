@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjoint/motion.h"
+#include "tests/random/brute_force.h"
+
+namespace carom::brute {
+
+/// What the checks of a motion found. `failures` holds a sentence each; the worst figures are kept in any case.
+struct Findings {
+  std::vector<std::string> failures;
+  int events = 0, single = 0, joint = 0;
+  int undecided = 0;  ///< events whose time, or whose very taking place, long double cannot settle: too near grazing
+  int tied = 0;       ///< single contacts where two directions are equally good within 1e-9 m; either is accepted
+  Real worst_time = 0, worst_flight = 0, worst_velocity = 0, worst_overlap = 0, worst_energy = 0, worst_gap = 0;
+
+  void fail(const std::string& what) { failures.push_back(what); }
+  void add(const Findings& other);
+  std::string summary() const;
+};
+
+/// Every number of every event and sampled state is finite; no pair overlaps by more than 1e-9 m at any of `samples`
+/// times over the motion, at any impact and 1e-7 s before and after it. Overlap is that of tests/random/solid.h.
+void checkStates(const Motion& motion, int samples, Findings& findings);
+
+/// Energy of the participants does not grow over an event; that of a body is constant between events.
+void checkEnergy(const Motion& motion, Findings& findings);
+
+/// The events are those that BruteForce finds when it starts afresh after each of them: the same pairs, within 1e-9 s;
+/// the flights agree; velocities after single contacts follow from the law of tests/random/impact_law.h to 1e-10, and
+/// no contact of a joint impact goes on closing.
+void checkSequence(const Motion& motion, Findings& findings);
+
+}  // namespace carom::brute

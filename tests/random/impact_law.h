@@ -1,0 +1,23 @@
+#pragma once
+
+#include "adjoint/scene.h"
+#include "tests/random/flight.h"
+#include "tests/random/solid.h"
+
+namespace carom::brute {
+
+struct Coefficients {
+  Real elasticity, friction, tangential_elasticity;
+};
+/// Coefficients of a pair of bodies by the combine rules.
+Coefficients combined(const Scene& scene, const Body& a, const Body& b);
+
+struct Velocity {
+  Vector v, w;
+};
+
+/// Equations 4.1 (no friction) and 4.2 of docs/equations.md at one contact: velocities of a and b after it.
+std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Kinematic& a, const MassProperties& mass_b,
+                                          const Kinematic& b, const Contact& contact, const Coefficients& c);
+
+}  // namespace carom::brute

@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <set>
+#include <sstream>
+
+#include "tests/random/checks.h"
+#include "tests/random/impact_law.h"
+
+namespace carom::brute {
+namespace {
+
+constexpr Real kTime = 1e-9L;       // s
+constexpr Real kRounding = 1e-15L;  // m: what positions in double leave open of a gap
+constexpr Real kTie = 1e-9L;        // m
+constexpr Real kVelocity = 1e-10L;  // relative to the larger of 1 and the speed
+constexpr Real kFlight = 1e-11L;    // the same, and m, rad
+
+using PairOfBodies = std::pair<int, int>;
+
+class SequenceCheck {
+ public:
+  SequenceCheck(const Motion& motion, Findings& findings)
+      : motion_(motion), findings_(findings), brute_(*motion.scene) {}
+
+  void run() {
+    for (index_ = 0; index_ < motion_.events.size() && findings_.failures.empty(); ++index_) {
+      const Event& event = motion_.events[index_];
+      ++findings_.events;
+      pairs_.clear();
+      for (const carom::Contact& c : event.contacts) pairs_.insert(std::minmax(c.a, c.b));
+      brute_.lookUntil(event.time);
+      compareTouches(event);
+      compareFlights(event);
+      if (event.contacts.size() == 1)
+        compareLaw(event);
+      else
+        compareJoint(event);
+      restart(event);
+    }
+    if (!findings_.failures.empty()) return;
+    brute_.lookUntil(motion_.end);
+    for (const auto& t : brute_.touches())
+      if (t.time < motion_.end - kTime) fail("missed: ", t.a, t.b, "meet at t = ", t.time, "and no event follows");
+  }
+
+ private:
+  template <class... Parts>
+  void fail(const Parts&... parts) {
+    std::ostringstream out;
+    out << std::setprecision(17) << "event " << index_;
+    if (index_ < motion_.events.size())
+      out << " (t = " << motion_.events[index_].time << ": " << motion_.describeEvent(static_cast<int>(index_)) << ")";
+    out << ": ";
+    ((out << parts << " "), ...);
+    findings_.fail(out.str());
+  }
+
+  // Approach along the separating direction, m/s; < 0 when the bodies close.
+  Real approach(int a, int b, Real t) {
+    Real least = 1e30L;
+    const Kinematic ka = brute_.stateAt(a, t), kb = brute_.stateAt(b, t);
+    for (const Contact& c : contactsOf(brute_.solid(a), {ka.x, ka.R}, brute_.solid(b), {kb.x, kb.R}, kTie))
+      least = std::min(least, c.n.dot(ka.v + ka.w.cross(c.p - ka.x) - kb.v - kb.w.cross(c.p - kb.x)));
+    return least;
+  }
+
+  void compareTouches(const Event& event) {
+    const Real t = event.time;
+    for (const auto& [a, b] : pairs_) {
+      const Real gap = std::abs(brute_.separationAt(a, b, t).value);
+      findings_.worst_gap = std::max(findings_.worst_gap, gap);
+      if (!(gap <= kTie)) fail("bodies", a, "and", b, "are", gap, "m from touching");
+      const Real rate = std::abs(approach(a, b, t)), open = kRounding / std::max(rate, Real(1e-30L));
+      const Real tolerance = std::max(kTime, open);
+      const auto touch = brute_.lookAt(a, b, t + tolerance);
+      if (touch && std::abs(*touch - t) <= tolerance) {
+        if (open > kTime) ++findings_.undecided;
+        findings_.worst_time = std::max(findings_.worst_time, open > kTime ? Real(0) : std::abs(*touch - t));
+      } else if (touch) {
+        fail("bodies", a, "and", b, "meet at t =", *touch, ", off by", *touch - t, "approach", rate);
+      } else if (event.contacts.size() == 1) {
+        fail("invented: bodies", a, "and", b, "do not meet; gap", brute_.separationAt(a, b, t).value, "approach", rate);
+      }  // in a joint impact a pair may only rest against each other
+    }
+    for (const auto& touch : brute_.touches())
+      if (!pairs_.count({touch.a, touch.b}) && touch.time < t - kTime)
+        fail("missed: bodies", touch.a, "and", touch.b, "meet at t =", touch.time);
+  }
+
+  void compareFlights(const Event& event) {
+    for (const Participant& p : event.participants) {
+      const BodyState s = motion_.stateBefore(static_cast<int>(index_), p.body);
+      const Kinematic k = brute_.stateAt(p.body, event.time);
+      Real error = (widen(s.position) - k.x).norm() + (widen(s.velocity) - k.v).norm() / std::max(Real(1), k.v.norm()) +
+                   (widen(s.angular_velocity) - k.w).norm() / std::max(Real(1), k.w.norm());
+      if (brute_.solid(p.body).kind == Solid::Kind::box)
+        error += (s.orientation.toRotationMatrix().cast<Real>() - k.R).norm();
+      findings_.worst_flight = std::max(findings_.worst_flight, error);
+      if (!(error <= kFlight)) fail("state of body", p.body, "before the impact is off by", error);
+    }
+  }
+
+  Kinematic after(const Event& event, int body) {
+    const Participant* p = event.find(body);
+    if (!p) return brute_.stateAt(body, event.time);
+    const Arc& arc = motion_.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->arc) + 1];
+    const Kinematics k = arc.kinematicsAt(arc.start());
+    return {widen(k.x), widen(k.v), widen(k.w), k.R.cast<Real>()};
+  }
+
+  void compareLaw(const Event& event) {
+    ++findings_.single;
+    const int a = event.contacts[0].a, b = event.contacts[0].b;
+    const auto& bodies = motion_.scene->bodies;
+    const auto c = combined(*motion_.scene, bodies[static_cast<std::size_t>(a)], bodies[static_cast<std::size_t>(b)]);
+    const Kinematic ka = brute_.stateAt(a, event.time), kb = brute_.stateAt(b, event.time);
+    const Kinematic found_a = after(event, a), found_b = after(event, b);
+    const auto candidates =
+        contactsOf(brute_.solid(a), {ka.x, ka.R}, brute_.solid(b), {kb.x, kb.R}, kTie);
+    if (candidates.size() > 1) ++findings_.tied;
+    Real best = 1e30L;
+    for (const Contact& contact : candidates) {
+      const auto [va, vb] = afterImpact(brute_.mass(a), ka, brute_.mass(b), kb, contact, c);
+      const auto error = [](const Vector& found, const Vector& expected) {
+        return (found - expected).norm() / std::max(Real(1), expected.norm());
+      };
+      best = std::min(best, std::max({error(found_a.v, va.v), error(found_a.w, va.w), error(found_b.v, vb.v),
+                                      error(found_b.w, vb.w)}));
+    }
+    findings_.worst_velocity = std::max(findings_.worst_velocity, best);
+    if (!(best <= kVelocity)) fail("velocities after it are off by", best, "margin", event.margins.smallest());
+  }
+
+  void compareJoint(const Event& event) {
+    ++findings_.joint;
+    for (const carom::Contact& c : event.contacts) {
+      const Kinematic a = after(event, c.a), b = after(event, c.b);
+      const Vector p = widen(c.at.point);
+      const Real rate = widen(c.at.normal).dot(a.v + a.w.cross(p - a.x) - b.v - b.w.cross(p - b.x));
+      if (!(rate >= -1e-10L)) fail("bodies", c.a, "and", c.b, "still close at", rate, "m/s");
+    }
+  }
+
+  void restart(const Event& event) {
+    for (const Participant& p : event.participants) {
+      const auto& arcs = motion_.world_lines[static_cast<std::size_t>(p.body)].arcs;
+      brute_.restart(p.body, event.time, arcs[static_cast<std::size_t>(p.arc) + 1].startState());
+    }
+    for (const auto& [a, b] : pairs_) brute_.leaveContact(a, b, event.time);
+  }
+
+  const Motion& motion_;
+  Findings& findings_;
+  BruteForce brute_;
+  std::size_t index_ = 0;
+  std::set<PairOfBodies> pairs_;
+};
+
+}  // namespace
+
+void checkSequence(const Motion& motion, Findings& findings) { SequenceCheck(motion, findings).run(); }
+
+}  // namespace carom::brute

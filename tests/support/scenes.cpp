@@ -1,0 +1,157 @@
+#include "tests/support/scenes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace carom::test {
+
+Material makeMaterial(const std::string& name, double elasticity, double friction, double tangential) {
+  Material m;
+  m.name = name, m.elasticity = elasticity, m.friction = friction, m.tangential_elasticity = tangential;
+  return m;
+}
+
+namespace {
+
+Body makeBody(const std::string& name, const Shape& shape, const Vec3& position, const Vec3& velocity) {
+  Body b;
+  b.name = name, b.material = "m", b.mass = 1;
+  b.shape = shape;
+  b.position = position, b.velocity = velocity;
+  return b;
+}
+
+}  // namespace
+
+Body makePlane(const std::string& name, const Vec3& normal, double offset) {
+  return fixedBody(makeBody(name, Plane{normal, offset}, Vec3::Zero(), Vec3::Zero()));
+}
+
+Body makeBall(const std::string& name, double radius, const Vec3& position, const Vec3& velocity) {
+  return makeBody(name, Sphere{radius}, position, velocity);
+}
+
+Body makeBox(const std::string& name, const Vec3& size, const Vec3& position, const Vec3& velocity) {
+  return makeBody(name, Box{size}, position, velocity);
+}
+
+Body fixedBody(Body body) {
+  body.fixed = true;
+  body.mass.reset();
+  body.velocity.setZero();
+  return body;
+}
+
+Scene makeScene(const Vec3& gravity, double elasticity, double friction, std::vector<Body> bodies) {
+  Scene s;
+  s.gravity = gravity;
+  s.materials = {makeMaterial("m", elasticity, friction)};
+  s.bodies = std::move(bodies);
+  return s;
+}
+
+Vec3 Random::unit() {
+  const double z = in(-1, 1), angle = in(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+Quat Random::rotation() { return Quat(Eigen::AngleAxisd(in(0, std::numbers::pi), unit())); }
+
+Eigen::VectorXd Random::vector(Eigen::Index n) {
+  Eigen::VectorXd v(n);
+  for (double& x : v) x = in(-1, 1);
+  return v;
+}
+
+Scene randomScene(std::uint64_t seed, const RandomScene& o) {
+  Random random(seed);
+  Scene s;
+  s.gravity = o.gravity ? Vec3(0.4, -0.3, -9.81) : Vec3::Zero();
+  const auto material = [&](const char* name) {
+    return makeMaterial(name, random.in(o.lowest_elasticity, 1), o.friction ? random.in(0.02, 0.9) : 0,
+                        o.friction ? random.in(-o.tangential, o.tangential) : 0);
+  };
+  s.materials = {material("m"), material("other")};
+  for (int i = 0; i < o.bodies; ++i) {
+    // cells of a grid that is wider than any of the bodies, so that none overlap
+    const Vec3 cell(i % 2, i / 2 % 2, i / 4), at = 0.8 * cell + random.vec(0.04) + Vec3(0, 0, 0.6);
+    const Vec3 centre(0.4, 0.4, 0.6);
+    const Vec3 velocity = random.in(1, 3) * (centre - at) + random.vec(0.4);
+    const std::string name = "body" + std::to_string(i);
+    Body b = random.in(0, 1) < 0.3 ? makeBall(name, random.in(0.1, 0.3), at, velocity)
+                                   : makeBox(name, Vec3(0.25, 0.25, 0.25) + random.vec(0.13), at, velocity);
+    if (random.in(0, 1) < 0.5) b.material = "other";
+    b.mass = random.in(0.3, 3);
+    b.orientation = random.rotation();
+    b.angular_velocity = random.vec(5);
+    s.bodies.push_back(b);
+  }
+  if (o.floor) s.bodies.push_back(makePlane("floor", Vec3::UnitZ(), 0));
+  return s;
+}
+
+SceneTangent randomDirection(const Scene& scene, Random& random) {
+  SceneTangent d(scene);
+  d.gravity = random.vec(1);
+  for (MaterialDerivative& m : d.materials) m = {random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+  for (BodyDerivative& b : d.bodies) {
+    b.position = random.vec(1), b.orientation = random.vec(1);
+    b.velocity = random.vec(1), b.angular_velocity = random.vec(1);
+    b.mass = random.in(-1, 1), b.density = random.in(-1, 1);
+    b.inertia = random.vec(1), b.size = random.vec(1);
+  }
+  for (Vec2& t : d.tilts) t = random.vec(1).head<2>();
+  return d;
+}
+
+StateSeed seedOf(int body, const Instant& at, int i) {
+  StateSeed seed;
+  seed.body = body;
+  seed.at = at;
+  Vec3* const parts[] = {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity};
+  (*parts[i / 3])[i % 3] = 1;
+  return seed;
+}
+
+StateSeed randomSeed(int body, const Instant& at, Random& random) {
+  StateSeed seed;
+  seed.body = body;
+  seed.at = at;
+  seed.position = random.vec(1), seed.orientation = random.vec(1);
+  seed.velocity = random.vec(1), seed.angular_velocity = random.vec(1);
+  if (at.event >= 0) seed.time = random.in(-1, 1);
+  return seed;
+}
+
+SceneGradient gradientOf(const Motion& motion, int body, double time, int i) {
+  const StateSeed seed = seedOf(body, Instant::at(time), i);
+  return adjoint(motion, std::span(&seed, 1));
+}
+
+Eigen::VectorXd flatten(const SceneDerivative& d) {
+  std::vector<double> all(d.gravity.data(), d.gravity.data() + 3);
+  for (const MaterialDerivative& m : d.materials)
+    all.insert(all.end(), {m.elasticity, m.friction, m.tangential_elasticity});
+  for (const BodyDerivative& b : d.bodies) {
+    for (const Vec3* v : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia, &b.size})
+      all.insert(all.end(), v->data(), v->data() + 3);
+    all.insert(all.end(), {b.mass, b.density});
+  }
+  for (const Vec2& t : d.tilts) all.insert(all.end(), {t.x(), t.y()});
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+Eigen::Matrix<double, 13, 1> flatten(const BodyState& s) {
+  Eigen::Matrix<double, 13, 1> all;
+  all << s.position, s.orientation.coeffs(), s.velocity, s.angular_velocity;
+  return all;
+}
+
+double kineticEnergy(const BodyModel& model, const State& s) {
+  const Vec3 M = s.q.toRotationMatrix().transpose() * s.L;
+  return 0.5 * (model.mass * s.v.squaredNorm() + M.cwiseAbs2().dot(model.inverse_inertia));
+}
+
+Vec3 angularMomentum(const BodyModel& model, const State& s) { return s.L + s.x.cross(model.mass * s.v); }
+
+}  // namespace carom::test
