@@ -7,6 +7,7 @@
 #include "cli/check_differences.h"
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 
 namespace carom::cli {
 namespace {
@@ -103,8 +104,8 @@ Exit check(const std::string& scene, Output& out) {
   Loaded loaded(scene);
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
-  const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values); });
-  requireRows(loaded.path, problem, problem.constraints.evaluate(motion));
+  const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
+  requireRows(loaded.path, problem, motion);
   DerivativeCheck result;
   {
     Progress progress;

@@ -14,10 +14,15 @@ constexpr double kSteps[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};  // of t
 /// Columns smaller than this, of the largest one, are compared on its scale: they may be nothing but rounding.
 constexpr double kSmallColumn = 1e-3;
 
-std::vector<std::string> sequenceOf(const Motion& motion) {
+/// The impacts up to the last one that can matter to the rows.
+std::vector<std::string> sequenceOf(const EditProblem& problem, const Motion& motion) {
   std::vector<std::string> lines;
-  for (int i = 0; i < static_cast<int>(motion.events.size()); ++i) lines.push_back(motion.describeEvent(i));
+  const int count = static_cast<int>(problem.constraints.extentIn(motion).events);
+  for (int i = 0; i < count; ++i) lines.push_back(motion.describeEvent(i));
   return lines;
+}
+std::string signatureOf(const EditProblem& problem, const Motion& motion) {
+  return motion.signature(problem.constraints.extentIn(motion).events);
 }
 
 /// The rows of one scene near the one that is checked.
@@ -32,10 +37,10 @@ struct Sample {
 Sample sampleAt(const EditProblem& problem, const Eigen::VectorXd& values) {
   Sample sample;
   try {
-    const Motion motion = simulateAt(problem, values);
+    const Motion motion = simulateAt(problem, values, problem.horizon);
     const RowValues rows = problem.constraints.evaluate(motion);
-    sample.sequence = sequenceOf(motion);
-    sample.signature = motion.signature();
+    sample.sequence = sequenceOf(problem, motion);
+    sample.signature = signatureOf(problem, motion);
     sample.rows = rows.values;
     sample.possible = true;
     if (!rows.available) sample.why = rows.message;
@@ -57,10 +62,10 @@ constexpr Scheme kBackward{"backward", {0, -1, -2}, {1.5, -2, 0.5}};
 class Checker {
  public:
   Checker(const EditProblem& problem, const Eigen::VectorXd& values) : problem_(problem), values_(values) {
-    const Motion motion = simulateAt(problem, values);
+    const Motion motion = simulateAt(problem, values, problem.horizon);
     const RowValues rows = problem.constraints.evaluate(motion);
-    signature_ = motion.signature();
-    check_.sequence = sequenceOf(motion);
+    signature_ = signatureOf(problem, motion);
+    check_.sequence = sequenceOf(problem, motion);
     check_.by_adjoint = jacobianByAdjoint(problem, values, motion, rows);
     check_.by_tangent = jacobianByTangent(problem, values, motion, rows);
     check_.by_differences = Eigen::MatrixXd::Constant(check_.by_adjoint.rows(), check_.by_adjoint.cols(),

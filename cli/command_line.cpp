@@ -77,6 +77,13 @@ void addSettings(CLI::App& app, Settings& settings) {
       ->type_name("N");
 }
 
+std::string noCommand(int argc, const char* const* argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  std::string list;
+  for (const Command* command : commands()) list += (list.empty() ? "" : ", ") + std::string(command->name);
+  return "found " + (first.empty() ? "no command" : "'" + first + "'") + ", expected one of " + list;
+}
+
 int runCommandLine(int argc, const char* const* argv) {
   CLI::App app(kIntroduction, "carom");
   app.footer(kFooter);
@@ -95,11 +102,13 @@ int runCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    const bool json = std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+    const auto isJson = [](const char* word) { return std::string_view(word) == "--json"; };
+    const bool json = std::any_of(argv, argv + argc, isJson);
     const auto chosen = app.get_subcommands();
     const std::string help = "carom " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help";
-    const std::string message = error.what();
-    return static_cast<int>(report(json, Exit::wrong_usage, message + "\nRun " + help + " for what it takes.", message));
+    const std::string message = chosen.empty() ? noCommand(argc, argv) : error.what();
+    const std::string line = message + "\nRun " + help + " for what it takes.";
+    return static_cast<int>(report(json, Exit::wrong_usage, line, message));
   }
   return static_cast<int>(perform(action, settings));
 }

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 #include "editing/edit.h"
 #include "formats/edit_json.h"
 #include "formats/scene_json.h"
@@ -75,8 +76,8 @@ EditResult solve(Loaded& loaded, const Options& options) {
     // A target that the motion does not have is an error of the document, not an outcome of the search.
     if (result.status == EditStatus::bad_start) {
       const EditProblem problem = edit.problem();
-      const Motion motion = simulateAt(problem, problem.controls.startValues());
-      requireRows(loaded.path, problem, problem.constraints.evaluate(motion));
+      const Motion motion = simulateAt(problem, problem.controls.startValues(), problem.horizon);
+      requireRows(loaded.path, problem, motion);
     }
     return result;
   });
@@ -110,7 +111,7 @@ Action declare(CLI::App& app) {
   app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
-  app.add_option("--seconds", options->seconds, "Give up after so long")->check(CLI::PositiveNumber)->type_name("T");
+  app.add_option("--seconds", options->seconds, "Give up after so long")->check(positiveNumber())->type_name("T");
   app.add_flag("--same-sequence", options->same_sequence, "Stay within the scene's impact sequence");
   return [options](Output& out) { return edit(*options, out); };
 }

@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 #include "formats/export_motion.h"
 #include "formats/status_json.h"
 
@@ -59,8 +60,11 @@ Exit exportScene(const Options& options, Output& out) {
     before = earlier.simulate();
     export_options.before = &*before;
   }
-  exportMotion(options.output, loaded.document, motion, export_options);
-
+  try {
+    exportMotion(options.output, loaded.document, motion, export_options);
+  } catch (const InputError& error) {
+    throw FormatError(options.output, error.where() == options.output ? "" : error.where(), error.message());
+  }
   warnIfEnded(motion);
   const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(options.output));
   if (out.json()) {
@@ -83,7 +87,7 @@ Action declare(CLI::App& app) {
       ->type_name("NAME");
   app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg)")->type_name("OLD.json");
   app.add_option("--fps", options->frames_per_second, "Frames (blender) or rows (.csv) a second")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->type_name("N");
   return [options](Output& out) { return exportScene(*options, out); };
 }

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 #include "formats/gradient_json.h"
 
 namespace carom::cli {
@@ -55,9 +56,8 @@ Exit gradient(const Options& options, Output& out) {
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   RowsAndJacobian result;
-  result.motion = inFile(loaded.path, [&] { return simulateAt(problem, values); });
-  result.rows = problem.constraints.evaluate(result.motion);
-  requireRows(loaded.path, problem, result.rows);
+  result.motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
+  result.rows = requireRows(loaded.path, problem, result.motion);
   // The adjoint pass walks the impacts that each row depends on, and so knows the margins.
   result.jacobian = jacobianByAdjoint(problem, values, result.motion, result.rows, &result.reliability);
   if (options.method == "tangent")

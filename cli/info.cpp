@@ -9,6 +9,7 @@
 #include "carom/version.h"
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 #include "formats/export_motion.h"
 #include "formats/info_json.h"
 #include "formats/status_json.h"
@@ -149,7 +150,7 @@ Exit describeProgram(Output& out) {
 
 Action declare(CLI::App& app) {
   const auto scene = std::make_shared<std::string>();
-  app.add_option("scene", *scene, "The scene document")->type_name("S.json");
+  addScene(app, *scene, false);
   return [scene](Output& out) { return scene->empty() ? describeProgram(out) : describeScene(*scene, out); };
 }
 

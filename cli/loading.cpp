@@ -1,17 +1,36 @@
 #include "cli/loading.h"
 
-#include <CLI/App.hpp>
 #include <cmath>
 
 #include "adjoint/simulate.h"
 #include "cli/output.h"
+#include "formats/json_writer.h"
 #include "formats/scene_json.h"
 
 namespace carom::cli {
 
-void addScene(CLI::App& app, std::string& path) {
-  app.add_option("scene", path, "The scene document")->required()->type_name("S.json");
+namespace {
+
+int impactsOf(const Motion& motion, int body, int with) {
+  int count = 0;
+  while (motion.findImpact(body, count + 1, with)) ++count;
+  return count;
 }
+
+/// Why a motion does not have a constraint: found and expected.
+std::string describeMissing(const Motion& motion, const Constraint& constraint) {
+  const When& at = constraint.at;
+  const std::string end = numberText(motion.end) + " s";
+  std::string reason = motion.status == MotionStatus::complete ? "" : "; " + motion.message;
+  if (at.impact == 0) return "found " + numberText(at.time) + ", expected a time up to " + end + reason;
+  const int with = at.with.empty() ? -1 : bodyIndex(*motion.scene, at.with);
+  const int count = impactsOf(motion, bodyIndex(*motion.scene, constraint.body), with);
+  return "found impact " + std::to_string(at.impact) + (at.with.empty() ? "" : " with '" + at.with + "'") + " of '" +
+         constraint.body + "', expected one that comes: it has " + (count == 0 ? "none" : std::to_string(count)) +
+         " within " + end + reason;
+}
+
+}  // namespace
 
 Loaded::Loaded(const std::string& file)
     : path(file), document(readDocument(file)), contacts(inFile(file, [&] { return OdeContacts(document.scene); })) {}
@@ -27,7 +46,7 @@ void warnIfEnded(const Motion& motion) {
 EditProblem derivativeProblem(Loaded& loaded) {
   return inFile(loaded.path, [&] {
     const Document& document = loaded.document;
-    if (document.controls.empty()) throw InputError("/controls", "found none, expected at least one number that varies");
+    if (document.controls.empty()) throw InputError("/controls", "found none, expected at least one");
     if (document.constraints.empty()) throw InputError("/constraints", "found none, expected at least one");
     const ControlSet checked(document.scene, document.controls);
     std::vector<Control> unbounded = document.controls;
@@ -39,12 +58,14 @@ EditProblem derivativeProblem(Loaded& loaded) {
   });
 }
 
-void requireRows(const std::string& path, const EditProblem& problem, const RowValues& rows) {
-  if (rows.available) return;
-  int constraint = 0;
-  for (int i = problem.constraints.size() - 1; i >= 0; --i)
-    if (std::isnan(rows.values[i])) constraint = problem.constraints.rows()[static_cast<std::size_t>(i)].constraint;
-  throw FormatError(path, "/constraints/" + std::to_string(constraint) + "/at", rows.message);
+RowValues requireRows(const std::string& path, const EditProblem& problem, const Motion& motion) {
+  RowValues rows = problem.constraints.evaluate(motion);
+  if (rows.available) return rows;
+  int first = 0;
+  while (first + 1 < problem.constraints.size() && !std::isnan(rows.values[first])) ++first;
+  const int constraint = problem.constraints.rows()[static_cast<std::size_t>(first)].constraint;
+  throw FormatError(path, "/constraints/" + std::to_string(constraint) + "/at",
+                    describeMissing(motion, problem.constraints.constraints()[static_cast<std::size_t>(constraint)]));
 }
 
 }  // namespace carom::cli

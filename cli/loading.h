@@ -7,14 +7,7 @@
 #include "formats/format_error.h"
 #include "ode_bridge/ode_contacts.h"
 
-namespace CLI {
-class App;
-}
-
 namespace carom::cli {
-
-/// Adds the scene document as the positional argument of a command.
-void addScene(CLI::App& app, std::string& path);
 
 /// Runs a function and adds the file to the places that its errors name.
 template <class Function>
@@ -47,7 +40,7 @@ void warnIfEnded(const Motion& motion);
 /// are those of what is written. Throws FormatError: nothing varies, nothing is held, or either is not possible.
 EditProblem derivativeProblem(Loaded& loaded);
 
-/// Throws FormatError naming the first constraint that the motion does not have.
-void requireRows(const std::string& path, const EditProblem& problem, const RowValues& rows);
+/// Reads all rows in a motion. Throws FormatError naming the first constraint that the motion does not have.
+RowValues requireRows(const std::string& path, const EditProblem& problem, const Motion& motion);
 
 }  // namespace carom::cli

@@ -5,6 +5,7 @@
 #include "adjoint/simulate.h"
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 #include "formats/result_json.h"
 
 namespace carom::cli {
@@ -62,6 +63,12 @@ void printMotion(Output& out, const Motion& motion, const std::vector<double>& a
   for (const double time : at) printStates(out, motion, time);
 }
 
+void requireReached(const Motion& motion, double time) try {
+  if (!motion.world_lines.empty()) motion.stateAt(0, time);
+} catch (const InputError& error) {
+  throw InputError("--at", error.message());
+}
+
 Action declare(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   addScene(app, options->scene);
@@ -71,8 +78,7 @@ Action declare(CLI::App& app) {
   return [options](Output& out) {
     Loaded loaded(options->scene);
     const Motion motion = loaded.simulate();
-    for (const double time : options->at)
-      if (!loaded.document.scene.bodies.empty()) motion.stateAt(0, time);  // throws for a time that is not reached
+    for (const double time : options->at) requireReached(motion, time);
     if (out.json()) {
       out.document(motionJson(motion, options->at));
       warnIfEnded(motion);

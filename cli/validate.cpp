@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 #include "formats/status_json.h"
 
 namespace carom::cli {
@@ -16,8 +17,9 @@ void checkEdit(Loaded& loaded) {
     return EditProblem(document.scene, loaded.contacts, document.duration, document.controls, document.constraints);
   });
   if (document.constraints.empty()) return;
-  const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, problem.controls.startValues()); });
-  requireRows(loaded.path, problem, problem.constraints.evaluate(motion));
+  const Eigen::VectorXd values = problem.controls.startValues();
+  const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
+  requireRows(loaded.path, problem, motion);
   for (const std::string& note : problem.controls.notes()) Output::warn(note);
 }
 
@@ -32,9 +34,9 @@ Exit validate(const std::string& path, Output& out) {
     const auto count = [](const auto& items, const char* noun) {
       return counted(static_cast<long long>(items.size()), noun);
     };
-    out.text() << path << ": valid: "
-               << (document.scene.bodies.size() == 1 ? "1 body" : std::to_string(document.scene.bodies.size()) + " bodies")
-               << ", " << count(document.controls, "control") << ", " << count(document.constraints, "constraint")
+    const std::size_t bodies = document.scene.bodies.size();
+    out.text() << path << ": valid: " << bodies << (bodies == 1 ? " body, " : " bodies, ")
+               << count(document.controls, "control") << ", " << count(document.constraints, "constraint")
                << '\n';
   }
   return Exit::done;

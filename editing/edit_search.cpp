@@ -193,6 +193,7 @@ EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int m
     }
     if (!next) break;
     point = std::move(next);
+    if (!search.step(point->objective, point->violation)) break;
   }
   return point;
 }

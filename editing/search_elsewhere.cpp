@@ -50,7 +50,7 @@ EditPointPtr searchElsewhere(EditSearch& search) {
   EditPointPtr nearest;
   for (int i = 0; i < std::min<int>(kCandidates, static_cast<int>(found.size())); ++i) {
     const EditPointPtr point = projectOntoConstraints(search, found[i], kProjectionSteps);
-    if (!search.step(point->objective, point->violation)) return nullptr;
+    if (search.halt() != Halt::none) return nullptr;
     if (search.reached(*point) && (!nearest || point->objective < nearest->objective)) nearest = point;
   }
   if (!nearest) return nullptr;

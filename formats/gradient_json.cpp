@@ -53,7 +53,7 @@ std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& valu
     out.numbers({row.data(), static_cast<std::size_t>(row.size())});
   }
   out.endArray();
-  out.key("signature").text(result.motion.signature());
+  out.key("signature").text(result.motion.signature(problem.constraints.extentIn(result.motion).events));
   out.key("reliable").boolean(reliable);
   out.key("message").text(message);
   out.endObject();

@@ -6,8 +6,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "adjoint/simulate.h"
-#include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -17,11 +15,6 @@ namespace {
 using namespace test;
 
 constexpr double kState = 1e-12, kDerivative = 1e-9;
-
-Motion play(const Scene& scene, double duration) {
-  OdeContacts contacts(scene);
-  return simulate(scene, contacts, duration);
-}
 
 // A vertex at r = (r_x, r_z) from the centre of mass falls from rest at height h:
 // v- = -sqrt(2 g (h + r_z)), P = -(1 + e) v-/(1/m + r_x^2/I), v+ = v- + P/m, omega_y+ = -r_x P/I.
@@ -82,10 +75,10 @@ TEST(ScaleLaw, MassesAndMomentsOverAllBodies) {
     if (seed % 3 == 0) {  // a density in place of a mass
       s.bodies[0].density = 700, s.bodies[0].mass.reset();
     }
-    const Motion m = play(s, 0.5);
+    const Motion m = play(s, 0.5, 6);  // the derivative grows with every impact, and so does its rounding
     for (int i = 0; i < 12; ++i) {
       const SceneGradient g = gradientOf(m, 0, m.end, i);
-      double sum = 0, size = 1e-6;
+      double sum = 0, size = 1e-2 * flatten(g).cwiseAbs().maxCoeff();  // a lone body's terms are 0, up to rounding
       for (std::size_t b = 0; b < s.bodies.size(); ++b) {
         const Body& body = s.bodies[b];
         if (body.fixed) continue;
@@ -125,7 +118,7 @@ TEST(VolumeLaw, ElasticFrictionlessMotionsKeepVolume) {
     RandomScene o;
     o.friction = false, o.lowest_elasticity = 1, o.bodies = 1 + static_cast<int>(seed % 3);
     const Scene s = randomScene(seed, o);
-    const Motion m = play(s, 0.45);
+    const Motion m = play(s, 0.45, 5);
     impacts += static_cast<int>(m.events.size());
     expectEntries(volumeChange(s, m, m.end), 1, kDerivative, "determinant");
   }

@@ -7,16 +7,22 @@ namespace carom::brute {
 namespace {
 
 constexpr Real kAmple = 0.02L;     // m between bounding balls: no need to look at the shapes
+constexpr Real kNear = 1e-4L;      // m, below which it pays to let the separating direction turn
+constexpr Real kMoment = 1e-9L;    // s
 constexpr Real kRounding = 2e-14L;  // m, above what positions of some metres can resolve in double
 
-// What can be said of the farthest extent of one body along a fixed direction: lines position + rate h, one a corner.
+// Position of one corner along a direction n that turns at the rate dn, to first order.
 struct Line {
   Real position, rate;
 };
 
-std::vector<Line> linesOf(const Solid& solid, const Kinematic& k, const Vector& n) {
+std::vector<Line> linesOf(const Solid& solid, const Kinematic& k, const Vector& origin, const Vector& n,
+                          const Vector& dn) {
   std::vector<Line> lines;
-  for (const Vector& r : corners(solid, k.R)) lines.push_back({n.dot(k.x + r), n.dot(k.v + k.w.cross(r))});
+  for (const Vector& r : corners(solid, k.R)) {
+    const Vector p = k.x + r - origin;
+    lines.push_back({n.dot(p), n.dot(k.v + k.w.cross(r)) + dn.dot(p)});
+  }
   return lines;
 }
 
@@ -132,16 +138,38 @@ std::optional<Separation> BruteForce::farApart(const Pair& p, Real t) {
   return s;
 }
 
-// The separation along s.n after h is at least F(h), concave with F(0) > 0, so where F(h) < 0 the chord's zero is safe.
+// How fast the separating direction turns, by its change over a moment: whatever it is, the bound below holds; it is
+// only wider the better the turning direction stays with the features that face each other.
+Vector BruteForce::turning(const Pair& p, Real t, const Separation& s) {
+  if (s.value > kNear || solid(p.a).kind == Solid::Kind::half_space || solid(p.b).kind == Solid::Kind::half_space)
+    return Vector::Zero();
+  Vector dn = (separationAt(p.a, p.b, t + kMoment).n - s.n) / kMoment;
+  dn -= dn.dot(s.n) * s.n;
+  return dn;
+}
+
+// The separation along the turning direction after h is at least F(h), concave with F(0) > 0: positive up to its only
+// zero.
 Real BruteForce::safeStep(const Pair& p, Real t, const Separation& s, bool as_balls, Real slack) {
-  Flight &fa = body_(p.a).flight, &fb = body_(p.b).flight;
-  const Solid &a = solid(p.a), &b = solid(p.b);
-  Real bend = std::max(Real(0), -s.n.dot(fa.acceleration() - fb.acceleration()));
-  std::vector<Line> upper{{0, 0}}, lower{{s.value, s.n.dot(fa.velocityAt(t) - fb.velocityAt(t))}};
+  const Real start = s.value + slack;
+  if (!(start > 0)) return 0;
+  const Flight &fa = body_(p.a).flight, &fb = body_(p.b).flight;
+  const Vector gravity = fa.acceleration() - fb.acceleration(), velocity = fa.velocityAt(t) - fb.velocityAt(t);
+  std::vector<Line> upper{{0, 0}}, lower{{s.value, s.n.dot(velocity)}};
+  Real bend = std::max(Real(0), -s.n.dot(gravity));
   if (!as_balls) {
-    bend += (mass(p.a).moving ? cornerAcceleration(a, fa) : 0) + (mass(p.b).moving ? cornerAcceleration(b, fb) : 0);
-    lower = linesOf(a, fa.at(t), s.n);
-    upper = linesOf(b, fb.at(t), s.n);
+    const Solid &a = solid(p.a), &b = solid(p.b);
+    const Kinematic ka = stateAt(p.a, t), kb = stateAt(p.b, t);
+    const Vector dn = turning(p, t, s);
+    const Real turn = dn.norm();
+    lower = linesOf(a, ka, ka.x, s.n, dn);
+    upper = linesOf(b, kb, ka.x, s.n, dn);
+    bend += cornerAcceleration(a, fa) + cornerAcceleration(b, fb);
+    if (turn > 0) {  // (n . d)'' = n . d'' + 2 n' . d' + n'' . d for the vector d between two corners
+      const Real speed = velocity.norm() + gravity.norm() * kLongest + fa.spinBound() * a.reach() + fb.spinBound() * b.reach();
+      const Real apart = (ka.x - kb.x).norm() + a.reach() + b.reach() + speed * kLongest;
+      bend += gravity.norm() * turn * kLongest + 2 * turn * speed + turn * turn * apart;
+    }
   }
   const auto F = [&](Real h) {
     Real low = lower[0].position + lower[0].rate * h, high = upper[0].position + upper[0].rate * h;
@@ -150,15 +178,14 @@ Real BruteForce::safeStep(const Pair& p, Real t, const Separation& s, bool as_ba
     return low - high - bend * h * h / 2;
   };
   // radii and the offset of a plane do not change with h, so F is made to start at the separation that was measured
-  const Real start = s.value + slack, shift = start - F(0);
-  if (!(start > 0)) return 0;
-  Real h = kLongest;
-  for (int round = 0; round < 8; ++round) {
-    const Real f = F(h) + shift;
-    if (f > 0) return h;
-    h *= start / (start - f);
+  const Real shift = start - F(0);
+  if (F(kLongest) + shift > 0) return kLongest;
+  Real safe = kShortest, unsafe = kLongest;
+  while (unsafe > 1.2L * safe) {
+    const Real middle = std::sqrt(safe * unsafe);
+    (F(middle) + shift > 0 ? safe : unsafe) = middle;
   }
-  return h;
+  return safe;
 }
 
 Real BruteForce::bisect(const Pair& p, Real before, Real after, Real level) {

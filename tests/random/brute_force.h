@@ -13,8 +13,8 @@ namespace carom::brute {
 /// and gaps nor its flights nor its bounds.
 ///
 /// A pair is sampled at least every 2 ms, and as densely as it takes to be sure of the time between two samples: along
-/// the direction that separates the solids now, every corner is followed to first order with a bound on its second
-/// derivative, and the next sample is no later than the time at which that could bring them together. Only where this
+/// the direction that separates the solids now (turning as it turns now), every corner is followed to first order with a
+/// bound on its second derivative, and the next sample is no later than the time at which that could bring them together. Only where this
 /// would need steps below kShortest is one of that length taken instead; so what can be missed is a touch that lasts
 /// less than 1e-12 s, some 1e-11 m deep at the speeds of these scenes. A sample that overlaps is followed by bisection.
 class BruteForce {
@@ -66,6 +66,7 @@ class BruteForce {
   void look(Pair& p, Real until);
   void sample(Pair& p, Real t);
   Real safeStep(const Pair& p, Real t, const Separation& s, bool as_balls, Real slack);
+  Vector turning(const Pair& p, Real t, const Separation& s);
   Real bisect(const Pair& p, Real before, Real after, Real level);
   /// Separation of bounding balls when that is ample.
   std::optional<Separation> farApart(const Pair& p, Real t);

@@ -72,7 +72,9 @@ TEST_P(RandomScenes, agreeWithBruteForce) {
   const int scenes = std::max(1, static_cast<int>(kScenes / kBlocks * (scale ? std::atof(scale) : 1.0)));
   for (int i = 0; i < scenes; ++i) tally.run(kFirstSeed + static_cast<std::uint64_t>(GetParam() + kBlocks * i));
   tally.report();
-  if (!scale) EXPECT_GT(tally.all().events, 5 * scenes);
+  if (!scale) {
+    EXPECT_GT(tally.all().events, 5 * scenes);
+  }
 }
 INSTANTIATE_TEST_SUITE_P(Blocks, RandomScenes, testing::Range(0, kBlocks));
 

@@ -59,8 +59,8 @@ class FreeRotation {
   Segment expand(const Real& start, const RMat& R) const {
     Segment s;
     s.start = start;
-    s.R = R;
-    s.u0 = s.u[0] = transposeTimes(R, (1 / speed_) * L_);
+    s.R = orthonormal(R);
+    s.u0 = s.u[0] = unit(transposeTimes(s.R, L_));
     const RVec rate{speed_ * (D_[2] - D_[1]), speed_ * (D_[0] - D_[2]), speed_ * (D_[1] - D_[0])};
     const RVec Du0 = times(D_, s.u0);
     const Real twice_energy = dot(s.u0, Du0);
@@ -96,6 +96,15 @@ class FreeRotation {
       step = std::min(step, 0.9 * std::exp(logarithm));
     }
     return step;
+  }
+
+  /// Without this the swing of an R that is off by rounding doubles the error in every segment.
+  static RMat orthonormal(const RMat& R) {
+    RMat Q;
+    Q.column[0] = unit(R.column[0]);
+    Q.column[2] = unit(cross(R.column[0], R.column[1]));
+    Q.column[1] = cross(Q.column[2], Q.column[0]);
+    return Q;
   }
 
   static RMat evaluate(const Segment& s, const Real& t) {

@@ -30,14 +30,16 @@ inline void recordShare(double share) {
 
 /// Fails, naming every entry, unless |found - expected| <= tolerance * max(scale, |expected|) for each; NaN fails.
 template <class Found, class Expected>
-void expectEntries(const Eigen::DenseBase<Found>& found, const Eigen::DenseBase<Expected>& expected, double tolerance,
-                   const std::string& what, double scale = 1) {
+void expectEntries(const Eigen::DenseBase<Found>& found_in, const Eigen::DenseBase<Expected>& expected_in,
+                   double tolerance, const std::string& what, double scale = 1) {
+  const auto found = found_in.eval();
+  const auto expected = expected_in.eval();
   ASSERT_EQ(found.rows(), expected.rows()) << what;
   ASSERT_EQ(found.cols(), expected.cols()) << what;
   const double allowed = tolerance * toleranceScale();
   for (Eigen::Index j = 0; j < found.cols(); ++j)
     for (Eigen::Index i = 0; i < found.rows(); ++i) {
-      const double f = found.derived().coeff(i, j), x = expected.derived().coeff(i, j);
+      const double f = found(i, j), x = expected(i, j);
       const double error = std::abs(f - x) / std::max(scale, std::abs(x));
       recordShare(error / tolerance);
       if (!(error <= allowed))

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ode_bridge/ode_contacts.h"
+
 namespace carom::test {
 
 Material makeMaterial(const std::string& name, double elasticity, double friction, double tangential) {
@@ -48,6 +50,13 @@ Scene makeScene(const Vec3& gravity, double elasticity, double friction, std::ve
   s.materials = {makeMaterial("m", elasticity, friction)};
   s.bodies = std::move(bodies);
   return s;
+}
+
+Motion play(const Scene& scene, double duration, std::size_t impact_limit) {
+  OdeContacts contacts(scene);
+  SimulateOptions options;
+  options.impact_limit = impact_limit;
+  return simulate(scene, contacts, duration, options);
 }
 
 Vec3 Random::unit() {

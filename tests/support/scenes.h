@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "adjoint/adjoint.h"
-#include "adjoint/motion.h"
-#include "adjoint/scene.h"
+#include "adjoint/simulate.h"
 
 /// Scenes, directions and read-outs that the tests of adjoint/ and ode_bridge/ share.
 namespace carom::test {
@@ -21,6 +20,9 @@ Body makeBox(const std::string& name, const Vec3& size, const Vec3& position, co
 Body fixedBody(Body body);
 /// One material "m" and these bodies.
 Scene makeScene(const Vec3& gravity, double elasticity, double friction, std::vector<Body> bodies);
+
+/// Simulates with collision detection of its own.
+Motion play(const Scene& scene, double duration, std::size_t impact_limit = 20000);
 
 /// Random numbers that are the same everywhere. Tests print `seed` with SCOPED_TRACE.
 class Random {

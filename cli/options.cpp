@@ -1,0 +1,22 @@
+#include "cli/options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <cmath>
+
+namespace carom::cli {
+
+void addScene(CLI::App& app, std::string& path, bool required) {
+  app.add_option("scene", path, "The scene document")->required(required)->type_name("S.json");
+}
+
+CLI::Validator positiveNumber() {
+  const auto check = [](std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+    return good ? std::string() : "found " + text + ", expected a number > 0";
+  };
+  return CLI::Validator(check, "", "positive");
+}
+
+}  // namespace carom::cli

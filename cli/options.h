@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
+
+/// Options that several commands have.
+namespace carom::cli {
+
+/// Adds the scene document as the positional argument of a command.
+void addScene(CLI::App& app, std::string& path, bool required = true);
+
+/// Accepts finite numbers greater than 0.
+CLI::Validator positiveNumber();
+
+}  // namespace carom::cli

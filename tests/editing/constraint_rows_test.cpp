@@ -1,0 +1,207 @@
+// Rows of constraints, and the Jacobian of all of them by every kind of control, by adjoint and by tangent.
+
+#include "editing/constraint_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "adjoint/errors.h"
+#include "adjoint/simulate.h"
+#include "adjoint/so3.h"
+#include "editing/jacobian.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/editing/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace testing_scenes;
+
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<Constraint> everyQuantity() {
+  return {{"box", 0.4, {{"position", {1, any, 2}}, {"orientation", {1, 0, 0, 0}}, {"velocity", {0, 0, any}}}},
+          {"box",
+           nthImpact(2, "floor"),
+           {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}}};
+}
+
+TEST(ConstraintSet, EveryQuantityIsTested) {
+  for (const QuantityKind* kind : quantityKinds()) {
+    bool found = false;
+    for (const Constraint& constraint : everyQuantity()) {
+      for (const Target& target : constraint.targets) found = found || target.quantity == kind->word;
+    }
+    EXPECT_TRUE(found) << kind->word;
+  }
+}
+
+TEST(ConstraintSet, NamesItsRows) {
+  const ConstraintSet set(thrownBox(), everyQuantity());
+  const char* expected[] = {"position.x",    "position.z", "orientation.x", "orientation.y", "orientation.z", "velocity.x",
+                            "velocity.y",    "time",       "point.x",       "point.y",       "point.z",
+                            "angular_velocity.y"};
+  ASSERT_EQ(set.size(), 12);
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
+  EXPECT_EQ(set.describeRow(0), "position.x of 'box' at 0.4 s");
+  EXPECT_EQ(set.describeRow(7), "time of 'box' at its impact 2 with 'floor'");
+}
+
+TEST(ConstraintSet, ReadsTheMotion) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const Motion motion = simulate(scene, contacts, 1);
+  const ConstraintSet set(scene, everyQuantity());
+  const RowValues rows = set.evaluate(motion);
+  ASSERT_TRUE(rows.available) << rows.message;
+  const BodyState at = motion.stateAt("box", 0.4);
+  const int event = motion.findImpact(1, 2, 0).value();
+  const BodyState before = motion.stateBefore(event, 1);
+  EXPECT_EQ(rows.values[0], at.position.x());
+  EXPECT_EQ(rows.residuals[1], at.position.z() - 2);
+  EXPECT_LE((Vec3(rows.values.segment<3>(2)) - logSO3(at.orientation)).norm(), 1e-15);
+  EXPECT_EQ(rows.values[7], motion.events[event].time);
+  const Vec3 point = before.position + before.orientation.toRotationMatrix() * Vec3(0.1, 0.2, 0.3);
+  EXPECT_LE((Vec3(rows.values.segment<3>(8)) - point).norm(), 1e-15);
+  EXPECT_EQ(rows.values[11], before.angular_velocity.y());
+  EXPECT_EQ(rows.scaled[0], rows.residuals[0] / set.rows()[0].scale);
+}
+
+TEST(ConstraintSet, WhatTheMotionDoesNotHaveIsSaid) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const Motion motion = simulate(scene, contacts, 0.3);
+  const RowValues late = ConstraintSet(scene, {{"box", 0.4, {{"position", {0, 0, 0}}}}}).evaluate(motion);
+  EXPECT_FALSE(late.available);
+  EXPECT_NE(late.message.find("'box' at 0.4 s lies after the end of the motion at 0.3 s"), std::string::npos)
+      << late.message;
+  EXPECT_TRUE(std::isnan(late.residuals[0]));
+  EXPECT_EQ(late.seeds[0].body, -1);
+  const RowValues never = ConstraintSet(scene, {{"box", nthImpact(9, "floor"), {{"time", {1}}}}}).evaluate(motion);
+  EXPECT_FALSE(never.available);
+  EXPECT_NE(never.message.find("Impact 9 with 'floor' of 'box' does not come within 0.3 s"), std::string::npos)
+      << never.message;
+}
+
+TEST(Jacobian, AdjointAndTangentAgreeEntryByEntry) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const EditProblem problem(scene, contacts, 1, everyControl(), everyQuantity());
+  // Away from the start too, where an orientation's value is not its derivative's base.
+  for (double away : {0.0, 0.02}) {
+    const Eigen::VectorXd values =
+        problem.controls.valuesOf(Eigen::VectorXd::LinSpaced(problem.controls.size(), -away, away));
+    const RowsAndJacobian a = evaluateByAdjoint(problem, values), t = evaluateByTangent(problem, values);
+    ASSERT_TRUE(a.rows.available) << a.rows.message;
+    ASSERT_EQ(a.jacobian.rows(), 12);
+    ASSERT_EQ(a.jacobian.cols(), problem.controls.size());
+    for (int j = 0; j < a.jacobian.cols(); ++j) {
+      const double scale = t.jacobian.col(j).cwiseAbs().maxCoeff();
+      for (int i = 0; i < a.jacobian.rows(); ++i) {
+        EXPECT_TRUE(std::abs(a.jacobian(i, j) - t.jacobian(i, j)) <= 1e-12 * scale)
+            << problem.constraints.describeRow(i) << " by " << problem.controls.describeVariable(j);
+      }
+    }
+  }
+}
+
+TEST(Jacobian, AgreesWithDifferences) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const EditProblem problem(scene, contacts, 0.6, everyControl(), everyQuantity());
+  const Eigen::VectorXd at = Eigen::VectorXd::LinSpaced(problem.controls.size(), -0.01, 0.015);
+  const Eigen::VectorXd values = problem.controls.valuesOf(at);
+  const RowsAndJacobian exact = evaluateByAdjoint(problem, values);
+  const Eigen::VectorXd rates = problem.controls.valueRates(at);
+  for (int j = 0; j < problem.controls.size(); ++j) {
+    const double h = 1e-6;
+    Eigen::VectorXd up = at, down = at;
+    up[j] += h, down[j] -= h;
+    const RowsAndJacobian a = evaluateByAdjoint(problem, problem.controls.valuesOf(up));
+    const RowsAndJacobian b = evaluateByAdjoint(problem, problem.controls.valuesOf(down));
+    ASSERT_EQ(a.motion.signature(), b.motion.signature());
+    const Eigen::VectorXd column = exact.jacobian.col(j) * rates[j];
+    const double scale = 1 + column.cwiseAbs().maxCoeff();
+    for (int i = 0; i < exact.jacobian.rows(); ++i) {
+      const double difference = (a.rows.values[i] - b.rows.values[i]) / (2 * h);
+      EXPECT_TRUE(std::abs(column[i] - difference) <= 1e-6 * scale)
+          << problem.constraints.describeRow(i) << " by " << problem.controls.describeVariable(j) << ": " << column[i]
+          << " and " << difference;
+    }
+  }
+}
+
+// Simulating with no more detail than a problem asks for gives the same rows and derivatives.
+TEST(Jacobian, LessDetailGivesTheSame) {
+  Scene scene = thrownBox();
+  scene.bodies.push_back(ball("ball", "felt", 0.1, {1, 1, 1}, {0.5, 0, 0}));
+  OdeContacts contacts(scene);
+  const std::vector<Control> controls{velocity("ball"), angularVelocity("ball"), mass("box"), velocity("box")};
+  const std::vector<Constraint> constraints{{"ball", 0.8, {{"position", {0, 0, 0}}}},
+                                            {"box", 0.5, {{"position", {0, 0, 0}}, {"velocity", {0, 0, 0}}}}};
+  EditProblem problem(scene, contacts, 1, controls, constraints);
+  const Eigen::VectorXd values = problem.controls.startValues();
+  const RowsAndJacobian little = evaluateByAdjoint(problem, values);
+  problem.asked.clear();
+  const RowsAndJacobian all = evaluateByAdjoint(problem, values);
+  EXPECT_EQ(little.motion.signature(), all.motion.signature());
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    EXPECT_NEAR(little.rows.values[i], all.rows.values[i], 1e-12);
+    for (int j = 0; j < problem.controls.size(); ++j) {
+      EXPECT_NEAR(little.jacobian(i, j), all.jacobian(i, j), 1e-11 * (1 + std::abs(all.jacobian(i, j))));
+    }
+  }
+}
+
+struct Mistake {
+  const char* name;
+  Constraint constraint;
+  const char* where;
+  const char* says;
+};
+
+const Mistake kMistakes[] = {
+    {"body", {"bix", 0.4, {{"position", {0, 0, 0}}}}, "/constraints/0/body", "bix"},
+    {"with", {"box", nthImpact(1, "wall"), {{"position", {0, 0, 0}}}}, "/constraints/0/at/with", "wall"},
+    {"word", {"box", 0.4, {{"place", {0, 0, 0}}}}, "/constraints/0", "expected one of position"},
+    {"count", {"box", 0.4, {{"position", {0, 0}}}}, "/constraints/0/position", "expected 3"},
+    {"infinite", {"box", 0.4, {{"position", {0, 0, INFINITY}}}}, "/constraints/0/position", "infinite"},
+    {"quaternion", {"box", 0.4, {{"orientation", {2, 0, 0, 0}}}}, "/constraints/0/orientation", "expected 1"},
+    {"nan_quaternion", {"box", 0.4, {{"orientation", {1, kNaN, 0, 0}}}}, "/constraints/0/orientation", "NaN"},
+    {"nan_time", {"box", nthImpact(1), {{"time", {kNaN}}}}, "/constraints/0/time", "NaN"},
+    {"time_at_time", {"box", 0.4, {{"time", {0.4}}}}, "/constraints/0/time", "expected an impact"},
+    {"at", {"box", kNaN, {{"position", {0, 0, 0}}}}, "/constraints/0/at", "expected a time"},
+    {"negative", {"box", -1, {{"position", {0, 0, 0}}}}, "/constraints/0/at", "expected a time"},
+    {"impact", {"box", nthImpact(0, "floor"), {{"position", {0, 0, 0}}}}, "/constraints/0/at/impact", "1 or more"},
+    {"all_free", {"box", 0.4, {{"position", {any, any, any}}}}, "/constraints/0", "no number to hold"},
+    {"nothing", {"box", 0.4, {}}, "/constraints/0", "no number to hold"},
+};
+
+class ConstraintMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(ConstraintMistake, IsNamed) {
+  try {
+    const ConstraintSet set(thrownBox(), {GetParam().constraint});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where(), GetParam().where);
+    EXPECT_NE(error.message().find(GetParam().says), std::string::npos) << error.message();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, ConstraintMistake, testing::ValuesIn(kMistakes),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(EditProblem, DurationMustBePositive) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  for (double duration : {0.0, -1.0, kNaN, static_cast<double>(INFINITY)}) {
+    EXPECT_THROW(EditProblem(scene, contacts, duration, {}, {}), InputError) << duration;
+  }
+}
+
+}  // namespace
+}  // namespace carom
