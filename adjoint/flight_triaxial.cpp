@@ -23,12 +23,12 @@ double norm(const std::array<double, N>& c) {
   return std::sqrt(sum);
 }
 
-// Radius of convergence seen from the last two coefficients of a series of size `scale`.
+// Logarithm of the radius of convergence seen from the last two coefficients of a series of size `scale`.
 template <class Series>
-double radius(const Series& c, double scale) {
+double logRadius(const Series& c, double scale) {
   const auto from = [&](std::size_t k) {
     const double size = norm(c[k]);
-    return size > 0 ? std::pow(scale / size, 1.0 / static_cast<double>(k)) : 1e30;
+    return size > 0 ? std::log(scale / size) / static_cast<double>(k) : 50.0;
   };
   return std::min(from(K), from(K - 1));
 }
@@ -41,6 +41,8 @@ std::array<double, N> horner(const std::array<std::array<double, N>, K + 1>& c, 
   return sum;
 }
 
+using MomentumSeries = std::array<std::array<double, 3>, K + 1>;
+
 Quat unitQuaternion(const std::array<double, 4>& c) { return Quat(c[3], c[0], c[1], c[2]).normalized(); }
 
 }  // namespace
@@ -52,6 +54,11 @@ void TriaxialRotation::begin(const Vec3& inverse_inertia, const Quat& q, const V
   segments_.clear();
 }
 
+std::array<double, 3> TriaxialRotation::momentum(const Quat& q) const {
+  const Vec3 M = q.toRotationMatrix().transpose() * L_;
+  return {M.x(), M.y(), M.z()};
+}
+
 // Taylor coefficients from M' = M x (D M), q' = 1/2 q o (0, D M), order by order. With w = D M / 2 the product is
 //   q o (0, w) = w_0 (q_w, q_z, -q_y, -q_x) + w_1 (-q_z, q_w, q_x, -q_y) + w_2 (q_y, -q_x, q_w, -q_z),
 // written over four lanes so that the compiler keeps them in vector registers.
@@ -59,8 +66,8 @@ void TriaxialRotation::append(double start, const Quat& q0) {
   using Lanes = std::array<double, 4>;
   Segment& s = segments_.emplace_back();
   s.start = start;
-  const Vec3 M0 = q0.toRotationMatrix().transpose() * L_;
-  s.M[0] = {M0.x(), M0.y(), M0.z()};
+  MomentumSeries M;
+  M[0] = momentum(q0);
   s.q[0] = {q0.x(), q0.y(), q0.z(), q0.w()};
   const double d32 = D_[2] - D_[1], d13 = D_[0] - D_[2], d21 = D_[1] - D_[0];
   std::array<std::array<double, 3>, K> w;
@@ -68,26 +75,29 @@ void TriaxialRotation::append(double start, const Quat& q0) {
   for (std::size_t k = 0; k < K; ++k) {
     const Lanes& q = s.q[k];
     turned[k] = {Lanes{q[3], q[2], -q[1], -q[0]}, Lanes{-q[2], q[3], q[0], -q[1]}, Lanes{q[1], -q[0], q[3], -q[2]}};
-    for (std::size_t i = 0; i < 3; ++i) w[k][i] = 0.5 * D_[static_cast<Eigen::Index>(i)] * s.M[k][i];
+    for (std::size_t i = 0; i < 3; ++i) w[k][i] = 0.5 * D_[static_cast<Eigen::Index>(i)] * M[k][i];
     double m23 = 0, m31 = 0, m12 = 0;
     Lanes sum{};
     for (std::size_t j = 0; j <= k; ++j) {
-      const auto &a = s.M[j], &b = s.M[k - j], &o = w[k - j];
+      const auto &a = M[j], &b = M[k - j], &o = w[k - j];
       const auto& p = turned[j];
       m23 += a[1] * b[2], m31 += a[2] * b[0], m12 += a[0] * b[1];
       for (std::size_t l = 0; l < 4; ++l) sum[l] += o[0] * p[0][l] + o[1] * p[1][l] + o[2] * p[2][l];
     }
     const double f = 1.0 / static_cast<double>(k + 1);
-    s.M[k + 1] = {d32 * m23 * f, d13 * m31 * f, d21 * m12 * f};
+    M[k + 1] = {d32 * m23 * f, d13 * m31 * f, d21 * m12 * f};
     for (std::size_t l = 0; l < 4; ++l) s.q[k + 1][l] = f * sum[l];
   }
   // h = radius / e^2 makes the first neglected term about e^(-2 K) = 4e-18 of the whole
-  const double rho = std::min(radius(s.q, 1.0), radius(s.M, std::max(M0.norm(), 1e-300)));
-  s.length = shortBinary(rho * std::exp(-2.0));
+  const double log_radius = std::min(logRadius(s.q, 1.0), logRadius(M, std::max(L_.norm(), 1e-300)));
+  s.length = shortBinary(std::exp(log_radius - 2));
 }
 
 void TriaxialRotation::extendTo(double elapsed) {
-  if (segments_.empty()) append(0, q_);
+  if (segments_.empty()) {
+    segments_.reserve(8);
+    append(0, q_);
+  }
   while (segments_.back().start + segments_.back().length < elapsed) {
     const Segment& last = segments_.back();
     append(last.start + last.length, unitQuaternion(horner(last.q, last.length)));
@@ -115,7 +125,9 @@ Quat TriaxialRotation::orientationAt(double elapsed) const {
 RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& s, double h) const {
   using Columns = Eigen::Array4d;
   using Triple = std::array<Columns, 3>;
-  const Vec3 M0(s.M[0][0], s.M[0][1], s.M[0][2]);
+  MomentumSeries M;
+  M[0] = momentum(unitQuaternion(s.q[0]));
+  const Vec3 M0(M[0][0], M[0][1], M[0][2]);
   const Mat3 R0 = unitQuaternion(s.q[0]).toRotationMatrix();
   const Mat3 Rh = unitQuaternion(horner(s.q, h)).toRotationMatrix();
   const Vec3 wh = D_.cwiseProduct(Rh.transpose() * L_);
@@ -134,24 +146,25 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& s, doubl
   Columns dD0(0, 0, -D_[0] * D_[0], 0), dD1(0, 0, 0, -D_[1] * D_[1]);  // columns 2, 3: unit dI1, dI2
   const double d32 = D_[2] - D_[1], d13 = D_[0] - D_[2], d21 = D_[1] - D_[0];
   std::array<std::array<double, 3>, K> w;
-  for (std::size_t k = 0; k < K; ++k) w[k] = {D_[0] * s.M[k][0], D_[1] * s.M[k][1], D_[2] * s.M[k][2]};
   for (std::size_t k = 0; k < K; ++k) {
+    w[k] = {D_[0] * M[k][0], D_[1] * M[k][1], D_[2] * M[k][2]};
     Columns p23 = Columns::Zero(), p31 = p23, p12 = p23, e1 = p23, e2 = p23, e3 = p23;
     double m23 = 0, m31 = 0, m12 = 0;
     for (std::size_t j = 0; j <= k; ++j) {
-      const auto &M = s.M[j], &Mk = s.M[k - j], &o = w[j];
+      const auto &m = M[j], &n = M[k - j], &o = w[j];
       const Triple &d = dM[k - j], &e = eta[k - j];
-      p23 += M[1] * d[2] + M[2] * d[1];
-      p31 += M[2] * d[0] + M[0] * d[2];
-      p12 += M[0] * d[1] + M[1] * d[0];
+      p23 += m[1] * d[2] + m[2] * d[1];
+      p31 += m[2] * d[0] + m[0] * d[2];
+      p12 += m[0] * d[1] + m[1] * d[0];
       e1 += o[2] * e[1] - o[1] * e[2];
       e2 += o[0] * e[2] - o[2] * e[0];
       e3 += o[1] * e[0] - o[0] * e[1];
-      m23 += M[1] * Mk[2], m31 += M[2] * Mk[0], m12 += M[0] * Mk[1];
+      m23 += m[1] * n[2], m31 += m[2] * n[0], m12 += m[0] * n[1];
     }
     const double f = 1.0 / static_cast<double>(k + 1);
+    M[k + 1] = {d32 * m23 * f, d13 * m31 * f, d21 * m12 * f};
     dM[k + 1] = {f * (d32 * p23 - dD1 * m23), f * (d13 * p31 + dD0 * m31), f * (d21 * p12 + (dD1 - dD0) * m12)};
-    eta[k + 1] = {f * (e1 + D_[0] * dM[k][0] + dD0 * s.M[k][0]), f * (e2 + D_[1] * dM[k][1] + dD1 * s.M[k][1]),
+    eta[k + 1] = {f * (e1 + D_[0] * dM[k][0] + dD0 * M[k][0]), f * (e2 + D_[1] * dM[k][1] + dD1 * M[k][1]),
                   f * (e3 + D_[2] * dM[k][2])};
   }
   Eigen::Matrix<double, 3, 4> end;

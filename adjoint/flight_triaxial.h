@@ -35,9 +35,9 @@ class TriaxialRotation {
   struct Segment {
     double start = 0, length = 0;
     std::array<std::array<double, 4>, kOrder + 1> q;  // x y z w
-    std::array<std::array<double, 3>, kOrder + 1> M;
   };
   void append(double start, const Quat& q);
+  std::array<double, 3> momentum(const Quat& q) const;  // M = R(q)^T L
   const Segment& segmentAt(double elapsed) const;
   RotationSensitivity segmentSensitivity(const Segment& segment, double h) const;
 

@@ -136,9 +136,7 @@ class Checker {
     column.values = Eigen::VectorXd::Zero(row_scale_.size());
     for (int k = 0; k < 3; ++k) {
       if (scheme.weight[k] == 0) continue;
-      const Sample sample = scheme.offset[k] == -1  ? below
-                            : scheme.offset[k] == 1 ? above
-                                                    : shifted(scheme.offset[k]);
+      const Sample sample = scheme.offset[k] == -1 ? below : scheme.offset[k] == 1 ? above : shifted(scheme.offset[k]);
       column.why = whyNot(sample);
       if (!column.why.empty()) return column;
       column.values += scheme.weight[k] / h * sample.rows;

@@ -27,8 +27,8 @@ class UsageError : public std::runtime_error {
 /// One row of the table of commands. A new command adds its file and a row in commands.cpp.
 struct Command {
   const char* name;
-  const char* summary;   ///< one line
-  const char* examples;  ///< the end of its --help: what it answers, and how it is called
+  const char* summary;               ///< one line
+  const char* examples;              ///< the end of its --help: what it answers, and how it is called
   Action (*declare)(CLI::App& app);  ///< adds its options to `app`; --json and --digits are there already
 };
 

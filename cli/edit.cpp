@@ -46,7 +46,8 @@ void printResult(Output& out, const EditResult& result) {
   printChanges(out, result);
   out.text() << '\n';
   printResiduals(out, result);
-  out.text() << '\n' << counted(result.iterations, "iteration") << ", " << Output(false, 3).number(result.milliseconds)
+  out.text() << '\n'
+             << counted(result.iterations, "iteration") << ", " << Output(false, 3).number(result.milliseconds)
              << " ms, largest error " << out.number(result.residual) << '\n';
   if (result.sequence_before == result.sequence_after) {
     printLines(out, "  impacts, before and after:", result.sequence_before);

@@ -60,8 +60,7 @@ Exit gradient(const Options& options, Output& out) {
   result.rows = requireRows(loaded.path, problem, result.motion);
   // The adjoint pass walks the impacts that each row depends on, and so knows the margins.
   result.jacobian = jacobianByAdjoint(problem, values, result.motion, result.rows, &result.reliability);
-  if (options.method == "tangent")
-    result.jacobian = jacobianByTangent(problem, values, result.motion, result.rows);
+  if (options.method == "tangent") result.jacobian = jacobianByTangent(problem, values, result.motion, result.rows);
 
   const Reliability reliability = judge(problem, result.reliability);
   if (out.json()) {

@@ -112,8 +112,8 @@ Exit describeScene(const std::string& path, Output& out) {
     out.document(infoJson(loaded.document.scene, plan));
     return Exit::done;
   }
-  out.text() << path << ": " << out.number(plan.duration) << " s, " << counted(plan.controls, "number")
-             << " may vary, " << counted(plan.rows, "number") << " held\n";
+  out.text() << path << ": " << out.number(plan.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
+             << counted(plan.rows, "number") << " held\n";
   printBodies(out, loaded.document.scene, plan);
   printPairs(out, loaded.document.scene, plan);
   return Exit::done;

@@ -36,8 +36,7 @@ Exit validate(const std::string& path, Output& out) {
     };
     const std::size_t bodies = document.scene.bodies.size();
     out.text() << path << ": valid: " << bodies << (bodies == 1 ? " body, " : " bodies, ")
-               << count(document.controls, "control") << ", " << count(document.constraints, "constraint")
-               << '\n';
+               << count(document.controls, "control") << ", " << count(document.constraints, "constraint") << '\n';
   }
   return Exit::done;
 }

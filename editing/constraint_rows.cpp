@@ -12,15 +12,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-template <class Find>
-int findAt(const std::string& where, Find find) {
-  try {
-    return find();
-  } catch (const InputError& error) {
-    throw InputError(where, error.message());
-  }
-}
-
 std::string allWords() {
   std::vector<std::string> words;
   for (const QuantityKind* kind : quantityKinds()) words.push_back(kind->word);
@@ -29,8 +20,8 @@ std::string allWords() {
 
 void checkNumbers(const Target& target, const QuantityKind& kind, const std::string& where) {
   if (static_cast<int>(target.value.size()) != kind.numbers) {
-    throw InputError(where, "found " + std::to_string(target.value.size()) + " numbers, expected " +
-                                std::to_string(kind.numbers));
+    throw InputError(
+        where, "found " + std::to_string(target.value.size()) + " numbers, expected " + std::to_string(kind.numbers));
   }
   for (double value : target.value) {
     if (std::isinf(value)) throw InputError(where, "found an infinite number, expected a finite one");
@@ -117,8 +108,8 @@ ConstraintSet::Reading ConstraintSet::read(const Motion& motion, int index) cons
   if (constraint.at.impact > 0) {
     const std::optional<int> event = motion.findImpact(bound.body, constraint.at.impact, bound.with);
     if (!event) {
-      reading.message = describeImpact(constraint.at, "Impact") + " of '" + constraint.body + "' does not come within " +
-                        number(motion.end) + " s.";
+      reading.message = describeImpact(constraint.at, "Impact") + " of '" + constraint.body +
+                        "' does not come within " + number(motion.end) + " s.";
       return reading;
     }
     reading.instant = Instant::before(*event);

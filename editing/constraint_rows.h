@@ -14,21 +14,21 @@ namespace carom {
 
 /// One number that a constraint holds.
 struct Row {
-  int constraint = -1;    ///< index of the Constraint
-  int target = 0;         ///< index of its Target
-  int component = 0;      ///< of the quantity
-  std::string name;       ///< "position.x", "time"
-  double wanted = 0;      ///< target, SI; 0 for orientation rows
-  double scale = 1;       ///< residual / scale is dimensionless
+  int constraint = -1;  ///< index of the Constraint
+  int target = 0;       ///< index of its Target
+  int component = 0;    ///< of the quantity
+  std::string name;     ///< "position.x", "time"
+  double wanted = 0;    ///< target, SI; 0 for orientation rows
+  double scale = 1;     ///< residual / scale is dimensionless
 };
 
 /// Values of all rows for one motion, SI.
 struct RowValues {
-  bool available = true;       ///< false: some row does not exist in this motion
-  std::string message;         ///< which, and why
-  Eigen::VectorXd values;      ///< NaN where not available
-  Eigen::VectorXd residuals;   ///< value - wanted
-  Eigen::VectorXd scaled;      ///< residual / scale
+  bool available = true;         ///< false: some row does not exist in this motion
+  std::string message;           ///< which, and why
+  Eigen::VectorXd values;        ///< NaN where not available
+  Eigen::VectorXd residuals;     ///< value - wanted
+  Eigen::VectorXd scaled;        ///< residual / scale
   std::vector<StateSeed> seeds;  ///< derivative of each value by the state of its body; body -1 where not available
 };
 

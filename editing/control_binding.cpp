@@ -19,16 +19,6 @@ std::string allWords() {
   return listOf(words);
 }
 
-/// Runs a look-up by name and adds the place to its error.
-template <class Find>
-int findAt(const std::string& where, Find find) {
-  try {
-    return find();
-  } catch (const InputError& error) {
-    throw InputError(where, error.message());
-  }
-}
-
 int tiltOf(Scene& scene, const std::string& body, int impact) {
   for (std::size_t i = 0; i < scene.tilts.size(); ++i) {
     if (scene.tilts[i].body == body && scene.tilts[i].impact == impact) return static_cast<int>(i);

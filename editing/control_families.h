@@ -6,10 +6,11 @@
 namespace carom {
 
 extern const ControlKind kPositionControl, kOrientationControl, kVelocityControl, kAngularVelocityControl,
-    kGravityControl;                                                           // controls_of_motion.cpp
-extern const ControlKind kElasticityControl, kFrictionControl, kTangentialElasticityControl;  // controls_of_material.cpp
-extern const ControlKind kMassControl, kInertiaControl, kSizeControl;          // controls_of_body.cpp
-extern const ControlKind kTiltControl;                                         // controls_of_impact.cpp
+    kGravityControl;  // controls_of_motion.cpp
+extern const ControlKind kElasticityControl, kFrictionControl,
+    kTangentialElasticityControl;                                      // controls_of_material.cpp
+extern const ControlKind kMassControl, kInertiaControl, kSizeControl;  // controls_of_body.cpp
+extern const ControlKind kTiltControl;                                 // controls_of_impact.cpp
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 

@@ -6,10 +6,18 @@ namespace carom {
 namespace {
 
 const ControlKind* const kTable[] = {
-    &kPositionControl,  &kOrientationControl, &kVelocityControl,
-    &kAngularVelocityControl, &kElasticityControl, &kFrictionControl,
-    &kTangentialElasticityControl, &kMassControl, &kInertiaControl,
-    &kSizeControl, &kTiltControl, &kGravityControl,
+    &kPositionControl,
+    &kOrientationControl,
+    &kVelocityControl,
+    &kAngularVelocityControl,
+    &kElasticityControl,
+    &kFrictionControl,
+    &kTangentialElasticityControl,
+    &kMassControl,
+    &kInertiaControl,
+    &kSizeControl,
+    &kTiltControl,
+    &kGravityControl,
 };
 
 }  // namespace

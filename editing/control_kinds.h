@@ -18,12 +18,13 @@ struct ControlOwner {
 };
 
 /// One row of the table of controls: what the editor asks of a kind. A kind has up to three numbers; unused entries of
-/// the vectors are 0. A new kind adds a row to control_kinds.cpp and its functions to a family file (controls_of_*.cpp).
+/// the vectors are 0. A new kind adds a row to control_kinds.cpp and its functions to a family file
+/// (controls_of_*.cpp).
 struct ControlKind {
-  const char* word;      ///< in the scene document
+  const char* word;  ///< in the scene document
   OwnerKind owner;
-  bool logarithmic;      ///< changes are weighed as log(value / start); otherwise as (value - start) / scale
-  double lower, upper;   ///< physical bounds
+  bool logarithmic;     ///< changes are weighed as log(value / start); otherwise as (value - start) / scale
+  double lower, upper;  ///< physical bounds
   bool strictly_positive;
 
   std::vector<std::string> (*components)(const Scene&, const ControlOwner&);

@@ -64,17 +64,20 @@ void scatterSize(const Vec3& rates, const ControlOwner& o, const Vec3&, SceneTan
 
 }  // namespace
 
-const ControlKind kMassControl{"mass",       OwnerKind::moving_body, true,    0,       kUnbounded, true,
-                               oneComponent, prepareMass,            getMass, setMass, gatherMass, scatterMass,
+const ControlKind kMassControl{"mass",       OwnerKind::moving_body,
+                               true,         0,
+                               kUnbounded,   true,
+                               oneComponent, prepareMass,
+                               getMass,      setMass,
+                               gatherMass,   scatterMass,
                                unitScale};
 
-const ControlKind kInertiaControl{"inertia",     OwnerKind::moving_body, true,       0,          kUnbounded, true,
-                                  xyzComponents, prepareInertia,         getInertia, setInertia, gatherInertia,
-                                  scatterInertia, unitScale};
+const ControlKind kInertiaControl{"inertia",     OwnerKind::moving_body, true,           0,          kUnbounded,
+                                  true,          xyzComponents,          prepareInertia, getInertia, setInertia,
+                                  gatherInertia, scatterInertia,         unitScale};
 
 // A size is weighed relative to itself.
-const ControlKind kSizeControl{"size",         OwnerKind::body, false,   0,       kUnbounded, true,
-                               sizeComponents, nullptr,         getSize, setSize, gatherSize, scatterSize,
-                               getSize};
+const ControlKind kSizeControl{"size",  OwnerKind::body, false,   0,          kUnbounded,  true,   sizeComponents,
+                               nullptr, getSize,         setSize, gatherSize, scatterSize, getSize};
 
 }  // namespace carom

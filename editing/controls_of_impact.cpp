@@ -1,5 +1,5 @@
-// Control of one impact: the tilt (alpha, beta) of the collision normal at the body's n-th impact. Tilts stay within the
-// cone alpha^2 + beta^2 <= max^2 (see validity_rows.h).
+// Control of one impact: the tilt (alpha, beta) of the collision normal at the body's n-th impact. Tilts stay within
+// the cone alpha^2 + beta^2 <= max^2 (see validity_rows.h).
 
 #include "editing/control_families.h"
 
@@ -23,8 +23,7 @@ void scatterTilt(const Vec3& rates, const ControlOwner& o, const Vec3&, SceneTan
 
 }  // namespace
 
-const ControlKind kTiltControl{"tilt",         OwnerKind::impact, false,   -kUnbounded, kUnbounded, false,
-                               tiltComponents, nullptr,           getTilt, setTilt,     gatherTilt, scatterTilt,
-                               unitScale};
+const ControlKind kTiltControl{"tilt",  OwnerKind::impact, false,   -kUnbounded, kUnbounded,  false,    tiltComponents,
+                               nullptr, getTilt,           setTilt, gatherTilt,  scatterTilt, unitScale};
 
 }  // namespace carom

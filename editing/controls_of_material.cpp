@@ -25,17 +25,46 @@ using TangentialElasticity =
 
 }  // namespace
 
-const ControlKind kElasticityControl{
-    "elasticity", OwnerKind::material, false, 0, 1, false, oneComponent, nullptr,
-    Elasticity::get, Elasticity::set, Elasticity::gather, Elasticity::scatter, unitScale};
+const ControlKind kElasticityControl{"elasticity",
+                                     OwnerKind::material,
+                                     false,
+                                     0,
+                                     1,
+                                     false,
+                                     oneComponent,
+                                     nullptr,
+                                     Elasticity::get,
+                                     Elasticity::set,
+                                     Elasticity::gather,
+                                     Elasticity::scatter,
+                                     unitScale};
 
-const ControlKind kFrictionControl{
-    "friction", OwnerKind::material, false, 0, kUnbounded, false, oneComponent, nullptr,
-    Friction::get, Friction::set, Friction::gather, Friction::scatter, unitScale};
+const ControlKind kFrictionControl{"friction",
+                                   OwnerKind::material,
+                                   false,
+                                   0,
+                                   kUnbounded,
+                                   false,
+                                   oneComponent,
+                                   nullptr,
+                                   Friction::get,
+                                   Friction::set,
+                                   Friction::gather,
+                                   Friction::scatter,
+                                   unitScale};
 
-const ControlKind kTangentialElasticityControl{
-    "tangential_elasticity", OwnerKind::material, false, -1, 1, false, oneComponent, nullptr,
-    TangentialElasticity::get, TangentialElasticity::set, TangentialElasticity::gather, TangentialElasticity::scatter,
-    unitScale};
+const ControlKind kTangentialElasticityControl{"tangential_elasticity",
+                                               OwnerKind::material,
+                                               false,
+                                               -1,
+                                               1,
+                                               false,
+                                               oneComponent,
+                                               nullptr,
+                                               TangentialElasticity::get,
+                                               TangentialElasticity::set,
+                                               TangentialElasticity::gather,
+                                               TangentialElasticity::scatter,
+                                               unitScale};
 
 }  // namespace carom

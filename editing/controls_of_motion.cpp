@@ -54,25 +54,54 @@ Vec3 scaleGravity(const Scene& start, const ControlOwner&) { return Vec3::Consta
 
 }  // namespace
 
-const ControlKind kPositionControl{
-    "position", OwnerKind::body, false, -kUnbounded, kUnbounded, false, xyzComponents, nullptr,
-    Position::get, Position::set, Position::gather, Position::scatter, bodyScale<&NaturalScales::length>};
+const ControlKind kPositionControl{"position",
+                                   OwnerKind::body,
+                                   false,
+                                   -kUnbounded,
+                                   kUnbounded,
+                                   false,
+                                   xyzComponents,
+                                   nullptr,
+                                   Position::get,
+                                   Position::set,
+                                   Position::gather,
+                                   Position::scatter,
+                                   bodyScale<&NaturalScales::length>};
 
 const ControlKind kOrientationControl{
-    "orientation", OwnerKind::body, false, -kUnbounded, kUnbounded, false, xyzComponents, nullptr,
-    getOrientation, setOrientation, gatherOrientation, scatterOrientation, unitScale};
+    "orientation", OwnerKind::body, false,          -kUnbounded,       kUnbounded,         false,    xyzComponents,
+    nullptr,       getOrientation,  setOrientation, gatherOrientation, scatterOrientation, unitScale};
 
-const ControlKind kVelocityControl{
-    "velocity", OwnerKind::moving_body, false, -kUnbounded, kUnbounded, false, xyzComponents, nullptr,
-    Velocity::get, Velocity::set, Velocity::gather, Velocity::scatter, bodyScale<&NaturalScales::velocity>};
+const ControlKind kVelocityControl{"velocity",
+                                   OwnerKind::moving_body,
+                                   false,
+                                   -kUnbounded,
+                                   kUnbounded,
+                                   false,
+                                   xyzComponents,
+                                   nullptr,
+                                   Velocity::get,
+                                   Velocity::set,
+                                   Velocity::gather,
+                                   Velocity::scatter,
+                                   bodyScale<&NaturalScales::velocity>};
 
-const ControlKind kAngularVelocityControl{
-    "angular_velocity", OwnerKind::moving_body, false, -kUnbounded, kUnbounded, false, xyzComponents, nullptr,
-    AngularVelocity::get, AngularVelocity::set, AngularVelocity::gather, AngularVelocity::scatter,
-    bodyScale<&NaturalScales::angular_velocity>};
+const ControlKind kAngularVelocityControl{"angular_velocity",
+                                          OwnerKind::moving_body,
+                                          false,
+                                          -kUnbounded,
+                                          kUnbounded,
+                                          false,
+                                          xyzComponents,
+                                          nullptr,
+                                          AngularVelocity::get,
+                                          AngularVelocity::set,
+                                          AngularVelocity::gather,
+                                          AngularVelocity::scatter,
+                                          bodyScale<&NaturalScales::angular_velocity>};
 
-const ControlKind kGravityControl{
-    "gravity", OwnerKind::scene, false, -kUnbounded, kUnbounded, false, xyzComponents, nullptr,
-    getGravity, setGravity, gatherGravity, scatterGravity, scaleGravity};
+const ControlKind kGravityControl{"gravity",     OwnerKind::scene, false,       -kUnbounded, kUnbounded,
+                                  false,         xyzComponents,    nullptr,     getGravity,  setGravity,
+                                  gatherGravity, scatterGravity,   scaleGravity};
 
 }  // namespace carom

@@ -10,8 +10,8 @@ namespace carom {
 /// A row of a Jacobian that is a combination of others: row = sum_k weights[k] * independent[k].
 struct DependentRow {
   int row = -1;
-  std::vector<int> on;          ///< rows with a weight that counts
-  Eigen::VectorXd weights;      ///< one for each entry of RowSplit::independent
+  std::vector<int> on;      ///< rows with a weight that counts
+  Eigen::VectorXd weights;  ///< one for each entry of RowSplit::independent
 };
 
 struct RowSplit {

@@ -75,8 +75,8 @@ Nail& Nail::point(const Vec3& body_point, const Vec3& world) {
 }
 
 const char* nameOf(EditStatus status) {
-  constexpr const char* kNames[] = {"solved",      "solved_sequence_changed", "infeasible", "not_converged",
-                                    "out_of_time", "cancelled",               "bad_start"};
+  constexpr const char* kNames[] = {
+      "solved", "solved_sequence_changed", "infeasible", "not_converged", "out_of_time", "cancelled", "bad_start"};
   return kNames[static_cast<int>(status)];
 }
 

@@ -20,11 +20,11 @@ class Edit;
 /// (again: replaces its target). A component `any` stays free. Valid as long as its Edit.
 class Nail {
  public:
-  Nail& position(const Vec3& p_W);            ///< m
-  Nail& orientation(const Quat& q);           ///< shape to world, unit
-  Nail& velocity(const Vec3& v_W);            ///< m/s
-  Nail& angularVelocity(const Vec3& w_W);     ///< rad/s, world axes
-  Nail& time(double t);                       ///< s, of the impact; only for nails at an impact
+  Nail& position(const Vec3& p_W);                         ///< m
+  Nail& orientation(const Quat& q);                        ///< shape to world, unit
+  Nail& velocity(const Vec3& v_W);                         ///< m/s
+  Nail& angularVelocity(const Vec3& w_W);                  ///< rad/s, world axes
+  Nail& time(double t);                                    ///< s, of the impact; only for nails at an impact
   Nail& point(const Vec3& body_point, const Vec3& world);  ///< a point in shape axes comes to a place in the world
 
  private:
@@ -42,8 +42,8 @@ enum class EditStatus {
   infeasible,               ///< the constraints cannot all be met, or no way was found from anywhere that was tried
   not_converged,            ///< the limit of iterations, or no progress
   out_of_time,
-  cancelled,                ///< by the progress callback
-  bad_start,                ///< a constraint that the start's motion does not have: after its end, an impact not there
+  cancelled,  ///< by the progress callback
+  bad_start,  ///< a constraint that the start's motion does not have: after its end, an impact not there
 };
 const char* nameOf(EditStatus status);
 
@@ -60,7 +60,7 @@ struct EditProgress {
 };
 
 struct EditOptions {
-  int max_iterations = 200;
+  int max_iterations = 200;  ///< steps of all stages together; the one under way may add a few
   double time_budget_seconds = std::numeric_limits<double>::infinity();
   double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
   SequencePolicy sequence = SequencePolicy::prefer_start;
@@ -77,9 +77,9 @@ struct ChangedNumber {
 
 /// One number that was held, in the verified motion.
 struct HeldNumber {
-  int constraint = -1;  ///< index of the Constraint
-  std::string name;     ///< "position.x of 'hat' at 1.4 s"
-  std::string component;  ///< "position.x"
+  int constraint = -1;                      ///< index of the Constraint
+  std::string name;                         ///< "position.x of 'hat' at 1.4 s"
+  std::string component;                    ///< "position.x"
   double value = 0, target = 0, error = 0;  ///< SI; NaN where the motion does not have it
   double scaled_error = 0;                  ///< dimensionless
 };

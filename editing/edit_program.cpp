@@ -1,6 +1,7 @@
 #include "editing/edit_program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace carom {
@@ -8,22 +9,26 @@ namespace {
 
 /// Validity is kept a little away from its limit, so that what the solver's tolerance lets through is still valid.
 constexpr double kValidityMargin = 1e-7;
-/// A solve is given up when so many iterations do not bring the violation below this fraction of what it was, unless it
-/// is small: then it is the change that is being minimised.
+/// A solve is given up when so many iterations neither bring the violation below this fraction of what it was nor, once
+/// it is small, still make the change smaller.
 constexpr int kPatience = 8;
 constexpr double kEnoughProgress = 0.7;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNearlyMet = 1e-5;
+constexpr double kSameObjective = 1e-7;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows,
-                         const std::string* signature)
-    : search_(search), start_(std::move(start)), rows_(std::move(rows)), signature_(signature), lowest_violation_(kInfinity), lowest_at_mark_(kInfinity) {}
+EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature)
+    : search_(search),
+      start_(std::move(start)),
+      rows_(std::move(rows)),
+      signature_(signature),
+      lowest_violation_(kInfinity),
+      lowest_at_mark_(kInfinity),
+      objective_at_mark_(kInfinity) {}
 
-int EditProgram::constraints() const {
-  return static_cast<int>(rows_.size()) + search_.problem().validity.size();
-}
+int EditProgram::constraints() const { return static_cast<int>(rows_.size()) + search_.problem().validity.size(); }
 
 NonlinearProgram::Bounds EditProgram::bounds() const {
   const Eigen::Index rows = static_cast<Eigen::Index>(rows_.size());
@@ -105,9 +110,11 @@ bool EditProgram::iteration(const Iteration& i) {
   if (!search_.step(i.objective, i.violation)) return false;
   lowest_violation_ = std::min(lowest_violation_, i.violation);
   if (i.number % kPatience != 0) return true;
-  const bool stalls = lowest_violation_ > kNearlyMet && lowest_violation_ > kEnoughProgress * lowest_at_mark_;
+  const bool falls = lowest_violation_ <= kEnoughProgress * lowest_at_mark_;
+  const bool shrinks = std::abs(i.objective - objective_at_mark_) > kSameObjective * i.objective;
   lowest_at_mark_ = lowest_violation_;
-  return !stalls;
+  objective_at_mark_ = i.objective;
+  return falls || (shrinks && lowest_violation_ <= kNearlyMet);
 }
 
 }  // namespace carom

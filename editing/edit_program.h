@@ -42,7 +42,7 @@ class EditProgram final : public NonlinearProgram {
   std::vector<int> rows_;
   const std::string* signature_;
   std::vector<Eigen::MatrixXd> curvature_;  // of each constraint
-  double lowest_violation_, lowest_at_mark_;
+  double lowest_violation_, lowest_at_mark_, objective_at_mark_;
   Eigen::VectorXd last_x_;
   Eigen::MatrixXd last_dg_dx_;
 };

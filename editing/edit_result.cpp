@@ -30,8 +30,8 @@ std::vector<HeldNumber> heldNumbers(const ConstraintSet& constraints, const RowV
   std::vector<HeldNumber> held;
   for (int i = 0; i < constraints.size(); ++i) {
     const Row& row = constraints.rows()[i];
-    held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.wanted,
-                    rows.residuals[i], rows.scaled[i]});
+    held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.wanted, rows.residuals[i],
+                    rows.scaled[i]});
   }
   return held;
 }

@@ -109,6 +109,8 @@ namespace {
 
 /// Validity rows nearer than this to their limit are held at it.
 constexpr double kActiveValidity = 1e-6;
+/// Steps across the border of an impact sequence that may make things worse at first.
+constexpr int kLeaps = 8;
 /// Where rounding leaves nothing to improve.
 constexpr double kExact = 1e-14;
 
@@ -177,25 +179,40 @@ Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point) {
   return boundedStep(systemAt(point), point.changes, search.lower(), search.upper());
 }
 
+namespace {
+
+/// The first point along a step with a smaller violation; null where there is none. `full` is the one at its end.
+EditPointPtr descend(EditSearch& search, const EditPoint& from, const Eigen::VectorXd& step,
+                     const std::string* signature, EditPointPtr& full) {
+  for (double length = 1; length > 0.01 && search.halt() == Halt::none; length /= 2) {
+    EditPointPtr trial = search.evaluate(from.changes + length * step);
+    if (!trial || (signature && trial->signature != *signature)) continue;
+    if (length == 1) full = trial;
+    if (trial->violation < from.violation) return trial;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int max_steps,
                                     const std::string* signature) {
-  EditPointPtr point = std::move(from);
+  EditPointPtr point = std::move(from), nearest = point;
+  int leaps = 0;
   for (int k = 0; k < max_steps && point->violation > kExact; ++k) {
     search.differentiate(*point);
     if (!point->row_jacobian->allFinite()) break;
-    const Eigen::VectorXd step = smallestStep(search, *point);
-    EditPointPtr next;
-    for (double length = 1; length > 0.01 && !next; length /= 2) {
-      EditPointPtr trial = search.evaluate(point->changes + length * step);
-      if (search.halt() != Halt::none) return point;
-      const bool refused = !trial || (signature && trial->signature != *signature);
-      if (!refused && trial->violation < point->violation) next = std::move(trial);
-    }
+    EditPointPtr full;
+    EditPointPtr next = descend(search, *point, smallestStep(search, *point), signature, full);
+    // At the border of two impact sequences the violation may have a kink that no descent leaves.
+    const bool may_leap = !signature && full && leaps < kLeaps && full->signature != point->signature;
+    if (!next && may_leap) next = full, ++leaps;
     if (!next) break;
     point = std::move(next);
+    if (point->violation < nearest->violation) nearest = point;
     if (!search.step(point->objective, point->violation)) break;
   }
-  return point;
+  return nearest;
 }
 
 }  // namespace carom

@@ -17,7 +17,7 @@ struct EditPoint {
   Eigen::VectorXd changes, values;
   Motion motion;  ///< a little further than the constraints reach
   RowValues rows;
-  std::string signature;  ///< of the events that count
+  std::string signature;     ///< of the events that count
   Eigen::VectorXd validity;  ///< h >= 0
   double violation = 0;      ///< largest scaled residual or lack of validity
   double objective = 0;
@@ -56,6 +56,7 @@ class EditSearch {
   int iterations() const { return iterations_; }
   int iterationsLeft() const { return options_.max_iterations - iterations_; }
   Halt halt() const { return halt_; }
+  bool goesOn() const { return halt_ == Halt::none && iterationsLeft() > 0; }
   std::optional<std::chrono::steady_clock::time_point> deadline() const { return deadline_; }
 
  private:

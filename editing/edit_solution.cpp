@@ -125,7 +125,7 @@ EditSolution findSolution(EditSearch& search) {
 
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
   const int share = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
-  const auto goesOn = [&] { return may_leave && !search.reached() && search.halt() == Halt::none; };
+  const auto goesOn = [&] { return may_leave && !search.reached() && search.goesOn(); };
   minimiseChange(search, choice.from, choice.rows, &start->signature, share);
   if (goesOn()) crossSequences(search, start);
   if (goesOn()) minimiseChange(search, search.best(), choice.rows, nullptr, search.iterationsLeft() / 2);

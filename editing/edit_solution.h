@@ -9,10 +9,10 @@ namespace carom {
 
 /// Where a search ended.
 struct EditSolution {
-  EditPointPtr point;        ///< the best that was found
+  EditPointPtr point;  ///< the best that was found
   EditPointPtr start;
   EditStatus status = EditStatus::not_converged;
-  std::string message;       ///< why, when it is not solved
+  std::string message;  ///< why, when it is not solved
 };
 
 EditSolution findSolution(EditSearch& search);
@@ -22,8 +22,8 @@ EditSolution findSolution(EditSearch& search);
 /// reaches them.
 EditPointPtr searchElsewhere(EditSearch& search);
 
-/// Smallest change near `from` that meets `rows`, then all rows as well as possible. With a signature, within that impact
-/// sequence. Returns the point where it ended; the search remembers the best of all.
+/// Smallest change near `from` that meets `rows`, then all rows as well as possible. With a signature, within that
+/// impact sequence. Returns the point where it ended; the search remembers the best of all.
 EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
                             const std::string* signature, int max_iterations);
 /// The same within the impact sequence of a point that meets all rows.

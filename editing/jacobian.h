@@ -30,7 +30,7 @@ struct EditProblem {
 struct RowsAndJacobian {
   Motion motion;
   RowValues rows;
-  Eigen::MatrixXd jacobian;             ///< rows x controls; rows that are not available are NaN
+  Eigen::MatrixXd jacobian;              ///< rows x controls; rows that are not available are NaN
   std::vector<Reliability> reliability;  ///< of each row; by adjoint only
 };
 

@@ -4,9 +4,9 @@
 
 namespace carom {
 
-/// minimise f(x) subject to x_lower <= x <= x_upper, g_lower <= g(x) <= g_upper. Infinite bounds are allowed; equal ones
-/// make an equation. Functions that evaluate return false where x cannot be evaluated or is not wanted: the solver then
-/// tries a point nearer to the last good one.
+/// minimise f(x) subject to x_lower <= x <= x_upper, g_lower <= g(x) <= g_upper. Infinite bounds are allowed; equal
+/// ones make an equation. Functions that evaluate return false where x cannot be evaluated or is not wanted: the solver
+/// then tries a point nearer to the last good one.
 class NonlinearProgram {
  public:
   struct Bounds {
@@ -32,8 +32,8 @@ class NonlinearProgram {
   /// dg_dx is constraints() x variables(), dense.
   virtual bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) = 0;
 
-  /// Second derivatives of factor * f + multipliers . g, a full symmetric matrix. Where hasHessian() is false the solver
-  /// approximates them from gradients.
+  /// Second derivatives of factor * f + multipliers . g, a full symmetric matrix. Where hasHessian() is false the
+  /// solver approximates them from gradients.
   virtual bool hasHessian() const { return false; }
   virtual bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                        Eigen::MatrixXd& h) {

@@ -58,14 +58,37 @@ StateSeed timeSeed(const BodyState&, const Target&, int) {
   return seed;
 }
 
-const QuantityKind kPosition{"position", 3, 3, false, false, false, &NaturalScales::length, threeNumbers,
-                             fieldOf<&BodyState::position>, fieldSeed<&StateSeed::position>};
+const QuantityKind kPosition{"position",
+                             3,
+                             3,
+                             false,
+                             false,
+                             false,
+                             &NaturalScales::length,
+                             threeNumbers,
+                             fieldOf<&BodyState::position>,
+                             fieldSeed<&StateSeed::position>};
 const QuantityKind kOrientation{"orientation", 3, 4, true, false, true, nullptr, noTurn, turnFromTarget, turnSeed};
-const QuantityKind kVelocity{"velocity", 3, 3, false, false, false, &NaturalScales::velocity, threeNumbers,
-                             fieldOf<&BodyState::velocity>, fieldSeed<&StateSeed::velocity>};
+const QuantityKind kVelocity{"velocity",
+                             3,
+                             3,
+                             false,
+                             false,
+                             false,
+                             &NaturalScales::velocity,
+                             threeNumbers,
+                             fieldOf<&BodyState::velocity>,
+                             fieldSeed<&StateSeed::velocity>};
 // A spin is read in world axes, but the constant of a flight is the angular momentum.
-const QuantityKind kAngularVelocity{"angular_velocity", 3, 3, false, false, true, &NaturalScales::angular_velocity,
-                                    threeNumbers, fieldOf<&BodyState::angular_velocity>,
+const QuantityKind kAngularVelocity{"angular_velocity",
+                                    3,
+                                    3,
+                                    false,
+                                    false,
+                                    true,
+                                    &NaturalScales::angular_velocity,
+                                    threeNumbers,
+                                    fieldOf<&BodyState::angular_velocity>,
                                     fieldSeed<&StateSeed::angular_velocity>};
 const QuantityKind kTime{"time", 1, 1, true, true, false, &NaturalScales::time, oneNumber, timeOf, timeSeed};
 const QuantityKind kPoint{"point", 3, 3, false, false, true, &NaturalScales::length, threeNumbers, pointOf, pointSeed};

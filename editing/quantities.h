@@ -12,13 +12,13 @@ namespace carom {
 /// One row of the table of quantities that a constraint can hold: what the editor asks of a kind. A quantity has up to
 /// three numbers, each one row of the problem: value - target = 0. A new kind adds a row to quantities.cpp.
 struct QuantityKind {
-  const char* word;  ///< in the scene document
-  int rows;                             ///< 3: components x, y, z; 1: a single number
-  int numbers;                          ///< that a person gives as the target
-  bool all_or_nothing;                  ///< no number of the target can be left free
+  const char* word;     ///< in the scene document
+  int rows;             ///< 3: components x, y, z; 1: a single number
+  int numbers;          ///< that a person gives as the target
+  bool all_or_nothing;  ///< no number of the target can be left free
   bool only_at_impacts;
-  bool turns;                           ///< depends on the orientation of the body when it is read
-  double NaturalScales::*scale;         ///< makes a residual dimensionless; null: 1 rad
+  bool turns;                    ///< depends on the orientation of the body when it is read
+  double NaturalScales::*scale;  ///< makes a residual dimensionless; null: 1 rad
 
   /// Target of each row, from the numbers a person gave (NaN: free).
   Vec3 (*target)(const Target&);

@@ -10,9 +10,9 @@ namespace carom {
 
 /// Rows that say the same as others would stop the solver, and rows that nothing influences cannot be met.
 struct RowChoice {
-  std::vector<int> rows;         ///< independent: for the solver; the others are left to verification
-  EditPointPtr from;             ///< where they are independent: the start, or a point beside it
-  std::string contradiction;     ///< not empty: these constraints cannot be met together; sentences that name them
+  std::vector<int> rows;      ///< independent: for the solver; the others are left to verification
+  EditPointPtr from;          ///< where they are independent: the start, or a point beside it
+  std::string contradiction;  ///< not empty: these constraints cannot be met together; sentences that name them
 };
 
 /// Looks at the derivatives at the start, and where rows depend on each other there, also at points beside it: what

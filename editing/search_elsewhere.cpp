@@ -10,7 +10,7 @@ constexpr int kProbes = 48;
 constexpr int kCandidates = 8;
 constexpr int kProjectionSteps = 25;
 /// Half widths of the box around the start, in natural scales, where a number has no bounds; used in turn.
-constexpr double kReach[] = {0.3, 1, 3};
+constexpr double kReach[] = {0.03, 0.1, 0.3, 1};
 
 /// The ratio of the R_d sequence, x^(d+1) = x + 1: the golden ratio in more dimensions, which spreads points evenly.
 double spreadingRatio(Eigen::Index dimensions) {
@@ -29,7 +29,7 @@ Eigen::VectorXd probe(const EditSearch& search, int index) {
     double lower = search.lower()[j], upper = search.upper()[j];
     if (!std::isfinite(lower) || !std::isfinite(upper)) {
       const double weight = controls.controls()[controls.variables()[j].control].control.weight;
-      const double reach = kReach[index % 3] * weight;
+      const double reach = kReach[index % 4] * weight;
       lower = std::max(lower, -reach), upper = std::min(upper, reach);
     }
     changes[j] = lower + fraction * (upper - lower);
@@ -48,14 +48,11 @@ EditPointPtr searchElsewhere(EditSearch& search) {
                    [](const EditPointPtr& a, const EditPointPtr& b) { return a->violation < b->violation; });
 
   EditPointPtr nearest;
-  for (int i = 0; i < std::min<int>(kCandidates, static_cast<int>(found.size())); ++i) {
+  for (int i = 0; i < std::min<int>(kCandidates, static_cast<int>(found.size())) && search.goesOn(); ++i) {
     const EditPointPtr point = projectOntoConstraints(search, found[i], kProjectionSteps);
-    if (search.halt() != Halt::none) return nullptr;
     if (search.reached(*point) && (!nearest || point->objective < nearest->objective)) nearest = point;
   }
-  if (!nearest) return nullptr;
-
-  return minimiseWithin(search, nearest);
+  return nearest ? minimiseWithin(search, nearest) : nullptr;
 }
 
 }  // namespace carom

@@ -1,15 +1,26 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
-/// Small text helpers for messages. Internal to editing/.
+#include "adjoint/errors.h"
+
+/// Small helpers for messages. Internal to editing/.
 namespace carom {
 
 /// Six significant digits: "0.45", "1.2e-07".
 std::string number(double value);
 /// "a, b and c".
 std::string listOf(const std::vector<std::string>& items);
+
+/// Runs a look-up by name and adds the place to its error.
+template <class Find>
+int findAt(const std::string& where, Find find) {
+  try {
+    return find();
+  } catch (const InputError& error) {
+    throw InputError(where, error.message());
+  }
+}
 
 }  // namespace carom

@@ -9,11 +9,11 @@ namespace carom {
 
 /// One column of a Jacobian by differences with one step.
 struct DifferenceColumn {
-  bool compared = false;      ///< only where every motion that the differences use has the same impact sequence
-  std::string scheme;         ///< "central"; "forward" or "backward" where the scene is impossible on the other side
-  std::string why;            ///< a sentence when not compared
-  Eigen::VectorXd values;     ///< d(rows)/d(control), SI
-  double disagreement = 0;    ///< largest over the rows, relative to the column's scale
+  bool compared = false;    ///< only where every motion that the differences use has the same impact sequence
+  std::string scheme;       ///< "central"; "forward" or "backward" where the scene is impossible on the other side
+  std::string why;          ///< a sentence when not compared
+  Eigen::VectorXd values;   ///< d(rows)/d(control), SI
+  double disagreement = 0;  ///< largest over the rows, relative to the column's scale
   std::vector<std::string> below, above;  ///< the impact sequences on both sides, one line an impact
 };
 
@@ -28,9 +28,9 @@ struct DerivativeCheck {
   Eigen::MatrixXd by_differences;  ///< each column at its best step; NaN where no step could be compared
   std::vector<double> steps;       ///< of the natural scale of each control
   std::vector<std::vector<DifferenceColumn>> columns;  ///< [column][step]
-  std::vector<int> best_step;      ///< of each column; -1 where no step could be compared
-  std::vector<std::string> sequence;  ///< of the motion itself
-  Entry adjoint_tangent, differences;  ///< the worst entries
+  std::vector<int> best_step;                          ///< of each column; -1 where no step could be compared
+  std::vector<std::string> sequence;                   ///< of the motion itself
+  Entry adjoint_tangent, differences;                  ///< the worst entries
   bool passed = false;
   std::string message;  ///< one sentence
 };

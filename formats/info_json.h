@@ -15,7 +15,7 @@ struct ScenePlan {
     int a = -1, b = -1;
     PairCoefficients coefficients;
     Law law = Law::frictionless;
-    std::string why;  ///< the law
+    std::string why;                           ///< the law
     std::string elasticity_why, friction_why;  ///< how the materials' coefficients were combined
   };
   double duration = 0;
@@ -26,8 +26,8 @@ struct ScenePlan {
   int rows = 0;      ///< numbers that are held
 };
 
-/// The answer of `carom info S.json --json`: duration, asked, bodies {name, tier, why, derivative_tier, derivative_why},
-/// pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
+/// The answer of `carom info S.json --json`: duration, asked, bodies {name, tier, why, derivative_tier,
+/// derivative_why}, pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
 std::string infoJson(const Scene& scene, const ScenePlan& plan);
 
 }  // namespace carom

@@ -41,9 +41,9 @@ TEST(ConstraintSet, EveryQuantityIsTested) {
 
 TEST(ConstraintSet, NamesItsRows) {
   const ConstraintSet set(thrownBox(), everyQuantity());
-  const char* expected[] = {"position.x",    "position.z", "orientation.x", "orientation.y", "orientation.z", "velocity.x",
-                            "velocity.y",    "time",       "point.x",       "point.y",       "point.z",
-                            "angular_velocity.y"};
+  const char* expected[] = {"position.x",    "position.z", "orientation.x", "orientation.y",
+                            "orientation.z", "velocity.x", "velocity.y",    "time",
+                            "point.x",       "point.y",    "point.z",       "angular_velocity.y"};
   ASSERT_EQ(set.size(), 12);
   for (int i = 0; i < 12; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
   EXPECT_EQ(set.describeRow(0), "position.x of 'box' at 0.4 s");
@@ -193,7 +193,7 @@ TEST_P(ConstraintMistake, IsNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, ConstraintMistake, testing::ValuesIn(kMistakes),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& row) { return std::string(row.param.name); });
 
 TEST(EditProblem, DurationMustBePositive) {
   const Scene scene = thrownBox();

@@ -137,9 +137,8 @@ TEST_P(EachControl, ScatterIsTheDerivativeOfTheScene) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, EachControl, testing::Range(0, 12), [](const auto& info) {
-  return everyControl()[static_cast<std::size_t>(info.param)].vary;
-});
+INSTANTIATE_TEST_SUITE_P(Table, EachControl, testing::Range(0, 12),
+                         [](const auto& row) { return everyControl()[static_cast<std::size_t>(row.param)].vary; });
 
 TEST(ControlKinds, EveryKindIsTested) {
   const std::vector<Control> controls = everyControl();
@@ -280,9 +279,19 @@ struct Mistake {
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
 const Mistake kMistakes[] = {
-    {"word", [] { Control c; c.vary = "speed"; return std::vector{c}; }, "/controls/0/vary", "expected one of position"},
+    {"word",
+     [] {
+       Control c;
+       c.vary = "speed";
+       return std::vector{c};
+     },
+     "/controls/0/vary", "expected one of position"},
     {"body", [] { return std::vector{velocity("bix")}; }, "/controls/0/body", "bix"},
-    {"material", [] { return std::vector{gravity(), elasticity("velvet")}; }, "/controls/1/material", "velvet"},
+    {"material",
+     [] {
+       return std::vector{gravity(), elasticity("velvet")};
+     },
+     "/controls/1/material", "velvet"},
     {"fixed", [] { return std::vector{velocity("floor")}; }, "/controls/0/body", "fixed"},
     {"fixed_mass", [] { return std::vector{mass("floor")}; }, "/controls/0/body", "fixed"},
     {"fixed_tilt", [] { return std::vector{tilt("floor", 1)}; }, "/controls/0/body", "fixed"},
@@ -296,10 +305,25 @@ const Mistake kMistakes[] = {
     {"weight", [] { return std::vector{mass("box").weighted(0)}; }, "/controls/0/weight", "greater than 0"},
     {"nan_weight", [] { return std::vector{mass("box").weighted(kNaN)}; }, "/controls/0/weight", "greater than 0"},
     {"cone", [] { return std::vector{tilt("box", 1).atMost(0)}; }, "/controls/0/max", "greater than 0"},
-    {"twice", [] { return std::vector{velocity("box"), velocity("box").only({"y"})}; }, "/controls/1", "/controls/0"},
-    {"owner", [] { Control c = gravity(); c.body = "box"; return std::vector{c}; }, "/controls/0/body", "not belong"},
-    {"two_bounds", [] { Control c = velocity("box"); c.min = {0, 1}; return std::vector{c}; }, "/controls/0/min",
-     "expected 1 or 3"},
+    {"twice",
+     [] {
+       return std::vector{velocity("box"), velocity("box").only({"y"})};
+     },
+     "/controls/1", "/controls/0"},
+    {"owner",
+     [] {
+       Control c = gravity();
+       c.body = "box";
+       return std::vector{c};
+     },
+     "/controls/0/body", "not belong"},
+    {"two_bounds",
+     [] {
+       Control c = velocity("box");
+       c.min = {0, 1};
+       return std::vector{c};
+     },
+     "/controls/0/min", "expected 1 or 3"},
 };
 
 class ControlMistake : public testing::TestWithParam<Mistake> {};
@@ -315,7 +339,7 @@ TEST_P(ControlMistake, IsNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, ControlMistake, testing::ValuesIn(kMistakes),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& row) { return std::string(row.param.name); });
 
 }  // namespace
 }  // namespace carom

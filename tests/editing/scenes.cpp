@@ -57,9 +57,18 @@ Scene thrownBox() {
 }
 
 std::vector<Control> everyControl() {
-  return {position("box"),        orientation("box"), velocity("box"), angularVelocity("box"), elasticity("felt"),
-          friction("felt"),       tangentialElasticity("felt"),        mass("box"),            inertia("box"),
-          size("box"),            tilt("box", 1),     gravity()};
+  return {position("box"),
+          orientation("box"),
+          velocity("box"),
+          angularVelocity("box"),
+          elasticity("felt"),
+          friction("felt"),
+          tangentialElasticity("felt"),
+          mass("box"),
+          inertia("box"),
+          size("box"),
+          tilt("box", 1),
+          gravity()};
 }
 
 }  // namespace carom::testing_scenes

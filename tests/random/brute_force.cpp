@@ -6,10 +6,10 @@
 namespace carom::brute {
 namespace {
 
-constexpr Real kAmple = 0.02L;     // m between bounding balls: no need to look at the shapes
-constexpr Real kNear = 1e-4L;      // m, below which it pays to let the separating direction turn
-constexpr Real kMoment = 1e-9L;    // s
-constexpr Real kRounding = 2e-14L;  // m, above what positions of some metres can resolve in double
+constexpr Real kAmple = 0.02L;      // m between bounding balls: no need to look at the shapes
+constexpr Real kNear = 1e-4L;       // m, below which it pays to let the separating direction turn
+constexpr Real kMoment = 1e-9L;     // s
+constexpr Real kRounding = 1e-17L;  // m, above the rounding of separations in long double
 
 // Position of one corner along a direction n that turns at the rate dn, to first order.
 struct Line {
@@ -57,9 +57,8 @@ BruteForce::BruteForce(const Scene& scene) : gravity_(widen(scene.gravity)) {
 }
 
 BruteForce::Pair& BruteForce::pair(int a, int b) {
-  return *std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
-    return p.a == std::min(a, b) && p.b == std::max(a, b);
-  });
+  return *std::find_if(pairs_.begin(), pairs_.end(),
+                       [&](const Pair& p) { return p.a == std::min(a, b) && p.b == std::max(a, b); });
 }
 
 void BruteForce::restart(int body, Real t, const State& state) {
@@ -72,9 +71,9 @@ void BruteForce::restart(int body, Real t, const State& state) {
     }
 }
 
-void BruteForce::leaveContact(int a, int b, Real t) {
-  pair(a, b).slack = 2 * std::abs(separationAt(a, b, t).value);
-}
+void BruteForce::leaveContact(int a, int b, Real t) { pair(a, b).slack = 2 * std::abs(separationAt(a, b, t).value); }
+
+bool BruteForce::hasParted(int a, int b) { return pair(a, b).apart; }
 
 void BruteForce::lookUntil(Real t) {
   for (Pair& p : pairs_) look(p, t);
@@ -166,7 +165,8 @@ Real BruteForce::safeStep(const Pair& p, Real t, const Separation& s, bool as_ba
     upper = linesOf(b, kb, ka.x, s.n, dn);
     bend += cornerAcceleration(a, fa) + cornerAcceleration(b, fb);
     if (turn > 0) {  // (n . d)'' = n . d'' + 2 n' . d' + n'' . d for the vector d between two corners
-      const Real speed = velocity.norm() + gravity.norm() * kLongest + fa.spinBound() * a.reach() + fb.spinBound() * b.reach();
+      const Real speed =
+          velocity.norm() + gravity.norm() * kLongest + fa.spinBound() * a.reach() + fb.spinBound() * b.reach();
       const Real apart = (ka.x - kb.x).norm() + a.reach() + b.reach() + speed * kLongest;
       bend += gravity.norm() * turn * kLongest + 2 * turn * speed + turn * turn * apart;
     }

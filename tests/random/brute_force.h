@@ -13,20 +13,24 @@ namespace carom::brute {
 /// and gaps nor its flights nor its bounds.
 ///
 /// A pair is sampled at least every 2 ms, and as densely as it takes to be sure of the time between two samples: along
-/// the direction that separates the solids now (turning as it turns now), every corner is followed to first order with a
-/// bound on its second derivative, and the next sample is no later than the time at which that could bring them together. Only where this
-/// would need steps below kShortest is one of that length taken instead; so what can be missed is a touch that lasts
-/// less than 1e-12 s, some 1e-11 m deep at the speeds of these scenes. A sample that overlaps is followed by bisection.
+/// the direction that separates the solids now (turning as it turns now), every corner is followed to first order with
+/// a bound on its second derivative, and the next sample is no later than the time at which that could bring them
+/// together. Only where this would need steps below kShortest is one of that length taken instead; so what can be
+/// missed is a touch that lasts less than 1e-12 s, some 1e-11 m deep at the speeds of these scenes. A sample that
+/// overlaps is followed by bisection.
 class BruteForce {
  public:
   static constexpr Real kShortest = 1e-12L, kLongest = 2e-3L;  // s
 
   explicit BruteForce(const Scene& scene);
 
-  /// Body flies on from `state` at time t; its pairs are looked at afresh. `struck`: the other bodies of the impact, with
-  /// which it is in contact within rounding: they have to come apart before they can be seen to meet.
+  /// Body flies on from `state` at time t; its pairs are looked at afresh.
   void restart(int body, Real t, const State& state);
+  /// The pair has just had an impact: rounding of the state left a gap or an overlap, by twice of which the bodies have
+  /// to come apart before they can be seen to meet.
   void leaveContact(int a, int b, Real t);
+  /// Whether they have come apart since.
+  bool hasParted(int a, int b);
 
   /// Looks at all pairs up to t.
   void lookUntil(Real t);

@@ -41,7 +41,7 @@ class StateCheck {
  private:
   void overlap(int a, int b, const std::vector<Placement>& places, double t) {
     const auto ia = static_cast<std::size_t>(a), ib = static_cast<std::size_t>(b);
-    const auto &bodies = motion_.scene->bodies;
+    const auto& bodies = motion_.scene->bodies;
     if (bodies[ia].fixed && bodies[ib].fixed) return;
     const Real depth = -separation(solids_[ia], places[ia], solids_[ib], places[ib]).value;
     findings_.worst_overlap = std::max(findings_.worst_overlap, depth);
@@ -56,7 +56,8 @@ class StateCheck {
 };
 
 bool finite(const Event& event) {
-  bool ok = std::isfinite(event.time) && std::isfinite(event.margins.grazing) && std::isfinite(event.margins.stick_slip);
+  bool ok =
+      std::isfinite(event.time) && std::isfinite(event.margins.grazing) && std::isfinite(event.margins.stick_slip);
   for (const carom::Contact& c : event.contacts)
     ok = ok && std::isfinite(c.at.gap) && c.at.normal.allFinite() && c.at.point.allFinite() && c.impulse.allFinite() &&
          c.impulse_normal.allFinite() && std::isfinite(c.approach);
@@ -101,7 +102,8 @@ void checkEnergy(const Motion& motion, Findings& findings) {
       // along the flight that ends here: kinetic energy gained = work of gravity
       const Real start = kinetic(masses[body], arc.startState());
       const Real work = masses[body].mass * g.dot(widen(p.before.x) - widen(arc.startState().x));
-      const Real drift = std::abs(kinetic_before - start - work) / (kinetic_before + start + std::abs(work) + 1e-12L);
+      const Real scale = kinetic_before + start + masses[body].mass * g.norm() * widen(p.before.x).norm();
+      const Real drift = std::abs(kinetic_before - start - work) / std::max(scale, Real(1e-30L));
       findings.worst_flight = std::max(findings.worst_flight, drift);
       if (!(drift <= kEnergy))
         findings.fail("energy of body " + std::to_string(p.body) + " drifts by " + number(drift) +
@@ -117,6 +119,7 @@ void checkEnergy(const Motion& motion, Findings& findings) {
 void Findings::add(const Findings& o) {
   failures.insert(failures.end(), o.failures.begin(), o.failures.end());
   events += o.events, single += o.single, joint += o.joint, undecided += o.undecided, tied += o.tied;
+  for (const auto& [kind, count] : o.kinds) kinds[kind] += count;
   worst_time = std::max(worst_time, o.worst_time);
   worst_flight = std::max(worst_flight, o.worst_flight);
   worst_velocity = std::max(worst_velocity, o.worst_velocity);
@@ -130,7 +133,8 @@ std::string Findings::summary() const {
   out << events << " events (" << single << " single, " << joint << " joint), " << undecided << " undecided, " << tied
       << " tied; worst: time " << std::setprecision(3) << worst_time << " s, flight " << worst_flight << ", velocity "
       << worst_velocity << ", overlap " << worst_overlap << " m, gap at impact " << worst_gap << " m, energy growth "
-      << worst_energy;
+      << worst_energy << "\ncontacts:";
+  for (const auto& [kind, count] : kinds) out << " " << kind << " " << count << ",";
   return out.str();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct Findings {
   int events = 0, single = 0, joint = 0;
   int undecided = 0;  ///< events whose time, or whose very taking place, long double cannot settle: too near grazing
   int tied = 0;       ///< single contacts where two directions are equally good within 1e-9 m; either is accepted
+  std::map<std::string, int> kinds;  ///< contacts by the shapes that met
   Real worst_time = 0, worst_flight = 0, worst_velocity = 0, worst_overlap = 0, worst_energy = 0, worst_gap = 0;
 
   void fail(const std::string& what) { failures.push_back(what); }

@@ -9,10 +9,14 @@ namespace {
 Real combine(Combine rule, double p, double q) {
   const Real a = p, b = q;
   switch (rule) {
-    case Combine::average: return (a + b) / 2;
-    case Combine::minimum: return std::min(a, b);
-    case Combine::maximum: return std::max(a, b);
-    case Combine::multiply: break;
+    case Combine::average:
+      return (a + b) / 2;
+    case Combine::minimum:
+      return std::min(a, b);
+    case Combine::maximum:
+      return std::max(a, b);
+    case Combine::multiply:
+      break;
   }
   return a * b;
 }
@@ -32,8 +36,9 @@ Coefficients combined(const Scene& scene, const Body& a, const Body& b) {
           combine(Combine::average, p.tangential_elasticity, q.tangential_elasticity)};
 }
 
-std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Kinematic& a, const MassProperties& mass_b,
-                                          const Kinematic& b, const Contact& contact, const Coefficients& c) {
+std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Kinematic& a,
+                                          const MassProperties& mass_b, const Kinematic& b, const Contact& contact,
+                                          const Coefficients& c) {
   const Vector n = contact.n, ra = contact.p - a.x, rb = contact.p - b.x;
   const Vector u = a.v + a.w.cross(ra) - b.v - b.w.cross(rb);
   const Matrix Ja = inverseInertia(mass_a, a.R), Jb = inverseInertia(mass_b, b.R);
@@ -53,7 +58,8 @@ std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Ki
       P += mu * (1 + e) * plastic.dot(n) / (stick_t - mu * rest.dot(n)) * rest;
     }
   }
-  return {{a.v + mass_a.inverse_mass * P, a.w + Ja * ra.cross(P)}, {b.v - mass_b.inverse_mass * P, b.w - Jb * rb.cross(P)}};
+  return {{a.v + mass_a.inverse_mass * P, a.w + Ja * ra.cross(P)},
+          {b.v - mass_b.inverse_mass * P, b.w - Jb * rb.cross(P)}};
 }
 
 }  // namespace carom::brute

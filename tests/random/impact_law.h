@@ -17,7 +17,8 @@ struct Velocity {
 };
 
 /// Equations 4.1 (no friction) and 4.2 of docs/equations.md at one contact: velocities of a and b after it.
-std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Kinematic& a, const MassProperties& mass_b,
-                                          const Kinematic& b, const Contact& contact, const Coefficients& c);
+std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Kinematic& a,
+                                          const MassProperties& mass_b, const Kinematic& b, const Contact& contact,
+                                          const Coefficients& c);
 
 }  // namespace carom::brute

@@ -25,7 +25,9 @@ class Tally {
   void run(std::uint64_t seed) {
     const RandomScene random = randomScene(seed);
     const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const auto seconds = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     OdeContacts contacts(random.scene);
     SimulateOptions options;
     options.impact_limit = 2000;
@@ -36,8 +38,8 @@ class Tally {
     checkEnergy(motion, findings);
     checkSequence(motion, findings);
     ++statuses_[nameOf(motion.status)];
-    if (simulated > 1 || seconds() > 5)
-      std::printf("seed %llu is slow: simulated in %.2f s, checked in %.2f s, %zu events, %s\n",
+    if (simulated > 1 || seconds() > 5 || motion.status == MotionStatus::impact_limit)
+      std::printf("seed %llu: simulated in %.2f s, checked in %.2f s, %zu events, %s\n",
                   static_cast<unsigned long long>(seed), simulated, seconds() - simulated, motion.events.size(),
                   motion.message.c_str());
     std::string what;

@@ -16,10 +16,14 @@ class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
 
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
   double logUniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   bool chance(double p) { return uniform(0, 1) < p; }
-  int integer(int low, int high) { return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1)); }
+  int integer(int low, int high) {
+    return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
   Vec3 inCube(double half) {
     const double x = uniform(-half, half), y = uniform(-half, half), z = uniform(-half, half);
     return {x, y, z};

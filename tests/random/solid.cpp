@@ -27,7 +27,8 @@ Separation ballBox(const Solid& ball, const Placement& A, const Solid& box, cons
   return {depth - ball.radius, B.R.col(axis) * (q[axis] < 0 ? -1 : 1)};
 }
 
-// One separating axis of two boxes; `first` and `second` are the edges that it crosses, or one of them is -1 for a face.
+// One separating axis of two boxes; `first` and `second` are the edges that it crosses, or one of them is -1 for a
+// face.
 struct Axis {
   Separation s;
   int first, second;

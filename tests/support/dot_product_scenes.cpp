@@ -90,7 +90,7 @@ Scene ballBall() { return pair(ballFrom({0, 0, 1}, {0.9, 0.1, 1}), makeBall("oth
 Scene ballFace() { return pair(ballFrom({0.9, 0, 1.2}, kAt), flyingBox(kAt)); }
 Scene ballEdge() { return pair(ballFrom({0.8, 0.75, 1.2}, kAt), flyingBox(kAt)); }
 Scene edgeBall() { return pair(flyingBox(kAt), ballFrom({0.8, 0.75, 1.2}, kAt)); }
-Scene ballCorner() { return pair(ballFrom({0.7, 0.65, 1.95}, {0, 0.1, 1.2}), flyingBox(kAt)); }
+Scene ballCorner() { return pair(ballFrom({0.6, 0.55, 1.85}, {0.225, 0.2, 1.7}), flyingBox(kAt)); }
 Scene faceBall() { return pair(flyingBox(kAt), ballFrom({0.9, 0, 1.2}, kAt)); }
 
 Body cornerBox(const Vec3& position, const Vec3& velocity) {

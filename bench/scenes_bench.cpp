@@ -1,0 +1,115 @@
+// Simulate, one adjoint row, the full Jacobian and a whole edit, for example scenes and for boxes with three impacts.
+//   carom_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
+// Ratios (adjoint row over simulate) are to be read within one run: machines are noisy.
+
+#include <benchmark/benchmark.h>
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "adjoint/adjoint.h"
+#include "adjoint/simulate.h"
+#include "editing/edit.h"
+#include "editing/jacobian.h"
+#include "formats/scene_json.h"
+#include "ode_bridge/ode_contacts.h"
+
+namespace carom {
+namespace {
+
+struct Case {
+  explicit Case(const std::string& name)
+      : document(readDocument(std::string(CAROM_SCENES_DIR) + "/" + name + ".json")), contacts(document.scene),
+        edit(document.scene, contacts, document.duration, document.controls, document.constraints),
+        problem(edit.problem()), values(problem.controls.startValues()) {}
+
+  Motion motion() { return simulate(document.scene, contacts, problem.horizon, {20000, problem.asked}); }
+  int mover() const {
+    for (std::size_t i = 0; i < document.scene.bodies.size(); ++i)
+      if (!document.scene.bodies[i].fixed) return static_cast<int>(i);
+    return 0;
+  }
+
+  Document document;
+  OdeContacts contacts;
+  Edit edit;
+  EditProblem problem;
+  Eigen::VectorXd values;
+};
+
+Case& caseOf(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<Case>> cases;
+  auto& slot = cases[name];
+  if (!slot) slot = std::make_unique<Case>(name);
+  return *slot;
+}
+
+void simulateScene(benchmark::State& state, const std::string& name) {
+  Case& c = caseOf(name);
+  std::size_t impacts = 0;
+  for (auto _ : state) {
+    const Motion motion = c.motion();
+    impacts = motion.events.size();
+    benchmark::DoNotOptimize(motion.end);
+  }
+  state.counters["impacts"] = static_cast<double>(impacts);
+}
+
+// One row at the end, by every number of the scene.
+void adjointRow(benchmark::State& state, const std::string& name) {
+  Case& c = caseOf(name);
+  const Motion motion = c.motion();
+  StateSeed seed;
+  seed.body = c.mover();
+  seed.at = Instant::at(motion.end);
+  seed.position = Vec3::UnitX();
+  if (motion.plan.bodies[static_cast<std::size_t>(seed.body)].tier != Tier::none) seed.orientation = Vec3::UnitY();
+  for (auto _ : state) {
+    const SceneGradient gradient = adjoint(motion, std::span(&seed, 1));
+    benchmark::DoNotOptimize(gradient.gravity);
+  }
+}
+
+void fullJacobian(benchmark::State& state, const std::string& name) {
+  Case& c = caseOf(name);
+  const RowsAndJacobian at = evaluateByAdjoint(c.problem, c.values);
+  for (auto _ : state) benchmark::DoNotOptimize(jacobianByAdjoint(c.problem, c.values, at.motion, at.rows));
+  state.counters["rows"] = static_cast<double>(at.jacobian.rows());
+  state.counters["controls"] = static_cast<double>(at.jacobian.cols());
+}
+
+void wholeEdit(benchmark::State& state, const std::string& name) {
+  Case& c = caseOf(name);
+  int iterations = 0;
+  double residual = 0;
+  for (auto _ : state) {
+    const EditResult result = c.edit.solve();
+    iterations = result.iterations;
+    residual = result.residual;
+  }
+  state.counters["iterations"] = iterations;
+  state.counters["residual"] = residual;
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  for (const char* scene : {"book-on-shelf", "billiard-three-balls"}) {
+    const std::string name = scene;
+    const auto add = [&](const char* what, void (*function)(benchmark::State&, const std::string&)) {
+      benchmark::RegisterBenchmark((std::string(what) + "/" + name).c_str(), function, name)
+          ->Unit(benchmark::kMicrosecond);
+    };
+    add("simulate", carom::simulateScene);
+    add("adjoint_row", carom::adjointRow);
+    add("full_jacobian", carom::fullJacobian);
+    add("edit", carom::wholeEdit);
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,145 @@
+// Contacts of one instant are solved together (equation 4.3): landings and chains whose answer is known.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/compare.h"
+#include "tests/support/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+constexpr double kState = 1e-12, kDerivative = 1e-9;
+
+Body slab() { return makeBox("slab", {0.4, 0.3, 0.2}, {0, 0, 0.8}, {1, 0.5, -2}); }
+
+// Drops the slab flat, without gravity, on whatever has its top at z = 0.2; the impact is at t = 0.25.
+Motion landFlat(const Body& ground, double friction, double tangential = 0) {
+  Scene s = makeScene(Vec3::Zero(), 0.6, friction, {slab(), ground});
+  s.materials[0].tangential_elasticity = tangential;
+  return play(s, 0.4);
+}
+
+std::vector<Body> grounds() {
+  return {makePlane("floor", Vec3::UnitZ(), 0.2), fixedBody(makeBox("larger", {3, 3, 0.2}, {0, 0, 0.1})),
+          fixedBody(makeBox("smaller", {0.2, 0.1, 0.2}, {0.25, 0.125, 0.1}))};
+}
+
+void expectFlat(const Motion& m, const Vec3& velocity) {
+  ASSERT_EQ(m.events.size(), 1u);
+  EXPECT_EQ(m.events[0].mode, ImpactMode::joint);
+  EXPECT_EQ(m.events[0].contacts.size(), 4u);
+  expectEntries(m.events[0].time, 0.25, kState, "time");
+  const BodyState after = m.stateAt("slab", 0.4);
+  expectEntries(after.velocity, velocity, kState, "velocity");
+  expectEntries(after.angular_velocity, Vec3::Zero().eval(), kState, "angular velocity");
+}
+
+TEST(Joint, FlatLandingWithoutFrictionBouncesFlat) {
+  for (const Body& ground : grounds()) {
+    SCOPED_TRACE(ground.name);
+    expectFlat(landFlat(ground, 0), {1, 0.5, 1.2});
+  }
+}
+
+// The middle of the slab is over the ground, but not over its middle.
+TEST(Joint, FlatLandingOffTheMiddleBouncesFlat) {
+  expectFlat(landFlat(fixedBody(makeBox("smaller", {0.2, 0.1, 0.2}, {0.3, 0.1, 0.1})), 0), {1, 0.5, 1.2});
+}
+
+TEST(Joint, FlatLandingWithGripStopsSliding) {
+  for (const Body& ground : grounds()) {
+    SCOPED_TRACE(ground.name);
+    expectFlat(landFlat(ground, 5), {0, 0, 1.2});
+    expectFlat(landFlat(ground, 5, 0.3), {-0.3, -0.15, 1.2});
+  }
+}
+
+TEST(Joint, FlatLandingOnSlipperyGroundKeepsSliding) {
+  const Motion m = landFlat(grounds()[0], 0.05);
+  const Vec3 v = m.stateAt("slab", 0.4).velocity;
+  expectFlat(m, {v.x(), v.y(), 1.2});
+  EXPECT_GT(v.x(), 0.5);
+  EXPECT_LT(v.x(), 1);
+  expectEntries(v.y(), 0.5 * v.x(), kState, "direction of sliding");
+  double fullest = 0;  // the first contact at its friction cone decides
+  for (const Contact& c : m.events[0].contacts)
+    fullest = std::max(fullest, c.impulse.head<2>().norm() / (0.05 * c.impulse.z()));
+  expectEntries(fullest, 1, kState, "share of the cone");
+}
+
+// Both ends of an edge strike together, which is the planar problem of one vertex at (r_x, r_z).
+TEST(Joint, LandingOnAnEdgeIsThePlanarProblem) {
+  const double e = 0.6, angle = 0.3, g = 9.81, h = 0.8, I = 0.02;
+  Body b = slab();
+  b.velocity.setZero();
+  b.orientation = Quat(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  b.inertia = Inertia::fromMoments({0.015, I, 0.018});
+  const Motion m = play(makeScene({0, 0, -g}, e, 0, {b, makePlane("floor", Vec3::UnitZ(), 0)}), 0.37);
+  ASSERT_EQ(m.events.size(), 1u);
+  EXPECT_EQ(m.events[0].contacts.size(), 2u);
+  const double rx = 0.2 * std::cos(angle) - 0.1 * std::sin(angle), rz = -0.2 * std::sin(angle) - 0.1 * std::cos(angle);
+  const double v = -std::sqrt(2 * g * (h + rz)), P = -(1 + e) * v / (1 + rx * rx / I);
+  const double dP_dI = P * rx * rx / (I * I) / (1 + rx * rx / I);
+  const BodyState after = m.stateAt("slab", m.events[0].time);
+  expectEntries(after.velocity, Vec3(0, 0, v + P), kState, "velocity");
+  expectEntries(after.angular_velocity, Vec3(0, -rx * P / I, 0), kState, "angular velocity");
+  const SceneGradient vz = gradientOf(m, 0, 0.37, 8), wy = gradientOf(m, 0, 0.37, 10);
+  expectEntries(vz.bodies[0].inertia, Vec3(0, dP_dI, 0), kDerivative, "dv/dI");
+  expectEntries(wy.bodies[0].inertia, Vec3(0, rx * (P / I - dP_dI) / I, 0), kDerivative, "domega/dI");
+  expectEntries(wy.materials[0].elasticity, -rx * P / I / (1 + e), kDerivative, "domega/de");
+  Reliability r;
+  const StateSeed seed = seedOf(0, Instant::at(0.37), 8);
+  adjoint(m, std::span(&seed, 1), &r);
+  EXPECT_FALSE(r.reliable);
+  EXPECT_NE(r.message.find("joint law"), std::string::npos) << r.message;
+}
+
+Body rowBall(const char* name, double x, double v) { return makeBall(name, 0.1, {x, 0, 0}, {v, 0, 0}); }
+
+void expectSpeeds(const Scene& s, const Vec3& expected) {
+  const Motion m = play(s, 0.5);
+  ASSERT_EQ(m.events.size(), 1u) << m.describeEvent(0);
+  EXPECT_EQ(m.events[0].contacts.size(), 2u);
+  const Vec3 found(m.stateAt(0, 0.5).velocity.x(), m.stateAt(1, 0.5).velocity.x(), m.stateAt(2, 0.5).velocity.x());
+  expectEntries(found, expected, kState, "speeds");
+  for (int b = 0; b < 3; ++b)
+    expectEntries(m.stateAt(b, 0.5).velocity.tail<2>(), Vec2::Zero().eval(), kState, "across");
+}
+
+// Contacts of a row solved together: 2 P1 - P2 = (1 + e) v, 2 P2 - P1 = 0.
+TEST(Joint, BallRunsIntoTwoThatTouch) {
+  for (double e : {1.0, 0.5, 0.0}) {
+    SCOPED_TRACE(e);
+    const double p = (1 + e) / 3;
+    expectSpeeds(makeScene(Vec3::Zero(), e, 0, {rowBall("a", -0.5, 1), rowBall("b", 0, 0), rowBall("c", 0.2, 0)}),
+                 {1 - 2 * p, p, p});
+  }
+}
+
+TEST(Joint, BallIsStruckFromBothSides) {
+  for (double e : {1.0, 0.5, 0.0}) {
+    SCOPED_TRACE(e);
+    expectSpeeds(makeScene(Vec3::Zero(), e, 0, {rowBall("a", -0.5, 1), rowBall("b", 0, 0), rowBall("c", 0.5, -1)}),
+                 {-e, 0, e});
+  }
+}
+
+// A ball on the floor that is struck from above is held by the floor.
+TEST(Joint, BallBetweenFloorAndAnotherBall) {
+  const Scene s = makeScene(Vec3::Zero(), 0.5, 0, {makeBall("low", 0.1, {0, 0, 0.1}),
+                                                  makeBall("high", 0.1, {0, 0, 0.6}, {0, 0, -1}),
+                                                  makePlane("floor", Vec3::UnitZ(), 0)});
+  const Motion m = play(s, 0.5);
+  ASSERT_GE(m.events.size(), 1u);
+  EXPECT_EQ(m.events[0].contacts.size(), 2u) << m.describeEvent(0);
+  // low: P_floor - P_balls = 0; high: -1 + P_balls = e
+  expectEntries(m.stateAt("high", 0.5).velocity.z(), 0.5, kState, "high");
+  expectEntries(m.stateAt("low", 0.5).velocity.z(), 0, kState, "low");
+}
+
+}  // namespace
+}  // namespace carom

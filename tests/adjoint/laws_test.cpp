@@ -1,0 +1,204 @@
+// Impact laws on their own, on random problems: energy, tangent against central differences, pullback against tangent;
+// and the tilt of the normal. A new law adds a row.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "adjoint/impact/law.h"
+#include "adjoint/impact/tilt.h"
+#include "tests/support/compare.h"
+#include "tests/support/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace test;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct LawRow {
+  const ImpactLaw* law;
+  int fewest, most;  // contacts
+  bool friction;
+};
+const LawRow kLaws[] = {
+    {&kFrictionlessLaw, 1, 1, false}, {&kFrictionLaw, 1, 1, true}, {&kJointLaw, 2, 5, true}, {&kJointLaw, 2, 5, false}};
+
+/// K = B B^T and u = B w for bodies of unit mass with velocities w: the kinetic energy is |w|^2/2.
+struct RandomProblem {
+  ImpactProblem p;
+  double energy = 0;
+
+  RandomProblem(const LawRow& row, Random& random) {
+    const int n = row.fewest + random.below(row.most - row.fewest + 1);
+    const MatrixXd B = random.vector(9 * n * (n + 1)).reshaped(3 * n, 3 * n + 3);
+    const VectorXd w = 2 * random.vector(3 * n + 3);
+    p.K = B * B.transpose();
+    p.u = B * w;
+    energy = 0.5 * w.squaredNorm();
+    const bool some_slippery = random.in(0, 1) < 0.3;
+    for (int k = 0; k < n; ++k) {
+      Vec3 normal = random.unit();
+      if (normal.dot(p.u.segment<3>(3 * k)) > 0) normal = -normal;
+      p.normal.push_back(normal);
+      const double mu = row.friction ? std::pow(10, random.in(-1.5, 0.5)) : 0;
+      p.pair.push_back({random.in(0, 1), some_slippery && k == 1 ? 0 : mu, random.in(-1, 1)});
+    }
+  }
+};
+
+double energyChange(const ImpactProblem& p, const VectorXd& P) { return P.dot(p.u) + 0.5 * P.dot(p.K * P); }
+
+TEST(Laws, EnergyNeverGrowsAndContactsPart) {
+  for (const LawRow& row : kLaws)
+    for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+      SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
+      Random random(seed);
+      const RandomProblem r(row, random);
+      const ImpactSolution s = row.law->solve(r.p);
+      EXPECT_TRUE(energyChange(r.p, s.P) <= 1e-12 * r.energy) << energyChange(r.p, s.P) / r.energy;
+      const VectorXd after = r.p.u + r.p.K * s.P;
+      for (int k = 0; k < r.p.contacts(); ++k) {
+        const Vec3& n = r.p.normal[static_cast<std::size_t>(k)];
+        const Vec3 P = s.P.segment<3>(3 * k);
+        const double e = r.p.pair[static_cast<std::size_t>(k)].elasticity, mu = r.p.pair[static_cast<std::size_t>(k)].friction;
+        EXPECT_TRUE(n.dot(P) >= -1e-12) << "contact " << k << " pulls";
+        EXPECT_TRUE((P - n.dot(P) * n).norm() <= mu * n.dot(P) + 1e-11 * (1 + P.norm())) << "contact " << k;
+        if (r.p.contacts() > 1) continue;
+        expectEntries(n.dot(after.segment<3>(0)), -e * n.dot(r.p.u.segment<3>(0)), 1e-12, "restitution");
+      }
+    }
+}
+
+// Several contacts without friction: every one leaves at least as fast as its own elasticity says, and pushes only if it
+// leaves just so.
+TEST(Laws, JointNormalImpulsesAreComplementary) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const RandomProblem r({&kJointLaw, 2, 6, false}, random);
+    const VectorXd P = kJointLaw.solve(r.p).P, after = r.p.u + r.p.K * P;
+    for (int k = 0; k < r.p.contacts(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Vec3& n = r.p.normal[i];
+      const double excess = n.dot(after.segment<3>(3 * k)) + r.p.pair[i].elasticity * n.dot(r.p.u.segment<3>(3 * k));
+      EXPECT_TRUE(excess >= -1e-11) << "contact " << k;
+      EXPECT_TRUE(std::abs(excess * n.dot(P.segment<3>(3 * k))) <= 1e-10) << "contact " << k;
+    }
+  }
+}
+
+ImpactProblemDerivative randomDirection(const ImpactProblem& p, Random& random) {
+  const int n = p.contacts();
+  ImpactProblemDerivative d(n);
+  const MatrixXd S = random.vector(9 * n * n).reshaped(3 * n, 3 * n);
+  d.K = 0.5 * (S + S.transpose());
+  d.u = random.vector(3 * n);
+  for (int k = 0; k < n; ++k) {
+    const Vec3 &normal = p.normal[static_cast<std::size_t>(k)], v = random.vec(1);
+    d.normal[static_cast<std::size_t>(k)] = v - normal.dot(v) * normal;
+    d.pair[static_cast<std::size_t>(k)] = {random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+  }
+  return d;
+}
+
+ImpactProblem moved(ImpactProblem p, const ImpactProblemDerivative& d, double h) {
+  p.K += h * d.K;
+  p.u += h * d.u;
+  for (std::size_t k = 0; k < p.normal.size(); ++k) {
+    p.normal[k] = (p.normal[k] + h * d.normal[k]).normalized();
+    p.pair[k].elasticity += h * d.pair[k].elasticity;
+    if (p.pair[k].friction > 0) p.pair[k].friction += h * d.pair[k].friction;
+    p.pair[k].tangential_elasticity += h * d.pair[k].tangential_elasticity;
+  }
+  return p;
+}
+
+// Contacts without friction stay without: their coefficient is no direction of the law's branch.
+void keepSlippery(const ImpactProblem& p, ImpactProblemDerivative& d) {
+  for (std::size_t k = 0; k < p.pair.size(); ++k)
+    if (p.pair[k].friction == 0) d.pair[k].friction = 0;
+}
+
+TEST(Laws, TangentIsTheLimitOfDifferences) {
+  for (const LawRow& row : kLaws)
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+      SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
+      Random random(seed);
+      const RandomProblem r(row, random);
+      ImpactProblemDerivative d = randomDirection(r.p, random);
+      keepSlippery(r.p, d);
+      if (row.law->solve(r.p).stick_slip_margin < 1e-3) continue;
+      const double h = 1e-6;
+      const VectorXd P = row.law->solve(r.p).P;
+      const VectorXd difference = (row.law->solve(moved(r.p, d, h)).P - row.law->solve(moved(r.p, d, -h)).P) / (2 * h);
+      expectEntries(row.law->tangent(r.p, d), difference, 1e-6, "dP", 1 + difference.norm() + P.norm());
+    }
+}
+
+TEST(Laws, PullbackIsTheTransposeOfTangent) {
+  for (const LawRow& row : kLaws)
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
+      Random random(seed);
+      const RandomProblem r(row, random);
+      ImpactProblemDerivative d = randomDirection(r.p, random);
+      keepSlippery(r.p, d);
+      const VectorXd P_bar = random.vector(r.p.u.size()), dP = row.law->tangent(r.p, d);
+      ImpactProblemDerivative bar(r.p.contacts());
+      row.law->pullback(r.p, P_bar, bar);
+      double rhs = bar.K.cwiseProduct(d.K).sum() + bar.u.dot(d.u);
+      double size = bar.K.cwiseProduct(d.K).cwiseAbs().sum() + bar.u.cwiseProduct(d.u).cwiseAbs().sum();
+      const auto add = [&](double product) { rhs += product, size += std::abs(product); };
+      for (std::size_t k = 0; k < d.normal.size(); ++k) {
+        for (int i = 0; i < 3; ++i) add(bar.normal[k][i] * d.normal[k][i]);
+        add(bar.pair[k].elasticity * d.pair[k].elasticity);
+        add(bar.pair[k].friction * d.pair[k].friction);
+        add(bar.pair[k].tangential_elasticity * d.pair[k].tangential_elasticity);
+      }
+      expectEntries(P_bar.dot(dP) / size, rhs / size, 1e-12, "dot product");
+    }
+}
+
+// One contact: the joint law is 4.1 and 4.2.
+TEST(Laws, JointLawOfOneContactIsTheLawOfOneContact) {
+  for (const LawRow& row : {kLaws[0], kLaws[1]})
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
+      Random random(seed);
+      const RandomProblem r(row, random);
+      ImpactProblemDerivative d = randomDirection(r.p, random);
+      keepSlippery(r.p, d);
+      const VectorXd P = row.law->solve(r.p).P, dP = row.law->tangent(r.p, d);
+      expectEntries(kJointLaw.solve(r.p).P, P, 1e-10, "P", 1 + P.norm());
+      expectEntries(kJointLaw.tangent(r.p, d), dP, 1e-9, "dP", 1 + dP.norm());
+    }
+}
+
+TEST(Tilt, JacobianIsTheLimitOfDifferences) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Vec3 n = random.unit(), v = random.vec(1), dn = v - n.dot(v) * n;
+    const Vec2 a = random.vec(0.4).head<2>(), b = seed % 2 ? Vec2(0, 0) : Vec2(random.vec(0.4).head<2>());
+    const Vec2 da = random.vec(1).head<2>(), db = random.vec(1).head<2>();
+    const double h = 1e-6;
+    const auto at = [&](double t) { return tiltedNormal((n + t * dn).normalized(), a + t * da, b + t * db); };
+    Eigen::Matrix<double, 7, 1> d;
+    d << dn, da, db;
+    expectEntries(tiltedNormalJacobian(n, a, b) * d, (at(h) - at(-h)) / (2 * h), 1e-8, "dn'", 1 + d.norm());
+    expectEntries(at(0).norm(), 1, 1e-15, "length");
+  }
+}
+
+// n = z: t1 = z x x = y and t2 = z x y = -x; the other body sees the opposite normal, for which t1 = -y, t2 = -x.
+TEST(Tilt, DirectionsAreThoseOfTheDefinition) {
+  expectEntries(tiltedNormal(Vec3::UnitZ(), {0.3, 0.1}, {0, 0}), Vec3(-0.1, 0.3, 1).normalized(), 1e-15, "a");
+  expectEntries(tiltedNormal(Vec3::UnitZ(), {0, 0}, {0.3, 0.1}), Vec3(0.1, 0.3, 1).normalized(), 1e-15, "b");
+  expectEntries(tiltedNormal(Vec3::UnitZ(), {0, 0}, {0, 0}), Vec3(0, 0, 1), 0, "none");
+}
+
+}  // namespace
+}  // namespace carom

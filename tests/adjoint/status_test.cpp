@@ -1,0 +1,150 @@
+// How a motion ends when it cannot go on: a status, a sentence, and never a hang.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "adjoint/errors.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/support/compare.h"
+#include "tests/support/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+const Vec3 kDown(0, 0, -9.81);
+
+Body floorPlane() { return makePlane("floor", Vec3::UnitZ(), 0); }
+Scene droppedBall(double elasticity, double height = 1.1) {
+  return makeScene(kDown, elasticity, 0, {makeBall("ball", 0.1, {0, 0, height}), floorPlane()});
+}
+
+TEST(Status, Complete) {
+  const Motion m = play(droppedBall(0.8), 0.5);
+  EXPECT_EQ(m.status, MotionStatus::complete);
+  EXPECT_EQ(m.end, 0.5);
+  EXPECT_EQ(m.duration, 0.5);
+}
+
+TEST(Status, ImpactLimit) {
+  const Motion whole = play(droppedBall(0.8), 3), m = play(droppedBall(0.8), 3, 4);
+  EXPECT_EQ(m.status, MotionStatus::impact_limit);
+  EXPECT_EQ(m.events.size(), 4u);
+  EXPECT_NE(m.message.find("4 impacts"), std::string::npos) << m.message;
+  expectEntries(m.end, whole.events[4].time, 1e-13, "the motion is known up to the impact that was not allowed");
+  EXPECT_NO_THROW(m.stateAt("ball", m.end));
+  EXPECT_THROW(m.stateAt("ball", 3), InputError);
+}
+
+// Released from rest the bounces pile up at t_1 (1 + e)/(1 - e).
+TEST(Status, CascadeOfABall) {
+  for (double e : {0.8, 0.6, 0.3, 0.1})
+    for (double height : {0.2, 1.1, 20.1}) {
+      SCOPED_TRACE(std::to_string(e) + " from " + std::to_string(height));
+      const Motion m = play(droppedBall(e, height), 60);
+      const double t1 = std::sqrt(2 * (height - 0.1) / 9.81);
+      EXPECT_EQ(m.status, MotionStatus::cascade) << m.message;
+      EXPECT_TRUE(std::abs(m.end - t1 * (1 + e) / (1 - e)) < 1e-5) << m.end;
+      EXPECT_NE(m.message.find("'ball' and 'floor'"), std::string::npos) << m.message;
+      EXPECT_TRUE(std::abs(m.stateAt("ball", m.end).position.z() - 0.1) < 1e-9);
+    }
+}
+
+TEST(Status, PlasticLanding) {
+  for (double friction : {0.0, 0.4}) {
+    Scene s = droppedBall(0);
+    s.materials[0].friction = friction;
+    const Motion m = play(s, 5);
+    EXPECT_EQ(m.status, MotionStatus::cascade) << m.message;
+    expectEntries(m.end, std::sqrt(2 / 9.81), 1e-9, "end");
+  }
+}
+
+// Everything comes to rest on something: the answer is a cascade, soon.
+void expectRest(const Scene& s, const char* what) {
+  SCOPED_TRACE(what);
+  const Motion m = play(s, 100);
+  EXPECT_EQ(m.status, MotionStatus::cascade) << m.message;
+  EXPECT_LT(m.end, 20);
+  EXPECT_LT(m.events.size(), 5000u);
+  for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b)
+    EXPECT_TRUE(flatten(m.stateAt(b, m.end)).allFinite()) << s.bodies[static_cast<std::size_t>(b)].name;
+}
+
+Body tumblingBox() {
+  Body b = makeBox("box", {0.3, 0.2, 0.15}, {0, 0, 1}, {0.5, 0.2, -1});
+  b.orientation = Quat(0.8, 0.3, -0.4, 0.2).normalized();
+  b.angular_velocity = {1, 2, -1};
+  return b;
+}
+
+TEST(Status, BoxRattlesToRest) {
+  for (double e : {0.0, 0.3, 0.6})
+    for (double friction : {0.0, 0.5}) {
+      const std::string what = "e " + std::to_string(e) + ", friction " + std::to_string(friction);
+      expectRest(makeScene(kDown, e, friction, {tumblingBox(), floorPlane()}), what.c_str());
+    }
+}
+
+TEST(Status, BoxDroppedFlatComesToRest) {
+  for (double e : {0.0, 0.3})
+    expectRest(makeScene(kDown, e, 0.5, {makeBox("box", {0.3, 0.2, 0.15}, {0, 0, 1}, {0.2, 0, 0}), floorPlane()}), "flat");
+}
+
+TEST(Status, BallInAVComesToRest) {
+  const double s = std::sqrt(0.5);
+  for (double friction : {0.0, 0.5})
+    for (double x : {0.0, 0.13})
+      expectRest(makeScene(kDown, 0.5, friction, {makeBall("ball", 0.1, {x, 0, 1}), makePlane("left", {s, 0, s}, 0),
+                                                 makePlane("right", {-s, 0, s}, 0)}), "V");
+}
+
+TEST(Status, StackComesToRest) {
+  expectRest(makeScene(kDown, 0.3, 0.5, {makeBox("low", {0.4, 0.4, 0.2}, {0, 0, 0.3}),
+                                         makeBox("high", {0.2, 0.2, 0.2}, {0.05, 0, 0.8}), floorPlane()}), "stack");
+}
+
+// n = z: beta leans the normal towards -x. A ball that skims along +x is then struck from behind.
+TEST(Status, TiltThatDoesNotPartTheBodies) {
+  Scene s = makeScene(Vec3::Zero(), 0.5, 0, {makeBall("ball", 0.1, {0, 0, 0.2}, {1, 0, -0.1}), floorPlane()});
+  s.tilts = {{"ball", 1, {0, -3}}};
+  const Motion m = play(s, 3);
+  EXPECT_EQ(m.status, MotionStatus::unresolved_impact);
+  expectEntries(m.end, 1, 1e-12, "end");
+  EXPECT_TRUE(m.events.empty());
+  EXPECT_NE(m.message.find("tilted normal at the impact of 'ball' and 'floor'"), std::string::npos) << m.message;
+  s.tilts[0].value = {0, 0.1};
+  EXPECT_EQ(play(s, 3).status, MotionStatus::complete);
+}
+
+TEST(Status, StatesOutsideTheMotionAreRefused) {
+  const Motion m = play(droppedBall(0.5), 60);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (double t : {-1e-300, -1.0, m.end + 1e-9, 60.0, inf, -inf, nan}) {
+    try {
+      m.stateAt("ball", t);
+      ADD_FAILURE() << "no error at " << t;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("expected one in [0, "), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("stay in contact"), std::string::npos) << error.what();
+    }
+    const StateSeed seed = seedOf(0, Instant::at(t), 0);
+    EXPECT_THROW(adjoint(m, std::span(&seed, 1)), InputError) << t;
+  }
+  EXPECT_THROW(m.stateAt("wall", 0), InputError);
+  EXPECT_THROW(m.stateBefore(0, 1), InputError) << "the floor has no part as a moving body";
+}
+
+TEST(Status, DurationsAreChecked) {
+  const Scene s = droppedBall(0.5);
+  OdeContacts contacts(s);
+  for (double T : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(simulate(s, contacts, T), InputError) << T;
+  EXPECT_EQ(simulate(s, contacts, 0).end, 0);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,112 @@
+// Scenes that are not physically meaningful are refused, with the place: one row a mistake.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "adjoint/errors.h"
+#include "tests/support/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+
+Scene sound() {
+  Scene s = makeScene({0, 0, -9.81}, 0.5, 0.3,
+                      {makePlane("floor", Vec3::UnitZ(), 0), makeBall("ball", 0.1, {0, 0, 1}),
+                       makeBox("box", {0.1, 0.2, 0.3}, {1, 0, 1})});
+  s.bodies[2].mass.reset();
+  s.bodies[2].density = 500;
+  s.materials.push_back(makeMaterial("felt", 0.2, 0.8));
+  s.tilts = {{"box", 1, {0.1, 0}}};
+  return s;
+}
+
+struct Mistake {
+  const char* where;  ///< JSON pointer that the error must name
+  std::function<void(Scene&)> make;
+};
+
+std::vector<Mistake> mistakes() {
+  return {
+      {"/gravity/2", [](Scene& s) { s.gravity.z() = kNan; }},
+      {"/gravity/0", [](Scene& s) { s.gravity.x() = kInf; }},
+      {"/gravity/1", [](Scene& s) { s.gravity.y() = 1e300; }},
+      {"/materials/m/elasticity", [](Scene& s) { s.materials[0].elasticity = 1.01; }},
+      {"/materials/m/elasticity", [](Scene& s) { s.materials[0].elasticity = -1e-9; }},
+      {"/materials/felt/elasticity", [](Scene& s) { s.materials[1].elasticity = kNan; }},
+      {"/materials/m/friction", [](Scene& s) { s.materials[0].friction = -0.1; }},
+      {"/materials/m/friction", [](Scene& s) { s.materials[0].friction = kInf; }},
+      {"/materials/m/tangential_elasticity", [](Scene& s) { s.materials[0].tangential_elasticity = 1.5; }},
+      {"/materials/m/tangential_elasticity", [](Scene& s) { s.materials[0].tangential_elasticity = -1.5; }},
+      {"/materials/1/name", [](Scene& s) { s.materials[1].name = "m"; }},
+      {"/materials/1/name", [](Scene& s) { s.materials[1].name = ""; }},
+      {"/bodies/2/name", [](Scene& s) { s.bodies[2].name = "ball"; }},
+      {"/bodies/0/name", [](Scene& s) { s.bodies[0].name = ""; }},
+      {"/bodies/1/material", [](Scene& s) { s.bodies[1].material = "cheese"; }},
+      {"/bodies/1/mass", [](Scene& s) { s.bodies[1].mass = 0; }},
+      {"/bodies/1/mass", [](Scene& s) { s.bodies[1].mass = -2; }},
+      {"/bodies/1/mass", [](Scene& s) { s.bodies[1].mass = kNan; }},
+      {"/bodies/1/mass", [](Scene& s) { s.bodies[1].mass = kInf; }},
+      {"/bodies/1", [](Scene& s) { s.bodies[1].mass.reset(); }},
+      {"/bodies/1/density", [](Scene& s) { s.bodies[1].density = 100; }},
+      {"/bodies/2/density", [](Scene& s) { s.bodies[2].density = 0; }},
+      {"/bodies/2/density", [](Scene& s) { s.bodies[2].density = -kInf; }},
+      {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{0}; }},
+      {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{-0.1}; }},
+      {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{kNan}; }},
+      {"/bodies/2/shape/box", [](Scene& s) { s.bodies[2].shape = Box{{0.1, 0, 0.3}}; }},
+      {"/bodies/2/shape/box", [](Scene& s) { s.bodies[2].shape = Box{{0.1, 0.1, kInf}}; }},
+      {"/bodies/0/shape/plane/normal", [](Scene& s) { s.bodies[0].shape = Plane{{0, 0, 0}, 0}; }},
+      {"/bodies/0/shape/plane/normal", [](Scene& s) { s.bodies[0].shape = Plane{{0, 0, 2}, 0}; }},
+      {"/bodies/0/shape/plane/normal", [](Scene& s) { s.bodies[0].shape = Plane{{0, kNan, 1}, 0}; }},
+      {"/bodies/0/shape/plane/offset", [](Scene& s) { s.bodies[0].shape = Plane{{0, 0, 1}, kNan}; }},
+      {"/bodies/1/shape", [](Scene& s) { s.bodies[1].shape = Plane{}; }},
+      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({0, 1, 1}); }},
+      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({1, 1, -1}); }},
+      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({1, kNan, 1}); }},
+      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({1, 1, 2.1}); }},
+      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({5, 1, 2}); }},
+      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMatrix(Vec3(1, 1, 9).asDiagonal()); }},
+      {"/bodies/1/position/0", [](Scene& s) { s.bodies[1].position.x() = kNan; }},
+      {"/bodies/1/position/2", [](Scene& s) { s.bodies[1].position.z() = 1e10; }},
+      {"/bodies/1/orientation", [](Scene& s) { s.bodies[1].orientation = Quat(0, 0, 0, 0); }},
+      {"/bodies/1/orientation", [](Scene& s) { s.bodies[1].orientation = Quat(1, 0.1, 0, 0); }},
+      {"/bodies/1/orientation", [](Scene& s) { s.bodies[1].orientation = Quat(kNan, 0, 0, 0); }},
+      {"/bodies/2/velocity/1", [](Scene& s) { s.bodies[2].velocity.y() = -kInf; }},
+      {"/bodies/2/angular_velocity/0", [](Scene& s) { s.bodies[2].angular_velocity.x() = kNan; }},
+      {"/tilts/0/body", [](Scene& s) { s.tilts[0].body = "floor"; }},
+      {"/tilts/0/body", [](Scene& s) { s.tilts[0].body = "nobody"; }},
+      {"/tilts/0/impact", [](Scene& s) { s.tilts[0].impact = 0; }},
+      {"/tilts/0/value/0", [](Scene& s) { s.tilts[0].value.x() = kNan; }},
+  };
+}
+
+TEST(Validate, SoundSceneIsAccepted) {
+  EXPECT_NO_THROW(validate(sound()));
+  EXPECT_NO_THROW(validate(Scene{})) << "nothing in it";
+}
+
+TEST(Validate, EveryMistakeIsNamed) {
+  int row = 0;
+  for (const Mistake& mistake : mistakes()) {
+    SCOPED_TRACE("row " + std::to_string(row++) + ", " + mistake.where);
+    Scene s = sound();
+    mistake.make(s);
+    try {
+      validate(s);
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.where(), mistake.where) << error.what();
+      EXPECT_NE(error.message().find("found "), std::string::npos) << error.what();
+      EXPECT_NE(error.message().find("expected "), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom

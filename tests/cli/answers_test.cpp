@@ -1,0 +1,191 @@
+// Every command on every example scene: exit codes, and the members and numbers of the JSON answers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "adjoint/simulate.h"
+#include "editing/jacobian.h"
+#include "formats/scene_json.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/cli/run_command.h"
+
+namespace carom::test {
+namespace {
+
+using nlohmann::json;
+using Names = std::vector<std::string>;
+
+class OnScene : public testing::TestWithParam<std::string> {
+ protected:
+  std::string path() const { return scenePath(GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Examples, OnScene, testing::ValuesIn(sceneNames()), [](const auto& test) {
+  std::string name = test.param;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
+
+void expectVector(const json& found, const Vec3& expected) {
+  ASSERT_EQ(found.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(found[static_cast<std::size_t>(i)].get<double>(), expected[i]);
+}
+
+TEST(Examples, AreAtLeastSix) { EXPECT_GE(sceneNames().size(), 6u); }
+
+TEST_P(OnScene, SimulateGivesTheMotionToTheLastBit) {
+  const Document document = readDocument(path());
+  OdeContacts contacts(document.scene);
+  const Motion motion = simulate(document.scene, contacts, document.duration);
+  const json answer = runJson({"simulate", path(), "--at", "0.125", "--at", "0.7"});
+  EXPECT_EQ(membersOf(answer), (Names{"end", "events", "message", "states", "status"}));
+  EXPECT_EQ(answer["status"], nameOf(motion.status));
+  ASSERT_EQ(answer["events"].size(), motion.events.size());
+  for (std::size_t i = 0; i < motion.events.size(); ++i) {
+    const json& event = answer["events"][i];
+    EXPECT_EQ(event["time"].get<double>(), motion.events[i].time);
+    EXPECT_EQ(event["mode"], nameOf(motion.events[i].mode));
+    expectVector(event["point"], motion.events[i].contacts[0].at.point);
+    expectVector(event["normal"], motion.events[i].contacts[0].at.normal);
+    for (const char* member : {"bodies", "elasticity", "margin"}) EXPECT_TRUE(event.contains(member)) << member;
+  }
+  ASSERT_EQ(answer["states"].size(), 2u);
+  for (const json& at : answer["states"]) {
+    EXPECT_EQ(membersOf(at), (Names{"bodies", "time"}));
+    ASSERT_EQ(at["bodies"].size(), document.scene.bodies.size());
+    for (const Body& body : document.scene.bodies) {
+      const BodyState state = motion.stateAt(body.name, at["time"].get<double>());
+      const json& found = at["bodies"][body.name];
+      EXPECT_EQ(membersOf(found), (Names{"angular_velocity", "orientation", "position", "velocity"}));
+      expectVector(found["position"], state.position);
+      expectVector(found["velocity"], state.velocity);
+      expectVector(found["angular_velocity"], state.angular_velocity);
+      EXPECT_EQ(found["orientation"][0].get<double>(), state.orientation.w());
+    }
+  }
+}
+
+TEST_P(OnScene, SimulateWithoutTimesGivesTheEnd) {
+  const json answer = runJson({"simulate", path()});
+  ASSERT_EQ(answer["states"].size(), 1u);
+  EXPECT_EQ(answer["states"][0]["time"], answer["end"]);
+  EXPECT_EQ(answer["end"].get<double>(), readDocument(path()).duration);
+}
+
+TEST_P(OnScene, GradientByAdjointIsThatOfTheLibraryAndThatByTangent) {
+  const Document document = readDocument(path());
+  OdeContacts contacts(document.scene);
+  const EditProblem problem(document.scene, contacts, document.duration, document.controls, document.constraints);
+  const RowsAndJacobian expected = evaluateByAdjoint(problem, problem.controls.startValues());
+
+  const json by_adjoint = runJson({"gradient", path()});
+  const json by_tangent = runJson({"gradient", path(), "--method", "tangent"});
+  EXPECT_EQ(membersOf(by_adjoint), (Names{"columns", "jacobian", "message", "reliable", "rows", "signature"}));
+  EXPECT_TRUE(by_adjoint["reliable"].get<bool>()) << by_adjoint["message"];
+  EXPECT_EQ(by_adjoint["rows"], by_tangent["rows"]);
+  EXPECT_EQ(by_adjoint["columns"], by_tangent["columns"]);
+  EXPECT_EQ(by_adjoint["signature"], by_tangent["signature"]);
+  ASSERT_EQ(by_adjoint["rows"].size(), static_cast<std::size_t>(problem.constraints.size()));
+  ASSERT_EQ(by_adjoint["columns"].size(), static_cast<std::size_t>(problem.controls.size()));
+  EXPECT_EQ(membersOf(by_adjoint["rows"][0]), (Names{"component", "constraint", "target", "value"}));
+  EXPECT_EQ(membersOf(by_adjoint["columns"][0]), (Names{"component", "control", "value"}));
+  ASSERT_EQ(by_adjoint["jacobian"].size(), by_adjoint["rows"].size());
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    EXPECT_EQ(by_adjoint["rows"][row]["component"], problem.constraints.rows()[row].name);
+    EXPECT_EQ(by_adjoint["rows"][row]["value"].get<double>(), expected.rows.values[i]);
+    ASSERT_EQ(by_adjoint["jacobian"][row].size(), by_adjoint["columns"].size());
+    const double scale = expected.jacobian.row(i).cwiseAbs().maxCoeff();
+    for (int j = 0; j < problem.controls.size(); ++j) {
+      const auto column = static_cast<std::size_t>(j);
+      const double entry = by_adjoint["jacobian"][row][column].get<double>();
+      EXPECT_EQ(entry, expected.jacobian(i, j));
+      const double error = std::abs(entry - by_tangent["jacobian"][row][column].get<double>());
+      EXPECT_TRUE(error <= 1e-12 * scale) << "entry " << i << ", " << j << " differs by " << error;
+    }
+  }
+}
+
+TEST_P(OnScene, CheckPasses) {
+  const json answer = runJson({"check", path()});
+  EXPECT_EQ(membersOf(answer),
+            (Names{"columns", "message", "passed", "sequence", "worst_differences", "worst_tangent"}));
+  EXPECT_TRUE(answer["passed"].get<bool>()) << answer["message"];
+  EXPECT_LE(answer["worst_differences"]["disagreement"].get<double>(), 1e-6);
+  EXPECT_LE(answer["worst_tangent"]["disagreement"].get<double>(), 1e-12);
+}
+
+TEST_P(OnScene, EditMeetsEveryConstraintAndWritesTheScene) {
+  const std::string before = readText(path()), edited = temporaryPath(GetParam() + ".json");
+  const json answer = runJson({"edit", path(), "-o", edited});
+  EXPECT_EQ(readText(path()), before);
+  EXPECT_EQ(membersOf(answer), (Names{"changed", "iterations", "message", "milliseconds", "objective", "output",
+                                      "reliable", "residual", "residuals", "scaled_residual", "sequence_after",
+                                      "sequence_before", "signature_changed", "status"}));
+  EXPECT_EQ(answer["output"], edited);
+  for (const json& held : answer["residuals"]) {
+    EXPECT_TRUE(std::abs(held["error"].get<double>()) <= 1e-8) << held;
+    EXPECT_TRUE(std::abs(held["value"].get<double>() - held["target"].get<double>()) <= 1e-8) << held;
+  }
+  // What was written is what was found: its gradient starts from the values after the edit, on the targets.
+  const json gradient = runJson({"gradient", edited});
+  for (const json& column : gradient["columns"]) {
+    for (const json& changed : answer["changed"]) {
+      const std::string component = column["component"], suffix = "." + changed["component"].get<std::string>();
+      if (column["control"] != changed["control"]) continue;
+      if (component.find('.') != std::string::npos && !component.ends_with(suffix)) continue;
+      EXPECT_EQ(column["value"], changed["after"]) << changed["name"];
+    }
+  }
+  for (const json& row : gradient["rows"])
+    EXPECT_TRUE(std::abs(row["value"].get<double>() - row["target"].get<double>()) <= 1e-8) << row;
+}
+
+TEST_P(OnScene, EditWithoutOutputWritesNothing) { EXPECT_TRUE(runJson({"edit", path()})["output"].is_null()); }
+
+TEST_P(OnScene, ExportWritesEveryFormat) {
+  for (const char* extension : {".glb", ".gltf", ".csv", ".svg"}) {
+    const std::string file = temporaryPath(GetParam() + extension);
+    const json answer = runJson({"export", path(), "-o", file});
+    EXPECT_EQ(membersOf(answer), (Names{"bytes", "end", "file", "message", "status"}));
+    EXPECT_EQ(answer["file"], file);
+    EXPECT_EQ(answer["bytes"].get<std::size_t>(), readText(file).size());
+    EXPECT_GT(answer["bytes"].get<std::size_t>(), 200u);
+  }
+  EXPECT_EQ(readText(temporaryPath(GetParam() + ".glb")).substr(0, 4), "glTF");
+}
+
+TEST_P(OnScene, ValidateAcceptsAndInfoExplains) {
+  EXPECT_EQ(membersOf(runJson({"validate", path()})),
+            (Names{"bodies", "constraints", "controls", "file", "message", "valid"}));
+  const json info = runJson({"info", path()});
+  EXPECT_EQ(membersOf(info), (Names{"asked", "bodies", "controls", "duration", "pairs", "rows"}));
+  EXPECT_EQ(info["bodies"].size(), readDocument(path()).scene.bodies.size());
+  for (const json& body : info["bodies"]) {
+    EXPECT_EQ(membersOf(body), (Names{"derivative_tier", "derivative_why", "name", "tier", "why"}));
+    EXPECT_NE(body["why"], "");
+    EXPECT_NE(body["derivative_why"], "") << body["name"];
+  }
+  for (const json& pair : info["pairs"])
+    EXPECT_EQ(membersOf(pair), (Names{"bodies", "elasticity", "friction", "law", "tangential_elasticity", "why"}));
+}
+
+TEST_P(OnScene, TextForPeopleComesWithoutJson) {
+  for (const char* command : {"simulate", "gradient", "check", "edit", "validate", "info"}) {
+    const Run run = runCommand({command, path()});
+    EXPECT_EQ(run.code, 0) << command << run.err;
+    EXPECT_GT(run.out.size(), 40u) << command;
+    EXPECT_NE(run.out.front(), '{') << command;
+    EXPECT_EQ(run.err, "") << command;  // progress only on a terminal
+  }
+}
+
+TEST(Digits, ShowEverythingAtSeventeen) {
+  const json answer = runJson({"simulate", scenePath("ball-over-wall")});
+  const Run run = runCommand({"simulate", scenePath("ball-over-wall"), "--digits", "17"});
+  char text[64];
+  std::snprintf(text, sizeof text, "%.17g", answer["events"][0]["time"].get<double>());
+  EXPECT_NE(run.out.find(text), std::string::npos) << run.out;
+}
+
+}  // namespace
+}  // namespace carom::test

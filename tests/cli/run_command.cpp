@@ -1,0 +1,92 @@
+#include "tests/cli/run_command.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace carom::test {
+namespace {
+
+// Only functions that are safe between fork and exec.
+[[noreturn]] void becomeCommand(char* const* words, const char* out, const char* err) {
+  const int out_file = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int err_file = open(err, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (out_file < 0 || err_file < 0) _exit(126);
+  dup2(out_file, STDOUT_FILENO);
+  dup2(err_file, STDERR_FILENO);
+  execv(words[0], words);
+  _exit(127);
+}
+
+}  // namespace
+
+Run runCommand(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{CAROM_COMMAND};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const std::string out = temporaryPath("stdout"), err = temporaryPath("stderr");
+  const pid_t process = fork();
+  if (process == 0) becomeCommand(pointers.data(), out.c_str(), err.c_str());
+  int status = 0;
+  waitpid(process, &status, 0);
+  Run run;
+  run.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1 - WTERMSIG(status);
+  run.out = readText(out);
+  run.err = readText(err);
+  return run;
+}
+
+nlohmann::json runJson(std::vector<std::string> arguments, int code) {
+  arguments.push_back("--json");
+  const Run run = runCommand(arguments);
+  EXPECT_EQ(run.code, code) << run.err;
+  const nlohmann::json answer = nlohmann::json::parse(run.out, nullptr, false);
+  EXPECT_FALSE(answer.is_discarded()) << "not one JSON document:\n" << run.out;
+  return answer;
+}
+
+std::vector<std::string> membersOf(const nlohmann::json& object) {
+  std::vector<std::string> names;
+  for (const auto& member : object.items()) names.push_back(member.key());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes"))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string scenePath(const std::string& name) {
+  return std::string(CAROM_SOURCE_DIR) + "/examples/scenes/" + name + ".json";
+}
+
+std::string readText(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string temporaryPath(const std::string& name) {
+  const std::string folder = testing::TempDir() + "carom-cli-" + std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  return folder + "/" + name;
+}
+
+std::string writeTemporary(const std::string& name, const std::string& text) {
+  const std::string path = temporaryPath(name);
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+}  // namespace carom::test

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+
+/// What one run of the command left.
+struct Run {
+  int code = -1;  ///< exit code; -1 - signal where a signal ended it
+  std::string out, err;
+};
+
+/// Runs the built command as a process of its own.
+Run runCommand(const std::vector<std::string>& arguments);
+
+/// Runs it with --json, expects the exit code, and one JSON document alone on standard output.
+nlohmann::json runJson(std::vector<std::string> arguments, int code = 0);
+
+/// The names of an object's members, in alphabetical order.
+std::vector<std::string> membersOf(const nlohmann::json& object);
+
+/// The scenes under examples/scenes, by their file names without the extension.
+std::vector<std::string> sceneNames();
+std::string scenePath(const std::string& name);
+
+std::string readText(const std::string& path);
+/// A new path in a folder of this run of the tests.
+std::string temporaryPath(const std::string& name);
+/// Writes a file under temporaryPath(name) and gives its path.
+std::string writeTemporary(const std::string& name, const std::string& text);
+
+}  // namespace carom::test
