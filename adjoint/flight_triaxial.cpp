@@ -16,34 +16,16 @@ double shortBinary(double h) {
   return std::ldexp(std::floor(std::ldexp(mantissa, 10)), exponent - 10);
 }
 
-template <std::size_t N>
-double norm(const std::array<double, N>& c) {
-  double sum = 0;
-  for (double x : c) sum += x * x;
-  return std::sqrt(sum);
-}
+using Lanes = std::array<double, 4>;
 
-// Logarithm of the radius of convergence seen from the last two coefficients of a series of size `scale`.
-template <class Series>
-double logRadius(const Series& c, double scale) {
+// Logarithm of the radius of convergence seen from the last two coefficients of u and psi, which are of size 1.
+double logRadius(const std::array<Lanes, K + 1>& c) {
   const auto from = [&](std::size_t k) {
-    const double size = norm(c[k]);
-    return size > 0 ? std::log(scale / size) / static_cast<double>(k) : 50.0;
+    const double size = c[k][0] * c[k][0] + c[k][1] * c[k][1] + c[k][2] * c[k][2] + c[k][3] * c[k][3];
+    return size > 0 ? -0.5 * std::log(size) / static_cast<double>(k) : 50.0;
   };
   return std::min(from(K), from(K - 1));
 }
-
-template <std::size_t N>
-std::array<double, N> horner(const std::array<std::array<double, N>, K + 1>& c, double h) {
-  std::array<double, N> sum = c[K];
-  for (std::size_t k = K; k-- > 0;)
-    for (std::size_t i = 0; i < N; ++i) sum[i] = sum[i] * h + c[k][i];
-  return sum;
-}
-
-using MomentumSeries = std::array<std::array<double, 3>, K + 1>;
-
-Quat unitQuaternion(const std::array<double, 4>& c) { return Quat(c[3], c[0], c[1], c[2]).normalized(); }
 
 }  // namespace
 
@@ -54,43 +36,48 @@ void TriaxialRotation::begin(const Vec3& inverse_inertia, const Quat& q, const V
   segments_.clear();
 }
 
-std::array<double, 3> TriaxialRotation::momentum(const Quat& q) const {
-  const Vec3 M = q.toRotationMatrix().transpose() * L_;
-  return {M.x(), M.y(), M.z()};
-}
-
-// Taylor coefficients from M' = M x (D M), q' = 1/2 q o (0, D M), order by order. With w = D M / 2 the product is
-//   q o (0, w) = w_0 (q_w, q_z, -q_y, -q_x) + w_1 (-q_z, q_w, q_x, -q_y) + w_2 (q_y, -q_x, q_w, -q_z),
-// written over four lanes so that the compiler keeps them in vector registers.
-void TriaxialRotation::append(double start, const Quat& q0) {
-  using Lanes = std::array<double, 4>;
+// With a = u(0).(D u(0)), which is u.(D u) at all times, psi' = l f and f = ((D u(0)).u + a) / (1 + u(0).u). All sums are
+// Cauchy products of a left and a right series, in four lanes that the compiler keeps in vector registers:
+//   left (u_2, u_3, u_1, 1 + u(0).u), right (u_3, u_1, u_2, f).
+void TriaxialRotation::append(double start, const Quat& q) {
   Segment& s = segments_.emplace_back();
   s.start = start;
-  MomentumSeries M;
-  M[0] = momentum(q0);
-  s.q[0] = {q0.x(), q0.y(), q0.z(), q0.w()};
-  const double d32 = D_[2] - D_[1], d13 = D_[0] - D_[2], d21 = D_[1] - D_[0];
-  std::array<std::array<double, 3>, K> w;
-  std::array<std::array<Lanes, 3>, K> turned;  // q by each component of w
-  for (std::size_t k = 0; k < K; ++k) {
-    const Lanes& q = s.q[k];
-    turned[k] = {Lanes{q[3], q[2], -q[1], -q[0]}, Lanes{-q[2], q[3], q[0], -q[1]}, Lanes{q[1], -q[0], q[3], -q[2]}};
-    for (std::size_t i = 0; i < 3; ++i) w[k][i] = 0.5 * D_[static_cast<Eigen::Index>(i)] * M[k][i];
-    double m23 = 0, m31 = 0, m12 = 0;
-    Lanes sum{};
-    for (std::size_t j = 0; j <= k; ++j) {
-      const auto &a = M[j], &b = M[k - j], &o = w[k - j];
-      const auto& p = turned[j];
-      m23 += a[1] * b[2], m31 += a[2] * b[0], m12 += a[0] * b[1];
-      for (std::size_t l = 0; l < 4; ++l) sum[l] += o[0] * p[0][l] + o[1] * p[1][l] + o[2] * p[2][l];
-    }
-    const double f = 1.0 / static_cast<double>(k + 1);
-    M[k + 1] = {d32 * m23 * f, d13 * m31 * f, d21 * m12 * f};
-    for (std::size_t l = 0; l < 4; ++l) s.q[k + 1][l] = f * sum[l];
+  s.q = q;
+  const double l = L_.norm();
+  if (l == 0) {
+    s.length = 1e300;
+    return;
   }
-  // h = radius / e^2 makes the first neglected term about e^(-2 K) = 4e-18 of the whole
-  const double log_radius = std::min(logRadius(s.q, 1.0), logRadius(M, std::max(L_.norm(), 1e-300)));
-  s.length = shortBinary(std::exp(log_radius - 2));
+  const Vec3 u0 = (q.toRotationMatrix().transpose() * L_).normalized(), Du0 = D_.cwiseProduct(u0);
+  const double a = u0.dot(Du0);
+  const Lanes rate{l * (D_[2] - D_[1]), l * (D_[0] - D_[2]), l * (D_[1] - D_[0]), l};
+  std::array<Lanes, K> left, right;
+  s.u_psi[0] = {u0[0], u0[1], u0[2], 0};
+  for (std::size_t k = 0; k < K; ++k) {
+    const Lanes& u = s.u_psi[k];
+    const double first = k == 0 ? 1.0 : 0.0;
+    left[k] = {u[1], u[2], u[0], first + u0[0] * u[0] + u0[1] * u[1] + u0[2] * u[2]};
+    right[k] = {u[2], u[0], u[1], 0};  // f_k is not known yet
+    Lanes sum{};
+    for (std::size_t j = 0; j <= k; ++j)
+      for (std::size_t i = 0; i < 4; ++i) sum[i] += left[j][i] * right[k - j][i];
+    sum[3] = right[k][3] = (first * a + Du0[0] * u[0] + Du0[1] * u[1] + Du0[2] * u[2] - sum[3]) / left[0][3];
+    for (std::size_t i = 0; i < 4; ++i) s.u_psi[k + 1][i] = rate[i] * sum[i] / static_cast<double>(k + 1);
+  }
+  // e^-1.85 of the radius makes the last term 1e-16 of the whole and the first neglected one about 1e-17
+  s.length = shortBinary(std::exp(logRadius(s.u_psi) - 1.85));
+}
+
+Quat TriaxialRotation::orientationIn(const Segment& s, double h) {
+  if (h == 0) return s.q;
+  Lanes sum = s.u_psi[K];
+  for (std::size_t k = K; k-- > 0;)
+    for (std::size_t i = 0; i < 4; ++i) sum[i] = sum[i] * h + s.u_psi[k][i];
+  const Vec3 u0(s.u_psi[0][0], s.u_psi[0][1], s.u_psi[0][2]), u(sum[0], sum[1], sum[2]);
+  const Vec3 twist = std::sin(0.5 * sum[3]) * u0, swing = u.cross(u0);  // the inverse swing, from u to u(0)
+  return (s.q * (Quat(std::cos(0.5 * sum[3]), twist.x(), twist.y(), twist.z()) *
+                 Quat(1 + u0.dot(u), swing.x(), swing.y(), swing.z())))
+      .normalized();
 }
 
 void TriaxialRotation::extendTo(double elapsed) {
@@ -100,7 +87,7 @@ void TriaxialRotation::extendTo(double elapsed) {
   }
   while (segments_.back().start + segments_.back().length < elapsed) {
     const Segment& last = segments_.back();
-    append(last.start + last.length, unitQuaternion(horner(last.q, last.length)));
+    append(last.start + last.length, orientationIn(last, last.length));
   }
 }
 
@@ -113,7 +100,7 @@ const TriaxialRotation::Segment& TriaxialRotation::segmentAt(double elapsed) con
 
 Quat TriaxialRotation::orientationAt(double elapsed) const {
   const Segment& s = segmentAt(elapsed);
-  return unitQuaternion(horner(s.q, elapsed - s.start));
+  return orientationIn(s, elapsed - s.start);
 }
 
 // Variations in principal axes, eta = R^T dtheta and dM = R^T dL + M x eta, obey (w = D M)
@@ -125,11 +112,8 @@ Quat TriaxialRotation::orientationAt(double elapsed) const {
 RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& s, double h) const {
   using Columns = Eigen::Array4d;
   using Triple = std::array<Columns, 3>;
-  MomentumSeries M;
-  M[0] = momentum(unitQuaternion(s.q[0]));
-  const Vec3 M0(M[0][0], M[0][1], M[0][2]);
-  const Mat3 R0 = unitQuaternion(s.q[0]).toRotationMatrix();
-  const Mat3 Rh = unitQuaternion(horner(s.q, h)).toRotationMatrix();
+  const Mat3 R0 = s.q.toRotationMatrix(), Rh = orientationIn(s, h).toRotationMatrix();
+  const Vec3 M0 = R0.transpose() * L_;
   const Vec3 wh = D_.cwiseProduct(Rh.transpose() * L_);
   RotationSensitivity S;
   if (M0.isZero(0)) {  // at rest: dM is constant and eta = h D dM
@@ -145,8 +129,10 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& s, doubl
   }
   Columns dD0(0, 0, -D_[0] * D_[0], 0), dD1(0, 0, 0, -D_[1] * D_[1]);  // columns 2, 3: unit dI1, dI2
   const double d32 = D_[2] - D_[1], d13 = D_[0] - D_[2], d21 = D_[1] - D_[0];
-  std::array<std::array<double, 3>, K> w;
+  const double l = L_.norm();
+  std::array<std::array<double, 3>, K> M, w;
   for (std::size_t k = 0; k < K; ++k) {
+    M[k] = {l * s.u_psi[k][0], l * s.u_psi[k][1], l * s.u_psi[k][2]};
     w[k] = {D_[0] * M[k][0], D_[1] * M[k][1], D_[2] * M[k][2]};
     Columns p23 = Columns::Zero(), p31 = p23, p12 = p23, e1 = p23, e2 = p23, e3 = p23;
     double m23 = 0, m31 = 0, m12 = 0;
@@ -162,7 +148,6 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& s, doubl
       m23 += m[1] * n[2], m31 += m[2] * n[0], m12 += m[0] * n[1];
     }
     const double f = 1.0 / static_cast<double>(k + 1);
-    M[k + 1] = {d32 * m23 * f, d13 * m31 * f, d21 * m12 * f};
     dM[k + 1] = {f * (d32 * p23 - dD1 * m23), f * (d13 * p31 + dD0 * m31), f * (d21 * p12 + (dD1 - dD0) * m12)};
     eta[k + 1] = {f * (e1 + D_[0] * dM[k][0] + dD0 * M[k][0]), f * (e2 + D_[1] * dM[k][1] + dD1 * M[k][1]),
                   f * (e3 + D_[2] * dM[k][2])};

@@ -15,11 +15,12 @@ struct RotationSensitivity {
   Mat3 dtheta_dI = Mat3::Zero();
 };
 
-/// Torque-free rotation with three different moments, as Taylor segments of the quadratic system
-///   M' = M x (D M),  q' = 1/2 q o (0, D M),   M = R(q)^T L,  D = diag(1/I),
-/// in principal axes. Coefficients come from the recurrences of Cauchy products; the step is chosen from the last
-/// coefficients (Jorba and Zou, Experimental Mathematics 14(1), 2005) and rounded to a short binary number, so that
-/// segment times add without error. Every segment starts again from M = R(q)^T L, so |M| = |L| never drifts.
+/// Torque-free rotation with three different moments, as Taylor segments. With l = |L| the direction of L in principal
+/// axes, u = R^T L / l, obeys a quadratic system, and R is a twist about u(0) followed by the swing S from u(0) to u:
+///   u' = l u x (D u),  psi' = l (u(0) + u).(D u) / (1 + u(0).u),  R = R(0) exp([psi u(0)]x) S^T,  D = diag(1/I).
+/// Coefficients come from the recurrences of Cauchy products; the step is chosen from the last coefficients (Jorba and
+/// Zou, Experimental Mathematics 14(1), 2005) and rounded to a short binary number, so that segment times add without
+/// error. Every segment starts again from u = R^T L / l, so l never drifts.
 class TriaxialRotation {
  public:
   static constexpr int kOrder = 20;
@@ -34,10 +35,11 @@ class TriaxialRotation {
  private:
   struct Segment {
     double start = 0, length = 0;
-    std::array<std::array<double, 4>, kOrder + 1> q;  // x y z w
+    Quat q = Quat::Identity();                                // at the start
+    std::array<std::array<double, 4>, kOrder + 1> u_psi;      // coefficients of u and psi
   };
   void append(double start, const Quat& q);
-  std::array<double, 3> momentum(const Quat& q) const;  // M = R(q)^T L
+  static Quat orientationIn(const Segment& segment, double h);
   const Segment& segmentAt(double elapsed) const;
   RotationSensitivity segmentSensitivity(const Segment& segment, double h) const;
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <sstream>
 
 #include "adjoint/errors.h"
@@ -13,6 +12,7 @@ namespace {
 constexpr double kSteps[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};  // of the natural scales
 /// Columns smaller than this, of the largest one, are compared on its scale: they may be nothing but rounding.
 constexpr double kSmallColumn = 1e-3;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The impacts up to the last one that can matter to the rows.
 std::vector<std::string> sequenceOf(const EditProblem& problem, const Motion& motion) {
@@ -68,8 +68,7 @@ class Checker {
     check_.sequence = sequenceOf(problem, motion);
     check_.by_adjoint = jacobianByAdjoint(problem, values, motion, rows);
     check_.by_tangent = jacobianByTangent(problem, values, motion, rows);
-    check_.by_differences = Eigen::MatrixXd::Constant(check_.by_adjoint.rows(), check_.by_adjoint.cols(),
-                                                      std::numeric_limits<double>::quiet_NaN());
+    check_.by_differences = Eigen::MatrixXd::Constant(check_.by_adjoint.rows(), check_.by_adjoint.cols(), kNone);
     check_.steps.assign(std::begin(kSteps), std::end(kSteps));
     findScales();
   }
@@ -158,7 +157,8 @@ class Checker {
     for (int s = 0; s < static_cast<int>(steps.size()); ++s) {
       const auto index = static_cast<std::size_t>(s);
       if (!steps[index].compared) continue;
-      if (best < 0 || !(steps[static_cast<std::size_t>(best)].disagreement <= steps[index].disagreement)) best = s;
+      const double least = best < 0 ? kNone : steps[static_cast<std::size_t>(best)].disagreement;
+      if (std::isnan(least) || steps[index].disagreement < least) best = s;
     }
     check_.best_step.push_back(best);
     if (best < 0) return;

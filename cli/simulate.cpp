@@ -1,11 +1,13 @@
 // carom simulate: every impact, and states at the times asked for.
 #include <CLI/App.hpp>
+#include <cmath>
 #include <memory>
 
 #include "adjoint/simulate.h"
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "formats/json_writer.h"
 #include "formats/result_json.h"
 
 namespace carom::cli {
@@ -63,10 +65,11 @@ void printMotion(Output& out, const Motion& motion, const std::vector<double>& a
   for (const double time : at) printStates(out, motion, time);
 }
 
-void requireReached(const Motion& motion, double time) try {
-  if (!motion.world_lines.empty()) motion.stateAt(0, time);
-} catch (const InputError& error) {
-  throw InputError("--at", error.message());
+void requireReached(const Motion& motion, double time) {
+  if (time >= 0 && time <= motion.end) return;
+  const std::string why = motion.status == MotionStatus::complete ? "" : "; " + motion.message;
+  throw InputError("--at", "found the time " + (std::isfinite(time) ? numberText(time) : std::to_string(time)) +
+                               ", expected one in [0, " + numberText(motion.end) + "]" + why);
 }
 
 Action declare(CLI::App& app) {

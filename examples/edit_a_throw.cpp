@@ -20,7 +20,7 @@ int main() {
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 2.5);
   edit.vary(velocity("ball"), elasticity("court").within(0.5, 0.9));
-  edit.nail("ball", nthImpact(2)).position({5, 0.5, any}).time(1.6);  // a nail holds until it is removed
+  edit.nail("ball", nthImpact(2)).position({5, 0.5, any}).time(1.5);  // a nail holds until it is removed
   const EditResult result = edit.solve();
 
   std::printf("%s\n", nameOf(result.status));

@@ -84,9 +84,10 @@ TEST(ClosedForm, TwoEqualElasticBalls) {
   const double T = 1;
   for (const double gap : {1e-6, 0.01, 0.1, 0.35, 0.7, 0.999999}) {
     SCOPED_TRACE(gap);
-    const Motion m =
-        play(makeScene(Vec3::Zero(), 1, 0, {makeBall("first", 0.1, Vec3::Zero(), {0.8, 0, 0}),
-                                            makeBall("second", 0.1, {0.2 + gap, 0, 0}, {-0.2, 0, 0})}), T);
+    const Motion m = play(makeScene(Vec3::Zero(), 1, 0,
+                                    {makeBall("first", 0.1, Vec3::Zero(), {0.8, 0, 0}),
+                                     makeBall("second", 0.1, {0.2 + gap, 0, 0}, {-0.2, 0, 0})}),
+                          T);
     ASSERT_EQ(m.events.size(), 1u);
     expectEntries(m.events[0].time, gap, kState, "impact time");
     expectEntries(m.stateAt("second", T).position, Vec3(1, 0, 0), kState, "x2");

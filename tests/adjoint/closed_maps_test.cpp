@@ -1,5 +1,5 @@
-// The closed forms of docs/equations.md section 8 for a rod, and the laws that every motion keeps: masses have no scale,
-// and the elastic map from start to end keeps volume.
+// The closed forms of docs/equations.md section 8 for a rod, and the laws that every motion keeps: masses have no
+// scale, and the elastic map from start to end keeps volume.
 
 #include <gtest/gtest.h>
 
@@ -101,7 +101,8 @@ double volumeChange(const Scene& scene, const Motion& motion, double T) {
   const auto n = static_cast<Eigen::Index>(moving.size());
   Eigen::MatrixXd J(12 * n, 12 * n);
   for (Eigen::Index row = 0; row < 12 * n; ++row) {
-    const SceneGradient g = gradientOf(motion, moving[static_cast<std::size_t>(row / 12)], T, static_cast<int>(row % 12));
+    const SceneGradient g =
+        gradientOf(motion, moving[static_cast<std::size_t>(row / 12)], T, static_cast<int>(row % 12));
     for (Eigen::Index c = 0; c < n; ++c) {
       const BodyDerivative& d = g.bodies[static_cast<std::size_t>(moving[static_cast<std::size_t>(c)])];
       J.row(row).segment<12>(12 * c) << d.position.transpose(), d.orientation.transpose(), d.velocity.transpose(),

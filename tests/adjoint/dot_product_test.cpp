@@ -96,8 +96,10 @@ TEST_P(DotProduct, TangentAndAdjointAreTransposed) {
   const Motion m = simulate(scene, contacts, 3, options);
   ASSERT_FALSE(m.events.empty());
   for (const char* word : row.has)  // the row is about what its name says
-    EXPECT_NE((m.describeEvent(0) + " " + nameOf(m.plan.bodies[0].tier) + "/" +
-               nameOf(m.plan.bodies[0].derivative_tier)).find(word), std::string::npos)
+    EXPECT_NE(
+        (m.describeEvent(0) + " " + nameOf(m.plan.bodies[0].tier) + "/" + nameOf(m.plan.bodies[0].derivative_tier))
+            .find(word),
+        std::string::npos)
         << word << " in " << m.describeEvent(0);
   DerivativeTape tape(m);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -112,9 +112,7 @@ TEST(Flight, EnergyAndMomentumAreKept) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Spin s = randomSpin(seed);
     const TriaxialRotation r = triaxial(s.I, s.q, s.L, 20);
-    const auto energy = [&](const Quat& q) {
-      return 0.5 * (q.conjugate() * s.L).cwiseAbs2().dot(s.I.cwiseInverse());
-    };
+    const auto energy = [&](const Quat& q) { return 0.5 * (q.conjugate() * s.L).cwiseAbs2().dot(s.I.cwiseInverse()); };
     for (double t : {0.5, 3.0, 11.0, 20.0}) {
       const Quat q = r.orientationAt(t);
       expectEntries(q.norm(), 1, 1e-15, "norm of the quaternion");

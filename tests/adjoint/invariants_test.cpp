@@ -47,7 +47,8 @@ TEST(Invariant, AdjointTimesRateIsKeptByEvents) {
         const auto k = static_cast<std::size_t>(i);
         sum_after += after[k].dot(event.rateAfter(i));
         sum_before += before[k].dot(event.rateBefore(i));
-        for (const auto& [bar, rate] : {std::pair(after[k], event.rateAfter(i)), std::pair(before[k], event.rateBefore(i))})
+        for (const auto& [bar, rate] :
+             {std::pair(after[k], event.rateAfter(i)), std::pair(before[k], event.rateBefore(i))})
           size += bar.x.cwiseAbs().dot(rate.x.cwiseAbs()) + bar.theta.cwiseAbs().dot(rate.theta.cwiseAbs()) +
                   bar.v.cwiseAbs().dot(rate.v.cwiseAbs());
       }
@@ -78,7 +79,8 @@ TEST(Invariant, ImpactsNeverAddEnergy) {
     const Motion m = play(randomScene(seed, o), 0.6, 40);
     for (const Event& e : m.events) {
       const double before = kineticEnergyBefore(m, e), after = kineticEnergyAfter(m, e);
-      EXPECT_TRUE(after <= before * (1 + 1e-12)) << nameOf(e.mode) << " at " << e.time << ": " << before << " -> " << after;
+      EXPECT_TRUE(after <= before * (1 + 1e-12))
+          << nameOf(e.mode) << " at " << e.time << ": " << before << " -> " << after;
       ++events;
     }
   }
@@ -120,7 +122,8 @@ TEST(Invariant, FreeSpaceKeepsMomentumAndAngularMomentum) {
     const auto momenta = [&](double t) {
       Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
       for (int b = 0; b < 5; ++b) {
-        const State s = m.world_lines[static_cast<std::size_t>(b)].arcs[static_cast<std::size_t>(m.arcAt(b, t))].stateAt(t);
+        const State s =
+            m.world_lines[static_cast<std::size_t>(b)].arcs[static_cast<std::size_t>(m.arcAt(b, t))].stateAt(t);
         sum.head<3>() += modelAt(m, b).mass * s.v;
         sum.tail<3>() += angularMomentum(modelAt(m, b), s);
       }
@@ -157,7 +160,8 @@ void expectSameBits(const Motion& m, const Motion& n) {
   EXPECT_EQ(m.message, n.message);
   const std::vector<double> a = numbersOf(m), b = numbersOf(n);
   ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_TRUE(sameBits(a[i], b[i])) << "number " << i << ": " << a[i] << " and " << b[i];
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_TRUE(sameBits(a[i], b[i])) << "number " << i << ": " << a[i] << " and " << b[i];
 }
 
 TEST(Invariant, SimulatingTwiceGivesTheSameBits) {

@@ -130,9 +130,9 @@ TEST(Joint, BallIsStruckFromBothSides) {
 
 // A ball on the floor that is struck from above is held by the floor.
 TEST(Joint, BallBetweenFloorAndAnotherBall) {
-  const Scene s = makeScene(Vec3::Zero(), 0.5, 0, {makeBall("low", 0.1, {0, 0, 0.1}),
-                                                  makeBall("high", 0.1, {0, 0, 0.6}, {0, 0, -1}),
-                                                  makePlane("floor", Vec3::UnitZ(), 0)});
+  const Scene s = makeScene(Vec3::Zero(), 0.5, 0,
+                            {makeBall("low", 0.1, {0, 0, 0.1}), makeBall("high", 0.1, {0, 0, 0.6}, {0, 0, -1}),
+                             makePlane("floor", Vec3::UnitZ(), 0)});
   const Motion m = play(s, 0.5);
   ASSERT_GE(m.events.size(), 1u);
   EXPECT_EQ(m.events[0].contacts.size(), 2u) << m.describeEvent(0);

@@ -63,7 +63,8 @@ TEST(Laws, EnergyNeverGrowsAndContactsPart) {
       for (int k = 0; k < r.p.contacts(); ++k) {
         const Vec3& n = r.p.normal[static_cast<std::size_t>(k)];
         const Vec3 P = s.P.segment<3>(3 * k);
-        const double e = r.p.pair[static_cast<std::size_t>(k)].elasticity, mu = r.p.pair[static_cast<std::size_t>(k)].friction;
+        const double e = r.p.pair[static_cast<std::size_t>(k)].elasticity,
+                     mu = r.p.pair[static_cast<std::size_t>(k)].friction;
         EXPECT_TRUE(n.dot(P) >= -1e-12) << "contact " << k << " pulls";
         EXPECT_TRUE((P - n.dot(P) * n).norm() <= mu * n.dot(P) + 1e-11 * (1 + P.norm())) << "contact " << k;
         if (r.p.contacts() > 1) continue;
@@ -72,8 +73,8 @@ TEST(Laws, EnergyNeverGrowsAndContactsPart) {
     }
 }
 
-// Several contacts without friction: every one leaves at least as fast as its own elasticity says, and pushes only if it
-// leaves just so.
+// Several contacts without friction: every one leaves at least as fast as its own elasticity says, and pushes only if
+// it leaves just so.
 TEST(Laws, JointNormalImpulsesAreComplementary) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -91,20 +91,37 @@ TEST(Status, BoxRattlesToRest) {
 
 TEST(Status, BoxDroppedFlatComesToRest) {
   for (double e : {0.0, 0.3})
-    expectRest(makeScene(kDown, e, 0.5, {makeBox("box", {0.3, 0.2, 0.15}, {0, 0, 1}, {0.2, 0, 0}), floorPlane()}), "flat");
+    expectRest(makeScene(kDown, e, 0.5, {makeBox("box", {0.3, 0.2, 0.15}, {0, 0, 1}, {0.2, 0, 0}), floorPlane()}),
+               "flat");
 }
 
 TEST(Status, BallInAVComesToRest) {
   const double s = std::sqrt(0.5);
   for (double friction : {0.0, 0.5})
     for (double x : {0.0, 0.13})
-      expectRest(makeScene(kDown, 0.5, friction, {makeBall("ball", 0.1, {x, 0, 1}), makePlane("left", {s, 0, s}, 0),
-                                                 makePlane("right", {-s, 0, s}, 0)}), "V");
+      expectRest(makeScene(kDown, 0.5, friction,
+                           {makeBall("ball", 0.1, {x, 0, 1}), makePlane("left", {s, 0, s}, 0),
+                            makePlane("right", {-s, 0, s}, 0)}),
+                 "V");
 }
 
 TEST(Status, StackComesToRest) {
-  expectRest(makeScene(kDown, 0.3, 0.5, {makeBox("low", {0.4, 0.4, 0.2}, {0, 0, 0.3}),
-                                         makeBox("high", {0.2, 0.2, 0.2}, {0.05, 0, 0.8}), floorPlane()}), "stack");
+  expectRest(makeScene(kDown, 0.3, 0.5,
+                       {makeBox("low", {0.4, 0.4, 0.2}, {0, 0, 0.3}), makeBox("high", {0.2, 0.2, 0.2}, {0.05, 0, 0.8}),
+                        floorPlane()}),
+             "stack");
+}
+
+// Bodies that lie on one another from the start are in lasting contact at once.
+TEST(Status, RestingFromTheStart) {
+  const Body box = makeBox("box", {0.2, 0.3, 0.2}, {0, 0, 0.1});
+  for (double e : {0.0, 0.5, 1.0})
+    for (const Body& body : {box, makeBall("ball", 0.1, {0, 0, 0.1})}) {
+      SCOPED_TRACE(body.name + ", e " + std::to_string(e));
+      const Motion m = play(makeScene(kDown, e, 0.3, {body, floorPlane()}), 3);
+      EXPECT_EQ(m.status, MotionStatus::cascade) << m.message;
+      EXPECT_LT(m.end, 1e-6);
+    }
 }
 
 // n = z: beta leans the normal towards -x. A ball that skims along +x is then struck from behind.

@@ -59,18 +59,51 @@ std::vector<Mistake> mistakes() {
       {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{0}; }},
       {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{-0.1}; }},
       {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{kNan}; }},
-      {"/bodies/2/shape/box", [](Scene& s) { s.bodies[2].shape = Box{{0.1, 0, 0.3}}; }},
-      {"/bodies/2/shape/box", [](Scene& s) { s.bodies[2].shape = Box{{0.1, 0.1, kInf}}; }},
-      {"/bodies/0/shape/plane/normal", [](Scene& s) { s.bodies[0].shape = Plane{{0, 0, 0}, 0}; }},
-      {"/bodies/0/shape/plane/normal", [](Scene& s) { s.bodies[0].shape = Plane{{0, 0, 2}, 0}; }},
-      {"/bodies/0/shape/plane/normal", [](Scene& s) { s.bodies[0].shape = Plane{{0, kNan, 1}, 0}; }},
-      {"/bodies/0/shape/plane/offset", [](Scene& s) { s.bodies[0].shape = Plane{{0, 0, 1}, kNan}; }},
+      {"/bodies/2/shape/box",
+       [](Scene& s) {
+         s.bodies[2].shape = Box{{0.1, 0, 0.3}};
+       }},
+      {"/bodies/2/shape/box",
+       [](Scene& s) {
+         s.bodies[2].shape = Box{{0.1, 0.1, kInf}};
+       }},
+      {"/bodies/0/shape/plane/normal",
+       [](Scene& s) {
+         s.bodies[0].shape = Plane{{0, 0, 0}, 0};
+       }},
+      {"/bodies/0/shape/plane/normal",
+       [](Scene& s) {
+         s.bodies[0].shape = Plane{{0, 0, 2}, 0};
+       }},
+      {"/bodies/0/shape/plane/normal",
+       [](Scene& s) {
+         s.bodies[0].shape = Plane{{0, kNan, 1}, 0};
+       }},
+      {"/bodies/0/shape/plane/offset",
+       [](Scene& s) {
+         s.bodies[0].shape = Plane{{0, 0, 1}, kNan};
+       }},
       {"/bodies/1/shape", [](Scene& s) { s.bodies[1].shape = Plane{}; }},
-      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({0, 1, 1}); }},
-      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({1, 1, -1}); }},
-      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({1, kNan, 1}); }},
-      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({1, 1, 2.1}); }},
-      {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMoments({5, 1, 2}); }},
+      {"/bodies/2/inertia",
+       [](Scene& s) {
+         s.bodies[2].inertia = Inertia::fromMoments({0, 1, 1});
+       }},
+      {"/bodies/2/inertia",
+       [](Scene& s) {
+         s.bodies[2].inertia = Inertia::fromMoments({1, 1, -1});
+       }},
+      {"/bodies/2/inertia",
+       [](Scene& s) {
+         s.bodies[2].inertia = Inertia::fromMoments({1, kNan, 1});
+       }},
+      {"/bodies/2/inertia",
+       [](Scene& s) {
+         s.bodies[2].inertia = Inertia::fromMoments({1, 1, 2.1});
+       }},
+      {"/bodies/2/inertia",
+       [](Scene& s) {
+         s.bodies[2].inertia = Inertia::fromMoments({5, 1, 2});
+       }},
       {"/bodies/2/inertia", [](Scene& s) { s.bodies[2].inertia = Inertia::fromMatrix(Vec3(1, 1, 9).asDiagonal()); }},
       {"/bodies/1/position/0", [](Scene& s) { s.bodies[1].position.x() = kNan; }},
       {"/bodies/1/position/2", [](Scene& s) { s.bodies[1].position.z() = 1e10; }},

@@ -171,7 +171,7 @@ TEST_P(OnScene, ValidateAcceptsAndInfoExplains) {
 
 TEST_P(OnScene, TextForPeopleComesWithoutJson) {
   for (const char* command : {"simulate", "gradient", "check", "edit", "validate", "info"}) {
-    const Run run = runCommand({command, path()});
+    const CommandRun run = runCommand({command, path()});
     EXPECT_EQ(run.code, 0) << command << run.err;
     EXPECT_GT(run.out.size(), 40u) << command;
     EXPECT_NE(run.out.front(), '{') << command;
@@ -181,7 +181,7 @@ TEST_P(OnScene, TextForPeopleComesWithoutJson) {
 
 TEST(Digits, ShowEverythingAtSeventeen) {
   const json answer = runJson({"simulate", scenePath("ball-over-wall")});
-  const Run run = runCommand({"simulate", scenePath("ball-over-wall"), "--digits", "17"});
+  const CommandRun run = runCommand({"simulate", scenePath("ball-over-wall"), "--digits", "17"});
   char text[64];
   std::snprintf(text, sizeof text, "%.17g", answer["events"][0]["time"].get<double>());
   EXPECT_NE(run.out.find(text), std::string::npos) << run.out;

@@ -24,9 +24,19 @@ namespace {
   _exit(127);
 }
 
+struct TemporaryFolder {
+  std::string path = testing::TempDir() + "carom-cli-" + std::to_string(getpid());
+
+  TemporaryFolder() { std::filesystem::create_directories(path); }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
 }  // namespace
 
-Run runCommand(const std::vector<std::string>& arguments) {
+CommandRun runCommand(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{CAROM_COMMAND};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -37,7 +47,7 @@ Run runCommand(const std::vector<std::string>& arguments) {
   if (process == 0) becomeCommand(pointers.data(), out.c_str(), err.c_str());
   int status = 0;
   waitpid(process, &status, 0);
-  Run run;
+  CommandRun run;
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1 - WTERMSIG(status);
   run.out = readText(out);
   run.err = readText(err);
@@ -46,7 +56,7 @@ Run runCommand(const std::vector<std::string>& arguments) {
 
 nlohmann::json runJson(std::vector<std::string> arguments, int code) {
   arguments.push_back("--json");
-  const Run run = runCommand(arguments);
+  const CommandRun run = runCommand(arguments);
   EXPECT_EQ(run.code, code) << run.err;
   const nlohmann::json answer = nlohmann::json::parse(run.out, nullptr, false);
   EXPECT_FALSE(answer.is_discarded()) << "not one JSON document:\n" << run.out;
@@ -78,9 +88,8 @@ std::string readText(const std::string& path) {
 }
 
 std::string temporaryPath(const std::string& name) {
-  const std::string folder = testing::TempDir() + "carom-cli-" + std::to_string(getpid());
-  std::filesystem::create_directories(folder);
-  return folder + "/" + name;
+  static const TemporaryFolder folder;
+  return folder.path + "/" + name;
 }
 
 std::string writeTemporary(const std::string& name, const std::string& text) {

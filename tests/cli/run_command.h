@@ -7,13 +7,13 @@
 namespace carom::test {
 
 /// What one run of the command left.
-struct Run {
+struct CommandRun {
   int code = -1;  ///< exit code; -1 - signal where a signal ended it
   std::string out, err;
 };
 
 /// Runs the built command as a process of its own.
-Run runCommand(const std::vector<std::string>& arguments);
+CommandRun runCommand(const std::vector<std::string>& arguments);
 
 /// Runs it with --json, expects the exit code, and one JSON document alone on standard output.
 nlohmann::json runJson(std::vector<std::string> arguments, int code = 0);

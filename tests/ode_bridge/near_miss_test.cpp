@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "adjoint/errors.h"
 #include "tests/support/compare.h"
@@ -36,7 +37,8 @@ TEST(NearMiss, BallPassesBall) {
   for (double d : clearances()) {
     SCOPED_TRACE(d);
     const double R = 0.25, b = R + d, reach = std::sqrt(std::max(0.0, (R - b) * (R + b)));
-    const Scene s = makeScene(Vec3::Zero(), 0.5, 0, {makeBall("a", 0.1, {-1, b, 0}, {2, 0, 0}), makeBall("b", 0.15, Vec3::Zero())});
+    const Scene s =
+        makeScene(Vec3::Zero(), 0.5, 0, {makeBall("a", 0.1, {-1, b, 0}, {2, 0, 0}), makeBall("b", 0.15, Vec3::Zero())});
     expectPass(s, 1, d, (1 - reach) / 2, grazingTolerance(R, reach));
   }
 }
@@ -45,8 +47,9 @@ TEST(NearMiss, BallRisesToTheCeiling) {
   for (double d : clearances()) {
     SCOPED_TRACE(d);
     const double h = 0.8, g = 9.81, v = std::sqrt(2 * g * (h - d)), rest = std::sqrt(std::max(0.0, v * v - 2 * g * h));
-    const Scene s = makeScene({0, 0, -g}, 0.5, 0, {makeBall("ball", 0.1, {0, 0, 0.1}, {0.3, 0, v}),
-                                                  makePlane("ceiling", -Vec3::UnitZ(), -1.0)});
+    const Scene s =
+        makeScene({0, 0, -g}, 0.5, 0,
+                  {makeBall("ball", 0.1, {0, 0, 0.1}, {0.3, 0, v}), makePlane("ceiling", -Vec3::UnitZ(), -1.0)});
     expectPass(s, 0.6, d, (v - rest) / g, grazingTolerance(v, rest));
   }
 }
@@ -55,8 +58,9 @@ TEST(NearMiss, BallPassesAnEdge) {
   for (double d : clearances()) {
     SCOPED_TRACE(d);
     const double r = 0.1, over = r + d, reach = std::sqrt(std::max(0.0, (r - over) * (r + over)));
-    const Scene s = makeScene(Vec3::Zero(), 0.5, 0, {makeBall("ball", r, {1, 0.05, 0.2 + over}, {-2, 0, 0}),
-                                                    fixedBody(makeBox("step", {0.4, 0.4, 0.4}, Vec3::Zero()))});
+    const Scene s = makeScene(Vec3::Zero(), 0.5, 0,
+                              {makeBall("ball", r, {1, 0.05, 0.2 + over}, {-2, 0, 0}),
+                               fixedBody(makeBox("step", {0.4, 0.4, 0.4}, Vec3::Zero()))});
     expectPass(s, 1, d, (1 - 0.2 - reach) / 2, grazingTolerance(r, reach));
   }
 }
@@ -77,9 +81,9 @@ TEST(NearMiss, EdgePassesOverARidge) {
   for (double d : clearances()) {
     SCOPED_TRACE(d);
     Body bar = makeBox("bar", {1, 0.2, 0.2}, {0, -1, 0.2 * std::sqrt(2.0) + d}, {0, 2, 0});
-    bar.orientation = Quat(Eigen::AngleAxisd(M_PI / 4, Vec3::UnitX()));
+    bar.orientation = Quat(Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitX()));
     Body ridge = makeBox("ridge", {0.2, 1, 0.2}, Vec3::Zero());
-    ridge.orientation = Quat(Eigen::AngleAxisd(M_PI / 4, Vec3::UnitY()));
+    ridge.orientation = Quat(Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitY()));
     expectPass(makeScene(Vec3::Zero(), 0.5, 0, {bar, fixedBody(ridge)}), 1, d, 0.25, 2 * std::abs(d) + 1e-13);
   }
 }
@@ -102,9 +106,9 @@ TEST(SideBySide, EqualFlightsNeverTouch) {
     SCOPED_TRACE(gap);
     const Vec3 v(3, 1, 20);
     const Scene s = makeScene({0, 0, -9.81}, 0.5, 0.3,
-                              {makeBox("a", {0.2, 0.2, 0.2}, {0, 0, 10}, v), makeBox("b", {0.2, 0.3, 0.2}, {0.2 + gap, 0, 10}, v),
-                               makeBall("c", 0.1, {0, 1, 10}, v), makeBall("d", 0.1, {0.2 + gap, 1, 10}, v),
-                               makePlane("floor", Vec3::UnitZ(), 0)});
+                              {makeBox("a", {0.2, 0.2, 0.2}, {0, 0, 10}, v),
+                               makeBox("b", {0.2, 0.3, 0.2}, {0.2 + gap, 0, 10}, v), makeBall("c", 0.1, {0, 1, 10}, v),
+                               makeBall("d", 0.1, {0.2 + gap, 1, 10}, v), makePlane("floor", Vec3::UnitZ(), 0)});
     const Motion m = play(s, 4);
     EXPECT_EQ(m.status, MotionStatus::complete) << m.message;
     EXPECT_TRUE(m.events.empty()) << m.describeEvent(0);
@@ -135,7 +139,8 @@ std::vector<Start> starts() {
       {"ball on box", makeBall("a", 0.1, {0, 0, 0.1}), makeBox("b", {1, 1, 1}, {0.1, 0, -0.5}), Vec3::UnitZ()},
       {"box on plane", makeBox("a", {0.2, 0.2, 0.2}, {0, 0, 0.1}), floor, Vec3::UnitZ()},
       {"corner on plane", corner, floor, Vec3::UnitZ()},
-      {"box on box", makeBox("a", {0.2, 0.2, 0.2}, {0, 0, 0.1}), makeBox("b", {1, 1, 1}, {0.1, 0, -0.5}), Vec3::UnitZ()},
+      {"box on box", makeBox("a", {0.2, 0.2, 0.2}, {0, 0, 0.1}), makeBox("b", {1, 1, 1}, {0.1, 0, -0.5}),
+       Vec3::UnitZ()},
   };
 }
 
@@ -151,7 +156,8 @@ TEST(AtTheStart, OverlapIsRefused) {
       } catch (const InputError& error) {
         EXPECT_EQ(error.where(), "/bodies/1") << error.what();
         EXPECT_NE(error.message().find("overlapping by"), std::string::npos) << error.what();
-        EXPECT_NE(error.message().find("'" + start.a.name + "' and '" + start.b.name + "'"), std::string::npos) << error.what();
+        EXPECT_NE(error.message().find("'" + start.a.name + "' and '" + start.b.name + "'"), std::string::npos)
+            << error.what();
       }
     }
 }
@@ -159,14 +165,17 @@ TEST(AtTheStart, OverlapIsRefused) {
 TEST(AtTheStart, BodiesInsideOneAnotherAreRefused) {
   const Body small = makeBox("small", {0.1, 0.1, 0.1}, {0.1, 0, 0}), big = makeBox("big", {2, 2, 2}, Vec3::Zero());
   EXPECT_THROW(play(makeScene(Vec3::Zero(), 0.5, 0, {small, big}), 1), InputError);
-  EXPECT_THROW(play(makeScene(Vec3::Zero(), 0.5, 0, {makeBall("ball", 0.1, {0.1, 0, 0}), fixedBody(big)}), 1), InputError);
-  EXPECT_THROW(play(makeScene(Vec3::Zero(), 0.5, 0, {makeBall("a", 0.1, Vec3::Zero()), makeBall("b", 0.1, Vec3::Zero())}), 1),
+  EXPECT_THROW(play(makeScene(Vec3::Zero(), 0.5, 0, {makeBall("ball", 0.1, {0.1, 0, 0}), fixedBody(big)}), 1),
                InputError);
+  EXPECT_THROW(
+      play(makeScene(Vec3::Zero(), 0.5, 0, {makeBall("a", 0.1, Vec3::Zero()), makeBall("b", 0.1, Vec3::Zero())}), 1),
+      InputError);
 }
 
 TEST(AtTheStart, FixedBodiesMayOverlap) {
-  const Scene s = makeScene(Vec3::Zero(), 0.5, 0, {fixedBody(makeBox("a", {1, 1, 1}, Vec3::Zero())),
-                                                  fixedBody(makeBox("b", {1, 1, 1}, {0.5, 0, 0})), makePlane("c", Vec3::UnitZ(), 0)});
+  const Scene s = makeScene(Vec3::Zero(), 0.5, 0,
+                            {fixedBody(makeBox("a", {1, 1, 1}, Vec3::Zero())),
+                             fixedBody(makeBox("b", {1, 1, 1}, {0.5, 0, 0})), makePlane("c", Vec3::UnitZ(), 0)});
   EXPECT_EQ(play(s, 1).status, MotionStatus::complete);
 }
 

@@ -40,7 +40,7 @@ int failuresWith(Mutant::Change change) {
     const RandomScene random = randomScene(seed);
     Mutant contacts(random.scene, change);
     SimulateOptions options;
-    options.impact_limit = 60;
+    options.impact_limit = 30;
     const Motion motion = simulate(random.scene, contacts, random.duration, options);
     Findings findings;
     checkSequence(motion, findings);

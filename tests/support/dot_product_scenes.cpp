@@ -111,7 +111,8 @@ Scene density() {
 
 // two long boxes, crossed, edge towards edge
 Scene edgeEdge() {
-  Body a = makeBox("over", {1, 0.1, 0.1}, {0.05, 0, 1.5}, {0, 0, -2}), b = makeBox("under", {0.1, 1, 0.1}, {0, 0.05, 1});
+  Body a = makeBox("over", {1, 0.1, 0.1}, {0.05, 0, 1.5}, {0, 0, -2}),
+       b = makeBox("under", {0.1, 1, 0.1}, {0, 0.05, 1});
   a.orientation = Quat(Eigen::AngleAxisd(0.7, Vec3::UnitX()));
   b.orientation = Quat(Eigen::AngleAxisd(0.8, Vec3::UnitY()));
   a.angular_velocity = {0.1, -0.2, 0.3};

@@ -40,11 +40,11 @@ class Random {
 };
 
 struct RandomScene {
-  int bodies = 3;               ///< moving boxes and balls
-  bool floor = true;            ///< a plane under them
-  bool friction = true;         ///< false: frictionless
+  int bodies = 3;        ///< moving boxes and balls
+  bool floor = true;     ///< a plane under them
+  bool friction = true;  ///< false: frictionless
   double lowest_elasticity = 0;
-  double tangential = 1;        ///< largest |e_t|
+  double tangential = 1;  ///< largest |e_t|
   bool gravity = true;
 };
 /// Boxes and balls thrown at one another, apart at the start; two materials.
