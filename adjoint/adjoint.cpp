@@ -18,7 +18,10 @@ struct Pending {
 class ReversePass {
  public:
   explicit ReversePass(DerivativeTape& tape)
-      : tape_(tape), motion_(tape.motion()), scene_bar_(*motion_.scene), start_bar_(motion_.world_lines.size()),
+      : tape_(tape),
+        motion_(tape.motion()),
+        scene_bar_(*motion_.scene),
+        start_bar_(motion_.world_lines.size()),
         model_bar_(motion_.world_lines.size()) {}
 
   SceneGradient run(std::span<const StateSeed> seeds, Reliability* reliability) {
@@ -53,8 +56,8 @@ class ReversePass {
   void throughFlight(int body, int k, double t, const RotationSensitivity& S, const StateDerivative& bar) {
     const auto b = static_cast<std::size_t>(body);
     const WorldLine& line = motion_.world_lines[b];
-    const StateDerivative start = flightPullback(line.arcs[static_cast<std::size_t>(k)], t, S, bar, scene_bar_.gravity,
-                                                 model_bar_[b]);
+    const StateDerivative start =
+        flightPullback(line.arcs[static_cast<std::size_t>(k)], t, S, bar, scene_bar_.gravity, model_bar_[b]);
     if (k == 0) {
       start_bar_[b] += start;
     } else {

@@ -9,10 +9,14 @@ namespace carom {
 
 const char* nameOf(Tier tier) {
   switch (tier) {
-    case Tier::none: return "none";
-    case Tier::spherical: return "spherical";
-    case Tier::symmetric: return "symmetric";
-    case Tier::triaxial: return "triaxial";
+    case Tier::none:
+      return "none";
+    case Tier::spherical:
+      return "spherical";
+    case Tier::symmetric:
+      return "symmetric";
+    case Tier::triaxial:
+      return "triaxial";
   }
   return "";
 }
@@ -64,10 +68,14 @@ void Arc::extendTo(double t) {
 Quat Arc::rotationAt(double s) const {
   if (!model_->moving || s == 0) return state_.q;
   switch (tier_) {
-    case Tier::none: return state_.q;
-    case Tier::spherical: return sphericalOrientation(model_->inertia[0], state_.q, state_.L, s);
-    case Tier::symmetric: return symmetricOrientation(model_->inertia, symmetry_axis_, state_.q, state_.L, s);
-    case Tier::triaxial: return triaxial_.orientationAt(s);
+    case Tier::none:
+      return state_.q;
+    case Tier::spherical:
+      return sphericalOrientation(model_->inertia[0], state_.q, state_.L, s);
+    case Tier::symmetric:
+      return symmetricOrientation(model_->inertia, symmetry_axis_, state_.q, state_.L, s);
+    case Tier::triaxial:
+      return triaxial_.orientationAt(s);
   }
   return state_.q;
 }
@@ -104,11 +112,14 @@ StateDerivative Arc::rate(const State& s) const {
 RotationSensitivity Arc::rotationSensitivity(double t, Tier tier) const {
   const double s = t - start_;
   switch (tier) {
-    case Tier::none: return {};
-    case Tier::spherical: return sphericalSensitivity(model_->inertia[0], state_.L, s);
+    case Tier::none:
+      return {};
+    case Tier::spherical:
+      return sphericalSensitivity(model_->inertia[0], state_.L, s);
     case Tier::symmetric:
       return symmetricSensitivity(model_->inertia, symmetryAxis(model_->inertia), state_.q, state_.L, s);
-    case Tier::triaxial: break;
+    case Tier::triaxial:
+      break;
   }
   if (tier_ == Tier::triaxial) return triaxial_.sensitivityAt(s);
   TriaxialRotation general;  // the motion needed less than its derivative does

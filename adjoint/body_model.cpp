@@ -93,8 +93,8 @@ StateDerivative startTangent(const Body& body, const BodyModel& model, const Bod
   return ds;
 }
 
-void startPullback(const Body& body, const BodyModel& model, const StateDerivative& state_bar,
-                   BodyDerivative& body_bar, BodyModelDerivative& model_bar) {
+void startPullback(const Body& body, const BodyModel& model, const StateDerivative& state_bar, BodyDerivative& body_bar,
+                   BodyModelDerivative& model_bar) {
   body_bar.position += state_bar.x;
   body_bar.orientation += state_bar.theta;
   if (!model.moving) return;

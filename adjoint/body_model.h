@@ -17,9 +17,7 @@ struct State {
 struct StateDerivative {
   Vec3 x = Vec3::Zero(), theta = Vec3::Zero(), v = Vec3::Zero(), L = Vec3::Zero();
 
-  double dot(const StateDerivative& o) const {
-    return x.dot(o.x) + theta.dot(o.theta) + v.dot(o.v) + L.dot(o.L);
-  }
+  double dot(const StateDerivative& o) const { return x.dot(o.x) + theta.dot(o.theta) + v.dot(o.v) + L.dot(o.L); }
   StateDerivative& operator+=(const StateDerivative& o) {
     x += o.x, theta += o.theta, v += o.v, L += o.L;
     return *this;
@@ -33,8 +31,8 @@ struct BodyModel {
   bool moving = false;
   double mass = 0, inverse_mass = 0;
   Vec3 inertia = Vec3::Zero(), inverse_inertia = Vec3::Zero();
-  bool has_offset = false;         ///< shape axes are not the principal axes
-  Mat3 R_BG = Mat3::Identity();    ///< shape (geometry) to principal axes
+  bool has_offset = false;       ///< shape axes are not the principal axes
+  Mat3 R_BG = Mat3::Identity();  ///< shape (geometry) to principal axes
 
   /// World inverse inertia R diag(1/I) R^T for R = R_WB.
   Mat3 inverseInertiaWorld(const Mat3& R_WB) const { return R_WB * inverse_inertia.asDiagonal() * R_WB.transpose(); }

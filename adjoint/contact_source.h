@@ -68,10 +68,17 @@ class ContactSource {
   /// Bodies that may touch `body` on the paths set so far, in increasing order; may name too many, never too few.
   virtual void neighbours(int body, std::vector<int>& out) = 0;
 
-  /// First impact of bodies a and b on the given arcs in [from, until]. Extends the arcs as far as it looks. Bodies that
-  /// touch at `from` and do not approach are not an impact.
+  /// First impact of bodies a and b on the given arcs in [from, until]. Extends the arcs as far as it looks. Bodies
+  /// that touch at `from` and do not approach are not an impact.
   virtual std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
                                                      double until) = 0;
+
+  /// All feature pairs of a and b with a gap of at most `reach` at time t, at which the bodies touch: more than one
+  /// where an edge or a face lies on a face. May stay empty in a source whose bodies touch in one point only.
+  virtual std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t, double reach) {
+    (void)a, (void)b, (void)arc_a, (void)arc_b, (void)t, (void)reach;
+    return {};
+  }
 
   virtual std::shared_ptr<const ContactGeometry> geometry() const = 0;
 };

@@ -31,9 +31,9 @@ struct StateSeed {
 /// How far a derivative can be trusted: the smallest margins of the events that it passed through.
 struct Reliability {
   bool reliable = true;
-  int events = 0;               ///< events that the quantity depends on
-  double smallest_margin = 1;   ///< see Margins
-  std::string message;          ///< a sentence when not reliable
+  int events = 0;              ///< events that the quantity depends on
+  double smallest_margin = 1;  ///< see Margins
+  std::string message;         ///< a sentence when not reliable
 
   void pass(const Motion& motion, int event);
 };

@@ -42,12 +42,15 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
     part.jacobian = motion.geometry->jacobian(c.a, c.b, c.features, poseBefore(motion, event_, c.a),
                                               poseBefore(motion, event_, c.b));
     part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
-    const auto tiltOf = [&](int t) { return t < 0 ? Vec2(0, 0) : motion.scene->tilts[static_cast<std::size_t>(t)].value; };
+    const auto tiltOf = [&](int t) {
+      return t < 0 ? Vec2(0, 0) : motion.scene->tilts[static_cast<std::size_t>(t)].value;
+    };
     if (part.tilted) part.tilt = tiltedNormalJacobian(c.at.normal, tiltOf(c.tilt_a), tiltOf(c.tilt_b));
     part.material_a = materialOfBody(*motion.scene, c.a);
     part.material_b = materialOfBody(*motion.scene, c.b);
   }
-  for (ContactPart& part : parts_) part.weight = total > 0 ? part.weight / total : 1.0 / static_cast<double>(parts_.size());
+  for (ContactPart& part : parts_)
+    part.weight = total > 0 ? part.weight / total : 1.0 / static_cast<double>(parts_.size());
 
   for (const Participant& p : event_.participants) {
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
@@ -56,7 +59,8 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
     rate_after_.push_back(next.rate(next.startState()));
   }
   const SceneTangent still(*motion.scene);
-  for (const ContactPart& part : parts_) D_ += part.weight * part.jacobian.row(0).dot(gather(part, rate_before_, still));
+  for (const ContactPart& part : parts_)
+    D_ += part.weight * part.jacobian.row(0).dot(gather(part, rate_before_, still));
 }
 
 EventLinearization::Vec18 EventLinearization::gather(const ContactPart& part,

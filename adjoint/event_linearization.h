@@ -28,7 +28,9 @@ class EventLinearization {
                                         SceneGradient& scene_bar, std::vector<BodyModelDerivative>& model_bar) const;
 
   /// F- of a participant, d(state)/dt just before.
-  const StateDerivative& rateBefore(int participant) const { return rate_before_[static_cast<std::size_t>(participant)]; }
+  const StateDerivative& rateBefore(int participant) const {
+    return rate_before_[static_cast<std::size_t>(participant)];
+  }
   const StateDerivative& rateAfter(int participant) const { return rate_after_[static_cast<std::size_t>(participant)]; }
   /// D = d(guard)/dt < 0, m/s.
   double guardRate() const { return D_; }

@@ -35,13 +35,13 @@ class TriaxialRotation {
  private:
   struct Segment {
     double start = 0, length = 0;
-    Quat q = Quat::Identity();                                // at the start
-    std::array<std::array<double, 4>, kOrder + 1> u_psi;      // coefficients of u and psi
+    Quat q = Quat::Identity();                            // at the start
+    std::array<std::array<double, 4>, kOrder + 1> u_psi;  // coefficients of u and psi
   };
-  void append(double start, const Quat& q);
+  Segment makeSegment(double start, const Quat& q) const;
   static Quat orientationIn(const Segment& segment, double h);
   const Segment& segmentAt(double elapsed) const;
-  RotationSensitivity segmentSensitivity(const Segment& segment, double h) const;
+  RotationSensitivity segmentSensitivity(const Segment& segment, double& h) const;
 
   Vec3 D_ = Vec3::Zero(), L_ = Vec3::Zero();
   Quat q_ = Quat::Identity();

@@ -9,20 +9,28 @@ namespace carom {
 
 const char* nameOf(ImpactMode mode) {
   switch (mode) {
-    case ImpactMode::frictionless: return "frictionless";
-    case ImpactMode::stick: return "stick";
-    case ImpactMode::slide: return "slide";
-    case ImpactMode::joint: return "joint";
+    case ImpactMode::frictionless:
+      return "frictionless";
+    case ImpactMode::stick:
+      return "stick";
+    case ImpactMode::slide:
+      return "slide";
+    case ImpactMode::joint:
+      return "joint";
   }
   return "";
 }
 
 const char* nameOf(MotionStatus status) {
   switch (status) {
-    case MotionStatus::complete: return "complete";
-    case MotionStatus::impact_limit: return "impact_limit";
-    case MotionStatus::cascade: return "cascade";
-    case MotionStatus::unresolved_impact: return "unresolved_impact";
+    case MotionStatus::complete:
+      return "complete";
+    case MotionStatus::impact_limit:
+      return "impact_limit";
+    case MotionStatus::cascade:
+      return "cascade";
+    case MotionStatus::unresolved_impact:
+      return "unresolved_impact";
   }
   return "";
 }
@@ -34,9 +42,8 @@ const Participant* Event::find(int body) const {
 }
 
 bool Event::touches(int body, int with) const {
-  return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-    return (c.a == body && c.b == with) || (c.a == with && c.b == body);
-  });
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [&](const Contact& c) { return (c.a == body && c.b == with) || (c.a == with && c.b == body); });
 }
 
 BodyState toBodyState(const BodyModel& model, const State& s) {
@@ -74,8 +81,9 @@ BodyState Motion::stateAt(int body, double t) const {
 
 BodyState Motion::stateBefore(int event, int body) const {
   const Participant* p = events.at(static_cast<std::size_t>(event)).find(body);
-  if (!p) throw InputError("body '" + scene->bodies[static_cast<std::size_t>(body)].name + "' has no part in event " +
-                           std::to_string(event));
+  if (!p)
+    throw InputError("body '" + scene->bodies[static_cast<std::size_t>(body)].name + "' has no part in event " +
+                     std::to_string(event));
   return toBodyState((*models)[static_cast<std::size_t>(body)], p->before);
 }
 
@@ -93,8 +101,8 @@ std::string Motion::describeEvent(int index) const {
   std::string text;
   for (const Contact& c : event.contacts) {
     if (!text.empty()) text += " + ";
-    text += scene->bodies[static_cast<std::size_t>(c.a)].name + "-" + scene->bodies[static_cast<std::size_t>(c.b)].name +
-            " (" + geometry->describe(c.a, c.b, c.features) + ")";
+    text += scene->bodies[static_cast<std::size_t>(c.a)].name + "-" +
+            scene->bodies[static_cast<std::size_t>(c.b)].name + " (" + geometry->describe(c.a, c.b, c.features) + ")";
   }
   return text + " " + nameOf(event.mode);
 }

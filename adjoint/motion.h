@@ -25,12 +25,13 @@ const char* nameOf(ImpactMode mode);
 struct Contact {
   int a = -1, b = -1;
   FeaturePair features;
-  ContactPoint at;                    ///< gap, normal (b to a) and point at the impact
-  Vec3 impulse_normal = Vec3::UnitZ();  ///< the normal that the impulse used: `at.normal`, tilted where the scene says so
-  int tilt_a = -1, tilt_b = -1;       ///< entries of Scene::tilts in force, -1 if none
+  ContactPoint at;  ///< gap, normal (b to a) and point at the impact
+  Vec3 impulse_normal =
+      Vec3::UnitZ();             ///< the normal that the impulse used: `at.normal`, tilted where the scene says so
+  int tilt_a = -1, tilt_b = -1;  ///< entries of Scene::tilts in force, -1 if none
   PairCoefficients pair;
-  double approach = 0;                ///< n . u just before, m/s, < 0
-  Vec3 impulse = Vec3::Zero();        ///< on a, N s
+  double approach = 0;          ///< n . u just before, m/s, < 0
+  Vec3 impulse = Vec3::Zero();  ///< on a, N s
 };
 
 /// How near an event is to a place where derivatives stop (docs/equations.md section 7).
@@ -45,7 +46,7 @@ inline constexpr double kReliableMargin = 1e-6;
 /// A moving body in an event.
 struct Participant {
   int body = -1;
-  int arc = -1;  ///< of its world-line, the one that ends here; the next one starts here
+  int arc = -1;    ///< of its world-line, the one that ends here; the next one starts here
   int impact = 0;  ///< this is the body's n-th impact, 1 = first
   State before;
 };
@@ -68,10 +69,10 @@ struct WorldLine {
 };
 
 enum class MotionStatus {
-  complete,         ///< known up to the asked duration
-  impact_limit,     ///< stopped after the allowed number of impacts
-  cascade,          ///< impacts accumulate: infinitely many in finite time, or bodies stay in contact
-  unresolved_impact ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach)
+  complete,          ///< known up to the asked duration
+  impact_limit,      ///< stopped after the allowed number of impacts
+  cascade,           ///< impacts accumulate: infinitely many in finite time, or bodies stay in contact
+  unresolved_impact  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach)
 };
 const char* nameOf(MotionStatus status);
 
@@ -86,7 +87,7 @@ struct Motion {
   double duration = 0;                 ///< asked for
   double end = 0;                      ///< known up to here; = duration when complete
   MotionStatus status = MotionStatus::complete;
-  std::string message;                 ///< one sentence
+  std::string message;  ///< one sentence
 
   /// State of a body at 0 <= t <= end; at the time of an impact, the state after it. Throws InputError outside.
   BodyState stateAt(const std::string& body, double t) const;

@@ -15,10 +15,13 @@ struct Rule {
 // the value; the first one, by the order of the bodies, is taken to carry it half and half.
 Rule combined(Combine rule, double a, double b) {
   switch (rule) {
-    case Combine::average: return {0.5 * (a + b), 0.5, 0.5};
-    case Combine::multiply: return {a * b, b, a};
+    case Combine::average:
+      return {0.5 * (a + b), 0.5, 0.5};
+    case Combine::multiply:
+      return {a * b, b, a};
     case Combine::minimum:
-    case Combine::maximum: break;
+    case Combine::maximum:
+      break;
   }
   if (a == b) return {a, 0.5, 0.5};
   const bool takes_a = (a < b) == (rule == Combine::minimum);
@@ -72,7 +75,8 @@ BodyPlan planBody(const Body& body, const Asked& asked) {
   const int axis = symmetryAxis(modelOf(body).inertia);
   const bool ball = std::holds_alternative<Sphere>(body.shape);
   // the size and mass of a ball change its derived moments together
-  const bool stays_spherical = axis == -1 && (!asked.inertia || (ball && body.inertia.source == Inertia::Source::derived));
+  const bool stays_spherical =
+      axis == -1 && (!asked.inertia || (ball && body.inertia.source == Inertia::Source::derived));
   if (ball && stays_spherical && !asked.orientation)
     return {Tier::none, Tier::none, "a uniform ball whose orientation is not asked for: nothing depends on it",
             "a uniform ball whose orientation is not asked for: nothing depends on it"};

@@ -27,8 +27,8 @@ struct Material {
 struct Inertia {
   enum class Source { derived, moments, matrix };
   Source source = Source::derived;
-  Vec3 moments = Vec3::Zero();    ///< kg m^2, unless derived
-  Quat axes = Quat::Identity();   ///< p_shape = axes * p_principal; identity unless matrix
+  Vec3 moments = Vec3::Zero();   ///< kg m^2, unless derived
+  Quat axes = Quat::Identity();  ///< p_shape = axes * p_principal; identity unless matrix
 
   static Inertia fromMoments(const Vec3& moments);
   /// Eigen-decomposition of a symmetric matrix; axes that already are principal keep their order.
@@ -40,7 +40,7 @@ struct Inertia {
 struct Body {
   std::string name;
   bool fixed = false;
-  std::string material;           ///< name of a material; empty means a default Material
+  std::string material;  ///< name of a material; empty means a default Material
   Shape shape = Sphere{};
   std::optional<double> mass;     ///< kg
   std::optional<double> density;  ///< kg/m^3

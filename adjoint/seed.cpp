@@ -28,8 +28,7 @@ Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const St
   const Mat3 R = state.q.toRotationMatrix(), A = model.inverseInertiaWorld(R);
   const Vec3 omega = A * state.L;
   const Vec3 dD = -dmodel.inertia.cwiseProduct(model.inverse_inertia).cwiseProduct(model.inverse_inertia);
-  return A * (ds.L - ds.theta.cross(state.L)) + ds.theta.cross(omega) +
-         R * dD.cwiseProduct(R.transpose() * state.L);
+  return A * (ds.L - ds.theta.cross(state.L)) + ds.theta.cross(omega) + R * dD.cwiseProduct(R.transpose() * state.L);
 }
 
 ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {

@@ -4,9 +4,9 @@
 
 namespace carom {
 
-/// The terms of BodyState (omega in place of L), as functions of the integrator's state: omega = A L, A = R diag(1/I) R^T,
-/// domega = A dL + [theta]x omega - A [theta]x L + R diag(d(1/I)) R^T L.
-/// Adjoint of a state from a seed; adds the direct dependence of omega on the moments to `model_bar`.
+/// The terms of BodyState (omega in place of L), as functions of the integrator's state: omega = A L, A = R diag(1/I)
+/// R^T, domega = A dL + [theta]x omega - A [theta]x L + R diag(d(1/I)) R^T L. Adjoint of a state from a seed; adds the
+/// direct dependence of omega on the moments to `model_bar`.
 StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
                              BodyModelDerivative& model_bar);
 /// d omega.

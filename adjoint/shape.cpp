@@ -44,11 +44,26 @@ SolidProperties noProperties(const Shape&) { return {}; }
 // In the order of the alternatives of Shape.
 const std::array<ShapeKind, std::variant_size_v<Shape>>& table() {
   static const std::array<ShapeKind, std::variant_size_v<Shape>> kinds{{
-      {"sphere", {"radius"}, true, sphereDimensions, setSphereDimensions, sphereProperties,
+      {"sphere",
+       {"radius"},
+       true,
+       sphereDimensions,
+       setSphereDimensions,
+       sphereProperties,
        [](const Shape& s) { return std::get<Sphere>(s).radius; }},
-      {"box", {"x", "y", "z"}, true, boxDimensions, setBoxDimensions, boxProperties,
+      {"box",
+       {"x", "y", "z"},
+       true,
+       boxDimensions,
+       setBoxDimensions,
+       boxProperties,
        [](const Shape& s) { return 0.5 * std::get<Box>(s).size.norm(); }},
-      {"plane", {}, false, noDimensions, setNoDimensions, noProperties,
+      {"plane",
+       {},
+       false,
+       noDimensions,
+       setNoDimensions,
+       noProperties,
        [](const Shape&) { return std::numeric_limits<double>::infinity(); }},
   }};
   return kinds;

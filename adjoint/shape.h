@@ -47,7 +47,7 @@ struct ShapeKind {
   Vec3 (*dimensions)(const Shape&);          ///< metres; unused entries are 0
   void (*setDimensions)(Shape&, const Vec3&);
   SolidProperties (*properties)(const Shape&);
-  double (*boundingRadius)(const Shape&);    ///< about the origin; infinite for a plane
+  double (*boundingRadius)(const Shape&);  ///< about the origin; infinite for a plane
 };
 
 const ShapeKind& kindOf(const Shape& shape);

@@ -73,23 +73,69 @@ bool Simulator::takeNext(Prediction& next) {
   while (!queue_.empty()) {
     next = queue_.top();
     queue_.pop();
-    if (version_[static_cast<std::size_t>(next.a)] != next.version_a) continue;
-    if (next.isHorizon())
-      predictBody(next.a, next.time);
-    else if (version_[static_cast<std::size_t>(next.b)] == next.version_b)
-      return true;
+    if (!holds(next)) continue;
+    if (!next.isHorizon()) return true;
+    predictBody(next.a, next.time);
   }
   return false;
 }
 
-// Contacts of one instant are solved together: as long as the motion after the impact has another impact within the
-// instant, on a contact that was not separating before, that contact joins and the impact is solved again.
+bool Simulator::holds(const Prediction& p) const {
+  return version_[static_cast<std::size_t>(p.a)] == p.version_a &&
+         (p.isHorizon() || version_[static_cast<std::size_t>(p.b)] == p.version_b);
+}
+
+// Contacts of one instant are solved together: those predicted for it, all features that touch in it, and those that
+// the solved impact itself brings about within it, on contacts that were not separating before; then it is solved
+// again.
 Simulator::Draft Simulator::resolve(const Prediction& first) {
-  std::vector<Contact> contacts{makeContact(first.time, first.a, first.b, first.features)};
+  std::vector<Contact> contacts = contactsOfInstant(first);
   for (;;) {
     Draft result = draft(first.time, contacts);
     predict(result);
     if (!joinInstant(result, contacts)) return result;
+  }
+}
+
+// Takes the predictions out of the queue that share the instant and, directly or through others, a moving body.
+std::vector<Contact> Simulator::contactsOfInstant(const Prediction& first) {
+  std::vector<Prediction> same, kept;
+  while (!queue_.empty() && queue_.top().time <= first.time + kInstant) {
+    if (holds(queue_.top())) (queue_.top().isHorizon() ? kept : same).push_back(queue_.top());
+    queue_.pop();
+  }
+  std::vector<int> bodies{first.a, first.b};
+  std::vector<Contact> contacts;
+  addTouching(first.time, first.a, first.b, first.features, contacts);
+  const auto shares = [&](const Prediction& p) {
+    return std::any_of(bodies.begin(), bodies.end(),
+                       [&](int b) { return (b == p.a || b == p.b) && arcOf(b).moving(); });
+  };
+  for (auto next = std::find_if(same.begin(), same.end(), shares); next != same.end();
+       next = std::find_if(same.begin(), same.end(), shares)) {
+    addTouching(first.time, next->a, next->b, next->features, contacts);
+    bodies.insert(bodies.end(), {next->a, next->b});
+    same.erase(next);
+  }
+  for (const Prediction& p : same) queue_.push(p);
+  for (const Prediction& p : kept) queue_.push(p);
+  return contacts;
+}
+
+// The contact at the given features, and whatever else of the pair touches within the instant and was not separating.
+void Simulator::addTouching(double time, int a, int b, const FeaturePair& features, std::vector<Contact>& contacts) {
+  const auto known = [&](const FeaturePair& f) {
+    return std::any_of(contacts.begin(), contacts.end(),
+                       [&](const Contact& c) { return c.a == a && c.b == b && c.features == f; });
+  };
+  if (known(features)) return;
+  const Contact first = makeContact(time, a, b, features);
+  contacts.push_back(first);
+  const double reach = kInstant * std::abs(first.approach);
+  for (const FeaturePair& f : contacts_.touching(a, b, arcOf(a), arcOf(b), time, reach)) {
+    if (known(f)) continue;
+    const Contact c = makeContact(time, a, b, f);
+    if (c.approach <= kLowestBounce) contacts.push_back(c);
   }
 }
 
@@ -155,7 +201,7 @@ void Simulator::searchBody(int body, double from, const ArcOf& arc_of, const Ver
     const int a = std::min(body, other), b = std::max(body, other);
     const auto impact = contacts_.firstImpact(a, b, arc_of(a), arc_of(b), from, until);
     if (!impact) continue;
-    until = std::max(impact->time, std::min(from + kInstant, motion_.duration));
+    until = std::min(std::max(impact->time, from) + kInstant, motion_.duration);
     found.push_back({impact->time, a, b, impact->features, version_of(a), version_of(b)});
   }
   if (until < motion_.duration) found.push_back({until, body, -1, {}, version_of(body), 0});
@@ -164,8 +210,8 @@ void Simulator::searchBody(int body, double from, const ArcOf& arc_of, const Ver
 void Simulator::predictBody(int body, double from) {
   std::vector<Prediction> found;
   searchBody(
-      body, from, [&](int b) -> Arc& { return arcOf(b); },
-      [&](int b) { return version_[static_cast<std::size_t>(b)]; }, found);
+      body, from, [&](int b) -> Arc& { return arcOf(b); }, [&](int b) { return version_[static_cast<std::size_t>(b)]; },
+      found);
   for (const Prediction& p : found) queue_.push(p);
 }
 
@@ -200,7 +246,7 @@ bool Simulator::joinInstant(const Draft& d, std::vector<Contact>& contacts) {
       soonest = &p;
     }
   if (!soonest) return false;
-  contacts.push_back(makeContact(d.event.time, soonest->a, soonest->b, soonest->features));
+  addTouching(d.event.time, soonest->a, soonest->b, soonest->features, contacts);
   return true;
 }
 
@@ -236,8 +282,7 @@ bool Simulator::accumulates(const Draft& d) {
     const auto next = std::find_if(d.predictions.begin(), d.predictions.end(),
                                    [&](const Prediction& p) { return p.a == c.a && p.b == c.b; });
     const double leaving = std::abs(c.pair.elasticity * c.approach);
-    const bool is_low =
-        next != d.predictions.end() && 0.25 * leaving * (next->time - d.event.time) < kLowestBounce;
+    const bool is_low = next != d.predictions.end() && 0.25 * leaving * (next->time - d.event.time) < kLowestBounce;
     if (!is_low) {
       if (low != low_bounces_.end()) low->count = 0;
       continue;
@@ -249,10 +294,10 @@ bool Simulator::accumulates(const Draft& d) {
     std::ostringstream text;
     text.precision(10);
     text << "'" << scene_.bodies[static_cast<std::size_t>(c.a)].name << "' and '"
-         << scene_.bodies[static_cast<std::size_t>(c.b)].name << "' stay in contact from t = "
-         << d.event.time + (e < 1 ? gap / (1 - e) : gap) << " s on, at (" << c.at.point.x() << ", " << c.at.point.y()
-         << ", " << c.at.point.z() << "), after " << motion_.events.size() + 1
-         << " impacts; lasting contact is not modelled, so the motion ends there";
+         << scene_.bodies[static_cast<std::size_t>(c.b)].name
+         << "' stay in contact from t = " << d.event.time + (e < 1 ? gap / (1 - e) : gap) << " s on, at ("
+         << c.at.point.x() << ", " << c.at.point.y() << ", " << c.at.point.z() << "), after "
+         << motion_.events.size() + 1 << " impacts; lasting contact is not modelled, so the motion ends there";
     finish(MotionStatus::cascade, d.event.time, text.str());
     return true;
   }

@@ -9,8 +9,8 @@ namespace carom {
 
 /// Contacts closer in time than this, in one contact graph, are one instant (docs/equations.md section 4).
 inline constexpr double kInstant = 1e-10;  // s
-/// A bounce lower than this, onto the same features, is the tail of a cascade: positions of ordinary size resolve 1e-16 m,
-/// so below it the height of a bounce has no digits left to speak of.
+/// A bounce lower than this, onto the same features, is the tail of a cascade: positions of ordinary size resolve 1e-16
+/// m, so below it the height of a bounce has no digits left to speak of.
 inline constexpr double kLowestBounce = 1e-12;  // m
 /// Bounces that low on changing features (a rattling box) count as a cascade after so many in a row.
 inline constexpr int kRattles = 8;
@@ -50,6 +50,7 @@ class Simulator {
 
   void start();
   bool takeNext(Prediction& next);
+  bool holds(const Prediction& p) const;  // the arcs it was made for are in force
   Draft resolve(const Prediction& first);
   Draft draft(double time, const std::vector<Contact>& contacts);
   void predict(Draft& draft);
@@ -57,6 +58,8 @@ class Simulator {
   template <class ArcOf, class VersionOf>
   void searchBody(int body, double from, const ArcOf& arc_of, const VersionOf& version_of,
                   std::vector<Prediction>& found);
+  std::vector<Contact> contactsOfInstant(const Prediction& first);
+  void addTouching(double time, int a, int b, const FeaturePair& features, std::vector<Contact>& contacts);
   bool joinInstant(const Draft& draft, std::vector<Contact>& contacts);
   void commit(Draft&& draft);
   bool separates(const Draft& draft);

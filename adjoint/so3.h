@@ -6,16 +6,16 @@
 
 namespace carom {
 
-/// Rotation vectors: theta = angle * axis, world axes, R = exp([theta]x). Below kSmallRotation power series are used, whose
-/// first neglected term is under 1e-17.
+/// Rotation vectors: theta = angle * axis, world axes, R = exp([theta]x). Below kSmallRotation power series are used,
+/// whose first neglected term is under 1e-17.
 inline constexpr double kSmallRotation = 0.02;
 
 /// Unit quaternion of a rotation vector.
 inline Quat expSO3(const Vec3& u) {
   const double angle2 = u.squaredNorm(), angle = std::sqrt(angle2);
   const double h2 = angle2 / 4;
-  const double s = angle < kSmallRotation ? 0.5 * (1 - h2 / 6 * (1 - h2 / 20 * (1 - h2 / 42)))
-                                       : std::sin(angle / 2) / angle;
+  const double s =
+      angle < kSmallRotation ? 0.5 * (1 - h2 / 6 * (1 - h2 / 20 * (1 - h2 / 42))) : std::sin(angle / 2) / angle;
   return Quat(std::cos(angle / 2), s * u.x(), s * u.y(), s * u.z());
 }
 
@@ -51,7 +51,7 @@ inline Mat3 leftJacobian(const Vec3& u) {
 inline Mat3 leftJacobianInverse(const Vec3& u) {
   const double a2 = u.squaredNorm(), a = std::sqrt(a2);
   const double c = a < kSmallRotation ? (1 + a2 / 60 * (1 + a2 / 42 * (1 + a2 / 40))) / 12
-                                   : (1 - a / 2 * std::cos(a / 2) / std::sin(a / 2)) / a2;
+                                      : (1 - a / 2 * std::cos(a / 2) / std::sin(a / 2)) / a2;
   const Mat3 U = skew(u);
   return Mat3::Identity() - 0.5 * U + c * U * U;
 }

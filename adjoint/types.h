@@ -18,8 +18,6 @@ inline Mat3 skew(const Vec3& a) {
 }
 
 /// The vector d with <M, [d]x> = d . unskew(M) for every d (the adjoint of `skew`).
-inline Vec3 unskew(const Mat3& m) {
-  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
-}
+inline Vec3 unskew(const Mat3& m) { return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)}; }
 
 }  // namespace carom

@@ -116,8 +116,10 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.tilts.size(); ++i) {
     const Tilt& tilt = scene.tilts[i];
     const std::string where = "/tilts/" + std::to_string(i);
-    if (scene.bodies[static_cast<std::size_t>(bodyIndex(scene, tilt.body))].fixed)
-      fail(where + "/body", "the fixed body '" + tilt.body + "'", "a moving body");
+    const auto body =
+        std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == tilt.body; });
+    if (body == scene.bodies.end()) fail(where + "/body", "'" + tilt.body + "'", "the name of a body");
+    if (body->fixed) fail(where + "/body", "the fixed body '" + tilt.body + "'", "a moving body");
     if (tilt.impact < 1) fail(where + "/impact", std::to_string(tilt.impact), "1 or more");
     requireFinite(where + "/value", Vec3(tilt.value.x(), tilt.value.y(), 0));
   }

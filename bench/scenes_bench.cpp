@@ -21,9 +21,11 @@ namespace {
 
 struct Case {
   explicit Case(const std::string& name)
-      : document(readDocument(std::string(CAROM_SCENES_DIR) + "/" + name + ".json")), contacts(document.scene),
+      : document(readDocument(std::string(CAROM_SCENES_DIR) + "/" + name + ".json")),
+        contacts(document.scene),
         edit(document.scene, contacts, document.duration, document.controls, document.constraints),
-        problem(edit.problem()), values(problem.controls.startValues()) {}
+        problem(edit.problem()),
+        values(problem.controls.startValues()) {}
 
   Motion motion() { return simulate(document.scene, contacts, problem.horizon, {20000, problem.asked}); }
   int mover() const {

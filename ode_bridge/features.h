@@ -13,7 +13,7 @@ struct Feature {
   Vec3 point = Vec3::Zero();      ///< the vertex, the middle of the edge, a point of the face
   Vec3 direction = Vec3::Zero();  ///< unit: along the edge, or out of the face; 0 for a vertex
   double radius = 0;
-  Mat3 dpoint = Mat3::Zero();     ///< d point / d dimensions
+  Mat3 dpoint = Mat3::Zero();  ///< d point / d dimensions
   Vec3 dradius = Vec3::Zero();
 };
 
@@ -21,9 +21,9 @@ struct Feature {
 struct Solid {
   std::vector<Feature> vertices, edges, faces;
   std::vector<std::pair<int, int>> edge_vertices;  ///< ends of each edge
-  Vec3 half = Vec3::Zero();  ///< box: half the size
-  double radius = 0;         ///< swept radius of all features
-  double reach = 0;          ///< largest distance of a vertex from the origin, without the radius
+  Vec3 half = Vec3::Zero();                        ///< box: half the size
+  double radius = 0;                               ///< swept radius of all features
+  double reach = 0;                                ///< largest distance of a vertex from the origin, without the radius
   bool ball = false, box = false, plane = false;
 
   /// Bounding radius about the origin; infinite for a plane.

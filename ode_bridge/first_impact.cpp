@@ -61,8 +61,8 @@ double touchTolerance(const Placed& a, const Placed& b) {
 
 namespace {
 
-// Bodies that glide along each other without approaching are followed in steps that the tolerance of contact allows. After
-// so many such steps in a row it is doubled, up to kLoosest times; what they may overlap by stays below 1e-10 m.
+// Bodies that glide along each other without approaching are followed in steps that the tolerance of contact allows.
+// After so many such steps in a row it is doubled, up to kLoosest times; what they may overlap by stays below 1e-10 m.
 constexpr int kGlideSteps = 64;
 constexpr double kLoosest = 1000;
 
@@ -72,7 +72,8 @@ constexpr double kGrown = 0.01;
 // The candidate direction, if the exact geometry says that the solids are apart along it.
 std::optional<Witness> candidateWitness(const PairMotion& pair, const Placed& a, const Placed& b, double tolerance) {
   if (!a.solid->box || !b.solid->box) return std::nullopt;
-  const auto n = pair.narrow_phase.candidateNormal(pair.a, pair.b, a, b, kGrown * std::min(a.solid->reach, b.solid->reach));
+  const auto n =
+      pair.narrow_phase.candidateNormal(pair.a, pair.b, a, b, kGrown * std::min(a.solid->reach, b.solid->reach));
   if (!n) return std::nullopt;
   const Witness w = witnessAlong(a, b, *n);
   return w.separation > tolerance ? std::optional(w) : std::nullopt;

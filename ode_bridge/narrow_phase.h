@@ -20,8 +20,8 @@ class NarrowPhase {
 
   void reset(const std::vector<Solid>& solids);
 
-  /// Normal (from b to a) of a candidate contact of the two solids, each grown by `margin`; nothing when the library finds
-  /// them further apart.
+  /// Normal (from b to a) of a candidate contact of the two solids, each grown by `margin`; nothing when the library
+  /// finds them further apart.
   std::optional<Vec3> candidateNormal(int a, int b, const Placed& placed_a, const Placed& placed_b,
                                       double margin) const;
 

@@ -98,6 +98,15 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
   return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b}, from, until);
 }
 
+std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
+                                               double reach) {
+  const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
+  const Witness witness = findWitness(placed_a, placed_b);
+  const double tolerance = std::max(reach, 4 * touchTolerance(placed_a, placed_b));
+  if (witness.bounding || witness.separation > tolerance) return {};
+  return touchingFeatures(placed_a, placed_b, witness, tolerance);
+}
+
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }
 
 }  // namespace carom

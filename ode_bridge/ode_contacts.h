@@ -6,9 +6,9 @@
 
 namespace carom {
 
-/// Collision detection for spheres, boxes and planes. The Open Dynamics Engine's sweep-and-prune space proposes the pairs
-/// whose swept boxes meet; exact geometry in double precision decides when, where and with which features they touch.
-/// One object serves one simulation at a time; different objects may be used from different threads.
+/// Collision detection for spheres, boxes and planes. The Open Dynamics Engine's sweep-and-prune space proposes the
+/// pairs whose swept boxes meet; exact geometry in double precision decides when, where and with which features they
+/// touch. One object serves one simulation at a time; different objects may be used from different threads.
 class OdeContacts final : public ContactSource {
  public:
   /// Throws InputError when two bodies of the scene overlap at the start.
@@ -20,8 +20,8 @@ class OdeContacts final : public ContactSource {
   void begin(const Scene& scene) override;
   void setPath(int body, const Arc& arc, double from, double until) override;
   void neighbours(int body, std::vector<int>& out) override;
-  std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
-                                             double until) override;
+  std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
+  std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t, double reach) override;
   std::shared_ptr<const ContactGeometry> geometry() const override;
 
  private:

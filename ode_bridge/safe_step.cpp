@@ -127,12 +127,13 @@ double stepInFrameOfB(const Placed& a, const Placed& b, const Witness& w, const 
     return firstTouch(f, lift, std::max(0.0, own + other - pull), limit);
   }
   // in the turning frame: relative, Coriolis and centrifugal parts, each at its largest within the window
-  return bestWindow(limit, (std::abs(w.separation) + slack) / (bounds.speed + a.spin * bounds.reach_a), [&](double window) {
-    const double speed = bounds.relativeSpeed(window) + a.spin * bounds.reach_a;
-    const double reach = bounds.separationOfOrigins(window) + bounds.reach_a;
-    const double bend = bounds.gravity + own + 2 * b.spin * speed + bounds.turn_b * reach;
-    return firstTouch(f, lift, bend, window);
-  });
+  return bestWindow(limit, (std::abs(w.separation) + slack) / (bounds.speed + a.spin * bounds.reach_a),
+                    [&](double window) {
+                      const double speed = bounds.relativeSpeed(window) + a.spin * bounds.reach_a;
+                      const double reach = bounds.separationOfOrigins(window) + bounds.reach_a;
+                      const double bend = bounds.gravity + own + 2 * b.spin * speed + bounds.turn_b * reach;
+                      return firstTouch(f, lift, bend, window);
+                    });
 }
 
 double stepAcrossEdges(const Placed& a, const Placed& b, const Witness& w, const PairBounds& bounds, double slack,
@@ -154,15 +155,15 @@ double stepAcrossEdges(const Placed& a, const Placed& b, const Witness& w, const
   const double W = a.spin + b.spin, Z = W * W + a.spin_rate + b.spin_rate, s = 0.5 * sine;
   const double n1 = W / s, n2 = Z / s + 3 * n1 * n1;
   const double longest = W > 0 ? std::min(limit, s / W) : limit;
-  return bestWindow(longest, (std::abs(w.separation) + slack) / (bounds.speed + a.spin * bounds.reach_a + b.spin * bounds.reach_b),
-                    [&](double window) {
-                      const double speed = bounds.relativeSpeed(window) + a.spin * bounds.reach_a;
-                      const double reach = bounds.separationOfOrigins(window) + bounds.reach_a;
-                      const double bend_a =
-                          n2 * reach + 2 * n1 * speed + bounds.turn_a * bounds.reach_a + bounds.gravity;
-                      const double bend_b = (n2 + 2 * n1 * b.spin + bounds.turn_b) * bounds.reach_b;
-                      return firstTouch(f, lift, bend_a + bend_b, window);
-                    });
+  return bestWindow(
+      longest, (std::abs(w.separation) + slack) / (bounds.speed + a.spin * bounds.reach_a + b.spin * bounds.reach_b),
+      [&](double window) {
+        const double speed = bounds.relativeSpeed(window) + a.spin * bounds.reach_a;
+        const double reach = bounds.separationOfOrigins(window) + bounds.reach_a;
+        const double bend_a = n2 * reach + 2 * n1 * speed + bounds.turn_a * bounds.reach_a + bounds.gravity;
+        const double bend_b = (n2 + 2 * n1 * b.spin + bounds.turn_b) * bounds.reach_b;
+        return firstTouch(f, lift, bend_a + bend_b, window);
+      });
 }
 
 }  // namespace

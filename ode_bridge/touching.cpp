@@ -29,7 +29,8 @@ std::vector<int> frontEdges(const Placed& p, const Vec3& direction, double toler
   std::vector<int> edges;
   for (std::size_t e = 0; e < p.solid->edge_vertices.size(); ++e) {
     const auto [v, w] = p.solid->edge_vertices[e];
-    if (along[static_cast<std::size_t>(v)] >= furthest - tolerance && along[static_cast<std::size_t>(w)] >= furthest - tolerance)
+    if (along[static_cast<std::size_t>(v)] >= furthest - tolerance &&
+        along[static_cast<std::size_t>(w)] >= furthest - tolerance)
       edges.push_back(static_cast<int>(e));
   }
   return edges;
@@ -37,7 +38,8 @@ std::vector<int> frontEdges(const Placed& p, const Vec3& direction, double toler
 
 // Edges that cross strictly inside both.
 bool crossInside(const Placed& a, const Placed& b, int edge_a, int edge_b, const Vec3& n, std::int16_t& sign) {
-  const Feature &fa = a.solid->edges[static_cast<std::size_t>(edge_a)], &fb = b.solid->edges[static_cast<std::size_t>(edge_b)];
+  const Feature &fa = a.solid->edges[static_cast<std::size_t>(edge_a)],
+                &fb = b.solid->edges[static_cast<std::size_t>(edge_b)];
   const Vec3 d1 = a.k.R * fa.direction, d2 = b.k.R * fb.direction, c = d1.cross(d2);
   const double s2 = c.squaredNorm();
   if (s2 < 1e-12) return false;  // parallel edges touch along a line: their vertices carry the contact

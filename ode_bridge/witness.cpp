@@ -175,7 +175,10 @@ Witness boxBox(const Placed& a, const Placed& b) {
 }  // namespace
 
 Placed::Placed(const Solid& s, const Arc& arc, double t)
-    : solid(&s), k(arc.kinematicsAt(t)), acceleration(arc.acceleration()), spin(s.ball ? 0 : arc.spinBound()),
+    : solid(&s),
+      k(arc.kinematicsAt(t)),
+      acceleration(arc.acceleration()),
+      spin(s.ball ? 0 : arc.spinBound()),
       spin_rate(s.ball ? 0 : arc.spinRateBound()) {}
 
 Witness witnessAlong(const Placed& a, const Placed& b, const Vec3& n) {

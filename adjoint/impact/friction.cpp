@@ -13,8 +13,16 @@ namespace {
 
 struct Terms {
   explicit Terms(const ImpactProblem& p)
-      : K(p.K), u(p.u), n(p.normal[0]), mu(p.pair[0].friction), e1(1 + p.pair[0].elasticity),
-        et1(1 + p.pair[0].tangential_elasticity), Kn(K * n), u_n(n.dot(u)), a(n.dot(Kn)), factor(K) {
+      : K(p.K),
+        u(p.u),
+        n(p.normal[0]),
+        mu(p.pair[0].friction),
+        e1(1 + p.pair[0].elasticity),
+        et1(1 + p.pair[0].tangential_elasticity),
+        Kn(K * n),
+        u_n(n.dot(u)),
+        a(n.dot(Kn)),
+        factor(K) {
     P_I = -(u_n / a) * n;
     P_II = -factor.solve(u);
     d = P_II - P_I;

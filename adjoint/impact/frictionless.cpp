@@ -7,7 +7,13 @@ namespace {
 
 struct Terms {
   explicit Terms(const ImpactProblem& p)
-      : K(p.K), u(p.u), n(p.normal[0]), e1(1 + p.pair[0].elasticity), Kn(K * n), u_n(n.dot(u)), a(n.dot(Kn)),
+      : K(p.K),
+        u(p.u),
+        n(p.normal[0]),
+        e1(1 + p.pair[0].elasticity),
+        Kn(K * n),
+        u_n(n.dot(u)),
+        a(n.dot(Kn)),
         c(-e1 * u_n / a) {}
   Mat3 K;
   Vec3 u, n;

@@ -133,9 +133,9 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
       const Mat3 Ra = skew(a.r), Rb = skew(b.r), &A = bodies_[i].A;
       const Mat3 K_bar = a.sign * b.sign * bar.K.block<3, 3>(3 * a.contact, 3 * b.contact);
       inverse_mass_bar[i] += K_bar.trace();
-      A_bar[i] -= Ra * K_bar * Rb;          // <K_bar, -Ra dA Rb>, Ra^T = -Ra
-      r_bar[j] += unskew(K_bar * Rb * A);   // <K_bar, -[dr]x A Rb>
-      r_bar[l] += unskew(A * Ra * K_bar);   // <K_bar, -Ra A [dr]x>
+      A_bar[i] -= Ra * K_bar * Rb;         // <K_bar, -Ra dA Rb>, Ra^T = -Ra
+      r_bar[j] += unskew(K_bar * Rb * A);  // <K_bar, -[dr]x A Rb>
+      r_bar[l] += unskew(A * Ra * K_bar);  // <K_bar, -Ra A [dr]x>
     }
   for (std::size_t j = 0; j < arms_.size(); ++j) {
     const Arm& arm = arms_[j];

@@ -25,8 +25,8 @@ class ImpactAssembly {
                                        const std::vector<PairCoefficients>& dpair,
                                        const std::vector<BodyModelDerivative>& dmodel) const;
 
-  /// Adjoint of `tangent`: adds to the adjoints of contacts, coefficients and models (of participants); returns those of
-  /// the states before.
+  /// Adjoint of `tangent`: adds to the adjoints of contacts, coefficients and models (of participants); returns those
+  /// of the states before.
   std::vector<StateDerivative> pullback(const Eigen::VectorXd& P, const std::vector<StateDerivative>& after_bar,
                                         std::vector<Eigen::Matrix<double, 7, 1>>& contact_bar,
                                         std::vector<PairCoefficients>& pair_bar,

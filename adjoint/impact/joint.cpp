@@ -27,11 +27,13 @@ struct LeastNormSolve {
 
   LeastNormSolve(const MatrixXd& A, const VectorXd& b) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
-    VectorXd values = eigen.eigenvalues();
-    const double cut = 1e-11 * (values.size() ? values.maxCoeff() : 0);
-    for (double& v : values) v = v > cut ? 1 / v : 0;
-    inverse = eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
-    rest = MatrixXd::Identity(A.rows(), A.rows()) - A * inverse;
+    const VectorXd& values = eigen.eigenvalues();  // in increasing order
+    const MatrixXd& vectors = eigen.eigenvectors();
+    Index null = 0;
+    while (null < values.size() && values[null] <= 1e-11 * values[values.size() - 1]) ++null;
+    const MatrixXd range = vectors.rightCols(values.size() - null);
+    inverse = range * values.tail(values.size() - null).cwiseInverse().asDiagonal() * range.transpose();
+    rest = vectors.leftCols(null) * vectors.leftCols(null).transpose();
     y = -inverse * b;
     inverse_y = inverse * y;
   }
@@ -52,7 +54,8 @@ struct DirectedSolve {
   LeastNormSolve solve;
 
   DirectedSolve(const ImpactProblem& p, MatrixXd directions, VectorXd shares)
-      : C(std::move(directions)), share(std::move(shares)),
+      : C(std::move(directions)),
+        share(std::move(shares)),
         solve(C.transpose() * p.K * C, share.cwiseProduct(C.transpose() * p.u)) {}
 
   VectorXd impulse() const { return C * solve.y; }
@@ -61,8 +64,8 @@ struct DirectedSolve {
                    const VectorXd& dshare) const {
     const MatrixXd CKd = C.transpose() * p.K * dC;
     const MatrixXd dA = CKd + CKd.transpose() + C.transpose() * d.K * C;
-    const VectorXd db = dshare.cwiseProduct(C.transpose() * p.u) +
-                        share.cwiseProduct(dC.transpose() * p.u + C.transpose() * d.u);
+    const VectorXd db =
+        dshare.cwiseProduct(C.transpose() * p.u) + share.cwiseProduct(dC.transpose() * p.u + C.transpose() * d.u);
     return dC * solve.y + C * solve.tangent(dA, db);
   }
   void pullback(const ImpactProblem& p, const VectorXd& P_bar, ImpactProblemDerivative& bar, MatrixXd& C_bar,
@@ -90,6 +93,22 @@ MatrixXd normalColumns(const std::vector<Vec3>& normals, const Contacts& active)
 void addNormalColumns(const MatrixXd& C_bar, const Contacts& active, ImpactProblemDerivative& bar) {
   for (std::size_t c = 0; c < active.size(); ++c)
     bar.normal[static_cast<std::size_t>(active[c])] += C_bar.block<3, 1>(3 * active[c], static_cast<Index>(c));
+}
+
+// Where contacts are redundant several sets give the same velocities. The one that spreads the impulses over all
+// contacts that just meet their condition is taken when it pulls nowhere: a box on a face is held at its four corners,
+// not at two.
+Contacts spread(const MatrixXd& A, const VectorXd& b, const VectorXd& y, Contacts active) {
+  const VectorXd w = A * y + b;
+  const double scale = b.cwiseAbs().maxCoeff();
+  Contacts met;
+  for (Index i = 0; i < b.size(); ++i)
+    if (y[i] > 0 || std::abs(w[i]) <= 1e-9 * scale) met.push_back(static_cast<int>(i));
+  if (met.size() == active.size()) return active;
+  const LeastNormSolve solve(A(met, met), b(met));
+  if ((A(met, met) * solve.y + b(met)).cwiseAbs().maxCoeff() > 1e-9 * scale) return active;
+  const double least = 1e-9 * solve.y.cwiseAbs().maxCoeff();
+  return solve.y.minCoeff() > least ? met : active;
 }
 
 // Contacts with positive impulse in: y >= 0, A y + b >= 0, complementary. Active set of Lawson and Hanson: contacts
@@ -121,13 +140,12 @@ Contacts activeContacts(const MatrixXd& A, const VectorXd& b) {
         const double from = y[list[c]], to = solve.y[static_cast<Index>(c)];
         if (to <= 0 && from / (from - to) < step && from > to) step = from / (from - to), leave = list[c];
       }
-      for (std::size_t c = 0; c < list.size(); ++c)
-        y[list[c]] += step * (solve.y[static_cast<Index>(c)] - y[list[c]]);
+      for (std::size_t c = 0; c < list.size(); ++c) y[list[c]] += step * (solve.y[static_cast<Index>(c)] - y[list[c]]);
       feasible = leave < 0;
       if (!feasible) in[static_cast<std::size_t>(leave)] = false, y[leave] = 0;
     }
   }
-  return members();
+  return spread(A, b, y, members());
 }
 
 // The branch of the law with its three solves.
@@ -135,8 +153,8 @@ struct Branch {
   Contacts normal_active, plastic_active, directions;  // directions: contacts of P_II, their union
   bool friction = false;
   double kappa = 0;
-  int limit = -1;        // contact whose cone cuts kappa, -1: none does
-  int lowest_e_t = -1;   // contact that gives kappa when none does
+  int limit = -1;       // contact whose cone cuts kappa, -1: none does
+  int lowest_e_t = -1;  // contact that gives kappa when none does
   double margin = 1;
   VectorXd P_N, d;
   std::vector<DirectedSolve> solves;  // P_N, P_I, P_II

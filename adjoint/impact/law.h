@@ -7,8 +7,8 @@
 
 namespace carom {
 
-/// What an impact law sees: contacts k with unit normals n_k (b to a), relative velocities u_k before the impact and the
-/// matrix K of 3x3 blocks with u+ = u + K P for impulses P (on a). All in world axes.
+/// What an impact law sees: contacts k with unit normals n_k (b to a), relative velocities u_k before the impact and
+/// the matrix K of 3x3 blocks with u+ = u + K P for impulses P (on a). All in world axes.
 struct ImpactProblem {
   Eigen::MatrixXd K;                   ///< 3N x 3N, kg^-1
   Eigen::VectorXd u;                   ///< 3N, m/s

@@ -33,7 +33,8 @@ const std::vector<Confined>& confinedLibraries() {
   static const std::vector<Confined> rows = {
       {"ODE", std::regex("ode/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
       {"Ipopt", std::regex("(.*/)?Ip[A-Z]\\w*\\.(h|hpp)"), std::regex("editing/.*\\.cpp"), "one editing/*.cpp"},
-      {"nlohmann", std::regex("nlohmann/.*"), std::regex("((formats|studio)/.*\\.cpp|formats/detail/.*\\.hpp|tests/.*)"),
+      {"nlohmann", std::regex("nlohmann/.*"),
+       std::regex("((formats|studio)/.*\\.cpp|formats/detail/.*\\.hpp|tests/.*)"),
        "formats/*.cpp, formats/detail/*.hpp, studio/*.cpp and tests"},
       // private headers, which are not installed and may name those libraries
       {"formats/detail", std::regex("formats/detail/.*"), std::regex("formats/(.*\\.cpp|detail/.*\\.hpp)"),
