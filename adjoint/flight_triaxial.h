@@ -20,7 +20,8 @@ struct RotationSensitivity {
 ///   u' = l u x (D u),  psi' = l (u(0) + u).(D u) / (1 + u(0).u),  R = R(0) exp([psi u(0)]x) S^T,  D = diag(1/I).
 /// Coefficients come from the recurrences of Cauchy products; the step is chosen from the last coefficients (Jorba and
 /// Zou, Experimental Mathematics 14(1), 2005) and rounded to a short binary number, so that segment times add without
-/// error. Every segment starts again from u = R^T L / l, so l never drifts.
+/// error. Every segment starts again from u = R^T L / l, moved onto the energy of the start: rounding would otherwise
+/// change the energy in a random walk and the phase, which sums it up, far more.
 class TriaxialRotation {
  public:
   static constexpr int kOrder = 20;
@@ -29,7 +30,8 @@ class TriaxialRotation {
   /// Makes [0, elapsed] available.
   void extendTo(double elapsed);
   Quat orientationAt(double elapsed) const;
-  /// Sensitivity over [0, elapsed] by the variational equations of the same system, see flight_triaxial.cpp.
+  /// Sensitivity over [0, elapsed] by the variational equations of the same system, see
+  /// flight_triaxial_sensitivity.cpp.
   RotationSensitivity sensitivityAt(double elapsed) const;
 
  private:
@@ -39,12 +41,15 @@ class TriaxialRotation {
     std::array<std::array<double, 4>, kOrder + 1> u_psi;  // coefficients of u and psi
   };
   Segment makeSegment(double start, const Quat& q) const;
+  Vec3 restoreEnergy(Quat& q, const Vec3& u) const;
   static Quat orientationIn(const Segment& segment, double h);
   const Segment& segmentAt(double elapsed) const;
   RotationSensitivity segmentSensitivity(const Segment& segment, double& h) const;
 
   Vec3 D_ = Vec3::Zero(), L_ = Vec3::Zero();
   Quat q_ = Quat::Identity();
+  Vec3 shifted_D_ = Vec3::Zero();  // D less its middle entry
+  double energy_ = 0;              // u.(shifted D u)
   std::vector<Segment> segments_;
 };
 

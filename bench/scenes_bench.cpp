@@ -48,6 +48,27 @@ Case& caseOf(const std::string& name) {
   return *slot;
 }
 
+// A box with three different moments that tumbles on a floor with friction: three impacts.
+void simulateThreeImpacts(benchmark::State& state) {
+  Scene scene;
+  scene.materials.push_back({.name = "wood", .elasticity = 0.6, .friction = 0.3});
+  Body floor, box;
+  floor.name = "floor", floor.fixed = true, floor.material = "wood", floor.shape = Plane{};
+  box.name = "box", box.material = "wood", box.mass = 1, box.shape = Box{{0.3, 0.2, 0.12}};
+  box.position = {0, 0, 0.5}, box.velocity = {1, 0.3, -1}, box.angular_velocity = {2, 3, 1};
+  scene.bodies = {floor, box};
+  OdeContacts contacts(scene);
+  const double duration = simulate(scene, contacts, 5, {3, {}}).end;  // up to the fourth impact
+  std::size_t impacts = 0;
+  for (auto _ : state) {
+    const Motion motion = simulate(scene, contacts, 0.999 * duration);
+    impacts = motion.events.size();
+    benchmark::DoNotOptimize(motion.end);
+  }
+  state.counters["impacts"] = static_cast<double>(impacts);
+  state.counters["seconds"] = 0.999 * duration;
+}
+
 void simulateScene(benchmark::State& state, const std::string& name) {
   Case& c = caseOf(name);
   std::size_t impacts = 0;
@@ -110,6 +131,8 @@ int main(int argc, char** argv) {
     add("full_jacobian", carom::fullJacobian);
     add("edit", carom::wholeEdit);
   }
+  benchmark::RegisterBenchmark("simulate/box_three_impacts", carom::simulateThreeImpacts)
+      ->Unit(benchmark::kMicrosecond);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

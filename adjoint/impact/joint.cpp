@@ -1,7 +1,7 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/impact/complementarity.h"
 #include "adjoint/impact/law.h"
 
 // Equation 4.3, contacts of one instant together, each with u_n <= 0 before:
@@ -18,34 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// y = -A^+ b for symmetric positive semidefinite A with b in its range, and its derivatives at constant rank:
-// dy = -A^+ (db + dA y) + (1 - A A^+) dA A^+ y.
-struct LeastNormSolve {
-  MatrixXd inverse, rest;  // A^+, 1 - A A^+
-  VectorXd y, inverse_y;
-
-  LeastNormSolve(const MatrixXd& A, const VectorXd& b) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
-    const VectorXd& values = eigen.eigenvalues();  // in increasing order
-    const MatrixXd& vectors = eigen.eigenvectors();
-    Index null = 0;
-    while (null < values.size() && values[null] <= 1e-11 * values[values.size() - 1]) ++null;
-    const MatrixXd range = vectors.rightCols(values.size() - null);
-    inverse = range * values.tail(values.size() - null).cwiseInverse().asDiagonal() * range.transpose();
-    rest = vectors.leftCols(null) * vectors.leftCols(null).transpose();
-    y = -inverse * b;
-    inverse_y = inverse * y;
-  }
-  VectorXd tangent(const MatrixXd& dA, const VectorXd& db) const {
-    return -inverse * (db + dA * y) + rest * (dA * inverse_y);
-  }
-  void pullback(const VectorXd& y_bar, MatrixXd& A_bar, VectorXd& b_bar) const {
-    const VectorXd z = inverse * y_bar;
-    b_bar = -z;
-    A_bar = -z * y.transpose() + (rest.transpose() * y_bar) * inverse_y.transpose();
-  }
-};
 
 // Impulses P = C y from directions C (contacts x directions) that are to receive the velocity change -s o (C^T u).
 struct DirectedSolve {
@@ -93,59 +65,6 @@ MatrixXd normalColumns(const std::vector<Vec3>& normals, const Contacts& active)
 void addNormalColumns(const MatrixXd& C_bar, const Contacts& active, ImpactProblemDerivative& bar) {
   for (std::size_t c = 0; c < active.size(); ++c)
     bar.normal[static_cast<std::size_t>(active[c])] += C_bar.block<3, 1>(3 * active[c], static_cast<Index>(c));
-}
-
-// Where contacts are redundant several sets give the same velocities. The one that spreads the impulses over all
-// contacts that just meet their condition is taken when it pulls nowhere: a box on a face is held at its four corners,
-// not at two.
-Contacts spread(const MatrixXd& A, const VectorXd& b, const VectorXd& y, Contacts active) {
-  const VectorXd w = A * y + b;
-  const double scale = b.cwiseAbs().maxCoeff();
-  Contacts met;
-  for (Index i = 0; i < b.size(); ++i)
-    if (y[i] > 0 || std::abs(w[i]) <= 1e-9 * scale) met.push_back(static_cast<int>(i));
-  if (met.size() == active.size()) return active;
-  const LeastNormSolve solve(A(met, met), b(met));
-  if ((A(met, met) * solve.y + b(met)).cwiseAbs().maxCoeff() > 1e-9 * scale) return active;
-  const double least = 1e-9 * solve.y.cwiseAbs().maxCoeff();
-  return solve.y.minCoeff() > least ? met : active;
-}
-
-// Contacts with positive impulse in: y >= 0, A y + b >= 0, complementary. Active set of Lawson and Hanson: contacts
-// enter one at a time, the most violated first, and leave at the first impulse that would turn negative.
-Contacts activeContacts(const MatrixXd& A, const VectorXd& b) {
-  const Index n = b.size();
-  const double tolerance = 1e-13 * b.cwiseAbs().maxCoeff();
-  std::vector<bool> in(static_cast<std::size_t>(n), false);
-  VectorXd y = VectorXd::Zero(n);
-  const auto members = [&] {
-    Contacts list;
-    for (Index i = 0; i < n; ++i)
-      if (in[static_cast<std::size_t>(i)]) list.push_back(static_cast<int>(i));
-    return list;
-  };
-  for (Index round = 0; round < 10 * n + 10; ++round) {
-    const VectorXd w = A * y + b;
-    Index enter = -1;
-    for (Index i = 0; i < n; ++i)
-      if (!in[static_cast<std::size_t>(i)] && w[i] < -tolerance && (enter < 0 || w[i] < w[enter])) enter = i;
-    if (enter < 0) break;
-    in[static_cast<std::size_t>(enter)] = true;
-    for (bool feasible = false; !feasible;) {
-      const Contacts list = members();
-      const LeastNormSolve solve(A(list, list), b(list));
-      double step = 1;
-      Index leave = -1;
-      for (std::size_t c = 0; c < list.size(); ++c) {
-        const double from = y[list[c]], to = solve.y[static_cast<Index>(c)];
-        if (to <= 0 && from / (from - to) < step && from > to) step = from / (from - to), leave = list[c];
-      }
-      for (std::size_t c = 0; c < list.size(); ++c) y[list[c]] += step * (solve.y[static_cast<Index>(c)] - y[list[c]]);
-      feasible = leave < 0;
-      if (!feasible) in[static_cast<std::size_t>(leave)] = false, y[leave] = 0;
-    }
-  }
-  return spread(A, b, y, members());
 }
 
 // The branch of the law with its three solves.
