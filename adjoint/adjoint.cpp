@@ -80,8 +80,9 @@ class ReversePass {
   void toSceneAsWritten() {
     for (std::size_t b = 0; b < start_bar_.size(); ++b) {
       const Body& body = motion_.scene->bodies[b];
-      startPullback(body, (*motion_.models)[b], start_bar_[b], scene_bar_.bodies[b], model_bar_[b]);
-      modelPullback(body, model_bar_[b], scene_bar_.bodies[b]);
+      const BodyModel& model = (*motion_.models)[b];
+      if (!start_bar_[b].isZero()) startPullback(body, model, start_bar_[b], scene_bar_.bodies[b], model_bar_[b]);
+      if (!model_bar_[b].isZero()) modelPullback(body, model, model_bar_[b], scene_bar_.bodies[b]);
     }
   }
 

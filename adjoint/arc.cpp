@@ -95,7 +95,7 @@ Kinematics Arc::kinematicsAt(double t) const {
   k.v = velocityAt(t);
   k.R = rotationAt(t - start_).toRotationMatrix();
   if (model_->moving) k.w = k.R * model_->inverse_inertia.cwiseProduct(k.R.transpose() * state_.L);
-  if (model_->has_offset) k.R = k.R * model_->R_BG;
+  k.R = model_->shapeToWorld(k.R);
   return k;
 }
 
@@ -109,7 +109,7 @@ StateDerivative Arc::rate(const State& s) const {
   return ds;
 }
 
-RotationSensitivity Arc::rotationSensitivity(double t, Tier tier) const {
+RotationSensitivity Arc::rotationSensitivity(double t, Tier tier, bool products) const {
   const double s = t - start_;
   switch (tier) {
     case Tier::none:
@@ -121,11 +121,11 @@ RotationSensitivity Arc::rotationSensitivity(double t, Tier tier) const {
     case Tier::triaxial:
       break;
   }
-  if (tier_ == Tier::triaxial) return triaxial_.sensitivityAt(s);
+  if (tier_ == Tier::triaxial) return triaxial_.sensitivityAt(s, products);
   TriaxialRotation general;  // the motion needed less than its derivative does
   general.begin(model_->inverse_inertia, state_.q, state_.L);
   general.extendTo(s);
-  return general.sensitivityAt(s);
+  return general.sensitivityAt(s, products);
 }
 
 StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& dstart,
@@ -135,7 +135,8 @@ StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivit
   StateDerivative d;
   d.x = dstart.x + s * (dstart.v + 0.5 * s * dgravity);
   d.v = dstart.v + s * dgravity;
-  d.theta = S.dtheta_dtheta * dstart.theta + S.dtheta_dL * dstart.L + S.dtheta_dI * dmodel.inertia;
+  d.theta = S.dtheta_dtheta * dstart.theta + S.dtheta_dL * dstart.L + S.dtheta_dI * dmodel.inertia +
+            S.dtheta_dproducts * dmodel.products;
   d.L = dstart.L;
   return d;
 }
@@ -151,6 +152,7 @@ StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivi
   d.L = end_bar.L + S.dtheta_dL.transpose() * end_bar.theta;
   gravity_bar += 0.5 * s * s * end_bar.x + s * end_bar.v;
   model_bar.inertia += S.dtheta_dI.transpose() * end_bar.theta;
+  model_bar.products += S.dtheta_dproducts.transpose() * end_bar.theta;
   return d;
 }
 

@@ -14,7 +14,8 @@ enum class ArcKind { flight };
 enum class Tier { none, spherical, symmetric, triaxial };
 const char* nameOf(Tier tier);
 
-/// Pose and velocity at one time, of the shape: R is R_WG (shape axes to world). With Tier::none R is the start's.
+/// Pose and velocity at one time: x and v of the centre of mass, R = R_WG (shape axes to world). With Tier::none R is
+/// the start's.
 struct Kinematics {
   Vec3 x = Vec3::Zero();
   Mat3 R = Mat3::Identity();
@@ -52,8 +53,9 @@ class Arc {
   double spinRateBound() const { return spin_rate_bound_; }
 
   /// Sensitivity of the rotation from start() to t. `tier` is the one the derivative needs: Tier::triaxial gives
-  /// dtheta_dI for free, independent moments; Tier::symmetric only for changes that keep the symmetry.
-  RotationSensitivity rotationSensitivity(double t, Tier tier) const;
+  /// dtheta_dI for free, independent moments, and with `products` dtheta_dproducts; Tier::symmetric and
+  /// Tier::spherical give dtheta_dI for changes that keep the symmetry.
+  RotationSensitivity rotationSensitivity(double t, Tier tier, bool products = false) const;
 
  private:
   Quat rotationAt(double elapsed) const;

@@ -31,24 +31,56 @@ struct BodyModel {
   bool moving = false;
   double mass = 0, inverse_mass = 0;
   Vec3 inertia = Vec3::Zero(), inverse_inertia = Vec3::Zero();
+  Vec3 center = Vec3::Zero();    ///< centre of mass in shape axes, p_GB; 0 for a fixed body
   bool has_offset = false;       ///< shape axes are not the principal axes
   Mat3 R_BG = Mat3::Identity();  ///< shape (geometry) to principal axes
 
+  /// R_WG, shape axes to world, for the R_WB of a State.
+  Mat3 shapeToWorld(const Mat3& R_WB) const { return has_offset ? Mat3(R_WB * R_BG) : R_WB; }
   /// World inverse inertia R diag(1/I) R^T for R = R_WB.
   Mat3 inverseInertiaWorld(const Mat3& R_WB) const { return R_WB * inverse_inertia.asDiagonal() * R_WB.transpose(); }
 };
 
-/// Tangent or adjoint of the parameters of a BodyModel that vary.
+/// Tangent or adjoint of the parameters of a BodyModel that vary. The change of the inertia tensor in the principal
+/// axes, which stay where they are in the shape, is diag(inertia) plus `products` off the diagonal: (yz, xz, xy).
 struct BodyModelDerivative {
   double mass = 0;
   Vec3 inertia = Vec3::Zero();
+  Vec3 products = Vec3::Zero();
+  Vec3 center = Vec3::Zero();  ///< in shape axes
+
+  /// Read as a tangent: dJ, the change of the inertia tensor in principal axes.
+  Mat3 inertiaTensor() const {
+    Mat3 dJ;
+    dJ << inertia[0], products[2], products[1], products[2], inertia[1], products[0], products[1], products[0],
+        inertia[2];
+    return dJ;
+  }
+  /// Read as an adjoint: adds that of the functional <J_bar, dJ>.
+  void addInertiaBar(const Mat3& J_bar) {
+    inertia += J_bar.diagonal();
+    products += Vec3(J_bar(1, 2) + J_bar(2, 1), J_bar(0, 2) + J_bar(2, 0), J_bar(0, 1) + J_bar(1, 0));
+  }
+  BodyModelDerivative& operator+=(const BodyModelDerivative& o) {
+    mass += o.mass, inertia += o.inertia, products += o.products, center += o.center;
+    return *this;
+  }
+  bool isZero() const { return mass == 0 && inertia.isZero(0) && products.isZero(0) && center.isZero(0); }
 };
 
-BodyModel modelOf(const Body& body);
-BodyModelDerivative modelTangent(const Body& body, const BodyDerivative& dbody);
-void modelPullback(const Body& body, const BodyModelDerivative& model_bar, BodyDerivative& body_bar);
+/// Centre of mass of a moving body in shape axes, as written or else the shape's own, and its rates by the dimensions
+/// (3 x dimensions). 0 for a fixed body.
+Vec3 centerOfMass(const Body& body);
+Eigen::Matrix3Xd centerOfMassRates(const Body& body);
 
-/// Start state as written -> integrator state (L = R diag(I) R^T omega), and its derivatives.
+BodyModel modelOf(const Body& body);
+/// `model` is modelOf(body): its principal axes, in which dJ is given, stay where they are.
+BodyModelDerivative modelTangent(const Body& body, const BodyModel& model, const BodyDerivative& dbody);
+void modelPullback(const Body& body, const BodyModel& model, const BodyModelDerivative& model_bar,
+                   BodyDerivative& body_bar);
+
+/// Start state as written -> integrator state (x = position + R_WG center, L = R diag(I) R^T omega), and its
+/// derivatives.
 State startState(const Body& body, const BodyModel& model);
 StateDerivative startTangent(const Body& body, const BodyModel& model, const BodyDerivative& dbody,
                              const BodyModelDerivative& dmodel);

@@ -15,13 +15,13 @@ namespace carom {
 /// ContactSource that made them; equal numbers are the same features.
 struct FeaturePair {
   std::int16_t kind = -1;  ///< row of the source's table of gaps
-  std::int16_t a = -1;     ///< feature of the first body
-  std::int16_t b = -1;     ///< feature of the second body
-  std::int16_t sign = 1;   ///< side of the pair, where the gap needs one (edge-edge)
+  std::int32_t a = -1;     ///< feature of the first body
+  std::int32_t b = -1;     ///< feature of the second body
+  std::int16_t sign = 1;   ///< side or branch of the pair, where the gap needs one (edge-edge, rims)
   bool operator==(const FeaturePair&) const = default;
 };
 
-/// Position of the shape's origin and R_WG, shape axes to world.
+/// Position of the centre of mass (of a fixed body: of the shape's origin) and R_WG, shape axes to world.
 struct Pose {
   Vec3 x = Vec3::Zero();
   Mat3 R = Mat3::Identity();
@@ -34,9 +34,12 @@ struct ContactPoint {
   Vec3 point = Vec3::Zero();
 };
 
-/// d(gap, normal, point) by (x_a, theta_a, x_b, theta_b, size_a, size_b): 7 x 18, theta a world rotation vector,
-/// size the shape's dimensions in their own order (unused columns are 0).
-using ContactJacobian = Eigen::Matrix<double, 7, 18>;
+/// d(gap, normal, point), 7 rows: by (x_a, theta_a, x_b, theta_b), theta a world rotation vector, and by the dimensions
+/// of both shapes at fixed poses (a centre of mass that moves in the shape counts here).
+struct ContactJacobian {
+  Eigen::Matrix<double, 7, 12> pose = Eigen::Matrix<double, 7, 12>::Zero();
+  Eigen::Matrix<double, 7, Eigen::Dynamic> size_a, size_b;
+};
 
 /// The smooth gap of frozen feature pairs, for the shapes of one scene. Immutable: a Motion keeps it.
 class ContactGeometry {

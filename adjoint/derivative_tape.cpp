@@ -26,8 +26,9 @@ const RotationSensitivity& DerivativeTape::arc(int body, int k) {
 
 RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) const {
   const auto b = static_cast<std::size_t>(body);
-  return motion_.world_lines[b].arcs[static_cast<std::size_t>(k)].rotationSensitivity(
-      t, motion_.plan.bodies[b].derivative_tier);
+  const BodyPlan& plan = motion_.plan.bodies[b];
+  return motion_.world_lines[b].arcs[static_cast<std::size_t>(k)].rotationSensitivity(t, plan.derivative_tier,
+                                                                                      plan.derivative_products);
 }
 
 const EventLinearization& DerivativeTape::event(int event) {

@@ -16,9 +16,7 @@ Pose poseBefore(const Motion& motion, const Event& event, int body) {
   const BodyModel& model = (*motion.models)[static_cast<std::size_t>(body)];
   const Participant* p = event.find(body);
   const State& s = p ? p->before : motion.world_lines[static_cast<std::size_t>(body)].arcs[0].startState();
-  Pose pose{s.x, s.q.toRotationMatrix()};
-  if (model.has_offset) pose.R = pose.R * model.R_BG;
-  return pose;
+  return {s.x, model.shapeToWorld(s.q.toRotationMatrix())};
 }
 
 }  // namespace
@@ -58,34 +56,41 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
     rate_before_.push_back(arcs[static_cast<std::size_t>(p.arc)].rate(p.before));
     rate_after_.push_back(next.rate(next.startState()));
   }
-  const SceneTangent still(*motion.scene);
   for (const ContactPart& part : parts_)
-    D_ += part.weight * part.jacobian.row(0).dot(gather(part, rate_before_, still));
+    D_ += part.weight * part.jacobian.pose.row(0).dot(poses(part, rate_before_, nullptr));
 }
 
-EventLinearization::Vec18 EventLinearization::gather(const ContactPart& part,
-                                                     const std::vector<StateDerivative>& before,
-                                                     const SceneTangent& dscene) const {
-  Vec18 d;
+EventLinearization::Vec12 EventLinearization::poses(const ContactPart& part, const std::vector<StateDerivative>& before,
+                                                    const SceneTangent* dscene) const {
+  Vec12 d = Vec12::Zero();
   int at = 0;
   for (const Side& side : {part.a, part.b}) {
-    const BodyDerivative& body = dscene.bodies[static_cast<std::size_t>(side.body)];
-    if (side.participant < 0) {
-      d.segment<3>(at) = body.position;
-      d.segment<3>(at + 3) = body.orientation;
-    } else {
+    if (side.participant >= 0) {
       d.segment<3>(at) = before[static_cast<std::size_t>(side.participant)].x;
       d.segment<3>(at + 3) = before[static_cast<std::size_t>(side.participant)].theta;
+    } else if (dscene) {
+      d.segment<3>(at) = dscene->bodies[static_cast<std::size_t>(side.body)].position;
+      d.segment<3>(at + 3) = dscene->bodies[static_cast<std::size_t>(side.body)].orientation;
     }
-    d.segment<3>(12 + at / 2) = body.size;
     at += 6;
   }
   return d;
 }
 
+EventLinearization::Vec7 EventLinearization::contactTangent(const ContactPart& part,
+                                                            const std::vector<StateDerivative>& before,
+                                                            const SceneTangent& dscene) const {
+  const ContactJacobian& J = part.jacobian;
+  Vec7 d = J.pose * poses(part, before, &dscene);
+  if (J.size_a.cols() > 0) d += J.size_a * dscene.bodies[static_cast<std::size_t>(part.a.body)].size;
+  if (J.size_b.cols() > 0) d += J.size_b * dscene.bodies[static_cast<std::size_t>(part.b.body)].size;
+  return d;
+}
+
 void EventLinearization::scatter(const ContactPart& part, const Vec7& bar, std::vector<StateDerivative>& before_bar,
                                  SceneGradient& scene_bar) const {
-  const Vec18 d = part.jacobian.transpose() * bar;
+  const ContactJacobian& J = part.jacobian;
+  const Vec12 d = J.pose.transpose() * bar;
   int at = 0;
   for (const Side& side : {part.a, part.b}) {
     BodyDerivative& body = scene_bar.bodies[static_cast<std::size_t>(side.body)];
@@ -96,9 +101,10 @@ void EventLinearization::scatter(const ContactPart& part, const Vec7& bar, std::
       before_bar[static_cast<std::size_t>(side.participant)].x += d.segment<3>(at);
       before_bar[static_cast<std::size_t>(side.participant)].theta += d.segment<3>(at + 3);
     }
-    body.size += d.segment<3>(12 + at / 2);
     at += 6;
   }
+  if (J.size_a.cols() > 0) scene_bar.bodies[static_cast<std::size_t>(part.a.body)].size += J.size_a.transpose() * bar;
+  if (J.size_b.cols() > 0) scene_bar.bodies[static_cast<std::size_t>(part.b.body)].size += J.size_b.transpose() * bar;
 }
 
 EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateDerivative>& before,
@@ -106,7 +112,7 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
                                                         const std::vector<BodyModelDerivative>& dmodel) const {
   Tangent out;
   double dgap = 0;
-  for (const ContactPart& part : parts_) dgap += part.weight * part.jacobian.row(0).dot(gather(part, before, dscene));
+  for (const ContactPart& part : parts_) dgap += part.weight * contactTangent(part, before, dscene)[0];
   out.time = -dgap / D_;
 
   // at the moved time of the impact
@@ -122,7 +128,7 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const ContactPart& part = parts_[k];
     const Contact& c = event_.contacts[k];
-    Vec7 d = part.jacobian * gather(part, moved, dscene);
+    Vec7 d = contactTangent(part, moved, dscene);
     if (part.tilted) {
       Vec7 by;
       by << d.segment<3>(1), Vec2(0, 0), Vec2(0, 0);
@@ -152,11 +158,8 @@ std::vector<StateDerivative> EventLinearization::pullback(const std::vector<Stat
     std::vector<PairCoefficients> pair_bar(parts_.size());
     std::vector<BodyModelDerivative> models(after_bar.size());
     before_bar = assembly_.pullback(P_, after_bar, contact_bar, pair_bar, models);
-    for (std::size_t i = 0; i < models.size(); ++i) {
-      BodyModelDerivative& m = model_bar[static_cast<std::size_t>(event_.participants[i].body)];
-      m.mass += models[i].mass;
-      m.inertia += models[i].inertia;
-    }
+    for (std::size_t i = 0; i < models.size(); ++i)
+      model_bar[static_cast<std::size_t>(event_.participants[i].body)] += models[i];
     MaterialDerivative unused;
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ContactPart& part = parts_[k];

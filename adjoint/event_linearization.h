@@ -37,7 +37,7 @@ class EventLinearization {
 
  private:
   using Vec7 = Eigen::Matrix<double, 7, 1>;
-  using Vec18 = Eigen::Matrix<double, 18, 1>;
+  using Vec12 = Eigen::Matrix<double, 12, 1>;
   struct Side {
     int body, participant;  // participant -1: a fixed body
   };
@@ -50,7 +50,11 @@ class EventLinearization {
     int material_a = -1, material_b = -1;
   };
 
-  Vec18 gather(const ContactPart& part, const std::vector<StateDerivative>& before, const SceneTangent& dscene) const;
+  // (x_a, theta_a, x_b, theta_b); a null scene: fixed bodies stay
+  Vec12 poses(const ContactPart& part, const std::vector<StateDerivative>& before, const SceneTangent* dscene) const;
+  // d(gap, normal, point)
+  Vec7 contactTangent(const ContactPart& part, const std::vector<StateDerivative>& before,
+                      const SceneTangent& dscene) const;
   void scatter(const ContactPart& part, const Vec7& bar, std::vector<StateDerivative>& before_bar,
                SceneGradient& scene_bar) const;
 

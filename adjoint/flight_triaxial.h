@@ -7,12 +7,14 @@
 
 namespace carom {
 
-/// Derivative of the rotation vector theta at the end of a stretch of free rotation by theta and L at its start and by
-/// the principal moments (every one of them 3x3).
+/// Derivative of the rotation vector theta at the end of a stretch of free rotation by theta and L at its start, by the
+/// principal moments, and by the products of inertia (yz, xz, xy) in principal axes, which are 0 (every one 3x3). The
+/// last one is 0 unless it was asked for.
 struct RotationSensitivity {
   Mat3 dtheta_dtheta = Mat3::Identity();
   Mat3 dtheta_dL = Mat3::Zero();
   Mat3 dtheta_dI = Mat3::Zero();
+  Mat3 dtheta_dproducts = Mat3::Zero();
 };
 
 /// Torque-free rotation with three different moments, as Taylor segments. With l = |L| the direction of L in principal
@@ -31,8 +33,8 @@ class TriaxialRotation {
   void extendTo(double elapsed);
   Quat orientationAt(double elapsed) const;
   /// Sensitivity over [0, elapsed] by the variational equations of the same system, see
-  /// flight_triaxial_sensitivity.cpp.
-  RotationSensitivity sensitivityAt(double elapsed) const;
+  /// flight_triaxial_sensitivity.cpp. `products`: dtheta_dproducts too.
+  RotationSensitivity sensitivityAt(double elapsed, bool products = false) const;
 
  private:
   struct Segment {
@@ -44,6 +46,7 @@ class TriaxialRotation {
   Vec3 restoreEnergy(Quat& q, const Vec3& u) const;
   static Quat orientationIn(const Segment& segment, double h);
   const Segment& segmentAt(double elapsed) const;
+  template <int N>
   RotationSensitivity segmentSensitivity(const Segment& segment, double& h) const;
 
   Vec3 D_ = Vec3::Zero(), L_ = Vec3::Zero();

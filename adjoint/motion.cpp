@@ -53,6 +53,7 @@ BodyState toBodyState(const BodyModel& model, const State& s) {
   out.velocity = s.v;
   if (model.moving) {
     const Mat3 R = s.q.toRotationMatrix();
+    out.position -= model.shapeToWorld(R) * model.center;
     out.angular_velocity = R * model.inverse_inertia.cwiseProduct(R.transpose() * s.L);
   }
   return out;

@@ -10,11 +10,11 @@
 
 namespace carom {
 
-/// State of a body as people write it: shape's origin and axes, angular velocity in world axes.
+/// State of a body as people write it, world axes.
 struct BodyState {
-  Vec3 position = Vec3::Zero();
-  Quat orientation = Quat::Identity();
-  Vec3 velocity = Vec3::Zero();
+  Vec3 position = Vec3::Zero();         ///< of the shape's origin, m
+  Quat orientation = Quat::Identity();  ///< shape to world
+  Vec3 velocity = Vec3::Zero();         ///< of the centre of mass, m/s
   Vec3 angular_velocity = Vec3::Zero();
 };
 

@@ -29,6 +29,7 @@ void combinePullback(const Material& a, const Material& b, const PairCoefficient
 struct BodyPlan {
   Tier tier = Tier::triaxial;             ///< of the motion
   Tier derivative_tier = Tier::triaxial;  ///< of the tangent and adjoint passes
+  bool derivative_products = false;       ///< these need products of inertia: principal axes turn in the shape
   const char* why = "";
   const char* derivative_why = "";
 };

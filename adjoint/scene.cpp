@@ -59,6 +59,14 @@ const Material& materialOf(const Scene& scene, const Body& body) {
   return scene.materials[static_cast<std::size_t>(materialIndex(scene, body.material))];
 }
 
+SceneDerivative::SceneDerivative(const Scene& scene)
+    : materials(scene.materials.size()), bodies(scene.bodies.size()), tilts(scene.tilts.size(), Vec2::Zero()) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Shape& shape = scene.bodies[i].shape;
+    bodies[i].size = Eigen::VectorXd::Zero(kindOf(shape).dimensions(shape).size());
+  }
+}
+
 double SceneDerivative::dot(const SceneDerivative& o) const {
   double sum = gravity.dot(o.gravity);
   for (std::size_t i = 0; i < materials.size(); ++i) {

@@ -42,12 +42,13 @@ struct Body {
   bool fixed = false;
   std::string material;  ///< name of a material; empty means a default Material
   Shape shape = Sphere{};
-  std::optional<double> mass;     ///< kg
-  std::optional<double> density;  ///< kg/m^3
-  Inertia inertia;
-  Vec3 position = Vec3::Zero();          ///< m, world, of the shape's origin (= centre of mass)
+  std::optional<double> mass;            ///< kg
+  std::optional<double> density;         ///< kg/m^3
+  Inertia inertia;                       ///< about the centre of mass
+  std::optional<Vec3> center_of_mass;    ///< in the shape's axes, m; without it the shape's own, of uniform density
+  Vec3 position = Vec3::Zero();          ///< m, world, of the shape's origin
   Quat orientation = Quat::Identity();   ///< shape to world, unit
-  Vec3 velocity = Vec3::Zero();          ///< m/s, world
+  Vec3 velocity = Vec3::Zero();          ///< m/s, world, of the centre of mass
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s, world axes
 };
 
@@ -84,15 +85,15 @@ struct BodyDerivative {
   Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
   double mass = 0, density = 0;  ///< only the one that the scene gives is used
   Vec3 inertia = Vec3::Zero();   ///< principal moments; unused when the inertia is derived
-  Vec3 size = Vec3::Zero();      ///< the shape's dimensions, in the order of ShapeKind::dimension_names
+  Eigen::VectorXd size;          ///< the shape's dimensions, in the order of ShapeKind::dimension_names
 };
 struct MaterialDerivative {
   double elasticity = 0, friction = 0, tangential_elasticity = 0;
 };
 struct SceneDerivative {
   SceneDerivative() = default;
-  explicit SceneDerivative(const Scene& scene)
-      : materials(scene.materials.size()), bodies(scene.bodies.size()), tilts(scene.tilts.size(), Vec2::Zero()) {}
+  /// All zero, with as many entries as the scene has.
+  explicit SceneDerivative(const Scene& scene);
 
   Vec3 gravity = Vec3::Zero();
   std::vector<MaterialDerivative> materials;

@@ -10,16 +10,25 @@ StateDerivative seedPullback(const BodyModel& model, const State& state, const S
   bar.x = seed.position;
   bar.theta = seed.orientation;
   bar.v = seed.velocity;
-  if (!model.moving || seed.angular_velocity.isZero(0)) return bar;
-  const Mat3 R = state.q.toRotationMatrix();
+  if (!model.moving) return bar;
+  const Mat3 R = state.q.toRotationMatrix(), R_WG = model.shapeToWorld(R);
+  bar.theta += seed.position.cross(R_WG * model.center);  // -p_bar.(theta x c_W)
+  model_bar.center -= R_WG.transpose() * seed.position;
+  if (seed.angular_velocity.isZero(0)) return bar;
   const Vec3 &w_bar = seed.angular_velocity, A_w_bar = model.inverseInertiaWorld(R) * w_bar;
   const Vec3 omega = R * model.inverse_inertia.cwiseProduct(R.transpose() * state.L);
   bar.L = A_w_bar;
   // w_bar.(theta x omega) - A w_bar.(theta x L)
   bar.theta += omega.cross(w_bar) - state.L.cross(A_w_bar);
-  const Vec3 D_bar = (R.transpose() * w_bar).cwiseProduct(R.transpose() * state.L);
-  model_bar.inertia -= D_bar.cwiseProduct(model.inverse_inertia).cwiseProduct(model.inverse_inertia);
+  model_bar.addInertiaBar(-(R.transpose() * A_w_bar) * (R.transpose() * omega).transpose());
   return bar;
+}
+
+Vec3 originTangent(const BodyModel& model, const State& state, const StateDerivative& ds,
+                   const BodyModelDerivative& dmodel) {
+  if (!model.moving) return ds.x;
+  const Mat3 R_WG = model.shapeToWorld(state.q.toRotationMatrix());
+  return ds.x - ds.theta.cross(R_WG * model.center) - R_WG * dmodel.center;
 }
 
 Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const StateDerivative& ds,
@@ -27,8 +36,8 @@ Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const St
   if (!model.moving) return Vec3::Zero();
   const Mat3 R = state.q.toRotationMatrix(), A = model.inverseInertiaWorld(R);
   const Vec3 omega = A * state.L;
-  const Vec3 dD = -dmodel.inertia.cwiseProduct(model.inverse_inertia).cwiseProduct(model.inverse_inertia);
-  return A * (ds.L - ds.theta.cross(state.L)) + ds.theta.cross(omega) + R * dD.cwiseProduct(R.transpose() * state.L);
+  const Vec3 dJ_omega = R * (dmodel.inertiaTensor() * (R.transpose() * omega));
+  return A * (ds.L - ds.theta.cross(state.L) - dJ_omega) + ds.theta.cross(omega);
 }
 
 ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {

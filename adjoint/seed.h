@@ -4,12 +4,15 @@
 
 namespace carom {
 
-/// The terms of BodyState (omega in place of L), as functions of the integrator's state: omega = A L, A = R diag(1/I)
-/// R^T, domega = A dL + [theta]x omega - A [theta]x L + R diag(d(1/I)) R^T L. Adjoint of a state from a seed; adds the
-/// direct dependence of omega on the moments to `model_bar`.
+/// The terms of BodyState as functions of the integrator's state:
+///   position p = x - c_W, c_W = R_WG c:  dp = dx - theta x c_W - R_WG dc;
+///   omega = A L, A = R D R^T, D = diag(1/I):  domega = A dL + theta x omega - A (theta x L) - R D dJ D R^T L.
+/// Adjoint of a state from a seed; adds the direct dependence on centre and inertia to `model_bar`.
 StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
                              BodyModelDerivative& model_bar);
-/// d omega.
+/// d position, d omega.
+Vec3 originTangent(const BodyModel& model, const State& state, const StateDerivative& dstate,
+                   const BodyModelDerivative& dmodel);
 Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const StateDerivative& dstate,
                             const BodyModelDerivative& dmodel);
 

@@ -1,19 +1,21 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "adjoint/surface.h"
 #include "adjoint/types.h"
 
 namespace carom {
 
-/// Ball about the body's origin.
+/// Ball about the shape's origin.
 struct Sphere {
   double radius = 0.5;  ///< m
 };
 
-/// Cuboid centred on the body's origin, edges along the shape's axes.
+/// Cuboid centred on the shape's origin, edges along its axes.
 struct Box {
   Vec3 size{1, 1, 1};  ///< full edge lengths, m
 };
@@ -24,30 +26,72 @@ struct Plane {
   double offset = 0;     ///< m, along the unit normal
 };
 
-using Shape = std::variant<Sphere, Box, Plane>;
+/// All points within `radius` of the segment from (0, 0, -height/2) to (0, 0, height/2).
+struct Capsule {
+  double radius = 0.5;  ///< m
+  double height = 1;    ///< between the centres of its two ends, m
+};
 
-/// The most dimensions that one shape has (the columns kept for `size` derivatives of one body).
-inline constexpr int kMaxDimensions = 3;
+/// Round cylinder about z, from -height/2 to height/2, with sharp rims.
+struct Cylinder {
+  double radius = 0.5;  ///< m
+  double height = 1;    ///< m
+};
 
-/// Volume [m^3] and moments of inertia per unit mass [m^2] about the shape's axes, with their derivatives by the
-/// shape's dimensions: dvolume[d], dunit_inertia.col(d).
-struct SolidProperties {
+/// Convex hull of points; see `convexHull` in ode_bridge/ for one made from points.
+struct Hull {
+  std::shared_ptr<const Surface> surface;  ///< convex and closed, at scale 1
+  double scale = 1;                        ///< factor on all coordinates
+  std::string file;                        ///< where it was read from; empty when its points were written out
+};
+
+/// Surface of triangles, which may be concave; closed unless the body is fixed or has its mass and inertia written.
+struct Mesh {
+  std::shared_ptr<const Surface> surface;  ///< at scale 1
+  double scale = 1;                        ///< factor on all coordinates
+  std::string file;                        ///< where it was read from; empty when it was made in memory
+};
+
+/// Several shapes that move as one. They may overlap: mass properties are the sums over the parts.
+struct CompoundPart;
+struct Compound {
+  std::vector<CompoundPart> parts;
+};
+
+using Shape = std::variant<Sphere, Box, Plane, Capsule, Cylinder, Hull, Mesh, Compound>;
+
+struct CompoundPart {
+  Shape shape;                          ///< any but a plane
+  Vec3 position = Vec3::Zero();         ///< of the part's origin in the compound's axes, m
+  Quat orientation = Quat::Identity();  ///< part to compound, unit
+};
+
+/// Rates of SolidProperties by one dimension of the shape.
+struct SolidRate {
   double volume = 0;
-  Vec3 unit_inertia = Vec3::Zero();
-  Vec3 dvolume = Vec3::Zero();
-  Mat3 dunit_inertia = Mat3::Zero();
+  Vec3 center = Vec3::Zero();
+  Mat3 unit_inertia = Mat3::Zero();
+};
+
+/// Mass properties at uniform density, in the shape's axes.
+struct SolidProperties {
+  double volume = 0;                 ///< m^3
+  Vec3 center = Vec3::Zero();        ///< centre of mass, m
+  Mat3 unit_inertia = Mat3::Zero();  ///< about the centre of mass, per unit mass, symmetric, m^2
+  std::vector<SolidRate> rates;      ///< by dimension, in the order of ShapeKind::dimensions
 };
 
 /// One row of the table of shapes: what the rest of the program asks of a shape. A new shape adds a struct above, a row
 /// in shape.cpp and its features in ode_bridge/.
 struct ShapeKind {
-  const char* name;                          ///< word in the scene document
-  std::vector<const char*> dimension_names;  ///< words of the `size` control: "radius"; "x", "y", "z"
-  bool solid;                                ///< has a volume, so that it can move
-  Vec3 (*dimensions)(const Shape&);          ///< metres; unused entries are 0
-  void (*setDimensions)(Shape&, const Vec3&);
+  const char* name;  ///< word in the scene document
+  /// Words of the `size` control: "radius"; "x", "y", "z"; "scale"; of a part of a compound "0.radius".
+  std::vector<std::string> (*dimension_names)(const Shape&);
+  Eigen::VectorXd (*dimensions)(const Shape&);  ///< one a name: metres, or a factor (scale)
+  void (*setDimensions)(Shape&, const Eigen::VectorXd&);
+  bool (*solid)(const Shape&);  ///< has a volume, so that mass properties can be derived
   SolidProperties (*properties)(const Shape&);
-  double (*boundingRadius)(const Shape&);  ///< about the origin; infinite for a plane
+  double (*boundingRadius)(const Shape&);  ///< about the shape's origin; infinite for a plane
 };
 
 const ShapeKind& kindOf(const Shape& shape);

@@ -28,10 +28,11 @@ BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
     rate.time = eventTime(instant.event);
     ds.addScaled(rate.time, motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state));
   }
-  rate.position = ds.x;
+  const BodyModel& model = (*motion.models)[b];
+  rate.position = originTangent(model, place.state, ds, dmodels_[b]);
   rate.orientation = ds.theta;
   rate.velocity = ds.v;
-  rate.angular_velocity = angularVelocityTangent((*motion.models)[b], place.state, ds, dmodels_[b]);
+  rate.angular_velocity = angularVelocityTangent(model, place.state, ds, dmodels_[b]);
   return rate;
 }
 
@@ -43,7 +44,7 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
   t.starts_.resize(motion.world_lines.size());
   for (std::size_t b = 0; b < motion.world_lines.size(); ++b) {
     const Body& body = motion.scene->bodies[b];
-    t.dmodels_.push_back(modelTangent(body, direction.bodies[b]));
+    t.dmodels_.push_back(modelTangent(body, (*motion.models)[b], direction.bodies[b]));
     t.starts_[b].push_back(startTangent(body, (*motion.models)[b], direction.bodies[b], t.dmodels_[b]));
   }
   for (std::size_t e = 0; e < motion.events.size(); ++e) {

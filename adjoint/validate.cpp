@@ -1,15 +1,20 @@
-#include <algorithm>
-#include <cmath>
-#include <set>
 #include <sstream>
+#include <string_view>
+#include <unordered_map>
 
 #include "adjoint/errors.h"
-#include "adjoint/scene.h"
+#include "adjoint/validation.h"
 
 namespace carom {
-namespace {
+namespace validation {
 
-constexpr double kLargest = 1e9;  // collision detection and double precision both want magnitudes below this
+std::string Place::pointer() const {
+  if (!around_) return "";
+  std::string step = "/";
+  if (!member_) return around_->pointer() + step + std::to_string(index_);
+  for (const char* c = member_; *c; ++c) step += *c == '~' ? "~0" : *c == '/' ? "~1" : std::string(1, *c);
+  return around_->pointer() + step;
+}
 
 std::string text(double value) {
   std::ostringstream out;
@@ -18,33 +23,43 @@ std::string text(double value) {
   return out.str();
 }
 
-[[noreturn]] void fail(const std::string& where, const std::string& found, const std::string& expected) {
-  throw InputError(where, "found " + found + ", expected " + expected);
+std::string text(const Vec3& value) {
+  return "(" + text(value.x()) + ", " + text(value.y()) + ", " + text(value.z()) + ")";
 }
 
-void requireFinite(const std::string& where, double value) {
+void fail(const Place& where, const std::string& found, const std::string& expected) {
+  throw InputError(where.pointer(), "found " + found + ", expected " + expected);
+}
+
+void requireFinite(const Place& where, double value) {
   if (!(std::abs(value) <= kLargest)) fail(where, text(value), "a finite number of magnitude at most 1e9");
 }
 
-void requireFinite(const std::string& where, const Vec3& value) {
-  for (int i = 0; i < 3; ++i) requireFinite(where + "/" + std::to_string(i), value[i]);
+void requireFinite(const Place& where, const Vec3& value) {
+  for (int i = 0; i < 3; ++i) requireFinite(where / i, value[i]);
 }
 
-void requireRange(const std::string& where, double value, double lo, double hi) {
+void requireRange(const Place& where, double value, double lo, double hi) {
   requireFinite(where, value);
   if (!(value >= lo && value <= hi)) fail(where, text(value), "a number in [" + text(lo) + ", " + text(hi) + "]");
 }
 
-void requirePositive(const std::string& where, double value) {
+void requirePositive(const Place& where, double value) {
   requireFinite(where, value);
   if (!(value > 0)) fail(where, text(value), "a number > 0");
 }
 
-void requireUnit(const std::string& where, const Quat& q) {
+void requireUnit(const Place& where, const Quat& q) {
   if (!(std::abs(q.norm() - 1) <= 1e-9)) fail(where, "a quaternion of norm " + text(q.norm()), "a unit quaternion");
 }
 
-void requireMoments(const std::string& where, const Vec3& I) {
+}  // namespace validation
+
+namespace {
+
+using namespace validation;
+
+void requireMoments(const Place& where, const Vec3& I) {
   for (int i = 0; i < 3; ++i) requirePositive(where, I[i]);
   for (int i = 0; i < 3; ++i) {
     const double others = I[(i + 1) % 3] + I[(i + 2) % 3];
@@ -54,75 +69,84 @@ void requireMoments(const std::string& where, const Vec3& I) {
   }
 }
 
-void validateShape(const std::string& where, const Body& body) {
-  const ShapeKind& kind = kindOf(body.shape);
-  if (!body.fixed && !kind.solid) fail(where + "/shape", std::string("a moving ") + kind.name, "\"fixed\": true");
-  const Vec3 dimensions = kind.dimensions(body.shape);
-  for (std::size_t d = 0; d < kind.dimension_names.size(); ++d)
-    requirePositive(where + "/shape/" + kind.name, dimensions[static_cast<int>(d)]);
-  if (const auto* plane = std::get_if<Plane>(&body.shape)) {
-    if (!(std::abs(plane->normal.norm() - 1) <= 1e-9))
-      fail(where + "/shape/plane/normal", "a vector of length " + text(plane->normal.norm()), "a unit vector");
-    requireFinite(where + "/shape/plane/offset", plane->offset);
-  }
+// Mass and moments that follow from the shape must be numbers that can be divided by: 1e-110 m squared and cubed is
+// not.
+void requireDerived(const Place& where, const Body& body) {
+  const bool derived = body.inertia.source == Inertia::Source::derived;
+  if (body.fixed || (!derived && !body.density)) return;
+  const SolidProperties solid = kindOf(body.shape).properties(body.shape);
+  const double mass = body.density ? *body.density * solid.volume : *body.mass;
+  const double least = derived ? mass * solid.unit_inertia.diagonal().minCoeff() : mass;
+  const double most = derived ? mass * solid.unit_inertia.diagonal().maxCoeff() : mass;
+  if (!(mass > 1e-300 && mass < 1e300 && least > 1e-300 && most < 1e300))
+    fail(where / "shape",
+         "a size from which a mass of " + text(mass) + " kg and a least moment of " + text(least) + " kg m^2 follow",
+         "a size whose mass and moments can be divided by");
 }
 
-void validateMass(const std::string& where, const Body& body) {
-  if (body.mass && body.density) fail(where + "/density", "both mass and density", "one of them");
-  if (body.mass) requirePositive(where + "/mass", *body.mass);
-  if (body.density) requirePositive(where + "/density", *body.density);
+void validateMass(const Place& where, const Body& body) {
+  if (body.mass && body.density) fail(where / "density", "both mass and density", "one of them");
+  if (body.mass) requirePositive(where / "mass", *body.mass);
+  if (body.density) requirePositive(where / "density", *body.density);
   if (!body.fixed && !body.mass && !body.density) fail(where, "neither mass nor density", "one of them");
   if (body.inertia.source != Inertia::Source::derived) {
-    requireMoments(where + "/inertia", body.inertia.moments);
-    requireUnit(where + "/inertia", body.inertia.axes);
+    requireMoments(where / "inertia", body.inertia.moments);
+    requireUnit(where / "inertia", body.inertia.axes);
   }
+  if (body.center_of_mass) requireFinite(where / "center_of_mass", *body.center_of_mass);
+  requireDerived(where, body);
 }
 
+using Names = std::unordered_map<std::string_view, std::size_t>;
+
+/// Index by name.
 template <class Items>
-void requireNames(const Items& items, const std::string& list) {
-  std::set<std::string> seen;
+Names requireNames(const Items& items, const Place& list) {
+  Names names;
+  names.reserve(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::string where = "/" + list + "/" + std::to_string(i) + "/name";
-    if (items[i].name.empty()) fail(where, "an empty name", "a name");
-    if (!seen.insert(items[i].name).second) fail(where, "'" + items[i].name + "' a second time", "a name of its own");
+    if (items[i].name.empty()) fail(list / i / "name", "an empty name", "a name");
+    if (!names.emplace(items[i].name, i).second)
+      fail(list / i / "name", "'" + items[i].name + "' a second time", "a name of its own");
   }
+  return names;
+}
+
+void validateMaterial(const Place& where, const Material& m) {
+  requireRange(where / "elasticity", m.elasticity, 0, 1);
+  requireRange(where / "friction", m.friction, 0, kLargest);
+  requireRange(where / "tangential_elasticity", m.tangential_elasticity, -1, 1);
+}
+
+void validateBody(const Place& where, const Body& body, const Names& materials) {
+  validateShape(where, body);
+  validateMass(where, body);
+  if (!body.material.empty() && !materials.contains(body.material))
+    fail(where / "material", "'" + body.material + "'", "the name of a material");
+  requireFinite(where / "position", body.position);
+  requireUnit(where / "orientation", body.orientation);
+  requireFinite(where / "velocity", body.velocity);
+  requireFinite(where / "angular_velocity", body.angular_velocity);
+}
+
+void validateTilt(const Place& where, const Tilt& tilt, const Scene& scene, const Names& bodies) {
+  const auto body = bodies.find(tilt.body);
+  if (body == bodies.end()) fail(where / "body", "'" + tilt.body + "'", "the name of a body");
+  if (scene.bodies[body->second].fixed) fail(where / "body", "the fixed body '" + tilt.body + "'", "a moving body");
+  if (tilt.impact < 1) fail(where / "impact", std::to_string(tilt.impact), "1 or more");
+  for (int i = 0; i < 2; ++i) requireFinite(where / "value" / i, tilt.value[i]);
 }
 
 }  // namespace
 
 void validate(const Scene& scene) {
-  requireFinite("/gravity", scene.gravity);
-  requireNames(scene.materials, "materials");
-  for (const Material& m : scene.materials) {
-    const std::string where = "/materials/" + m.name;
-    requireRange(where + "/elasticity", m.elasticity, 0, 1);
-    requireRange(where + "/friction", m.friction, 0, kLargest);
-    requireRange(where + "/tangential_elasticity", m.tangential_elasticity, -1, 1);
-  }
-  requireNames(scene.bodies, "bodies");
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    const std::string where = "/bodies/" + std::to_string(i);
-    validateShape(where, body);
-    validateMass(where, body);
-    if (!body.material.empty() &&
-        std::none_of(scene.materials.begin(), scene.materials.end(), [&](auto& m) { return m.name == body.material; }))
-      fail(where + "/material", "'" + body.material + "'", "the name of a material");
-    requireFinite(where + "/position", body.position);
-    requireUnit(where + "/orientation", body.orientation);
-    requireFinite(where + "/velocity", body.velocity);
-    requireFinite(where + "/angular_velocity", body.angular_velocity);
-  }
-  for (std::size_t i = 0; i < scene.tilts.size(); ++i) {
-    const Tilt& tilt = scene.tilts[i];
-    const std::string where = "/tilts/" + std::to_string(i);
-    const auto body =
-        std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == tilt.body; });
-    if (body == scene.bodies.end()) fail(where + "/body", "'" + tilt.body + "'", "the name of a body");
-    if (body->fixed) fail(where + "/body", "the fixed body '" + tilt.body + "'", "a moving body");
-    if (tilt.impact < 1) fail(where + "/impact", std::to_string(tilt.impact), "1 or more");
-    requireFinite(where + "/value", Vec3(tilt.value.x(), tilt.value.y(), 0));
-  }
+  const Place root, materials = root / "materials", bodies = root / "bodies", tilts = root / "tilts";
+  requireFinite(root / "gravity", scene.gravity);
+  const Names material_names = requireNames(scene.materials, materials);
+  for (const Material& m : scene.materials) validateMaterial(materials / m.name, m);
+  const Names body_names = requireNames(scene.bodies, bodies);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) validateBody(bodies / i, scene.bodies[i], material_names);
+  for (std::size_t i = 0; i < scene.tilts.size(); ++i) validateTilt(tilts / i, scene.tilts[i], scene, body_names);
 }
 
 }  // namespace carom

@@ -34,7 +34,7 @@ struct Command {
 
 std::span<const Command* const> commands();
 
-extern const Command kSimulateCommand, kGradientCommand, kCheckCommand, kEditCommand, kExportCommand, kValidateCommand,
-    kInfoCommand;
+extern const Command kSimulateCommand, kGradientCommand, kCheckCommand, kEditCommand, kExportCommand, kImportCommand,
+    kValidateCommand, kInfoCommand;
 
 }  // namespace carom::cli

@@ -1,9 +1,12 @@
-# ODE and Ipopt, which ship no CMake package: PkgConfig::ODE and PkgConfig::IPOPT.
+# ODE, qhull and Ipopt, which ship no CMake package: PkgConfig::ODE, PkgConfig::QHULL and PkgConfig::IPOPT.
 # Used by the build and by the installed package alike.
 
 find_package(PkgConfig REQUIRED)
 if(NOT TARGET PkgConfig::ODE)
   pkg_check_modules(ODE REQUIRED IMPORTED_TARGET GLOBAL ode)
+endif()
+if(NOT TARGET PkgConfig::QHULL)
+  pkg_check_modules(QHULL REQUIRED IMPORTED_TARGET GLOBAL qhull_r)  # the reentrant C library
 endif()
 if(NOT TARGET PkgConfig::IPOPT)
   pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET GLOBAL ipopt)

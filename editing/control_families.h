@@ -16,6 +16,8 @@ inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 inline std::vector<std::string> xyzComponents(const Scene&, const ControlOwner&) { return {"x", "y", "z"}; }
 inline std::vector<std::string> oneComponent(const Scene&, const ControlOwner&) { return {"value"}; }
-inline Vec3 unitScale(const Scene&, const ControlOwner&) { return Vec3::Ones(); }
+inline Eigen::VectorXd oneNumber(double value) { return Eigen::VectorXd::Constant(1, value); }
+inline Eigen::VectorXd oneScale(const Scene&, const ControlOwner&) { return oneNumber(1); }
+inline Eigen::VectorXd xyzScale(const Scene&, const ControlOwner&) { return Vec3::Ones(); }
 
 }  // namespace carom

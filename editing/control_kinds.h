@@ -17,9 +17,8 @@ struct ControlOwner {
   int body = -1, material = -1, tilt = -1;
 };
 
-/// One row of the table of controls: what the editor asks of a kind. A kind has up to three numbers; unused entries of
-/// the vectors are 0. A new kind adds a row to control_kinds.cpp and its functions to a family file
-/// (controls_of_*.cpp).
+/// One row of the table of controls: what the editor asks of a kind. All vectors have one number a component. A new
+/// kind adds a row to control_kinds.cpp and its functions to a family file (controls_of_*.cpp).
 struct ControlKind {
   const char* word;  ///< in the scene document
   OwnerKind owner;
@@ -31,14 +30,14 @@ struct ControlKind {
   /// Rewrites how the scene says things, without changing the motion, so that the numbers of this kind are written in
   /// it and everything else stays as written. May be null.
   void (*prepare)(Scene&, const ControlOwner&);
-  Vec3 (*get)(const Scene&, const ControlOwner&);
+  Eigen::VectorXd (*get)(const Scene&, const ControlOwner&);
   /// Writes values into `scene`, a copy of `start`.
-  void (*set)(const Vec3& values, const Scene& start, const ControlOwner&, Scene& scene);
+  void (*set)(const Eigen::VectorXd& values, const Scene& start, const ControlOwner&, Scene& scene);
   /// Derivative by the values (at `values`) from the derivative by the fields of the scene; and its adjoint.
-  Vec3 (*gather)(const SceneGradient&, const ControlOwner&, const Vec3& values);
-  void (*scatter)(const Vec3& rates, const ControlOwner&, const Vec3& values, SceneTangent&);
+  Eigen::VectorXd (*gather)(const SceneGradient&, const ControlOwner&, const Eigen::VectorXd& values);
+  void (*scatter)(const Eigen::VectorXd& rates, const ControlOwner&, const Eigen::VectorXd& values, SceneTangent&);
   /// Natural scale of a change; not used by logarithmic kinds.
-  Vec3 (*scale)(const Scene& start, const ControlOwner&);
+  Eigen::VectorXd (*scale)(const Scene& start, const ControlOwner&);
 };
 
 /// All kinds, in the order of control.h.

@@ -51,7 +51,7 @@ void ControlSet::addVariables(int index) {
   const std::vector<std::string> names = kind.components(written_, bound.owner);
   const std::vector<int> varying = varyingSlots(written_, bound, where);
   const int count = static_cast<int>(varying.size());
-  const Vec3 before = kind.get(written_, bound.owner), scale = kind.scale(written_, bound.owner);
+  const Eigen::VectorXd before = kind.get(written_, bound.owner), scale = kind.scale(written_, bound.owner);
 
   bound.start = before;
   if (bound.cone > 0 && before.norm() > bound.cone) bound.start *= bound.cone / before.norm();
@@ -92,13 +92,13 @@ Eigen::VectorXd ControlSet::startValues() const {
 }
 
 /// Several controls may share an owner (x in one, y in the other): the numbers of all of them are merged.
-Vec3 ControlSet::slots(int control, const Eigen::VectorXd& values) const {
+Eigen::VectorXd ControlSet::slots(int control, const Eigen::VectorXd& values) const {
   const BoundControl& bound = controls_[control];
-  const Vec3 written = bound.kind->get(written_, bound.owner);
-  Vec3 merged = written;
+  const Eigen::VectorXd written = bound.kind->get(written_, bound.owner);
+  Eigen::VectorXd merged = written;
   for (const BoundControl& other : controls_) {
     if (!sameOwner(other, bound)) continue;
-    for (int slot = 0; slot < 3; ++slot) {
+    for (Eigen::Index slot = 0; slot < written.size(); ++slot) {
       if (other.start[slot] != written[slot]) merged[slot] = other.start[slot];
     }
   }
@@ -120,7 +120,7 @@ Scene ControlSet::sceneAt(const Eigen::VectorXd& values) const {
 Eigen::VectorXd ControlSet::gather(const SceneGradient& gradient, const Eigen::VectorXd& values) const {
   Eigen::VectorXd out(size());
   int last = -1;
-  Vec3 of_control = Vec3::Zero();
+  Eigen::VectorXd of_control;
   for (int i = 0; i < size(); ++i) {
     const Variable& v = variables_[i];
     if (v.control != last) {
@@ -136,11 +136,11 @@ Eigen::VectorXd ControlSet::gather(const SceneGradient& gradient, const Eigen::V
 SceneTangent ControlSet::scatter(const Eigen::VectorXd& rates, const Eigen::VectorXd& values) const {
   SceneTangent tangent(start_);
   for (std::size_t c = 0; c < controls_.size(); ++c) {
-    Vec3 of_control = Vec3::Zero();
+    const BoundControl& bound = controls_[c];
+    Eigen::VectorXd of_control = Eigen::VectorXd::Zero(bound.start.size());
     for (int i = 0; i < size(); ++i) {
       if (variables_[i].control == static_cast<int>(c)) of_control[variables_[i].slot] = rates[i];
     }
-    const BoundControl& bound = controls_[c];
     bound.kind->scatter(of_control, bound.owner, slots(static_cast<int>(c), values), tangent);
   }
   return tangent;

@@ -14,7 +14,7 @@ inline constexpr double kDefaultTiltCone = 0.3;
 /// One number that may vary.
 struct Variable {
   int control = -1;       ///< index of the Control
-  int slot = 0;           ///< 0..2, component of its kind
+  int slot = 0;           ///< component of its kind
   std::string component;  ///< "x", "radius", "value"
   double before = 0;      ///< as written by the person
   double start = 0;       ///< the same, moved into the bounds
@@ -28,8 +28,8 @@ struct BoundControl {
   Control control;
   const ControlKind* kind = nullptr;
   ControlOwner owner;
-  Vec3 start = Vec3::Zero();  ///< all its numbers at the start, within the bounds
-  double cone = 0;            ///< tilt: largest length of (alpha, beta)
+  Eigen::VectorXd start;  ///< all its numbers at the start, within the bounds
+  double cone = 0;        ///< tilt: largest length of (alpha, beta)
 };
 
 /// The controls of an edit as one vector of numbers, `values`, in their own units, and as `changes` y: dimensionless,
@@ -66,8 +66,8 @@ class ControlSet {
 
   /// "velocity.x of 'hat'", for people.
   std::string describeVariable(int variable) const;
-  /// All numbers of the owner of a control (its three slots) at `values`.
-  Vec3 slots(int control, const Eigen::VectorXd& values) const;
+  /// All numbers of the owner of a control, one a slot, at `values`.
+  Eigen::VectorXd slots(int control, const Eigen::VectorXd& values) const;
 
  private:
   void addVariables(int index);

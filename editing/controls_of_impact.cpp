@@ -7,23 +7,22 @@ namespace carom {
 namespace {
 
 std::vector<std::string> tiltComponents(const Scene&, const ControlOwner&) { return {"alpha", "beta"}; }
-Vec3 getTilt(const Scene& scene, const ControlOwner& o) {
-  const Vec2& value = scene.tilts[o.tilt].value;
-  return {value.x(), value.y(), 0};
+Eigen::VectorXd getTilt(const Scene& scene, const ControlOwner& o) { return scene.tilts[o.tilt].value; }
+void setTilt(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
+  scene.tilts[o.tilt].value = values;
 }
-void setTilt(const Vec3& values, const Scene&, const ControlOwner& o, Scene& scene) {
-  scene.tilts[o.tilt].value = values.head<2>();
+Eigen::VectorXd gatherTilt(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
+  return gradient.tilts[o.tilt];
 }
-Vec3 gatherTilt(const SceneGradient& gradient, const ControlOwner& o, const Vec3&) {
-  return {gradient.tilts[o.tilt].x(), gradient.tilts[o.tilt].y(), 0};
+void scatterTilt(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&, SceneTangent& tangent) {
+  tangent.tilts[o.tilt] += rates;
 }
-void scatterTilt(const Vec3& rates, const ControlOwner& o, const Vec3&, SceneTangent& tangent) {
-  tangent.tilts[o.tilt] += rates.head<2>();
-}
+
+Eigen::VectorXd scaleTilt(const Scene&, const ControlOwner&) { return Vec2::Ones(); }
 
 }  // namespace
 
 const ControlKind kTiltControl{"tilt",  OwnerKind::impact, false,   -kUnbounded, kUnbounded,  false,    tiltComponents,
-                               nullptr, getTilt,           setTilt, gatherTilt,  scatterTilt, unitScale};
+                               nullptr, getTilt,           setTilt, gatherTilt,  scatterTilt, scaleTilt};
 
 }  // namespace carom

@@ -7,15 +7,18 @@ namespace {
 
 template <double Material::*kField, double MaterialDerivative::*kRate>
 struct MaterialNumber {
-  static Vec3 get(const Scene& scene, const ControlOwner& o) { return {scene.materials[o.material].*kField, 0, 0}; }
-  static void set(const Vec3& values, const Scene&, const ControlOwner& o, Scene& scene) {
-    scene.materials[o.material].*kField = values.x();
+  static Eigen::VectorXd get(const Scene& scene, const ControlOwner& o) {
+    return oneNumber(scene.materials[o.material].*kField);
   }
-  static Vec3 gather(const SceneGradient& gradient, const ControlOwner& o, const Vec3&) {
-    return {gradient.materials[o.material].*kRate, 0, 0};
+  static void set(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
+    scene.materials[o.material].*kField = values[0];
   }
-  static void scatter(const Vec3& rates, const ControlOwner& o, const Vec3&, SceneTangent& tangent) {
-    tangent.materials[o.material].*kRate += rates.x();
+  static Eigen::VectorXd gather(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
+    return oneNumber(gradient.materials[o.material].*kRate);
+  }
+  static void scatter(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&,
+                      SceneTangent& tangent) {
+    tangent.materials[o.material].*kRate += rates[0];
   }
 };
 using Elasticity = MaterialNumber<&Material::elasticity, &MaterialDerivative::elasticity>;
@@ -37,7 +40,7 @@ const ControlKind kElasticityControl{"elasticity",
                                      Elasticity::set,
                                      Elasticity::gather,
                                      Elasticity::scatter,
-                                     unitScale};
+                                     oneScale};
 
 const ControlKind kFrictionControl{"friction",
                                    OwnerKind::material,
@@ -51,7 +54,7 @@ const ControlKind kFrictionControl{"friction",
                                    Friction::set,
                                    Friction::gather,
                                    Friction::scatter,
-                                   unitScale};
+                                   oneScale};
 
 const ControlKind kTangentialElasticityControl{"tangential_elasticity",
                                                OwnerKind::material,
@@ -65,6 +68,6 @@ const ControlKind kTangentialElasticityControl{"tangential_elasticity",
                                                TangentialElasticity::set,
                                                TangentialElasticity::gather,
                                                TangentialElasticity::scatter,
-                                               unitScale};
+                                               oneScale};
 
 }  // namespace carom

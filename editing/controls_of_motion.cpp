@@ -12,14 +12,15 @@ namespace {
 
 template <Vec3 Body::*kField, Vec3 BodyDerivative::*kRate>
 struct BodyVector {
-  static Vec3 get(const Scene& scene, const ControlOwner& o) { return scene.bodies[o.body].*kField; }
-  static void set(const Vec3& values, const Scene&, const ControlOwner& o, Scene& scene) {
+  static Eigen::VectorXd get(const Scene& scene, const ControlOwner& o) { return scene.bodies[o.body].*kField; }
+  static void set(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
     scene.bodies[o.body].*kField = values;
   }
-  static Vec3 gather(const SceneGradient& gradient, const ControlOwner& o, const Vec3&) {
+  static Eigen::VectorXd gather(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
     return gradient.bodies[o.body].*kRate;
   }
-  static void scatter(const Vec3& rates, const ControlOwner& o, const Vec3&, SceneTangent& tangent) {
+  static void scatter(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&,
+                      SceneTangent& tangent) {
     tangent.bodies[o.body].*kRate += rates;
   }
 };
@@ -28,29 +29,34 @@ using Velocity = BodyVector<&Body::velocity, &BodyDerivative::velocity>;
 using AngularVelocity = BodyVector<&Body::angular_velocity, &BodyDerivative::angular_velocity>;
 
 template <double NaturalScales::*kScale>
-Vec3 bodyScale(const Scene& start, const ControlOwner& o) {
+Eigen::VectorXd bodyScale(const Scene& start, const ControlOwner& o) {
   return Vec3::Constant(naturalScales(start, o.body).*kScale);
 }
 
-Vec3 getOrientation(const Scene&, const ControlOwner&) { return Vec3::Zero(); }
-void setOrientation(const Vec3& values, const Scene& start, const ControlOwner& o, Scene& scene) {
+Eigen::VectorXd getOrientation(const Scene&, const ControlOwner&) { return Eigen::VectorXd::Zero(3); }
+void setOrientation(const Eigen::VectorXd& values, const Scene& start, const ControlOwner& o, Scene& scene) {
   const Quat& written = start.bodies[o.body].orientation;
   scene.bodies[o.body].orientation = values.isZero(0) ? written : (expSO3(values) * written).normalized();
 }
-Vec3 gatherOrientation(const SceneGradient& gradient, const ControlOwner& o, const Vec3& values) {
+Eigen::VectorXd gatherOrientation(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd& values) {
   return leftJacobian(values).transpose() * gradient.bodies[o.body].orientation;
 }
-void scatterOrientation(const Vec3& rates, const ControlOwner& o, const Vec3& values, SceneTangent& tangent) {
+void scatterOrientation(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd& values,
+                        SceneTangent& tangent) {
   tangent.bodies[o.body].orientation += leftJacobian(values) * rates;
 }
 
-Vec3 getGravity(const Scene& scene, const ControlOwner&) { return scene.gravity; }
-void setGravity(const Vec3& values, const Scene&, const ControlOwner&, Scene& scene) { scene.gravity = values; }
-Vec3 gatherGravity(const SceneGradient& gradient, const ControlOwner&, const Vec3&) { return gradient.gravity; }
-void scatterGravity(const Vec3& rates, const ControlOwner&, const Vec3&, SceneTangent& tangent) {
+Eigen::VectorXd getGravity(const Scene& scene, const ControlOwner&) { return scene.gravity; }
+void setGravity(const Eigen::VectorXd& values, const Scene&, const ControlOwner&, Scene& scene) {
+  scene.gravity = values;
+}
+Eigen::VectorXd gatherGravity(const SceneGradient& gradient, const ControlOwner&, const Eigen::VectorXd&) {
+  return gradient.gravity;
+}
+void scatterGravity(const Eigen::VectorXd& rates, const ControlOwner&, const Eigen::VectorXd&, SceneTangent& tangent) {
   tangent.gravity += rates;
 }
-Vec3 scaleGravity(const Scene& start, const ControlOwner&) { return Vec3::Constant(gravityScale(start)); }
+Eigen::VectorXd scaleGravity(const Scene& start, const ControlOwner&) { return Vec3::Constant(gravityScale(start)); }
 
 }  // namespace
 
@@ -69,8 +75,8 @@ const ControlKind kPositionControl{"position",
                                    bodyScale<&NaturalScales::length>};
 
 const ControlKind kOrientationControl{
-    "orientation", OwnerKind::body, false,          -kUnbounded,       kUnbounded,         false,    xyzComponents,
-    nullptr,       getOrientation,  setOrientation, gatherOrientation, scatterOrientation, unitScale};
+    "orientation", OwnerKind::body, false,          -kUnbounded,       kUnbounded,         false,   xyzComponents,
+    nullptr,       getOrientation,  setOrientation, gatherOrientation, scatterOrientation, xyzScale};
 
 const ControlKind kVelocityControl{"velocity",
                                    OwnerKind::moving_body,

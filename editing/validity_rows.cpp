@@ -32,12 +32,12 @@ ValidityRows::ValidityRows(const ControlSet& controls) {
   }
 }
 
-double ValidityRows::value(const Row& row, const Vec3& slots) {
+double ValidityRows::value(const Row& row, const Eigen::VectorXd& slots) {
   if (row.moment < 0) return 1 - slots.squaredNorm() / row.scale;
   return (slots.sum() - 2 * slots[row.moment]) / row.scale;
 }
 
-Vec3 ValidityRows::gradient(const Row& row, const Vec3& slots) {
+Eigen::VectorXd ValidityRows::gradient(const Row& row, const Eigen::VectorXd& slots) {
   if (row.moment < 0) return -2 / row.scale * slots;
   return (Vec3::Ones() - 2 * Vec3::Unit(row.moment)) / row.scale;
 }
@@ -52,7 +52,7 @@ Eigen::MatrixXd ValidityRows::jacobian(const ControlSet& controls, const Eigen::
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(size(), controls.size());
   for (int i = 0; i < size(); ++i) {
     const BoundControl& bound = controls.controls()[rows_[i].control];
-    const Vec3 dh = gradient(rows_[i], controls.slots(rows_[i].control, values));
+    const Eigen::VectorXd dh = gradient(rows_[i], controls.slots(rows_[i].control, values));
     for (int j = 0; j < controls.size(); ++j) {
       const Variable& v = controls.variables()[j];
       if (sameOwner(controls.controls()[v.control], bound)) J(i, j) = dh[v.slot];

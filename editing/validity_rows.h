@@ -29,8 +29,8 @@ class ValidityRows {
     double scale = 1;
   };
   /// Derivative of h by the three numbers of the owner of the row's control, and h itself.
-  static double value(const Row& row, const Vec3& slots);
-  static Vec3 gradient(const Row& row, const Vec3& slots);
+  static double value(const Row& row, const Eigen::VectorXd& slots);
+  static Eigen::VectorXd gradient(const Row& row, const Eigen::VectorXd& slots);
 
   std::vector<Row> rows_;
 };

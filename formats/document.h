@@ -15,6 +15,7 @@ struct Document {
   double duration = 1;  ///< s
   std::vector<Control> controls;
   std::vector<Constraint> constraints;
+  std::string folder;  ///< that file names in the scene are relative to; empty: the current folder
 };
 
 }  // namespace carom

@@ -48,7 +48,12 @@ int addMaterial(tinygltf::Model& model, const std::string& name, const Colour& c
 class Writer {
  public:
   Writer(const Document& document, const Motion& motion, const GltfOptions& options)
-      : document_(document), motion_(motion), scene_(*motion.scene), options_(options), buffer_(model_) {}
+      : document_(document),
+        motion_(motion),
+        scene_(*motion.scene),
+        options_(options),
+        buffer_(model_),
+        physics_(scene_) {}
 
   tinygltf::Model make() {
     const Extent extent = motionExtent(motion_);
@@ -56,58 +61,87 @@ class Writer {
     plane_half_width_ = extent.diagonal().norm();
     model_.asset.version = "2.0";
     model_.asset.generator = "carom";
-    addPhysics(model_, scene_);
+    addSurfaces();
     addBodies();
+    physics_.finish(model_);
     addAnimation();
     tinygltf::Scene scene;
     scene.name = "carom";
     scene.nodes = {0};
-    scene.extras = Value(Value::Object{{"carom", editOf(document_, scene_)}});
+    scene.extras = Value(Value::Object{{"carom", documentOf(document_, scene_, surfaces_)}});
     model_.defaultScene = append(model_.scenes, scene);
     return std::move(model_);
   }
 
  private:
-  // Node 0 turns z-up into glTF's y-up; node i + 1 is body i.
+  // The surfaces that bodies collide with, as meshes that no node shows. Other programs see floats, 6e-8 of the
+  // coordinates off; importGltf finds the doubles in a view of their own, which extras name.
+  void addSurfaces() {
+    for (const Body& body : scene_.bodies)
+      for (const Surface* surface : surfacesOf(body.shape)) {
+        if (surfaces_.count(surface) > 0) continue;
+        tinygltf::Primitive primitive;
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+        primitive.attributes["POSITION"] = buffer_.addVertices(surface->vertices, placeOf(body));
+        primitive.indices = buffer_.addIndices(fansOf(*surface));
+        tinygltf::Mesh mesh;
+        mesh.name = body.name + " collision";
+        mesh.primitives.push_back(primitive);
+        const Value positions(buffer_.addDoubles(surface->vertices));
+        mesh.extras = Value(Value::Object{{"carom", Value(Value::Object{{"positions", positions}})}});
+        surfaces_[surface] = append(model_.meshes, mesh);
+      }
+  }
+
+  static std::vector<std::uint32_t> fansOf(const Surface& surface) {
+    std::vector<std::uint32_t> indices;
+    for (const Surface::Face& face : surface.faces)
+      for (int k = 1; k + 1 < face.count; ++k)
+        for (const int i : {0, k, k + 1})
+          indices.push_back(static_cast<std::uint32_t>(surface.corners[static_cast<std::size_t>(face.first + i)]));
+    return indices;
+  }
+
+  // Node 0 turns z-up into glTF's y-up; node i + 1 is body i; then come the nodes below bodies.
   void addBodies() {
     tinygltf::Node root;
     root.name = "z-up";
     root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
     for (int body = 0; body < bodyCount(); ++body) root.children.push_back(body + 1);
-    model_.nodes.push_back(root);
-    std::vector<tinygltf::Node> surfaces;
-    for (int body = 0; body < bodyCount(); ++body) addBody(body, surfaces);
-    model_.nodes.insert(model_.nodes.end(), surfaces.begin(), surfaces.end());
+    model_.nodes.resize(static_cast<std::size_t>(1 + bodyCount()));
+    model_.nodes[0] = root;
+    for (int body = 0; body < bodyCount(); ++body) addBody(body);
   }
 
-  void addBody(int body, std::vector<tinygltf::Node>& surfaces) {
+  void addBody(int body) {
     const Body& b = scene_.bodies[body];
-    tinygltf::Node node;
-    node.name = b.name;
-    setPose(node, b.position, b.orientation);
-    Value::Object physics;
-    if (!b.fixed) physics["motion"] = motionOf(b, (*motion_.models)[body]);
-    if (const Plane* plane = std::get_if<Plane>(&b.shape)) {
-      // glTF's plane faces +y through the origin of its node, so ours needs a node of its own.
-      node.children.push_back(1 + bodyCount() + static_cast<int>(surfaces.size()));
-      surfaces.push_back(planeNode(body, *plane));
-    } else {
-      node.mesh = addMesh(body);
-      physics["collider"] = colliderOf(scene_, body);
+    gltf::PhysicsNode physics = physicsNodeOf(scene_, body, (*motion_.models)[body], surfaces_);
+    const Plane* plane = std::get_if<Plane>(&b.shape);
+    if (plane != nullptr) {                                                    // drawn as a square around the motion
+      const Vec3 centre = b.orientation.conjugate() * (centre_ - b.position);  // in the body's axes
+      physics.children[0].translation = centre + (plane->offset - plane->normal.dot(centre)) * plane->normal;
     }
-    if (!physics.empty()) node.extensions["KHR_physics_rigid_bodies"] = Value(physics);
-    model_.nodes.push_back(node);
+    tinygltf::Node node = nodeOf(physics);
+    const int mesh = addMesh(body);
+    if (plane == nullptr) {
+      node.mesh = mesh;
+    } else {
+      model_.nodes[static_cast<std::size_t>(node.children[0])].mesh = mesh;
+    }
+    model_.nodes[static_cast<std::size_t>(1 + body)] = node;
   }
 
-  tinygltf::Node planeNode(int body, const Plane& plane) {
-    const Body& b = scene_.bodies[body];
-    const Vec3 centre = b.orientation.conjugate() * (centre_ - b.position);  // of the motion, in the body's axes
+  /// Adds the nodes below, not the node itself.
+  tinygltf::Node nodeOf(const gltf::PhysicsNode& physics) {
     tinygltf::Node node;
-    node.name = b.name + " surface";
-    setPose(node, centre + (plane.offset - plane.normal.dot(centre)) * plane.normal,
-            Quat::FromTwoVectors(Vec3::UnitY(), plane.normal));
-    node.mesh = addMesh(body);
-    node.extensions["KHR_physics_rigid_bodies"] = Value(Value::Object{{"collider", colliderOf(scene_, body)}});
+    node.name = physics.name;
+    setPose(node, physics.translation, physics.rotation);
+    if (physics.scale != Vec3::Ones()) node.scale = {physics.scale.x(), physics.scale.y(), physics.scale.z()};
+    if (physics.motion || physics.collider) node.extensions["KHR_physics_rigid_bodies"] = physics_.extensionOf(physics);
+    for (const gltf::PhysicsNode& child : physics.children) {
+      const tinygltf::Node below = nodeOf(child);
+      node.children.push_back(append(model_.nodes, below));
+    }
     return node;
   }
 
@@ -183,6 +217,8 @@ class Writer {
   const GltfOptions& options_;
   tinygltf::Model model_;
   GltfBuffer buffer_;
+  PhysicsWriter physics_;
+  SurfaceMeshes surfaces_;
   Vec3 centre_ = Vec3::Zero();
   double plane_half_width_ = 1;
 };

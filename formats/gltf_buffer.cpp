@@ -54,6 +54,11 @@ int GltfBuffer::addIndices(const std::vector<std::uint32_t>& indices) {
   return static_cast<int>(model_.accessors.size()) - 1;
 }
 
+int GltfBuffer::addDoubles(const std::vector<Vec3>& vectors) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return addView(vectors.data(), vectors.size() * sizeof(Vec3), kNoTarget);
+}
+
 int GltfBuffer::addFloats(const std::vector<float>& numbers, int width, int type, int target, bool bounds,
                           const std::string& what) {
   for (const float number : numbers)

@@ -65,24 +65,61 @@ void add(RotationKeys& keys, double t, const Arc& arc) {
   keys.values.push_back(q);
 }
 
+// Position and velocity of the shape's origin.
+struct Origin {
+  Vec3 x, v;
+};
+
+Origin originAt(const Arc& arc, double t) {
+  if (arc.model().center.isZero(0)) return {arc.positionAt(t), arc.velocityAt(t)};
+  const BodyState s = toBodyState(arc.model(), arc.stateAt(t));
+  const Vec3 from_centre = s.position - arc.positionAt(t);
+  return {s.position, s.velocity + s.angular_velocity.cross(from_centre)};
+}
+
+// Cubics between keys h apart leave the circle of radius c that the origin turns on by c (omega h)^4 / 384. The rate of
+// change of omega counts as spin of its own.
+double countOfSwings(const Piece& piece) {
+  const double c = piece.arc->model().center.norm();
+  if (c == 0 || piece.arc->tier() == Tier::none) return 1;
+  const double spin = piece.arc->spinBound() + std::sqrt(piece.arc->spinRateBound());
+  const double turn = std::pow(384 * kShare * kTranslationTolerance / c, 0.25);
+  return std::max(1.0, std::ceil(spin * (piece.to - piece.from) / turn));
+}
+
 TranslationKeys translationKeys(const std::vector<Piece>& pieces) {
   TranslationKeys keys;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const auto [arc, from, to] = pieces[k];
-    const Vec3 v = arc->velocityAt(from);
-    const Vec3 v_in = k > 0 ? pieces[k - 1].arc->velocityAt(from) : v;
-    add(keys, from, arc->positionAt(from), v_in, v);
+    const Origin origin = originAt(*arc, from);
+    add(keys, from, origin.x, k > 0 ? originAt(*pieces[k - 1].arc, from).v : origin.v, origin.v);
   }
   if (pieces.empty()) return keys;
-  const auto [arc, from, to] = pieces.back();
-  const Vec3 v = arc->velocityAt(to);
-  add(keys, to, arc->positionAt(to), v, v);
+  const Origin end = originAt(*pieces.back().arc, pieces.back().to);
+  add(keys, pieces.back().to, end.x, end.v, end.v);
   return keys;
+}
+
+void requireFew(double keys, const Motion& motion, int body) {
+  if (!(keys <= kMaxKeys))
+    throw InputError("body '" + motion.scene->bodies[body].name + "'", "spins too fast to be exported: it would need " +
+                                                                           std::to_string(keys) + " keys, at most " +
+                                                                           std::to_string(kMaxKeys) + " are written");
 }
 
 }  // namespace
 
-TranslationKeys splineKeys(const Motion& motion, int body) { return translationKeys(piecesOf(motion, body, 0)); }
+TranslationKeys splineKeys(const Motion& motion, int body) {
+  std::vector<Piece> cut;
+  double total = 1;
+  for (const Piece& piece : piecesOf(motion, body, 0)) {
+    const double count = countOfSwings(piece), step = (piece.to - piece.from) / count;
+    requireFew(total += count, motion, body);
+    for (double i = 0; i < count; ++i)
+      cut.push_back({piece.arc, piece.from + i * step, i + 1 < count ? piece.from + (i + 1) * step : piece.to});
+  }
+  return translationKeys(cut);
+}
 
 TranslationKeys frameKeys(const Motion& motion, int body, double fps) {
   return translationKeys(piecesOf(motion, body, fps));
@@ -93,10 +130,7 @@ RotationKeys rotationKeys(const Motion& motion, int body, double fps) {
   const std::vector<Piece> pieces = piecesOf(motion, body, fps);
   double total = 1;
   for (const Piece& piece : pieces) total += countOfTurns(piece);
-  if (!(total <= kMaxRotationKeys))
-    throw InputError("body '" + motion.scene->bodies[body].name + "'",
-                     "spins too fast to be exported: it would need " + std::to_string(total) +
-                         " rotation keys, at most " + std::to_string(kMaxRotationKeys) + " are written");
+  requireFew(total, motion, body);
   for (const Piece& piece : pieces) {
     const double count = countOfTurns(piece);
     for (double i = 0; i < count; ++i) add(keys, piece.from + (piece.to - piece.from) * (i / count), *piece.arc);

@@ -1,3 +1,4 @@
+// Physics of nodes -> the extensions' JSON.
 #include "formats/detail/gltf_physics.hpp"
 
 #include <tiny_gltf.h>
@@ -5,44 +6,64 @@
 #include <string>
 #include <variant>
 
+#include "formats/detail/scene_reader.hpp"
+
 namespace carom {
 namespace {
 
+using gltf::MeshShape;
+using gltf::Sheet;
+using gltf::Tapered;
 using tinygltf::Value;
 using Object = Value::Object;
 using Array = Value::Array;
 
+Value textOf(const std::string& text) { return Value(text); }
 Value vectorOf(const Vec3& v) { return Value(Array{Value(v.x()), Value(v.y()), Value(v.z())}); }
 Value quaternionOf(const Quat& q) { return Value(Array{Value(q.x()), Value(q.y()), Value(q.z()), Value(q.w())}); }
 
-const char* nameOf(Combine combine) {
-  constexpr const char* kNames[] = {"average", "minimum", "maximum", "multiply"};
-  return kNames[static_cast<int>(combine)];
-}
+const std::string& nameOf(Combine combine) { return detail::combineWords()[static_cast<std::size_t>(combine)]; }
 
-struct ShapeWriter {
-  Value operator()(const Sphere& sphere) const {
-    return Value(
-        Object{{"type", Value(std::string("sphere"))}, {"sphere", Value(Object{{"radius", Value(sphere.radius)}})}});
-  }
-  Value operator()(const Box& box) const {
-    return Value(Object{{"type", Value(std::string("box"))}, {"box", Value(Object{{"size", vectorOf(box.size)}})}});
-  }
-  // Without sizes it is the infinite plane through the node's origin, facing its +y.
-  Value operator()(const Plane&) const {
-    return Value(
-        Object{{"type", Value(std::string("plane"))}, {"plane", Value(Object{{"doubleSided", Value(false)}})}});
-  }
+/// A listed shape: its word, and the members behind it.
+struct Listed {
+  const char* word;
+  Object members;
 };
 
-Value materialValue(const Material& material) {
-  const Object extras{{"name", Value(material.name)}, {"tangential_elasticity", Value(material.tangential_elasticity)}};
-  return Value(Object{{"staticFriction", Value(material.friction)},
-                      {"dynamicFriction", Value(material.friction)},
-                      {"restitution", Value(material.elasticity)},
-                      {"frictionCombine", Value(std::string(nameOf(material.combine_friction)))},
-                      {"restitutionCombine", Value(std::string(nameOf(material.combine_elasticity)))},
-                      {"extras", Value(Object{{"carom", Value(extras)}})}});
+struct ShapeWriter {
+  Listed operator()(const Sphere& sphere) const { return {"sphere", {{"radius", Value(sphere.radius)}}}; }
+  Listed operator()(const Box& box) const { return {"box", {{"size", vectorOf(box.size)}}}; }
+  Listed operator()(const Tapered& s) const {
+    return {s.capsule ? "capsule" : "cylinder",
+            {{"height", Value(s.height)}, {"radiusBottom", Value(s.bottom)}, {"radiusTop", Value(s.top)}}};
+  }
+  // Without sizes it is the infinite plane through the node's origin, facing its +y.
+  Listed operator()(const Sheet& s) const { return {"plane", {{"doubleSided", Value(s.double_sided)}}}; }
+  Listed operator()(const MeshShape&) const { return {"", {}}; }  // not listed
+};
+
+Value listedOf(const gltf::ColliderShape& shape) {
+  const Listed listed = std::visit(ShapeWriter{}, shape);
+  return Value(Object{{"type", textOf(listed.word)}, {listed.word, Value(listed.members)}});
+}
+
+struct Numbers {
+  std::vector<double> operator()(const Sphere& s) const { return {0, s.radius}; }
+  std::vector<double> operator()(const Box& s) const { return {1, s.size.x(), s.size.y(), s.size.z()}; }
+  std::vector<double> operator()(const Tapered& s) const { return {s.capsule ? 2.0 : 3.0, s.height, s.bottom, s.top}; }
+  std::vector<double> operator()(const Sheet&) const { return {4}; }
+  std::vector<double> operator()(const MeshShape&) const { return {}; }
+};
+
+Value materialValue(const Material& material, const Object& extras) {
+  Object out{{"staticFriction", Value(material.friction)},
+             {"dynamicFriction", Value(material.friction)},
+             {"restitution", Value(material.elasticity)},
+             {"frictionCombine", textOf(nameOf(material.combine_friction))},
+             {"restitutionCombine", textOf(nameOf(material.combine_elasticity))},
+             {"extras", Value(Object{{"carom", Value(extras)}})}};
+  if (!material.name.empty()) out["name"] = textOf(material.name);
+  return Value(out);
 }
 
 Value gravityOf(const Vec3& gravity) {
@@ -52,39 +73,55 @@ Value gravityOf(const Vec3& gravity) {
   return Value(out);
 }
 
+Value motionOf(const gltf::Moving& motion) {
+  return Value(Object{{"isKinematic", Value(motion.kinematic)},
+                      {"mass", Value(*motion.mass)},
+                      {"centerOfMass", vectorOf(*motion.center_of_mass)},
+                      {"inertiaDiagonal", vectorOf(*motion.inertia_diagonal)},
+                      {"inertiaOrientation", quaternionOf(motion.inertia_orientation)},
+                      {"linearVelocity", vectorOf(motion.linear)},
+                      {"angularVelocity", vectorOf(motion.angular)},
+                      {"gravityFactor", Value(motion.gravity_factor)}});
+}
+
 }  // namespace
 
-void addPhysics(tinygltf::Model& model, const Scene& scene) {
+int PhysicsWriter::indexOf(const gltf::ColliderShape& shape) {
+  const auto [entry, added] = known_.emplace(std::visit(Numbers{}, shape), static_cast<int>(shapes_.size()));
+  if (added) shapes_.push_back(shape);
+  return entry->second;
+}
+
+Value PhysicsWriter::extensionOf(const gltf::PhysicsNode& node) {
+  Object out;
+  if (node.motion) out["motion"] = motionOf(*node.motion);
+  if (node.collider) {
+    Object geometry;
+    if (const auto* surface = std::get_if<MeshShape>(&node.collider->shape)) {
+      geometry["mesh"] = Value(surface->mesh);
+      geometry["convexHull"] = Value(surface->convex);
+    } else {
+      geometry["shape"] = Value(indexOf(node.collider->shape));
+    }
+    out["collider"] = Value(Object{{"geometry", Value(geometry)}, {"physicsMaterial", Value(node.collider->material)}});
+  }
+  return Value(out);
+}
+
+void PhysicsWriter::finish(tinygltf::Model& model) const {
   Array materials, shapes;
-  for (const Material& material : scene.materials) materials.push_back(materialValue(material));
-  materials.push_back(materialValue(Material{}));
-  for (const Body& body : scene.bodies) shapes.push_back(std::visit(ShapeWriter{}, body.shape));
+  for (const Material& material : scene_.materials)
+    materials.push_back(materialValue(material, {{"tangential_elasticity", Value(material.tangential_elasticity)}}));
+  materials.push_back(materialValue(Material{}, {{"none", Value(true)}}));
+  for (const gltf::ColliderShape& shape : shapes_) shapes.push_back(listedOf(shape));
   model.extensions["KHR_physics_rigid_bodies"] = Value(Object{{"physicsMaterials", Value(materials)}});
   model.extensionsUsed.push_back("KHR_physics_rigid_bodies");
   if (!shapes.empty()) {
     model.extensions["KHR_implicit_shapes"] = Value(Object{{"shapes", Value(shapes)}});
     model.extensionsUsed.push_back("KHR_implicit_shapes");
   }
-  model.extensions["OMI_physics_gravity"] = gravityOf(scene.gravity);
+  model.extensions["OMI_physics_gravity"] = gravityOf(scene_.gravity);
   model.extensionsUsed.push_back("OMI_physics_gravity");
-}
-
-Value motionOf(const Body& body, const BodyModel& model) {
-  const Quat to_node = body.orientation.conjugate();
-  return Value(Object{{"isKinematic", Value(false)},
-                      {"mass", Value(model.mass)},
-                      {"centerOfMass", vectorOf(Vec3::Zero())},
-                      {"inertiaDiagonal", vectorOf(model.inertia)},
-                      {"inertiaOrientation", quaternionOf(Quat(Mat3(model.R_BG.transpose())).normalized())},
-                      {"linearVelocity", vectorOf(to_node * body.velocity)},
-                      {"angularVelocity", vectorOf(to_node * body.angular_velocity)},
-                      {"gravityFactor", Value(1.0)}});
-}
-
-Value colliderOf(const Scene& scene, int body) {
-  const std::string& name = scene.bodies[body].material;
-  const int material = name.empty() ? static_cast<int>(scene.materials.size()) : materialIndex(scene, name);
-  return Value(Object{{"geometry", Value(Object{{"shape", Value(body)}})}, {"physicsMaterial", Value(material)}});
 }
 
 }  // namespace carom

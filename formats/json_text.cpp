@@ -12,8 +12,7 @@
 namespace carom::detail {
 namespace {
 
-constexpr std::size_t kMaxDepth = 32;                 // the format itself needs 7
-constexpr std::size_t kMaxValues = 400000;            // keeps the memory of a hostile document small
+constexpr std::size_t kMaxDepth = 48;                 // a scene with 16 compounds in one another needs 40
 constexpr double kExactInteger = 9007199254740992.0;  // 2^53
 
 bool isWordCharacter(char c) {
@@ -64,7 +63,7 @@ std::string parserDetail(const std::string& what) {
 /// Builds the tree; refuses members given twice, which a tree cannot show any more.
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
-  explicit TreeBuilder(std::string_view text) : text_(text) {}
+  TreeBuilder(std::string_view text, std::size_t most_values) : text_(text), most_values_(most_values) {}
   Json take() { return std::move(root_); }
 
   bool null() override { return add(nullptr) != nullptr; }
@@ -127,8 +126,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   }
 
   Json* add(Json&& value) {
-    if (++values_ > kMaxValues)
-      throw InputError("found more than " + std::to_string(kMaxValues) + " values, expected a smaller document");
+    if (++values_ > most_values_)
+      throw InputError("found more than " + std::to_string(most_values_) + " values, expected a smaller document");
     if (levels_.empty()) {
       root_ = std::move(value);
       return &root_;
@@ -159,13 +158,13 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   std::string_view text_;
   Json root_;
   std::vector<Level> levels_;
-  std::size_t values_ = 0;
+  std::size_t values_ = 0, most_values_;
 };
 
 }  // namespace
 
-Json parseJson(std::string_view text) {
-  TreeBuilder builder(text);
+Json parseJson(std::string_view text, std::size_t most_values) {
+  TreeBuilder builder(text, most_values);
   Json::sax_parse(text.begin(), text.end(), &builder);
   return builder.take();
 }

@@ -7,6 +7,10 @@ double arcEnd(const Motion& motion, int body, int k) {
   return k + 1 < static_cast<int>(arcs.size()) ? arcs[k + 1].start() : motion.end;
 }
 
+Vec3 centreAt(const Motion& motion, int body, double t) {
+  return motion.world_lines[body].arcs[motion.arcAt(body, t)].positionAt(t);
+}
+
 Extent pathExtent(const Motion& motion, int body) {
   Extent extent;
   const auto& arcs = motion.world_lines[body].arcs;
@@ -30,7 +34,7 @@ Extent motionExtent(const Motion& motion) {
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
     if (bodies[body].fixed) continue;
     Extent extent = pathExtent(motion, body);
-    const Vec3 margin = Vec3::Constant(kindOf(bodies[body].shape).boundingRadius(bodies[body].shape));
+    const Vec3 margin = Vec3::Constant(radiusAbout(bodies[body].shape, (*motion.models)[body].center));
     all.extend(Extent(extent.min() - margin, extent.max() + margin));
   }
   return all.isEmpty() ? Extent(Vec3::Constant(-0.5), Vec3::Constant(0.5)) : all;

@@ -1,11 +1,12 @@
 #include "formats/scene_json.h"
 
 #include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <variant>
 
 #include "formats/detail/json.hpp"
 #include "formats/detail/scene_reader.hpp"
+#include "formats/detail/surface_files.hpp"
+#include "formats/read_file.h"
 #include "formats/write_file.h"
 
 namespace carom {
@@ -22,41 +23,34 @@ void requireVersion(const Json& document) {
     detail::fail("/carom", detail::describe(*version), "1, the version of the format that this program reads");
 }
 
-std::string tooLarge(const std::string& found) {
-  return "found " + found + ", expected at most " + std::to_string(kLargestDocument) + " bytes";
+/// The folder of a file, never empty.
+std::string folderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
 }
 
-std::string readText(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw FormatError(path, "", "found no such file, expected a scene document");
-  if (std::filesystem::is_directory(status)) throw FormatError(path, "", "found a folder, expected a file");
-  if (std::filesystem::is_regular_file(status)) {
-    const auto size = std::filesystem::file_size(path, error);
-    if (!error && size > kLargestDocument)
-      throw FormatError(path, "", tooLarge("a file of " + std::to_string(size) + " bytes"));
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FormatError(path, "", "found a file that cannot be opened, expected one that may be read");
-  // A pipe has no size before it is read.
-  std::string text;
-  std::string block(std::size_t{1} << 16, '\0');
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    text.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kLargestDocument) throw FormatError(path, "", tooLarge("more"));
-  }
-  return text;
+void rebaseFiles(Shape& shape, const std::string& from, const std::string& to) {
+  if (auto* hull = std::get_if<Hull>(&shape); hull != nullptr && !hull->file.empty())
+    hull->file = detail::rebased(hull->file, from, to);
+  if (auto* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && !mesh->file.empty())
+    mesh->file = detail::rebased(mesh->file, from, to);
+  if (auto* compound = std::get_if<Compound>(&shape))
+    for (CompoundPart& part : compound->parts) rebaseFiles(part.shape, from, to);
 }
 
 }  // namespace
 
-Document parseDocument(std::string_view text, const std::string& name) try {
-  if (text.size() > kLargestDocument) throw InputError(tooLarge("a text of " + std::to_string(text.size()) + " bytes"));
+Document parseDocument(std::string_view text, const std::string& name, const std::string& folder) try {
+  if (text.size() > kLargestDocument)
+    throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
+                     std::to_string(kLargestDocument) + " bytes");
   const Json json = detail::parseJson(text);
   requireVersion(json);
   detail::requireSchema(json);
   Document document;
-  document.scene = detail::readScene(json);
+  document.folder = folder;
+  detail::SurfaceFiles files(folder);
+  document.scene = detail::readScene(json, files);
   validate(document.scene);
   if (const auto duration = json.find("duration"); duration != json.end()) document.duration = duration->get<double>();
   document.controls = detail::readControls(json, document.scene);
@@ -66,11 +60,16 @@ Document parseDocument(std::string_view text, const std::string& name) try {
   throw FormatError(name, error.where(), error.message());
 }
 
-Document readDocument(const std::string& path) { return parseDocument(readText(path), path); }
+Document readDocument(const std::string& path) {
+  return parseDocument(readFile(path, "a scene document", kLargestDocument), path, folderOf(path));
+}
 
 void saveDocument(const std::string& path, const Document& document) try {
-  const std::string text = writeDocument(document);
-  parseDocument(text, path);
+  Document moved = document;
+  moved.folder = folderOf(path);
+  for (Body& body : moved.scene.bodies) rebaseFiles(body.shape, document.folder, moved.folder);
+  const std::string text = writeDocument(moved);
+  parseDocument(text, path, moved.folder);
   writeFile(path, text);
 } catch (const FormatError&) {
   throw;

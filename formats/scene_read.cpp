@@ -5,13 +5,11 @@
 
 #include "formats/detail/json.hpp"
 #include "formats/detail/scene_reader.hpp"
+#include "formats/detail/surface_files.hpp"
 #include "formats/json_writer.h"
 
 namespace carom::detail {
 namespace {
-
-// A norm that differs from 1 by no more than this is left alone, so that reading what was written changes nothing.
-constexpr double kUnitRounding = 1e-15;
 
 template <class Items>
 std::vector<std::string> namesOf(const Items& items) {
@@ -49,31 +47,6 @@ Material readMaterial(const std::string& name, const Json& value) {
   return material;
 }
 
-Shape readSphere(const Json& value, const std::string&) { return Sphere{value["radius"].get<double>()}; }
-
-Shape readBox(const Json& value, const std::string&) { return Box{readVector(value["size"])}; }
-
-Shape readPlane(const Json& value, const std::string& where) {
-  Vec3 normal = readVector(value["normal"]);
-  const double length = normal.stableNorm();
-  if (!(length > 0)) fail(where + "/normal", describe(value["normal"]), "a vector that is not 0");
-  if (std::abs(normal.squaredNorm() - 1) > kUnitRounding) normal = (normal / length).normalized();
-  return Plane{normal, numberOr(value, "offset", 0)};
-}
-
-struct ShapeReader {
-  const char* name;
-  Shape (*read)(const Json& value, const std::string& where);
-};
-constexpr ShapeReader kShapes[] = {{"sphere", readSphere}, {"box", readBox}, {"plane", readPlane}};
-
-Shape readShape(const Json& value, const std::string& where) {
-  for (const ShapeReader& shape : kShapes)
-    if (const auto found = value.find(shape.name); found != value.end())
-      return shape.read(*found, pointerTo(where, shape.name));
-  fail(where, describe(value), "a shape");
-}
-
 Inertia readInertia(const Json& value, const std::string& where) {
   const bool rows = value[0].is_array();
   for (std::size_t i = 1; i < 3; ++i)
@@ -96,15 +69,16 @@ void requireAtRest(const Body& body, const std::string& where) {
     fail(where + "/angular_velocity", "an angular velocity of a fixed body", "none, or zeros");
 }
 
-Body readBody(const Json& value, const std::string& where) {
+Body readBody(const Json& value, const std::string& where, SurfaceFiles& files) {
   Body body;
   body.name = value["name"].get<std::string>();
   body.fixed = value.contains("fixed") && value["fixed"].get<bool>();
   if (value.contains("material")) body.material = value["material"].get<std::string>();
-  body.shape = readShape(value["shape"], where + "/shape");
+  body.shape = readShape(value["shape"], where + "/shape", files);
   if (value.contains("mass")) body.mass = value["mass"].get<double>();
   if (value.contains("density")) body.density = value["density"].get<double>();
   if (value.contains("inertia")) body.inertia = readInertia(value["inertia"], where + "/inertia");
+  if (value.contains("center_of_mass")) body.center_of_mass = readVector(value["center_of_mass"]);
   body.position = vectorOr(value, "position", body.position);
   if (value.contains("orientation")) body.orientation = readQuaternion(value["orientation"], where + "/orientation");
   body.velocity = vectorOr(value, "velocity", body.velocity);
@@ -113,12 +87,12 @@ Body readBody(const Json& value, const std::string& where) {
   return body;
 }
 
-void readBodies(const Json& list, Scene& scene) {
+void readBodies(const Json& list, Scene& scene, SurfaceFiles& files) {
   std::set<std::string> materials;
   for (const Material& material : scene.materials) materials.insert(material.name);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string where = pointerTo("/bodies", i);
-    Body body = readBody(list[i], where);
+    Body body = readBody(list[i], where, files);
     if (!body.material.empty() && materials.count(body.material) == 0)
       failUnknownMaterial(where + "/material", body.material, scene);
     scene.bodies.push_back(std::move(body));
@@ -172,13 +146,13 @@ void failUnknownMaterial(const std::string& where, const std::string& name, cons
   fail(where, quotedText(name), "the name of a material (there is " + listed(namesOf(scene.materials)) + ")");
 }
 
-Scene readScene(const Json& document) {
+Scene readScene(const Json& document, SurfaceFiles& files) {
   Scene scene;
   scene.gravity = vectorOr(document, "gravity", scene.gravity);
   if (const auto materials = document.find("materials"); materials != document.end())
     for (const auto& material : materials->items())
       scene.materials.push_back(readMaterial(material.key(), material.value()));
-  readBodies(document["bodies"], scene);
+  readBodies(document["bodies"], scene, files);
   if (const auto tilts = document.find("tilts"); tilts != document.end()) readTilts(*tilts, scene);
   return scene;
 }

@@ -6,6 +6,7 @@
 #include "adjoint/errors.h"
 #include "editing/control_kinds.h"
 #include "formats/detail/scene_reader.hpp"
+#include "formats/detail/scene_writer.hpp"
 #include "formats/json_writer.h"
 #include "formats/scene_json.h"
 
@@ -28,22 +29,6 @@ void writeMaterial(JsonWriter& out, const Material& m) {
     out.endObject();
   }
   out.endObject();
-}
-
-struct WriteShape {
-  JsonWriter& out;
-  void operator()(const Sphere& s) const { out.key("radius").number(s.radius); }
-  void operator()(const Box& s) const { out.key("size").vector(s.size); }
-  void operator()(const Plane& s) const {
-    out.key("normal").vector(s.normal);
-    out.key("offset").number(s.offset);
-  }
-};
-
-void writeShape(JsonWriter& out, const Shape& shape) {
-  out.key("shape").beginObject(Layout::line).key(kindOf(shape).name).beginObject();
-  std::visit(WriteShape{out}, shape);
-  out.endObject().endObject();
 }
 
 /// Entries to 15 digits of the largest one: below that they hold only the rounding of moments and axes, and a matrix
@@ -83,7 +68,8 @@ void writeBody(JsonWriter& out, const Body& body) {
   if (body.mass) out.key("mass").number(*body.mass);
   if (body.density) out.key("density").number(*body.density);
   writeInertia(out, body.inertia);
-  writeShape(out, body.shape);
+  detail::writeShape(out.key("shape"), body.shape);
+  if (body.center_of_mass) out.key("center_of_mass").vector(*body.center_of_mass);
   // A floor need not say that it lies at the origin.
   if (!body.fixed || !body.position.isZero(0)) out.key("position").vector(body.position);
   if (!body.fixed || body.orientation.coeffs() != Quat::Identity().coeffs())
@@ -184,6 +170,8 @@ void requireFinite(const std::string& where, double value) {
 /// What `validate` does not see. The components that a constraint leaves free are the only numbers that may be NaN.
 void requireWritable(const Document& document) {
   validate(document.scene);
+  for (std::size_t i = 0; i < document.scene.bodies.size(); ++i)
+    detail::requireFiles(document.scene.bodies[i].shape, "/bodies/" + std::to_string(i) + "/shape");
   requireFinite("/duration", document.duration);
   for (std::size_t i = 0; i < document.controls.size(); ++i) {
     const Control& control = document.controls[i];

@@ -41,6 +41,21 @@ std::string exportJson(const std::string& file, std::size_t bytes, const Motion&
   return out.take();
 }
 
+std::string importJson(const std::string& file, const Imported& imported, const std::vector<std::string>& meshes) {
+  const Document& document = imported.document;
+  JsonWriter out;
+  out.beginObject();
+  out.key("file").text(file);
+  out.key("bodies").integer(static_cast<long long>(document.scene.bodies.size()));
+  out.key("materials").integer(static_cast<long long>(document.scene.materials.size()));
+  out.key("controls").integer(static_cast<long long>(document.controls.size()));
+  out.key("constraints").integer(static_cast<long long>(document.constraints.size()));
+  out.key("meshes").texts(meshes);
+  out.key("warnings").texts(imported.report.warnings);
+  out.endObject();
+  return out.take();
+}
+
 std::string programJson(const ProgramInfo& info) {
   JsonWriter out;
   out.beginObject();

@@ -6,6 +6,7 @@
 
 #include "adjoint/motion.h"
 #include "formats/document.h"
+#include "formats/import_gltf.h"
 
 namespace carom {
 
@@ -19,6 +20,10 @@ std::string validateJson(const std::string& file, const Document& document, cons
 
 /// The answer of `carom export --json`: file, bytes, and the status, message and end of the motion that was written.
 std::string exportJson(const std::string& file, std::size_t bytes, const Motion& motion);
+
+/// The answer of `carom import --json`: file, bodies, materials, controls, constraints (how many there are), meshes
+/// (the files beside the document) and warnings.
+std::string importJson(const std::string& file, const Imported& imported, const std::vector<std::string>& meshes);
 
 /// The answer of `carom info --json` without a scene.
 struct ProgramInfo {

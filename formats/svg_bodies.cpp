@@ -3,6 +3,8 @@
 #include <variant>
 
 #include "formats/detail/svg_layers.hpp"
+#include "formats/detail/svg_silhouette.hpp"
+#include "formats/motion_extent.h"
 #include "formats/palette.h"
 
 namespace carom {
@@ -32,16 +34,30 @@ void polygon(SvgCanvas& canvas, const std::vector<Vec2>& points, const Look& loo
                              {"stroke-linejoin", "round"}});
 }
 
+void path(SvgCanvas& canvas, const std::string& name, const std::string& data, const Look& look) {
+  if (data.empty()) return;
+  SvgAttributes attributes{{"d", data},
+                           {"fill", look.fill},
+                           {"fill-opacity", svgNumber(look.fill_opacity)},
+                           {"stroke", look.stroke},
+                           {"stroke-width", svgNumber(look.stroke_width)},
+                           {"stroke-linejoin", "round"}};
+  if (!name.empty()) attributes.insert(attributes.begin(), {"data-body", name});
+  canvas.element("path", attributes);
+}
+
 struct ShapePainter {
   SvgCanvas& canvas;
   const View& view;
+  const std::string& name;
   const Vec3& x;
   const Quat& q;
   const Look& look;
 
   void operator()(const Sphere& sphere) const {
     const Vec2 centre = view.pixel(x);
-    canvas.element("circle", {{"cx", svgNumber(centre.x())},
+    canvas.element("circle", {{"data-body", name},
+                              {"cx", svgNumber(centre.x())},
                               {"cy", svgNumber(centre.y())},
                               {"r", svgNumber(sphere.radius * view.scale)},
                               {"fill", look.fill},
@@ -50,11 +66,13 @@ struct ShapePainter {
                               {"stroke-width", svgNumber(look.stroke_width)}});
   }
 
-  void operator()(const Box& box) const {
-    const auto faces = visibleFaces(box, x, q, view);
-    if (faces.size() > 1)
-      for (const auto& face : faces) polygon(canvas, face, {"none", look.stroke, 0.5 * look.stroke_width, 1});
-    polygon(canvas, outlineOf(box, x, q, view), look);
+  template <class Any>
+  void operator()(const Any& shape) const {
+    const Silhouette seen = silhouetteOf(shape, x, q, view);
+    const bool whole = seen.outline.empty();
+    path(canvas, name, seen.area, whole ? look : Look{look.fill, "none", 0, look.fill_opacity});
+    path(canvas, "", seen.edges, {"none", look.stroke, 0.5 * look.stroke_width, 1});
+    path(canvas, "", seen.outline, {"none", look.stroke, look.stroke_width, 1});
   }
 
   // The half space seen from its edge: a line, hatched on the solid side. Otherwise it has no outline to draw.
@@ -72,7 +90,8 @@ struct ShapePainter {
     const Vec2 along(-out.y(), out.x()), middle = view.pixel(foot);
     const double reach = view.panel.width + view.panel.height + std::abs(along.dot(middle - solid.front()));
     const Vec2 a = middle - reach * along, b = middle + reach * along;
-    canvas.element("line", {{"x1", svgNumber(a.x())},
+    canvas.element("line", {{"data-body", name},
+                            {"x1", svgNumber(a.x())},
                             {"y1", svgNumber(a.y())},
                             {"x2", svgNumber(b.x())},
                             {"y2", svgNumber(b.y())},
@@ -81,9 +100,8 @@ struct ShapePainter {
   }
 };
 
-void drawShape(SvgCanvas& canvas, const View& view, const Shape& shape, const Vec3& x, const Quat& q,
-               const Look& look) {
-  std::visit(ShapePainter{canvas, view, x, q, look}, shape);
+void drawShape(SvgCanvas& canvas, const View& view, const Body& body, const Vec3& x, const Quat& q, const Look& look) {
+  std::visit(ShapePainter{canvas, view, body.name, x, q, look}, body.shape);
 }
 
 void dot(SvgCanvas& canvas, const Vec2& at, const std::string& fill, const std::string& stroke) {
@@ -113,7 +131,7 @@ void drawFixedBodies(SvgCanvas& canvas, const View& view, const Picture& picture
   for (const bool planes : {true, false})
     for (const Body& body : scene.bodies)
       if (body.fixed && std::holds_alternative<Plane>(body.shape) == planes)
-        drawShape(canvas, view, body.shape, body.position, body.orientation, look);
+        drawShape(canvas, view, body, body.position, body.orientation, look);
   canvas.close();
 }
 
@@ -144,7 +162,7 @@ void drawGhosts(SvgCanvas& canvas, const View& view, const Picture& picture) {
       const BodyState s = motion.stateAt(body, times[k]);
       const Colour colour = bodyColour(scene, body);
       const Look look{colour.hex(), colour.mixedWith({0, 0, 0}, 0.25).hex(), 1.1, last ? 0.5 : 0.28};
-      drawShape(canvas, view, scene.bodies[body].shape, s.position, s.orientation, look);
+      drawShape(canvas, view, scene.bodies[body], s.position, s.orientation, look);
     }
     canvas.close();
   }
@@ -158,15 +176,15 @@ void drawPaths(SvgCanvas& canvas, const View& view, const Picture& picture) {
     if (motion.scene->bodies[body].fixed) continue;
     const std::string colour = bodyColour(*motion.scene, body).hex();
     canvas.element("path", {{"d", pathData(motion, body, view)}, {"stroke", colour}});
-    dot(canvas, view.pixel(motion.stateAt(body, 0).position), "#ffffff", colour);
-    dot(canvas, view.pixel(motion.stateAt(body, motion.end).position), colour, colour);
+    dot(canvas, view.pixel(centreAt(motion, body, 0)), "#ffffff", colour);
+    dot(canvas, view.pixel(centreAt(motion, body, motion.end)), colour, colour);
   }
   canvas.close();
 }
 
-void drawPose(SvgCanvas& canvas, const View& view, const Shape& shape, const Vec3& x, const Quat& q) {
+void drawPose(SvgCanvas& canvas, const View& view, const Body& body, const Vec3& x, const Quat& q) {
   canvas.open("g", {{"class", "target-pose"}, {"stroke-dasharray", "5 3"}});
-  drawShape(canvas, view, shape, x, q, {"none", kNailColour, 2, 1});
+  drawShape(canvas, view, body, x, q, {"none", kNailColour, 2, 1});
   canvas.close();
 }
 

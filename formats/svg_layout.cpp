@@ -14,19 +14,8 @@ constexpr double kTallest = 430, kLowest = 110;  // panel heights
 constexpr double kTitleRoom = 30;                // above each panel
 constexpr double kMargin = 0.06;                 // around the content, share of its longest side
 
-Extent boxExtent(const Body& body, const Box& box) {
-  Extent extent;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    extent.extend(body.position + body.orientation * (0.5 * box.size.cwiseProduct(sign)));
-  }
-  return extent;
-}
-
 Extent fixedExtent(const Body& body, const Vec3& centre) {
-  if (const Box* box = std::get_if<Box>(&body.shape)) return boxExtent(body, *box);
-  if (const Sphere* sphere = std::get_if<Sphere>(&body.shape))
-    return Extent(body.position - Vec3::Constant(sphere->radius), body.position + Vec3::Constant(sphere->radius));
+  if (!std::holds_alternative<Plane>(body.shape)) return shapeExtent(body.shape, body.position, body.orientation);
   const Plane& plane = std::get<Plane>(body.shape);
   const Vec3 n = body.orientation * plane.normal;
   const Vec3 foot = centre + (n.dot(body.position) + plane.offset - n.dot(centre)) * n;
@@ -44,7 +33,7 @@ Extent shownExtent(const Picture& picture) {
     shown.extend(target);
     if (nail.pose_origin) {
       const Shape& shape = picture.motion.scene->bodies[nail.body].shape;
-      const Vec3 radius = Vec3::Constant(kindOf(shape).boundingRadius(shape));
+      const Vec3 radius = Vec3::Constant(radiusAbout(shape, Vec3::Zero()));
       shown.extend(Extent(*nail.pose_origin - radius, *nail.pose_origin + radius));
     }
   }

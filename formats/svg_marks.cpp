@@ -80,7 +80,7 @@ void avoidPaths(const View& view, const Picture& picture, LabelPlacer& placer) {
     for (int body = 0; body < static_cast<int>(motion->scene->bodies.size()); ++body)
       if (!motion->scene->bodies[body].fixed)
         for (int i = 0; i <= kSamples; ++i)
-          placer.avoidIfPossible(view.pixel(motion->stateAt(body, motion->end * (i / kSamples)).position));
+          placer.avoidIfPossible(view.pixel(centreAt(*motion, body, motion->end * (i / kSamples))));
   }
 }
 
@@ -88,7 +88,7 @@ void drawNails(SvgCanvas& canvas, const View& view, const Picture& picture, Labe
   for (const Nail& nail : picture.nails) {
     const Vec2 p = seen(view, nail);
     if (nail.orientation && nail.pose_origin)
-      drawPose(canvas, view, picture.motion.scene->bodies[nail.body].shape, *nail.pose_origin, *nail.orientation);
+      drawPose(canvas, view, picture.motion.scene->bodies[nail.body], *nail.pose_origin, *nail.orientation);
     if (p.allFinite()) {
       drawHoop(canvas, p, nail.nails_position);
       placer.avoid(boxAround(p, kHoopRadius + 2));
@@ -115,7 +115,7 @@ void labelBodies(SvgCanvas& canvas, const View& view, const Picture& picture, La
   int names = 0;
   for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {
     if (scene.bodies[body].fixed || ++names > kMaxNames) continue;
-    const Vec2 start = view.pixel(picture.motion.stateAt(body, 0).position);
+    const Vec2 start = view.pixel(centreAt(picture.motion, body, 0));
     const Colour colour = bodyColour(scene, body).mixedWith({0, 0, 0}, 0.2);
     const std::string& name = scene.bodies[body].name;
     label(canvas, placer.place(start, 5, name, kFont), name, colour.hex());

@@ -2,16 +2,25 @@
 
 #include <limits>
 
+#include "adjoint/errors.h"
+
 namespace carom {
 namespace {
 
 // Vertex v of a box has coordinate +half on axis k where bit k of v is set; faces are -x, +x, -y, +y, -z, +z; edges
 // 4 k + s run along axis k, with s the sign bits of the two axes after k.
 
+Feature blank(int dimensions) {
+  Feature f;
+  f.dpoint.setZero(3, dimensions);
+  f.dradius.setZero(dimensions);
+  return f;
+}
+
 double sign(int bit) { return bit ? 1.0 : -1.0; }
 
 Feature boxVertex(const Vec3& half, int v) {
-  Feature f;
+  Feature f = blank(3);
   for (int k = 0; k < 3; ++k) {
     f.point[k] = sign(v >> k & 1) * half[k];
     f.dpoint(k, k) = 0.5 * sign(v >> k & 1);
@@ -20,7 +29,7 @@ Feature boxVertex(const Vec3& half, int v) {
 }
 
 Feature boxFace(const Vec3& half, int face) {
-  Feature f;
+  Feature f = blank(3);
   const int k = face / 2;
   f.direction[k] = sign(face % 2);
   f.point[k] = f.direction[k] * half[k];
@@ -29,7 +38,7 @@ Feature boxFace(const Vec3& half, int face) {
 }
 
 Feature boxEdge(const Vec3& half, int edge) {
-  Feature f;
+  Feature f = blank(3);
   const int k = edge / 4;
   f.direction[k] = 1;
   for (int j = 0; j < 2; ++j) {
@@ -53,9 +62,9 @@ struct SolidMaker {
     Solid solid;
     solid.ball = true;
     solid.radius = s.radius;
-    Feature centre;
+    Feature centre = blank(1);
     centre.radius = s.radius;
-    centre.dradius = Vec3::UnitX();
+    centre.dradius[0] = 1;
     solid.vertices.push_back(centre);
     return solid;
   }
@@ -75,11 +84,15 @@ struct SolidMaker {
   Solid operator()(const Plane& p) const {
     Solid solid;
     solid.plane = true;
-    Feature face;
+    Feature face = blank(0);
     face.direction = p.normal;
     face.point = p.offset * p.normal;
     solid.faces.push_back(face);
     return solid;
+  }
+  template <class Other>
+  Solid operator()(const Other&) const {
+    throw InputError("/bodies", "found a shape without collision geometry, expected a sphere, box or plane");
   }
 };
 

@@ -13,8 +13,8 @@ struct Feature {
   Vec3 point = Vec3::Zero();      ///< the vertex, the middle of the edge, a point of the face
   Vec3 direction = Vec3::Zero();  ///< unit: along the edge, or out of the face; 0 for a vertex
   double radius = 0;
-  Mat3 dpoint = Mat3::Zero();  ///< d point / d dimensions
-  Vec3 dradius = Vec3::Zero();
+  Eigen::Matrix3Xd dpoint;      ///< d point / d dimensions
+  Eigen::RowVectorXd dradius;   ///< d radius / d dimensions
 };
 
 /// A convex solid (or half space) by its features: exact double geometry beside the collision library's.

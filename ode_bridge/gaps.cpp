@@ -146,12 +146,12 @@ WorldFeature place(const Feature& f, const Pose& pose) {
 }
 
 // d(feature in the world) by (x, theta, dimensions), folded into the columns of one side.
-void fold(const FeatureJacobian& J, int column, const Feature& f, const Pose& pose, ContactJacobian& out, int pose_at,
-          int size_at) {
+void fold(const FeatureJacobian& J, int column, const Feature& f, const Pose& pose,
+          Eigen::Ref<Eigen::Matrix<double, 7, 6>> by_pose, Eigen::Matrix<double, 7, Eigen::Dynamic>& by_size) {
   const auto JP = J.middleCols<3>(column), JD = J.middleCols<3>(column + 3);
-  out.middleCols<3>(pose_at) = JP;
-  out.middleCols<3>(pose_at + 3) = -JP * skew(pose.R * f.point) - JD * skew(pose.R * f.direction);
-  out.middleCols<3>(size_at) = JP * (pose.R * f.dpoint) + J.col(column + 6) * f.dradius.transpose();
+  by_pose.leftCols<3>() = JP;
+  by_pose.rightCols<3>() = -JP * skew(pose.R * f.point) - JD * skew(pose.R * f.direction);
+  by_size = JP * (pose.R * f.dpoint) + J.col(column + 6) * f.dradius;
 }
 
 std::string nameOf(const Solid& solid, Family family, int index) {
@@ -188,8 +188,8 @@ ContactJacobian FeatureGeometry::jacobian(int a, int b, const FeaturePair& f, co
   FeatureJacobian J = row.swapped ? row.jacobian(wb, wa, f.sign) : row.jacobian(wa, wb, f.sign);
   if (row.swapped) J.middleRows<3>(1) *= -1;
   ContactJacobian out;
-  fold(J, row.swapped ? kP2 : kP1, fa, A, out, 0, 12);
-  fold(J, row.swapped ? kP1 : kP2, fb, B, out, 6, 15);
+  fold(J, row.swapped ? kP2 : kP1, fa, A, out.pose.leftCols<6>(), out.size_a);
+  fold(J, row.swapped ? kP1 : kP2, fb, B, out.pose.rightCols<6>(), out.size_b);
   return out;
 }
 

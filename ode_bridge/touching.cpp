@@ -54,7 +54,7 @@ bool crossInside(const Placed& a, const Placed& b, int edge_a, int edge_b, const
 std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, const Witness& witness, double tolerance) {
   std::vector<FeaturePair> found;
   const auto add = [&](int kind, int fa, int fb, int sign = 1) {
-    found.push_back({static_cast<std::int16_t>(kind), static_cast<std::int16_t>(fa), static_cast<std::int16_t>(fb),
+    found.push_back({static_cast<std::int16_t>(kind), fa, fb,
                      static_cast<std::int16_t>(sign)});
   };
   if (a.solid->box && b.solid->plane) {

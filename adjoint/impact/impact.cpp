@@ -64,9 +64,8 @@ std::vector<StateDerivative> ImpactAssembly::tangent(const Eigen::VectorXd& P,
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const MovingBody& b = bodies_[i];
     const BodyModel& m = *b.model;
-    const Vec3 dD = -dmodel[i].inertia.cwiseProduct(m.inverse_inertia).cwiseProduct(m.inverse_inertia);
     const Mat3 T = skew(dbefore[i].theta);
-    dA[i] = T * b.A - b.A * T + b.R * dD.asDiagonal() * b.R.transpose();
+    dA[i] = T * b.A - b.A * T - b.A * b.R * dmodel[i].inertiaTensor() * b.R.transpose() * b.A;
     domega[i] = dA[i] * event_.participants[i].before.L + b.A * dbefore[i].L;
     dinverse_mass[i] = -dmodel[i].mass * m.inverse_mass * m.inverse_mass;
   }
@@ -158,10 +157,9 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
     const BodyModel& m = *b.model;
     A_bar[i] += omega_bar[i] * event_.participants[i].before.L.transpose();
     before_bar[i].L += b.A * omega_bar[i];
-    // dA = [theta]x A - A [theta]x + R dD R^T, A symmetric
+    // dA = [theta]x A - A [theta]x - A R dJ R^T A, A symmetric
     before_bar[i].theta += unskew(A_bar[i] * b.A - b.A * A_bar[i]);
-    const Vec3 D_bar = (b.R.transpose() * A_bar[i] * b.R).diagonal();
-    model_bar[i].inertia -= D_bar.cwiseProduct(m.inverse_inertia).cwiseProduct(m.inverse_inertia);
+    model_bar[i].addInertiaBar(-(b.R.transpose() * b.A * A_bar[i] * b.A * b.R));
     model_bar[i].mass -= inverse_mass_bar[i] * m.inverse_mass * m.inverse_mass;
   }
   return before_bar;

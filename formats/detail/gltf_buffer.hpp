@@ -24,6 +24,9 @@ class GltfBuffer {
   int addVertices(const std::vector<Vec3>& vertices, const std::string& what);
   int addIndices(const std::vector<std::uint32_t>& indices);
 
+  /// Appends coordinates as doubles, which no accessor can name. Returns the index of the buffer view.
+  int addDoubles(const std::vector<Vec3>& vectors);
+
  private:
   int addFloats(const std::vector<float>& numbers, int width, int type, int target, bool bounds,
                 const std::string& what);

@@ -14,8 +14,12 @@ struct TriangleMesh {
   std::vector<std::uint32_t> triangles, accent;
 };
 
-/// Mesh of a shape in its own axes; a plane becomes a square of the given half width in x and z about the origin,
-/// facing +y (as glTF's implicit plane).
+/// Mesh of a shape in its own axes: round shapes inscribed, hulls and meshes as they are, compounds part by part (parts
+/// that overlap stay apart). Round surfaces and shallow edges have smooth normals, others flat ones. A plane becomes a
+/// square of the given half width in x and z about the origin, facing +y (as glTF's implicit plane).
 TriangleMesh meshOf(const Shape& shape, double plane_half_width);
+
+/// Adds the faces of a hull or mesh, coordinates times `scale`.
+void addSurface(TriangleMesh& mesh, const Surface& surface, double scale);
 
 }  // namespace carom

@@ -9,9 +9,11 @@ namespace carom::detail {
 
 using Json = nlohmann::ordered_json;  // members in the order of the document
 
+inline constexpr std::size_t kMostValues = 400'000;  ///< keeps the memory of a hostile document small
+
 /// Text -> tree, within limits of nesting and number of values. Throws InputError for text that is not JSON (where =
 /// line and column), numbers too large for a double, and members given twice (where = JSON pointer).
-Json parseJson(std::string_view text);
+Json parseJson(std::string_view text, std::size_t most_values = kMostValues);
 
 /// Throws InputError at the deepest place where the document breaks formats/scene.schema.json.
 void requireSchema(const Json& document);

@@ -6,10 +6,18 @@
 
 namespace carom::detail {
 
+class SurfaceFiles;
+
 // From a document that follows the schema. Throw InputError for what the schema cannot say.
-Scene readScene(const Json& document);
+Scene readScene(const Json& document, SurfaceFiles& files);
 std::vector<Control> readControls(const Json& document, const Scene& scene);
 std::vector<Constraint> readConstraints(const Json& document, const Scene& scene, double duration);
+
+/// The shape that an object has as one of its members.
+Shape readShape(const Json& value, const std::string& where, SurfaceFiles& files);
+
+/// A norm that differs from 1 by no more than this is left alone, so that reading what was written changes nothing.
+inline constexpr double kUnitRounding = 1e-15;
 
 Vec3 readVector(const Json& value);
 /// Unit quaternion from [w, x, y, z]; accepts numbers that were rounded to three digits.

@@ -27,8 +27,8 @@ void drawFixedBodies(SvgCanvas& canvas, const View& view, const Picture& picture
 void drawPathsBefore(SvgCanvas& canvas, const View& view, const Picture& picture);
 void drawGhosts(SvgCanvas& canvas, const View& view, const Picture& picture);
 void drawPaths(SvgCanvas& canvas, const View& view, const Picture& picture);
-/// The outline of a shape at a nailed pose.
-void drawPose(SvgCanvas& canvas, const View& view, const Shape& shape, const Vec3& x, const Quat& q);
+/// The outline of a body at a nailed pose.
+void drawPose(SvgCanvas& canvas, const View& view, const Body& body, const Vec3& x, const Quat& q);
 /// Impacts, nails with their poses, and all labels.
 void drawMarks(SvgCanvas& canvas, const View& view, const Picture& picture);
 

@@ -31,17 +31,10 @@ struct View {
   Vec2 pixel(const Vec3& p) const { return pixelOf(project(p)); }
 };
 
-/// Outline in pixels of a box at a pose (convex hull of its corners), and its faces that the viewer sees.
-std::vector<Vec2> outlineOf(const Box& box, const Vec3& x, const Quat& q, const View& view);
-std::vector<std::vector<Vec2>> visibleFaces(const Box& box, const Vec3& x, const Quat& q, const View& view);
-
-/// Convex hull in two dimensions, in order around it.
-std::vector<Vec2> convexHull(std::vector<Vec2> points);
-
 /// The part of a convex polygon where normal . p <= offset.
 std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, const Vec2& normal, double offset);
 
-/// SVG path data of the path of a body's origin; arcs of flight are parabolas, which SVG draws exactly.
+/// SVG path data of the path of a body's centre of mass; arcs of flight are parabolas, which SVG draws exactly.
 std::string pathData(const Motion& motion, int body, const View& view);
 
 }  // namespace carom

@@ -25,16 +25,19 @@ class FloorGeometry final : public ContactGeometry {
   }
   ContactJacobian jacobian(int a, int, const FeaturePair&, const Pose& A, const Pose& B) const override {
     const double r = radii_[static_cast<std::size_t>(a)];
-    ContactJacobian J = ContactJacobian::Zero();
-    J(0, 2) = 1, J(0, 8) = -1, J(0, 12) = -1;
+    ContactJacobian jacobian;
+    auto& J = jacobian.pose;
+    J(0, 2) = 1, J(0, 8) = -1;
     // the normal turns with the floor, about the floor's origin
     const Mat3 turn = -skew(Vec3::UnitZ());
     J.block<1, 3>(0, 9) = (A.x - B.x).transpose() * turn;
     J.block<3, 3>(1, 9) = turn;
     J.block<3, 3>(4, 0).setIdentity();
     J.block<3, 3>(4, 9) = -r * turn;
-    J.block<3, 1>(4, 12) = -Vec3::UnitZ();
-    return J;
+    jacobian.size_a = Eigen::Matrix<double, 7, 1>::Zero();
+    jacobian.size_a(0, 0) = -1;
+    jacobian.size_a.col(0).tail<3>() = -Vec3::UnitZ();
+    return jacobian;
   }
   std::string describe(int, int, const FeaturePair&) const override { return "ball on floor"; }
 

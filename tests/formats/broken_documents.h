@@ -16,6 +16,7 @@ struct BrokenDocument {
 
 std::vector<BrokenDocument> brokenTexts();    ///< not JSON, or not within its limits
 std::vector<BrokenDocument> brokenMembers();  ///< of the schema
+std::vector<BrokenDocument> brokenShapes();   ///< of the schema, and what a shape must be
 std::vector<BrokenDocument> brokenMeaning();  ///< what the schema cannot say
 
 }  // namespace carom::formats_test

@@ -53,6 +53,10 @@ TEST(BrokenDocuments, members) {
   for (const BrokenDocument& broken : formats_test::brokenMembers()) expectRefused(broken);
 }
 
+TEST(BrokenDocuments, shapes) {
+  for (const BrokenDocument& broken : formats_test::brokenShapes()) expectRefused(broken);
+}
+
 TEST(BrokenDocuments, meaning) {
   for (const BrokenDocument& broken : formats_test::brokenMeaning()) expectRefused(broken);
 }

@@ -62,7 +62,7 @@ std::vector<BrokenDocument> brokenTexts() {
       {"hexadecimal", "\"duration\": 2.5", "\"duration\": 0x10", "", {"expected valid JSON"}},
       {"badUtf8", "\"name\": \"crate\"", "\"name\": \"cr\xff\xfe\"", "", {"line ", "expected valid JSON", "UTF-8"}},
       {"controlCharacter", "\"name\": \"crate\"", "\"name\": \"cr\nate\"", "", {"line ", "control character"}},
-      {"depthBomb", "", depthBomb(), "", {"more than 32 levels of nesting", "expected fewer"}},
+      {"depthBomb", "", depthBomb(), "", {"more than 48 levels of nesting", "expected fewer"}},
       {"manyValues", "", manyValues(), "", {"more than 400000 values"}},
       {"manyMembers", "", manyMembers(), "", {"expected", "10000 materials"}},
       {"longText", "", longText(), "/duration", {"found \"long long", "...\"", "expected a number > 0"}},

@@ -14,9 +14,7 @@ using nlohmann::json;
 class NoGeometry : public ContactGeometry {
  public:
   ContactPoint contact(int, int, const FeaturePair&, const Pose&, const Pose&) const override { return {}; }
-  ContactJacobian jacobian(int, int, const FeaturePair&, const Pose&, const Pose&) const override {
-    return ContactJacobian::Zero();
-  }
+  ContactJacobian jacobian(int, int, const FeaturePair&, const Pose&, const Pose&) const override { return {}; }
   std::string describe(int, int, const FeaturePair&) const override { return {}; }
 };
 

@@ -49,7 +49,22 @@ const std::string& documentWithEverything() {
       "velocity": [2.2, 1e-7, -2.5e8], "angular_velocity": [0.1, 0.2, 0.30000000000000004] },
     { "name": "crate", "mass": 2,
       "inertia": [[0.2, 0.01, 0.005], [0.01, 0.25, -0.02], [0.005, -0.02, 0.3]],
-      "shape": { "box": { "size": [1, 1, 1] } }, "position": [-5, 0, 6] }
+      "shape": { "box": { "size": [1, 1, 1] } }, "position": [-5, 0, 6] },
+    { "name": "pill", "density": 1100, "shape": { "capsule": { "radius": 0.11, "height": 0.7 } }, "position": [-8, 0, 6] },
+    { "name": "can", "density": 1200, "shape": { "cylinder": { "radius": 0.12, "height": 0.9 } }, "position": [-9, 0, 6] },
+    { "name": "die", "mass": 0.031, "center_of_mass": [0.013, -0.002, 0.001],
+      "shape": { "hull": { "points": [
+        [0, 0, 0], [0.3, 0, 0], [0, 0.3, 0], [0.05, 0.05, 0.05], [0, 0, 0.30000000000000004] ], "scale": 1.25 } },
+      "position": [-10, 0, 6] },
+    { "name": "hat", "density": 70,
+      "shape": { "compound": [
+        { "cylinder": { "radius": 0.16, "height": 0.01 } },
+        { "cylinder": { "radius": 0.09, "height": 0.13 }, "position": [0, 0, 0.06], "orientation": [0.28, 0, 0, 0.96] },
+        { "compound": [
+          { "sphere": { "radius": 0.021 }, "position": [0, 0.5, 0] },
+          { "hull": { "points": [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]] } },
+          { "box": { "size": [0.31, 0.32, 0.33] }, "orientation": [0, 0.6, 0, 0.8] } ], "position": [0, 0, 1.5] } ] },
+      "position": [-20, 0, 6] }
   ],
   "tilts": [
     { "body": "book", "impact": 1, "value": [0.01, -0.02] },
@@ -68,7 +83,9 @@ const std::string& documentWithEverything() {
     { "vary": "size", "body": "ball", "components": ["radius"] },
     { "vary": "size", "body": "book", "components": ["y"] },
     { "vary": "tilt", "body": "book", "impact": 2, "max": 0.15 },
-    { "vary": "gravity", "components": ["z"] }
+    { "vary": "gravity", "components": ["z"] },
+    { "vary": "size", "body": "hat", "components": ["0.radius", "1.height", "2.0.radius", "2.1.scale"] },
+    { "vary": "size", "body": "die", "min": 0.5 }
   ],
   "constraints": [
     { "body": "book", "at": 1.4, "position": [1.9, null, 1.7], "orientation": [0.8, 0, 0.6, 0] },

@@ -10,6 +10,7 @@
 
 #include "formats/json_writer.h"
 #include "formats/scene_json.h"
+#include "tests/formats/same_documents.h"
 #include "tests/formats/scene_documents.h"
 
 namespace carom {
@@ -17,105 +18,10 @@ namespace {
 
 using formats_test::documentWithEverything;
 using formats_test::exampleScenes;
+using formats_test::expectRoundTrip;
+using formats_test::expectSameScene;
 using formats_test::replaced;
 using formats_test::textOf;
-
-template <class A, class B>
-void expectSameNumbers(const A& a, const B& b, const std::string& where) {
-  ASSERT_EQ(a.size(), b.size()) << where;
-  for (int i = 0; i < static_cast<int>(a.size()); ++i)
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(static_cast<double>(a[i])),
-              std::bit_cast<std::uint64_t>(static_cast<double>(b[i])))
-        << where << " " << i << ": " << numberText(a[i]) << " " << numberText(b[i]);
-}
-
-void expectSameBody(const Body& a, const Body& b) {
-  EXPECT_EQ(a.name, b.name);
-  EXPECT_EQ(a.fixed, b.fixed);
-  EXPECT_EQ(a.material, b.material);
-  EXPECT_EQ(a.mass, b.mass);
-  EXPECT_EQ(a.density, b.density);
-  ASSERT_EQ(a.shape.index(), b.shape.index());
-  expectSameNumbers(kindOf(a.shape).dimensions(a.shape), kindOf(b.shape).dimensions(b.shape), a.name + " shape");
-  if (const auto* plane = std::get_if<Plane>(&a.shape)) {
-    expectSameNumbers(plane->normal, std::get<Plane>(b.shape).normal, a.name + " normal");
-    EXPECT_EQ(plane->offset, std::get<Plane>(b.shape).offset);
-  }
-  ASSERT_EQ(a.inertia.source, b.inertia.source);
-  if (a.inertia.source == Inertia::Source::matrix) {
-    EXPECT_LE((a.inertia.matrix() - b.inertia.matrix()).norm(), 1e-14 * a.inertia.matrix().norm());
-  } else {
-    expectSameNumbers(a.inertia.moments, b.inertia.moments, a.name + " inertia");
-  }
-  expectSameNumbers(a.position, b.position, a.name + " position");
-  expectSameNumbers(a.orientation.coeffs(), b.orientation.coeffs(), a.name + " orientation");
-  expectSameNumbers(a.velocity, b.velocity, a.name + " velocity");
-  expectSameNumbers(a.angular_velocity, b.angular_velocity, a.name + " angular_velocity");
-}
-
-void expectSameScene(const Scene& a, const Scene& b) {
-  expectSameNumbers(a.gravity, b.gravity, "gravity");
-  ASSERT_EQ(a.materials.size(), b.materials.size());
-  for (std::size_t i = 0; i < a.materials.size(); ++i) {
-    const Material &m = a.materials[i], &n = b.materials[i];
-    EXPECT_EQ(m.name, n.name);
-    EXPECT_EQ(m.elasticity, n.elasticity);
-    EXPECT_EQ(m.friction, n.friction);
-    EXPECT_EQ(m.tangential_elasticity, n.tangential_elasticity);
-    EXPECT_EQ(m.combine_elasticity, n.combine_elasticity);
-    EXPECT_EQ(m.combine_friction, n.combine_friction);
-  }
-  ASSERT_EQ(a.bodies.size(), b.bodies.size());
-  for (std::size_t i = 0; i < a.bodies.size(); ++i) expectSameBody(a.bodies[i], b.bodies[i]);
-  ASSERT_EQ(a.tilts.size(), b.tilts.size());
-  for (std::size_t i = 0; i < a.tilts.size(); ++i) {
-    EXPECT_EQ(a.tilts[i].body, b.tilts[i].body);
-    EXPECT_EQ(a.tilts[i].impact, b.tilts[i].impact);
-    expectSameNumbers(a.tilts[i].value, b.tilts[i].value, "tilt");
-  }
-}
-
-void expectSameEdit(const Document& a, const Document& b) {
-  ASSERT_EQ(a.controls.size(), b.controls.size());
-  for (std::size_t i = 0; i < a.controls.size(); ++i) {
-    const Control &c = a.controls[i], &d = b.controls[i];
-    EXPECT_EQ(c.vary, d.vary);
-    EXPECT_EQ(c.body, d.body);
-    EXPECT_EQ(c.material, d.material);
-    EXPECT_EQ(c.impact, d.impact);
-    EXPECT_EQ(c.components, d.components);
-    EXPECT_EQ(c.min, d.min);
-    EXPECT_EQ(c.max, d.max);
-    EXPECT_EQ(c.weight, d.weight);
-  }
-  ASSERT_EQ(a.constraints.size(), b.constraints.size());
-  for (std::size_t i = 0; i < a.constraints.size(); ++i) {
-    const Constraint &c = a.constraints[i], &d = b.constraints[i];
-    EXPECT_EQ(c.body, d.body);
-    EXPECT_EQ(c.at.time, d.at.time);
-    EXPECT_EQ(c.at.impact, d.at.impact);
-    EXPECT_EQ(c.at.with, d.at.with);
-    ASSERT_EQ(c.targets.size(), d.targets.size());
-    for (std::size_t k = 0; k < c.targets.size(); ++k) {
-      EXPECT_EQ(c.targets[k].quantity, d.targets[k].quantity);
-      ASSERT_EQ(c.targets[k].value.size(), d.targets[k].value.size());
-      for (std::size_t n = 0; n < c.targets[k].value.size(); ++n) {
-        const double x = c.targets[k].value[n], y = d.targets[k].value[n];
-        EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << x << " " << y;
-      }
-      expectSameNumbers(c.targets[k].body_point, d.targets[k].body_point, "body_point");
-    }
-  }
-}
-
-void expectRoundTrip(const Document& document, const std::string& name) {
-  const std::string text = writeDocument(document);
-  const Document again = parseDocument(text, name);
-  EXPECT_EQ(again.duration, document.duration);
-  expectSameScene(document.scene, again.scene);
-  expectSameEdit(document, again);
-  EXPECT_EQ(writeDocument(again), text);
-}
 
 TEST(SceneRoundTrip, everyMember) {
   expectRoundTrip(parseDocument(documentWithEverything(), "everything"), "everything");
@@ -145,7 +51,7 @@ TEST(SceneRoundTrip, membersAreRead) {
   EXPECT_EQ(d.scene.materials[2].combine_elasticity, Combine::average);
   EXPECT_EQ(d.scene.materials[2].combine_friction, Combine::maximum);
   EXPECT_EQ(d.scene.materials[2].elasticity, 0.5);
-  ASSERT_EQ(d.scene.bodies.size(), 5u);
+  ASSERT_EQ(d.scene.bodies.size(), 9u);
   EXPECT_TRUE(d.scene.bodies[0].fixed);
   EXPECT_EQ(std::get<Plane>(d.scene.bodies[0].shape).offset, -0.125);
   EXPECT_EQ(d.scene.bodies[1].orientation.y(), 0.8);
@@ -155,6 +61,18 @@ TEST(SceneRoundTrip, membersAreRead) {
   EXPECT_EQ(d.scene.bodies[3].angular_velocity, Vec3(0.1, 0.2, 0.30000000000000004));
   EXPECT_EQ(d.scene.bodies[4].inertia.source, Inertia::Source::matrix);
   EXPECT_NEAR(d.scene.bodies[4].inertia.matrix()(1, 2), -0.02, 1e-15);
+  EXPECT_EQ(std::get<Capsule>(d.scene.bodies[5].shape).height, 0.7);
+  EXPECT_EQ(std::get<Cylinder>(d.scene.bodies[6].shape).radius, 0.12);
+  EXPECT_EQ(d.scene.bodies[7].center_of_mass, Vec3(0.013, -0.002, 0.001));
+  EXPECT_FALSE(d.scene.bodies[6].center_of_mass);
+  const Hull& die = std::get<Hull>(d.scene.bodies[7].shape);
+  EXPECT_EQ(die.surface->vertices.size(), 4u);  // the fifth point is inside
+  EXPECT_EQ(die.scale, 1.25);
+  const Compound& hat = std::get<Compound>(d.scene.bodies[8].shape);
+  ASSERT_EQ(hat.parts.size(), 3u);
+  EXPECT_EQ(hat.parts[1].position, Vec3(0, 0, 0.06));
+  EXPECT_EQ(hat.parts[1].orientation.coeffs(), Eigen::Vector4d(0, 0, 0.96, 0.28));
+  EXPECT_EQ(std::get<Compound>(hat.parts[2].shape).parts[2].orientation.w(), 0);
   ASSERT_EQ(d.scene.tilts.size(), 2u);
   EXPECT_EQ(d.scene.tilts[1].value, Vec2(0, 0.1));
   EXPECT_EQ(d.controls[0].min, (std::vector<double>{-1, -2}));

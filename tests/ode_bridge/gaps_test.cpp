@@ -119,11 +119,12 @@ struct Setting {
   ContactPoint contact() const { return geometry().contact(0, 1, row.features, A, B); }
   ContactJacobian jacobian() const { return geometry().jacobian(0, 1, row.features, A, B); }
 
-  /// Column c of a ContactJacobian, by h.
-  Setting moved(int c, double h) const {
+  /// Column c of a ContactJacobian (pose, sizes of a, sizes of b), by h.
+  Setting moved(Eigen::Index c, double h) const {
     Setting s = *this;
     if (c >= 12) {
-      (c < 15 ? s.size_a : s.size_b)[c % 3] += h;
+      const Eigen::Index of_a = jacobian().size_a.cols();
+      (c - 12 < of_a ? s.size_a[c - 12] : s.size_b[c - 12 - of_a]) += h;
       return s;
     }
     Pose& pose = c < 6 ? s.A : s.B;
@@ -148,6 +149,13 @@ Eigen::Matrix<double, 7, 1> numbersOf(const ContactPoint& c) {
   return all;
 }
 
+/// Pose and size columns side by side.
+Eigen::Matrix<double, 7, Eigen::Dynamic> columnsOf(const ContactJacobian& J) {
+  Eigen::Matrix<double, 7, Eigen::Dynamic> all(7, 12 + J.size_a.cols() + J.size_b.cols());
+  all << J.pose, J.size_a, J.size_b;
+  return all;
+}
+
 class Gap : public ::testing::TestWithParam<GapRow> {};
 
 TEST_P(Gap, JacobianIsTheLimitOfDifferences) {
@@ -155,10 +163,11 @@ TEST_P(Gap, JacobianIsTheLimitOfDifferences) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Setting s(GetParam(), seed);
-    ContactJacobian differences;
-    for (int c = 0; c < 18; ++c)
+    const auto jacobian = columnsOf(s.jacobian());
+    Eigen::Matrix<double, 7, Eigen::Dynamic> differences(7, jacobian.cols());
+    for (Eigen::Index c = 0; c < jacobian.cols(); ++c)
       differences.col(c) = (numbersOf(s.moved(c, h).contact()) - numbersOf(s.moved(c, -h).contact())) / (2 * h);
-    expectEntries(s.jacobian(), differences, 1e-7, "jacobian");
+    expectEntries(jacobian, differences, 1e-7, "jacobian");
   }
 }
 
@@ -182,11 +191,10 @@ TEST_P(Gap, RateIsThatOfTheContactPoint) {
     const ContactPoint c = s.contact();
     expectEntries(c.gap, 0, 1e-14, "gap");
     Random random(seed);
-    Eigen::Matrix<double, 18, 1> rate = Eigen::Matrix<double, 18, 1>::Zero();
-    rate.head<12>() = random.vector(12);
+    const Eigen::Matrix<double, 12, 1> rate = random.vector(12);
     const Vec3 u = rate.segment<3>(0) + rate.segment<3>(3).cross(c.point - s.A.x) - rate.segment<3>(6) -
                    rate.segment<3>(9).cross(c.point - s.B.x);
-    expectEntries(s.jacobian().row(0).dot(rate), c.normal.dot(u), 1e-13, "rate of the gap", rate.norm());
+    expectEntries(s.jacobian().pose.row(0).dot(rate), c.normal.dot(u), 1e-13, "rate of the gap", rate.norm());
   }
 }
 
@@ -219,9 +227,11 @@ TEST_P(Gap, SwappedBodiesHaveTheOppositeNormal) {
     expectEntries(d.normal, -c.normal, 1e-14, "normal");
     expectEntries(d.point, c.point, 1e-13, "point", 1 + (c.point - s.B.x).norm());
     const ContactJacobian J = s.jacobian(), K = swapped.jacobian(0, 1, row.swapped, s.B, s.A);
-    Eigen::Matrix<double, 1, 18> expected;
-    expected << J.row(0).segment<6>(6), J.row(0).segment<6>(0), J.row(0).segment<3>(15), J.row(0).segment<3>(12);
-    expectEntries(K.row(0), expected, 1e-12, "d gap");
+    ContactJacobian expected;
+    expected.pose << J.pose.rightCols<6>(), J.pose.leftCols<6>();
+    expected.size_a = J.size_b;
+    expected.size_b = J.size_a;
+    expectEntries(columnsOf(K).row(0), columnsOf(expected).row(0), 1e-12, "d gap");
   }
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adjoint/body_model.h"
-#include "tests/random/flight.h"
+#include "tests/support/brute/flight.h"
 #include "tests/random/solid.h"
 
 namespace carom::brute {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "adjoint/scene.h"
-#include "tests/random/flight.h"
+#include "tests/support/brute/flight.h"
 #include "tests/random/solid.h"
 
 namespace carom::brute {

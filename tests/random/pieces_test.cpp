@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/random/flight.h"
+#include "tests/support/brute/flight.h"
 #include "tests/random/solid.h"
 
 // The pieces of the brute-force check against what is known of them.

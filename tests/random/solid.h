@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "adjoint/shape.h"
-#include "tests/random/numbers.h"
+#include "tests/support/brute/numbers.h"
 
 namespace carom::brute {
 

@@ -11,7 +11,7 @@ namespace {
 constexpr int kLongestFile = 450;
 
 const std::vector<std::string> kFolders = {"adjoint", "ode_bridge", "editing", "formats", "cli",
-                                           "studio",  "examples",   "tests",   "bench"};
+                                           "studio",  "examples",   "tests",   "bench",  "fuzz"};
 
 // Which folders of the project a library may include; a folder that is not listed may include all.
 const std::map<std::string, std::vector<std::string>> kMayInclude = {
@@ -32,6 +32,7 @@ struct Confined {
 const std::vector<Confined>& confinedLibraries() {
   static const std::vector<Confined> rows = {
       {"ODE", std::regex("ode/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
+      {"qhull", std::regex("libqhull(_r|cpp)?/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
       {"Ipopt", std::regex("(.*/)?Ip[A-Z]\\w*\\.(h|hpp)"), std::regex("editing/.*\\.cpp"), "one editing/*.cpp"},
       {"nlohmann", std::regex("nlohmann/.*"),
        std::regex("((formats|studio)/.*\\.cpp|formats/detail/.*\\.hpp|tests/.*)"),
@@ -41,8 +42,8 @@ const std::vector<Confined>& confinedLibraries() {
        "formats/*.cpp and formats/detail/*.hpp"},
       {"valijson", std::regex("valijson/.*"), std::regex("(formats|studio)/.*\\.cpp"),
        "formats/*.cpp and studio/*.cpp"},
-      {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests)/.*\\.cpp"),
-       "formats/*.cpp and tests"},
+      {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests|fuzz)/.*\\.cpp"),
+       "formats/*.cpp, tests and fuzz"},
       {"Boost.Multiprecision", std::regex("boost/multiprecision/.*"), std::regex("tests/.*"), "tests"},
       {"Boost", std::regex("boost/(?!multiprecision/).*"), std::regex("(studio/.*\\.cpp|tests/.*)"),
        "studio/*.cpp and tests"},

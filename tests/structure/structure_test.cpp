@@ -31,6 +31,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Planted{"ode_bridge/world.cpp", "<ode/ode.h>", true}, Planted{"ode_bridge/world.h", "<ode/ode.h>", false},
         Planted{"adjoint/simulate.cpp", "<ode/collision.h>", false}, Planted{"cli/main.cpp", "<ode/ode.h>", false},
+        Planted{"ode_bridge/hull.cpp", "<libqhull_r/qhull_ra.h>", true},
+        Planted{"ode_bridge/hull.h", "<libqhull_r/qhull_ra.h>", false},
+        Planted{"adjoint/hull.cpp", "<libqhull_r/libqhull_r.h>", false},
         Planted{"editing/ipopt_adapter.cpp", "<IpTNLP.hpp>", true},
         Planted{"editing/ipopt_adapter.cpp", "<coin/IpTNLP.hpp>", true},
         Planted{"editing/edit.h", "<IpTNLP.hpp>", false}, Planted{"cli/main.cpp", "<coin/IpTNLP.hpp>", false},

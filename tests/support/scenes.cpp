@@ -107,7 +107,8 @@ SceneTangent randomDirection(const Scene& scene, Random& random) {
     b.position = random.vec(1), b.orientation = random.vec(1);
     b.velocity = random.vec(1), b.angular_velocity = random.vec(1);
     b.mass = random.in(-1, 1), b.density = random.in(-1, 1);
-    b.inertia = random.vec(1), b.size = random.vec(1);
+    b.inertia = random.vec(1);
+    for (double& size : b.size) size = random.in(-1, 1);
   }
   for (Vec2& t : d.tilts) t = random.vec(1).head<2>();
   return d;
@@ -142,8 +143,9 @@ Eigen::VectorXd flatten(const SceneDerivative& d) {
   for (const MaterialDerivative& m : d.materials)
     all.insert(all.end(), {m.elasticity, m.friction, m.tangential_elasticity});
   for (const BodyDerivative& b : d.bodies) {
-    for (const Vec3* v : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia, &b.size})
+    for (const Vec3* v : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia})
       all.insert(all.end(), v->data(), v->data() + 3);
+    all.insert(all.end(), b.size.begin(), b.size.end());
     all.insert(all.end(), {b.mass, b.density});
   }
   for (const Vec2& t : d.tilts) all.insert(all.end(), {t.x(), t.y()});

@@ -1,6 +1,8 @@
-#include "tests/random/flight.h"
+#include "tests/support/brute/flight.h"
 
 #include <cmath>
+
+#include "tests/support/exact/shape_numbers.h"
 
 namespace carom::brute {
 namespace {
@@ -54,21 +56,18 @@ MassProperties massOf(const Body& body) {
   m.ball = std::holds_alternative<Sphere>(body.shape);
   m.moving = !body.fixed;
   if (body.fixed) return m;
-  Real volume = 0;
-  Vector unit;  // moments of unit mass
-  if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-    const Real r = sphere->radius;
-    volume = 4 * pi() / 3 * r * r * r;
-    unit = Vector::Constant(2 * r * r / 5);
-  } else {
-    const Vector s = widen(std::get<Box>(body.shape).size);
-    volume = s.prod();
-    const Vector square = s.cwiseProduct(s);
-    unit = (Vector::Constant(square.sum()) - square) / 12;
-  }
-  m.mass = body.mass ? Real(*body.mass) : Real(*body.density) * volume;
+  const auto solid = exact::integralsOf(exact::numbersOf<Real>(body.shape));
+  m.mass = body.mass ? Real(*body.mass) : Real(*body.density) * solid.volume;
   m.inverse_mass = 1 / m.mass;
-  m.inertia = body.inertia.source == Inertia::Source::derived ? Vector(m.mass * unit) : widen(body.inertia.moments);
+  m.center = body.center_of_mass ? widen(*body.center_of_mass) : widen(solid.center());
+  if (body.inertia.source == Inertia::Source::derived) {
+    const auto found = exact::principal<Real>(m.mass * solid.unitInertia(), 1e-19L);
+    m.inertia = widen(found.moments);
+    for (int i = 0; i < 3; ++i) m.axes.col(i) = widen(found.axes.column[i]);
+  } else {
+    m.inertia = widen(body.inertia.moments);
+    m.axes = body.inertia.axes.cast<Real>().normalized().toRotationMatrix();
+  }
   m.inverse_inertia = m.inertia.cwiseInverse();
   return m;
 }
@@ -114,6 +113,9 @@ Flight::Stretch Flight::solve(const Eigen::Matrix<Real, 1, 4>& from) const {
 
 Rotation Flight::rotationAt(Real t) {
   if (mass_.ball || spin_bound_ == 0) return q_;
+  const Vector& I = mass_.inertia;
+  if (I[0] == I[1] && I[1] == I[2])  // constant spin
+    return Rotation(Eigen::AngleAxis<Real>(L_.norm() / I[0] * (t - start_), L_.normalized())) * q_;
   const Real elapsed = std::max(t - start_, Real(0));
   const auto index = static_cast<std::size_t>(elapsed / length_);
   while (stretches_.size() <= index) {

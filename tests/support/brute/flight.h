@@ -3,15 +3,17 @@
 #include <vector>
 
 #include "adjoint/scene.h"
-#include "tests/random/numbers.h"
+#include "tests/support/brute/numbers.h"
 
 namespace carom::brute {
 
-/// Mass and principal moments, from a body as written; zero inverses when it is fixed.
+/// Mass, centre of mass and principal moments, from a body as written; zero inverses when it is fixed.
 struct MassProperties {
   bool moving = false, ball = false;
   Real mass = 0, inverse_mass = 0;
   Vector inertia = Vector::Zero(), inverse_inertia = Vector::Zero();
+  Vector center = Vector::Zero();      ///< in the shape's axes
+  Matrix axes = Matrix::Identity();    ///< principal to shape axes
 };
 MassProperties massOf(const Body& body);
 
@@ -26,11 +28,12 @@ inline Matrix inverseInertia(const MassProperties& m, const Matrix& R) {
 }
 
 /// Free flight in long double, by a way of its own: the rotation q' = 1/2 omega(q) q with constant angular momentum is
-/// solved on short stretches by Picard iteration on Chebyshev nodes, whose polynomial is the answer in between.
+/// solved on short stretches by Picard iteration on Chebyshev nodes, whose polynomial is the answer in between; with equal
+/// moments the spin is constant.
 class Flight {
  public:
   Flight() = default;  ///< fixed at the origin
-  /// From pose and velocity at `start`.
+  /// From the centre of mass, the orientation of the principal axes and velocities at `start`.
   Flight(const MassProperties& mass, const Vector& gravity, Real start, const Vector& x, const Rotation& q,
          const Vector& v, const Vector& L);
   static Flight fixedAt(const Vector& x, const Rotation& q);

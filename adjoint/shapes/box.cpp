@@ -1,0 +1,34 @@
+#include "adjoint/shapes/kinds.h"
+
+namespace carom::shapes {
+namespace {
+
+const Vec3& size(const Shape& s) { return std::get<Box>(s).size; }
+
+// V = x y z, I_x = (y^2 + z^2)/12 and so on
+SolidProperties properties(const Shape& s) {
+  const double x = size(s).x(), y = size(s).y(), z = size(s).z();
+  SolidProperties p;
+  p.volume = x * y * z;
+  p.unit_inertia = diagonal((y * y + z * z) / 12, (x * x + z * z) / 12, (x * x + y * y) / 12);
+  p.rates = {{y * z, Vec3::Zero(), diagonal(0, x / 6, x / 6)},
+             {x * z, Vec3::Zero(), diagonal(y / 6, 0, y / 6)},
+             {x * y, Vec3::Zero(), diagonal(z / 6, z / 6, 0)}};
+  return p;
+}
+
+}  // namespace
+
+ShapeKind boxKind() {
+  return {"box",
+          [](const Shape&) {
+            return std::vector<std::string>{"x", "y", "z"};
+          },
+          [](const Shape& s) { return Eigen::VectorXd(size(s)); },
+          [](Shape& s, const Eigen::VectorXd& d) { std::get<Box>(s).size = d.head<3>(); },
+          alwaysSolid,
+          properties,
+          [](const Shape& s) { return 0.5 * size(s).norm(); }};
+}
+
+}  // namespace carom::shapes

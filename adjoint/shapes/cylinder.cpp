@@ -1,0 +1,42 @@
+#include <cmath>
+#include <numbers>
+
+#include "adjoint/shapes/kinds.h"
+
+namespace carom::shapes {
+namespace {
+
+const Cylinder& get(const Shape& s) { return std::get<Cylinder>(s); }
+
+// V = pi r^2 h, I_x = I_y = r^2/4 + h^2/12, I_z = r^2/2
+SolidProperties properties(const Shape& s) {
+  constexpr double pi = std::numbers::pi;
+  const double r = get(s).radius, h = get(s).height, x = r * r / 4 + h * h / 12;
+  SolidProperties p;
+  p.volume = pi * r * r * h;
+  p.unit_inertia = diagonal(x, x, r * r / 2);
+  p.rates = {{2 * pi * r * h, Vec3::Zero(), diagonal(r / 2, r / 2, r)},
+             {pi * r * r, Vec3::Zero(), diagonal(h / 6, h / 6, 0)}};
+  return p;
+}
+
+}  // namespace
+
+ShapeKind cylinderKind() {
+  return {"cylinder",
+          [](const Shape&) {
+            return std::vector<std::string>{"radius", "height"};
+          },
+          [](const Shape& s) {
+            return dimensionsOf({get(s).radius, get(s).height});
+          },
+          [](Shape& s, const Eigen::VectorXd& d) {
+            std::get<Cylinder>(s).radius = d[0];
+            std::get<Cylinder>(s).height = d[1];
+          },
+          alwaysSolid,
+          properties,
+          [](const Shape& s) { return std::hypot(get(s).radius, get(s).height / 2); }};
+}
+
+}  // namespace carom::shapes

@@ -1,0 +1,21 @@
+#include "adjoint/shapes/kinds.h"
+#include "adjoint/shapes/scaled_surface.h"
+
+namespace carom::shapes {
+namespace {
+
+const Hull& get(const Shape& s) { return std::get<Hull>(s); }
+
+}  // namespace
+
+ShapeKind hullKind() {
+  return {"hull",
+          [](const Shape&) { return std::vector<std::string>{"scale"}; },
+          [](const Shape& s) { return dimensionsOf({get(s).scale}); },
+          [](Shape& s, const Eigen::VectorXd& d) { std::get<Hull>(s).scale = d[0]; },
+          [](const Shape& s) { return get(s).surface && get(s).surface->closed; },
+          [](const Shape& s) { return scaledProperties(get(s).surface.get(), get(s).scale, "hull"); },
+          [](const Shape& s) { return scaledRadius(get(s).surface.get(), get(s).scale); }};
+}
+
+}  // namespace carom::shapes

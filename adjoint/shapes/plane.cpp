@@ -1,0 +1,20 @@
+#include <limits>
+
+#include "adjoint/errors.h"
+#include "adjoint/shapes/kinds.h"
+
+namespace carom::shapes {
+
+ShapeKind planeKind() {
+  return {"plane",
+          [](const Shape&) { return std::vector<std::string>{}; },
+          [](const Shape&) { return Eigen::VectorXd(0); },
+          [](Shape&, const Eigen::VectorXd&) {},
+          [](const Shape&) { return false; },
+          [](const Shape&) -> SolidProperties {
+            throw InputError("found the mass properties of a plane asked for, expected a shape with a volume");
+          },
+          [](const Shape&) { return std::numeric_limits<double>::infinity(); }};
+}
+
+}  // namespace carom::shapes

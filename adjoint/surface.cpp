@@ -1,0 +1,153 @@
+#include "adjoint/surface.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace carom {
+namespace {
+
+// a - b and a b without rounding: the value is the sum of the two parts.
+struct Parts {
+  double high, low;
+};
+Parts difference(double a, double b) {
+  const double high = a - b, back = a - high;
+  return {high, (a - (high + back)) + (back - b)};
+}
+Parts product(double a, double b) {
+  const double high = a * b;
+  return {high, std::fma(a, b, -high)};
+}
+
+// a b - c d to about 1e-31 |a b|, for factors in two parts.
+double crossTerm(const Parts& a, const Parts& b, const Parts& c, const Parts& d) {
+  const Parts ab = product(a.high, b.high), cd = product(c.high, d.high), main = difference(ab.high, cd.high);
+  const double small = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
+  return main.high + (main.low + (ab.low - cd.low) + small);
+}
+
+// (a - o) x (b - o). A sliver's normal has to be as good as any other: the rounding of a plain cross product would turn
+// that of a triangle 1e-6 as high as it is long by 1e-10.
+Vec3 crossProduct(const Vec3& o, const Vec3& a, const Vec3& b) {
+  Parts u[3], v[3];
+  for (int k = 0; k < 3; ++k) u[k] = difference(a[k], o[k]), v[k] = difference(b[k], o[k]);
+  return {crossTerm(u[1], v[2], u[2], v[1]), crossTerm(u[2], v[0], u[0], v[2]), crossTerm(u[0], v[1], u[1], v[0])};
+}
+
+// Twice the vector area of a polygon.
+Vec3 doubleArea(const Surface& s, const Surface::Face& f) {
+  const auto corner = [&](int i) -> const Vec3& {
+    return s.vertices[static_cast<std::size_t>(s.corners[static_cast<std::size_t>(f.first + i)])];
+  };
+  Vec3 sum = Vec3::Zero();
+  for (int i = 1; i + 1 < f.count; ++i) sum += crossProduct(corner(0), corner(i), corner(i + 1));
+  return sum;
+}
+
+// One side of an edge: `face` runs from `from` to `to`.
+struct HalfEdge {
+  int low, high, face;
+  bool forward;  // from low to high
+};
+
+std::vector<HalfEdge> halfEdges(const Surface& s) {
+  std::vector<HalfEdge> halves;
+  halves.reserve(s.corners.size());
+  for (std::size_t f = 0; f < s.faces.size(); ++f)
+    for (int i = 0; i < s.faces[f].count; ++i) {
+      const auto corner = [&](int k) {
+        return s.corners[static_cast<std::size_t>(s.faces[f].first + k % s.faces[f].count)];
+      };
+      const int from = corner(i), to = corner(i + 1);
+      halves.push_back({std::min(from, to), std::max(from, to), static_cast<int>(f), from < to});
+    }
+  std::stable_sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+  });
+  return halves;
+}
+
+void addEdges(Surface& s) {
+  const std::vector<HalfEdge> halves = halfEdges(s);
+  s.closed = true;
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    const HalfEdge& h = halves[i];
+    Surface::Edge e{h.forward ? h.low : h.high, h.forward ? h.high : h.low, h.face, -1, 0};
+    if (i + 1 < halves.size() && halves[i + 1].low == h.low && halves[i + 1].high == h.high) {
+      assert(halves[i + 1].forward != h.forward);
+      e.right = halves[++i].face;
+      const Vec3 along = s.vertices[static_cast<std::size_t>(e.to)] - s.vertices[static_cast<std::size_t>(e.from)];
+      const Vec3& left = s.faces[static_cast<std::size_t>(e.left)].normal;
+      const Vec3& right = s.faces[static_cast<std::size_t>(e.right)].normal;
+      e.bend = left.cross(right).dot(along.normalized());
+    } else {
+      s.closed = false;
+    }
+    s.edges.push_back(e);
+  }
+}
+
+// Volume of the tetrahedra that a point `o` spans with the surface, 6 V = a . (b x c), and their moments about o:
+//   integral of x     = sum V/4 (a + b + c)
+//   integral of x x^T = sum V/20 (a a^T + b b^T + c c^T + (a + b + c)(a + b + c)^T)
+struct Moments {
+  double volume = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+};
+
+Moments momentsAbout(const Surface& s, const Vec3& o) {
+  Moments m;
+  for (const Surface::Face& f : s.faces) {
+    const auto corner = [&](int i) -> Vec3 {
+      return s.vertices[static_cast<std::size_t>(s.corners[static_cast<std::size_t>(f.first + i)])] - o;
+    };
+    const Vec3 a = corner(0);
+    for (int i = 1; i + 1 < f.count; ++i) {
+      const Vec3 b = corner(i), c = corner(i + 1), sum = a + b + c;
+      const double volume = a.dot(b.cross(c)) / 6;
+      m.volume += volume;
+      m.first += volume / 4 * sum;
+      m.second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    }
+  }
+  return m;
+}
+
+// The moments are taken about the vertices' mean and then about the centre found, so that nothing cancels for a surface
+// far from the origin.
+void addIntegrals(Surface& s) {
+  Vec3 o = Vec3::Zero();
+  for (const Vec3& v : s.vertices) o += v / static_cast<double>(s.vertices.size());
+  const Moments rough = momentsAbout(s, o);
+  s.volume = rough.volume;
+  if (!(s.volume > 0)) return;
+  s.center = o + rough.first / rough.volume;
+  const Moments m = momentsAbout(s, s.center);
+  const Vec3 d = m.first / m.volume;
+  const Mat3 covariance = m.second / m.volume - d * d.transpose();
+  s.unit_inertia = covariance.trace() * Mat3::Identity() - covariance;
+}
+
+}  // namespace
+
+Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& polygons) {
+  Surface s;
+  s.vertices = std::move(vertices);
+  s.faces.reserve(polygons.size());
+  for (const std::vector<int>& polygon : polygons) {
+    assert(polygon.size() >= 3);
+    Surface::Face f{static_cast<int>(s.corners.size()), static_cast<int>(polygon.size())};
+    s.corners.insert(s.corners.end(), polygon.begin(), polygon.end());
+    const Vec3 area = doubleArea(s, f);
+    assert(area.squaredNorm() > 0);
+    f.normal = area.stableNormalized();
+    s.faces.push_back(f);
+  }
+  addEdges(s);
+  if (s.closed) addIntegrals(s);
+  return s;
+}
+
+}  // namespace carom

@@ -1,0 +1,77 @@
+// carom import: a scene document from a glTF file with physics.
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/loading.h"
+#include "cli/options.h"
+#include "formats/import_gltf.h"
+#include "formats/status_json.h"
+
+namespace carom::cli {
+namespace {
+
+struct Options {
+  std::string input, output;
+  std::optional<double> duration;
+};
+
+/// What the scene is like as a whole, which no node says.
+void warnIfOverlapping(const Scene& scene) {
+  try {
+    OdeContacts contacts(scene);
+  } catch (const InputError& error) {
+    Output::warn(std::string("the scene cannot be simulated as it is: ") + error.what());
+  }
+}
+
+Exit importScene(const Options& options, Output& out) {
+  std::error_code error;
+  if (std::filesystem::equivalent(options.input, options.output, error))
+    throw UsageError("-o " + options.output + ": found the file that is read, expected another one");
+  Imported imported = importGltf(options.input);
+  if (options.duration) imported.document.duration = *options.duration;
+  const std::vector<std::string> meshes = saveWithMeshes(options.output, imported.document);
+  for (const std::string& warning : imported.report.warnings) Output::warn(warning);
+  warnIfOverlapping(imported.document.scene);
+  if (out.json()) {
+    out.document(importJson(options.output, imported, meshes));
+    return Exit::done;
+  }
+  const auto count = [](std::size_t number, const char* noun) { return counted(static_cast<long long>(number), noun); };
+  const Scene& scene = imported.document.scene;
+  out.text() << "Written: " << options.output << " (" << scene.bodies.size()
+             << (scene.bodies.size() == 1 ? " body, " : " bodies, ") << count(scene.materials.size(), "material");
+  if (!meshes.empty()) out.text() << ", " << count(meshes.size(), "mesh file");
+  out.text() << ")\n";
+  return Exit::done;
+}
+
+Action declare(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("file", options->input, "The file to read: .glb or .gltf")->required()->type_name("M.glb");
+  app.add_option("-o,--output", options->output, "The scene document to write")->required()->type_name("S.json");
+  app.add_option("--duration", options->duration, "Seconds to simulate, 1 if neither this nor the file says it")
+      ->check(positiveNumber())
+      ->type_name("T");
+  return [options](Output& out) { return importScene(*options, out); };
+}
+
+}  // namespace
+
+const Command kImportCommand{
+    "import", "Read a glTF file with rigid bodies as a scene document",
+    "Reads KHR_physics_rigid_bodies with KHR_implicit_shapes and OMI_physics_gravity, and turns y up to\n"
+    "z up. Nodes with motion become moving bodies of all colliders below them, other colliders fixed\n"
+    "bodies. Convex hulls and meshes are written beside the document, in S-meshes/. What is not supported\n"
+    "(joints, triggers, filters and more) is named on standard error and in the answer of --json. A file\n"
+    "that carom export wrote comes back as it was, with its edit.\n"
+    "\n"
+    "Examples:\n"
+    "  carom import course.glb -o course.json\n"
+    "  carom import course.gltf -o course.json --duration 3 --json",
+    declare};
+
+}  // namespace carom::cli

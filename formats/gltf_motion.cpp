@@ -1,0 +1,94 @@
+// The member `motion` of a node -> mass, inertia and velocities of a body.
+#include "adjoint/body_model.h"
+#include "adjoint/errors.h"
+#include "formats/detail/gltf_bodies.hpp"
+#include "formats/json_writer.h"
+#include "ode_bridge/convex_hull.h"
+
+namespace carom::gltf {
+namespace {
+
+constexpr double kDensity = 1000;  // kg/m^3, where a file gives no mass: that of water
+
+template <class Value>
+bool same(const Value& a, const Value& b, double size) {
+  return (a - b).cwiseAbs().maxCoeff() <= kSame * size;
+}
+
+/// Open meshes closed by their convex hulls.
+Shape withHulls(const Shape& shape) {
+  if (const auto* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && !mesh->surface->closed)
+    return Hull{convexHull(mesh->surface->vertices), mesh->scale, ""};
+  if (const auto* compound = std::get_if<Compound>(&shape)) {
+    Compound out = *compound;
+    for (CompoundPart& part : out.parts) part.shape = withHulls(part.shape);
+    return out;
+  }
+  return shape;
+}
+
+/// The moments of a file in the axes of the shape; none when they are missing or infinite.
+std::optional<Inertia> writtenInertia(const PhysicsNode& node, const Quat& shape_to_node, ImportReport& report) {
+  const Moving& motion = *node.motion;
+  if (!motion.inertia_diagonal) return std::nullopt;
+  if (!(motion.inertia_diagonal->minCoeff() > 0)) {
+    report.warnings.push_back(node.label() +
+                              ": its inertia is left out, and derived from its shape: infinite moments (0) are not "
+                              "supported");
+    return std::nullopt;
+  }
+  Inertia inertia = Inertia::fromMoments(*motion.inertia_diagonal);
+  const Quat axes = product(shape_to_node.conjugate(), motion.inertia_orientation);
+  Mat3 exchange;
+  for (int i = 0; i < 3; ++i) exchange.col(i) = turned(axes, Vec3::Unit(i)).cwiseAbs();
+  if (exchange == Mat3(exchange.array().round())) {  // quarter turns: the axes are principal, in another order
+    inertia.moments = exchange * inertia.moments;
+  } else {
+    inertia.axes = axes;
+    inertia.source = Inertia::Source::matrix;
+  }
+  return inertia;
+}
+
+}  // namespace
+
+void setMotion(Body& body, const PhysicsNode& node, const Quat& shape_to_node, const Frame& world,
+               ImportReport& report) {
+  const Moving& motion = *node.motion;
+  const bool solid = kindOf(body.shape).solid(body.shape);
+  const Shape solid_shape = solid ? body.shape : withHulls(body.shape);
+  const SolidProperties derived = kindOf(solid_shape).properties(solid_shape);
+  const double mass = motion.mass ? *motion.mass : kDensity * derived.volume;
+  if (motion.mass || !solid) {
+    body.mass = mass;
+  } else {
+    body.density = kDensity;
+  }
+  if (!motion.mass)
+    report.warnings.push_back(node.label() + ": it has no mass; it is that of its volume at " + numberText(kDensity) +
+                              " kg/m^3, " + numberText(mass) + " kg");
+
+  std::optional<Vec3> center = motion.center_of_mass;
+  if (center) center = turned(shape_to_node.conjugate(), world.stretch * *center);
+  std::optional<Inertia> inertia = writtenInertia(node, shape_to_node, report);
+  if (!solid && (!center || !inertia)) {
+    report.warnings.push_back(node.label() + ": its mesh is open, so that " + (center ? "" : "its centre of mass") +
+                              (center || inertia ? "" : " and ") + (inertia ? "" : "its inertia") +
+                              " cannot be derived from it: they are those of its convex hull");
+    if (!center) center = derived.center;
+    if (!inertia) inertia = Inertia::fromMatrix(mass * derived.unit_inertia);
+  }
+  const double size = kindOf(body.shape).boundingRadius(body.shape);
+  if (center && !(solid && same(*center, derived.center, size))) body.center_of_mass = center;
+  const Mat3 derived_inertia = mass * derived.unit_inertia;
+  if (inertia && !(solid && same(inertia->matrix(), derived_inertia, derived_inertia.diagonal().maxCoeff())))
+    body.inertia = *inertia;
+
+  body.velocity = turned(world.rotation, motion.linear);
+  body.angular_velocity = turned(world.rotation, motion.angular);
+  if (motion.gravity_factor != 1)
+    report.warnings.push_back(node.label() + ": its gravity factor " + numberText(motion.gravity_factor) +
+                              " is left out: every body falls alike");
+}
+
+}  // namespace carom::gltf

@@ -1,0 +1,47 @@
+#include "formats/import_gltf.h"
+
+#include <tiny_gltf.h>
+
+#include <filesystem>
+
+#include "formats/detail/gltf_document.hpp"
+#include "formats/detail/gltf_geometry.hpp"
+#include "formats/mesh_file.h"
+#include "formats/read_file.h"
+
+namespace carom {
+namespace {
+
+Imported importFrom(const std::string& bytes, const std::string& folder) {
+  const tinygltf::Model model = parseGltf(bytes, folder);
+  const detail::Json json = gltfJson(bytes);
+  Imported out;
+  const gltf::PhysicsFile file = gltf::readPhysics(json, out.report);
+  gltf::ShapeMaker shapes(model, json, out.report);
+  gltf::LeftDocument left(json, model.meshes.size(), shapes, out.report);
+  std::vector<Body> bodies = gltf::makeBodies(
+      file, shapes,
+      [&](const gltf::PhysicsNode& node, const gltf::Frame& world) { return left.bodyOf(node, world, file.materials); },
+      out.report);
+  if (bodies.empty())
+    throw InputError(
+        "found no body, expected nodes with a collider (extension KHR_physics_rigid_bodies) in the default scene" +
+        std::string(out.report.warnings.empty() ? "" : "; " + out.report.warnings.front()));
+  out.document.scene = left.sceneOf(std::move(bodies), file);
+  validate(out.document.scene);
+  left.addEdit(out.document);
+  return out;
+}
+
+}  // namespace
+
+Imported importGltf(const std::string& path) try {
+  const std::string bytes = readFile(path, "a glTF file", kLargestMeshFile);
+  return importFrom(bytes, std::filesystem::path(path).parent_path().string());
+} catch (const FormatError&) {
+  throw;
+} catch (const InputError& error) {
+  throw FormatError(path, error.where(), error.message());
+}
+
+}  // namespace carom

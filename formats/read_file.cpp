@@ -1,0 +1,42 @@
+#include "formats/read_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "formats/format_error.h"
+
+namespace carom {
+namespace {
+
+[[noreturn]] void failTooLarge(const std::string& path, const std::string& found, std::size_t limit) {
+  throw FormatError(path, "", "found " + found + ", expected at most " + std::to_string(limit) + " bytes");
+}
+
+}  // namespace
+
+std::string readFile(const std::string& path, const std::string& what, std::size_t limit) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw FormatError(path, "", "found no such file, expected " + what);
+  if (std::filesystem::is_directory(status)) throw FormatError(path, "", "found a folder, expected a file");
+  std::size_t size = 0;
+  if (std::filesystem::is_regular_file(status)) {
+    const auto bytes = std::filesystem::file_size(path, error);
+    if (!error) size = static_cast<std::size_t>(bytes);
+    if (size > limit) failTooLarge(path, "a file of " + std::to_string(size) + " bytes", limit);
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FormatError(path, "", "found a file that cannot be opened, expected one that may be read");
+  // A pipe has no size before it is read.
+  std::string text;
+  text.reserve(size);
+  std::string block(std::size_t{1} << 16, '\0');
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    text.append(block, 0, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > limit) failTooLarge(path, "more", limit);
+  }
+  return text;
+}
+
+}  // namespace carom

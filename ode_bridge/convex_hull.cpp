@@ -1,0 +1,217 @@
+#include "ode_bridge/convex_hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "adjoint/errors.h"
+#include "adjoint/weld.h"
+#include "ode_bridge/qhull_facets.h"
+
+namespace carom {
+namespace {
+
+using Polygons = std::vector<std::vector<int>>;
+
+constexpr double kLargest = 1e9;                // m, as for every number of a scene
+constexpr double kFlattest = 1e-9;              // least thickness of the points, of their size
+constexpr double kAbove = 1e-12;                // how far a vertex may be above a face, of the size
+constexpr std::size_t kAllPairs = 100'000'000;  // points times faces up to which every point is held against every face
+
+template <class... Parts>
+[[noreturn]] void fail(const std::string& where, const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(17);
+  (out << ... << parts);
+  throw InputError(where, out.str());
+}
+
+// A number that was computed, to three digits.
+std::string about(double value) {
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
+const Vec3& at(const std::vector<Vec3>& points, int i) { return points[static_cast<std::size_t>(i)]; }
+
+void checkNumbers(const std::vector<Vec3>& points) {
+  if (points.size() < 4) fail("", "found a hull of ", points.size(), " points, expected four or more");
+  if (points.size() > std::size_t{100'000'000})
+    fail("", "found a hull of ", points.size(), " points, expected at most 100000000");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (!(std::abs(points[i][k]) <= kLargest))
+        fail("point " + std::to_string(i), "found ", points[i][k],
+             ", expected a finite coordinate of magnitude at most 1e9");
+}
+
+/// Size of the points; throws when they do not span a volume.
+double checkSpread(const std::vector<Vec3>& points) {
+  Vec3 low = points[0], high = low;
+  for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double size = (high - low).norm();
+  const auto expected = ", expected points that span a volume";
+  if (!(size > 0)) fail("", "found all ", points.size(), " points of a hull at one place", expected);
+  const auto farthest = [&](auto&& measure) {
+    return *std::max_element(points.begin(), points.end(),
+                             [&](const Vec3& a, const Vec3& b) { return measure(a) < measure(b); });
+  };
+  const Vec3 a = points[0];
+  const Vec3 b = farthest([&](const Vec3& p) { return (p - a).squaredNorm(); });
+  const Vec3 along = (b - a).normalized();
+  const auto fromLine = [&](const Vec3& p) { return along.cross(p - a).norm(); };
+  const Vec3 c = farthest(fromLine);
+  if (!(fromLine(c) > kFlattest * size))
+    fail("", "found all ", points.size(), " points of a hull on one line", expected);
+  const Vec3 normal = along.cross(c - a).normalized();
+  const auto fromPlane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
+  const double thickness = fromPlane(farthest(fromPlane));
+  if (!(thickness > kFlattest * size))
+    fail("", "found all ", points.size(), " points of a hull in one plane (within ", about(thickness), " m)", expected);
+  return size;
+}
+
+/// Moved to the origin and divided by a power of two, so that the library's tolerances are relative to the size.
+std::vector<Vec3> normalized(const std::vector<Vec3>& points, double size) {
+  Vec3 low = points[0], high = low;
+  for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const Vec3 middle = 0.5 * (low + high);
+  const int exponent = -std::ilogb(size);
+  std::vector<Vec3> moved;
+  moved.reserve(points.size());
+  for (const Vec3& p : points)
+    moved.push_back((p - middle).unaryExpr([&](double x) { return std::ldexp(x, exponent); }));
+  return moved;
+}
+
+/// Rounding of the coordinates as they are written, of the size: what is far out is known less well.
+double roundingOf(const std::vector<Vec3>& points, double size) {
+  double largest = 0;
+  for (const Vec3& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return std::min(4 * std::numeric_limits<double>::epsilon() * largest / size, kAbove / 5);
+}
+
+/// Corners between two faces only are on an edge and do not span the hull. False when a face is lost.
+bool dropEdgePoints(Polygons& polygons, std::size_t points) {
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<int> faces(points, 0);
+    for (const auto& polygon : polygons)
+      for (int v : polygon) ++faces[static_cast<std::size_t>(v)];
+    for (auto& polygon : polygons) {
+      const auto erased = std::erase_if(polygon, [&](int v) { return faces[static_cast<std::size_t>(v)] < 3; });
+      again = again || erased > 0;
+      if (polygon.size() < 3) return false;
+    }
+  }
+  return true;
+}
+
+/// Counter-clockwise seen from outside, the least corner first, faces in the order of their corners: the same for the
+/// same points whatever the library's order.
+void orderPolygons(Polygons& polygons, const std::vector<Vec3>& points) {
+  std::set<int> used;
+  for (const auto& polygon : polygons) used.insert(polygon.begin(), polygon.end());
+  Vec3 inside = Vec3::Zero();
+  for (int v : used) inside += at(points, v) / static_cast<double>(used.size());
+  for (auto& polygon : polygons) {
+    const Vec3 a = at(points, polygon[0]);
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+      area += (at(points, polygon[i]) - a).cross(at(points, polygon[i + 1]) - a);
+    if (area.dot(a - inside) < 0) std::reverse(polygon.begin(), polygon.end());
+    std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+  }
+  std::sort(polygons.begin(), polygons.end());
+}
+
+/// Every edge between two faces that run along it in opposite directions, and the topology of a ball.
+bool closesOnce(const Polygons& polygons) {
+  std::set<std::pair<int, int>> sides;
+  std::set<int> vertices;
+  for (const auto& polygon : polygons)
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      vertices.insert(polygon[i]);
+      if (!sides.emplace(polygon[i], polygon[(i + 1) % polygon.size()]).second) return false;
+    }
+  for (const auto& [from, to] : sides)
+    if (!sides.contains({to, from})) return false;
+  return vertices.size() + polygons.size() == sides.size() / 2 + 2;
+}
+
+/// Numbers the vertices in the order of the points, leaving out those that no polygon has.
+std::vector<Vec3> keepUsed(Polygons& polygons, const std::vector<Vec3>& points) {
+  std::vector<int> place(points.size(), -1);
+  for (const auto& polygon : polygons)
+    for (int v : polygon) place[static_cast<std::size_t>(v)] = 0;
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (place[i] == 0) place[i] = static_cast<int>(kept.size()), kept.push_back(points[i]);
+  for (auto& polygon : polygons)
+    for (int& v : polygon) v = place[static_cast<std::size_t>(v)];
+  return kept;
+}
+
+/// Largest height of a point over a face's plane, or distance of a face's corner from its own.
+double unevenness(const Surface& s, const std::vector<Vec3>& points) {
+  double worst = 0;
+  const auto height = [&](const Surface::Face& f, const Vec3& p) {
+    return f.normal.dot(p - at(s.vertices, s.corners[static_cast<std::size_t>(f.first)]));
+  };
+  const auto corner = [&](const Surface::Face& f, int i) -> const Vec3& {
+    return at(s.vertices, s.corners[static_cast<std::size_t>(f.first + i)]);
+  };
+  for (const Surface::Face& f : s.faces)
+    for (int i = 0; i < f.count; ++i) worst = std::max(worst, std::abs(height(f, corner(f, i))));
+  if (s.faces.size() <= kAllPairs / points.size()) {
+    for (const Surface::Face& f : s.faces)
+      for (const Vec3& p : points) worst = std::max(worst, height(f, p));
+    return worst;
+  }
+  for (const Surface::Edge& e : s.edges)
+    for (const auto& [face, other] : {std::pair{e.left, e.right}, std::pair{e.right, e.left}}) {
+      const Surface::Face &f = s.faces[static_cast<std::size_t>(face)], &g = s.faces[static_cast<std::size_t>(other)];
+      for (int i = 0; i < g.count; ++i) worst = std::max(worst, height(f, corner(g, i)));
+    }
+  return worst;
+}
+
+/// The hull from the library's facets; null, with what is wrong, when they do not make one.
+std::shared_ptr<const Surface> surfaceOf(Polygons polygons, const std::vector<Vec3>& points,
+                                         const std::vector<int>& first, double size, std::string& problem) {
+  for (auto& polygon : polygons)
+    for (int& v : polygon) v = first[static_cast<std::size_t>(v)];
+  problem = "a face without area";
+  if (!dropEdgePoints(polygons, points.size())) return nullptr;
+  orderPolygons(polygons, points);
+  problem = "faces that do not close";
+  if (!closesOnce(polygons)) return nullptr;
+  std::vector<Vec3> vertices = keepUsed(polygons, points);
+  auto surface = std::make_shared<Surface>(assembleSurface(std::move(vertices), polygons));
+  problem = "a face that points stand out of";
+  return unevenness(*surface, points) <= kAbove * size ? surface : nullptr;
+}
+
+}  // namespace
+
+std::shared_ptr<const Surface> convexHull(const std::vector<Vec3>& points) {
+  checkNumbers(points);
+  const double size = checkSpread(points);
+  const std::vector<Vec3> moved = normalized(points, size);
+  const std::vector<int> first = firstOfEqual(points);
+  const double rounding = roundingOf(points, size);
+  std::string problem;
+  for (int attempt = 0; attempt < kQhullAttempts; ++attempt) {
+    const QhullFacets facets = qhullFacets(moved, rounding, attempt);
+    problem = facets.problem;
+    if (facets.polygons.empty()) continue;
+    if (auto surface = surfaceOf(facets.polygons, points, first, size, problem)) return surface;
+  }
+  fail("", "found points whose hull cannot be told (", problem, "), expected none within rounding of others' planes");
+}
+
+}  // namespace carom

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+
+#include "tests/reference/numbers.h"
+#include "tests/reference/principal.h"
+
+// Bodies made of balls, boxes and cylinders, of uniform density: what follows from their numbers, in 50 digits.
+
+namespace carom::reference {
+
+inline RMat diagonal(const RVec& d) { return {{axisVector(0, d[0]), axisVector(1, d[1]), axisVector(2, d[2])}}; }
+inline RMat operator*(const Real& s, const RMat& a) {
+  return {{s * a.column[0], s * a.column[1], s * a.column[2]}};
+}
+
+/// Mass properties in the axes of a shape, at density 1: J about the centre.
+struct RealSolid {
+  Real volume;
+  RVec center;
+  RMat J;
+};
+
+/// A ball, box or cylinder about its origin; `size` is radius; x, y, z; radius and height.
+struct PartNumbers {
+  enum class Kind { ball, box, cylinder };
+  Kind kind = Kind::ball;
+  std::vector<Real> size;
+  RVec position;
+  RMat orientation = RMat::identity();
+
+  RealSolid solid() const {
+    const Real pi = BodyNumbers::pi(), &a = size[0];
+    Real V;
+    RVec I;
+    if (kind == Kind::ball) {
+      V = 4 * pi / 3 * a * a * a;
+      I = (2 * a * a / 5) * RVec{1, 1, 1};
+    } else if (kind == Kind::box) {
+      const Real &b = size[1], &c = size[2];
+      V = a * b * c;
+      I = (Real(1) / 12) * RVec{b * b + c * c, a * a + c * c, a * a + b * b};
+    } else {
+      const Real &h = size[1], across = a * a / 4 + h * h / 12;
+      V = pi * a * a * h;
+      I = {across, across, a * a / 2};
+    }
+    return {V, position, orientation * (diagonal(V * I) * transpose(orientation))};
+  }
+};
+
+inline PartNumbers partOf(const Shape& shape, const Vec3& position, const Quat& orientation) {
+  PartNumbers p;
+  if (const auto* ball = std::get_if<Sphere>(&shape)) {
+    p.kind = PartNumbers::Kind::ball, p.size = {ball->radius};
+  } else if (const auto* box = std::get_if<Box>(&shape)) {
+    p.kind = PartNumbers::Kind::box, p.size = {box->size.x(), box->size.y(), box->size.z()};
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    p.kind = PartNumbers::Kind::cylinder, p.size = {cylinder->radius, cylinder->height};
+  } else {
+    throw std::invalid_argument("the reference knows no such part");
+  }
+  p.position = RVec(position);
+  p.orientation = rotationOf(orientation);
+  return p;
+}
+
+/// One body and what it flies in, as written.
+struct WrittenNumbers {
+  RVec gravity;
+  Real elasticity, friction, tangential_elasticity;
+  std::vector<PartNumbers> parts;
+  bool has_density = false, inertia_derived = true;
+  Real mass_or_density;
+  RVec moments;  ///< unless derived, with their axes in the shape
+  RMat axes = RMat::identity();
+  std::optional<RVec> center;
+  RVec position, velocity, spin;
+  RMat orientation = RMat::identity();
+
+  RealSolid solid() const {
+    std::vector<RealSolid> solids;
+    RealSolid all;
+    for (const PartNumbers& part : parts) {
+      solids.push_back(part.solid());
+      all.volume += solids.back().volume;
+      all.center = all.center + solids.back().volume * solids.back().center;
+    }
+    all.center = (1 / all.volume) * all.center;
+    for (const RealSolid& s : solids) {
+      const RVec d = s.center - all.center;
+      all.J = all.J + s.J;
+      for (int j = 0; j < 3; ++j)
+        all.J.column[j] = all.J.column[j] + s.volume * (dot(d, d) * axisVector(j) - d[j] * d);
+    }
+    return all;
+  }
+};
+
+/// What moves: mass, centre and principal axes in the shape, principal moments.
+struct RealModel {
+  Real mass;
+  RVec center;
+  Principal principal;
+};
+
+inline RealModel modelOf(const WrittenNumbers& n) {
+  const RealSolid solid = n.solid();
+  RealModel m;
+  m.mass = n.has_density ? n.mass_or_density * solid.volume : n.mass_or_density;
+  m.center = n.center ? *n.center : solid.center;
+  m.principal = n.inertia_derived ? principalOf((m.mass / solid.volume) * solid.J) : Principal{n.moments, n.axes};
+  return m;
+}
+
+inline WrittenNumbers writtenNumbers(const Scene& scene, const Body& body) {
+  WrittenNumbers n;
+  n.gravity = RVec(scene.gravity);
+  const Material& m = materialOf(scene, body);
+  n.elasticity = m.elasticity, n.friction = m.friction, n.tangential_elasticity = m.tangential_elasticity;
+  if (const auto* compound = std::get_if<Compound>(&body.shape)) {
+    for (const CompoundPart& part : compound->parts)
+      n.parts.push_back(partOf(part.shape, part.position, part.orientation));
+  } else {
+    n.parts.push_back(partOf(body.shape, Vec3::Zero(), Quat::Identity()));
+  }
+  n.has_density = body.density.has_value();
+  n.mass_or_density = n.has_density ? *body.density : body.mass.value();
+  n.inertia_derived = body.inertia.source == Inertia::Source::derived;
+  n.moments = RVec(body.inertia.moments);
+  n.axes = rotationOf(body.inertia.axes);
+  if (body.center_of_mass) n.center = RVec(*body.center_of_mass);
+  n.position = RVec(body.position), n.velocity = RVec(body.velocity), n.spin = RVec(body.angular_velocity);
+  n.orientation = rotationOf(body.orientation);
+  return n;
+}
+
+}  // namespace carom::reference

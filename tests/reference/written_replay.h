@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "adjoint/motion.h"
+#include "tests/reference/written_body.h"
+
+namespace carom::reference {
+
+/// A plane { p : n . p = offset } in its own axes, and where it is.
+struct FloorNumbers {
+  RVec normal, position;
+  Real offset;
+  RMat orientation = RMat::identity();
+};
+
+/// One body on one floor.
+struct ThrowNumbers {
+  WrittenNumbers body;
+  FloorNumbers floor;
+};
+ThrowNumbers throwNumbers(const Scene& scene, int body, int floor);
+
+/// An impact of the sequence that is followed: the swept point (numbered as in tests/support/swept_points.h) and the
+/// mode are frozen, the time is a first guess.
+struct PointImpact {
+  int point = 0;
+  ImpactMode mode = ImpactMode::frictionless;
+  double time = 0;
+};
+
+/// State as people write it.
+struct WrittenState {
+  RVec position, velocity, spin;
+  RMat R;
+  Real time;
+};
+
+/// The states just before each impact, and at the end. Throws std::runtime_error where the sequence cannot be followed;
+/// with `decide`, also where the impact law takes another mode.
+std::vector<WrittenState> replay(const ThrowNumbers& numbers, const std::vector<PointImpact>& impacts, const Real& end,
+                                 bool decide);
+
+/// One number that can vary, and its place in a derivative.
+struct ThrowKnob {
+  std::string name;
+  std::function<void(ThrowNumbers&, const Real& change)> nudge;
+  std::function<double&(SceneDerivative&)> entry;
+};
+std::vector<ThrowKnob> throwKnobs(const ThrowNumbers& numbers, int body, int floor);
+
+/// d(position, rotation vector, velocity, angular velocity, time) of the states of `replay`, by central differences in
+/// the same arithmetic.
+std::vector<Eigen::Matrix<double, 13, 1>> replayDerivative(const ThrowNumbers& numbers,
+                                                           const std::vector<PointImpact>& impacts, const Real& end,
+                                                           const ThrowKnob& knob);
+
+}  // namespace carom::reference

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ostream>
+#include <vector>
+
+#include "adjoint/plan.h"
+#include "adjoint/scene.h"
+
+namespace carom::test {
+
+/// One body, whose centre of mass or principal axes are not its shape's, thrown at a tilted floor: a way of writing a
+/// body, or a kind of change of its inertia tensor. All its shapes touch planes with swept points (swept_points.h). A
+/// new way adds one row.
+struct OffsetScene {
+  const char* name;
+  Scene (*scene)();  ///< bodies: the thrown one, then the floor
+  double duration;
+  Tier tier, derivative_tier;
+  bool products;
+};
+std::ostream& operator<<(std::ostream& out, const OffsetScene& row);
+const std::vector<OffsetScene>& offsetScenes();
+
+/// The same with the floor as first body.
+Scene floorFirst(Scene scene);
+
+}  // namespace carom::test
