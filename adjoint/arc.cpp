@@ -43,16 +43,20 @@ double largestSpin(const Vec3& I, const Vec3& M) {
 }  // namespace
 
 Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state)
-    : model_(&model), tier_(tier), gravity_(model.moving ? gravity : Vec3::Zero()), start_(start), state_(state) {
+    : model_(&model), tier_(tier), start_(start), gravity_(model.moving ? gravity : Vec3::Zero()), state_(state) {
   if (!model.moving) return;
-  if (tier == Tier::triaxial) triaxial_.begin(model.inverse_inertia, state.q, state.L);
-  if (tier == Tier::symmetric) symmetry_axis_ = symmetryAxis(model.inertia);
-  const Mat3 R = state.q.toRotationMatrix();
   const Vec3& I = model.inertia;
-  const Vec3 M = R.transpose() * state.L;
-  if (tier == Tier::none || tier == Tier::spherical || tier == Tier::symmetric) {
+  if (tier == Tier::none || tier == Tier::spherical) {
+    spin_bound_ = state.L.norm() / I.minCoeff() * (1 + 1e-12);  // omega is constant
+    return;
+  }
+  const Vec3 M = state.q.toRotationMatrix().transpose() * state.L;
+  if (tier == Tier::symmetric) {
+    symmetry_axis_ = symmetryAxis(I);
     spin_bound_ = M.cwiseQuotient(I).norm() * (1 + 1e-12);  // |omega| is constant
   } else {
+    triaxial_ = std::make_unique<TriaxialRotation>();
+    triaxial_->begin(model.inverse_inertia, state.q, state.L);
     spin_bound_ = largestSpin(I, M) * (1 + 1e-12);
   }
   // omega'_i = (I_j - I_k)/I_i omega_j omega_k, and sum of (omega_j omega_k)^2 <= |omega|^4 / 3
@@ -61,8 +65,21 @@ Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, c
   spin_rate_bound_ = k * spin_bound_ * spin_bound_ / std::sqrt(3.0);
 }
 
+Arc::Arc(const Arc& o)
+    : model_(o.model_),
+      tier_(o.tier_),
+      symmetry_axis_(o.symmetry_axis_),
+      start_(o.start_),
+      spin_bound_(o.spin_bound_),
+      spin_rate_bound_(o.spin_rate_bound_),
+      triaxial_(o.triaxial_ ? std::make_unique<TriaxialRotation>(*o.triaxial_) : nullptr),
+      gravity_(o.gravity_),
+      state_(o.state_) {}
+
+Arc& Arc::operator=(const Arc& other) { return *this = Arc(other); }
+
 void Arc::extendTo(double t) {
-  if (tier_ == Tier::triaxial && model_->moving) triaxial_.extendTo(t - start_);
+  if (triaxial_) triaxial_->extendTo(t - start_);
 }
 
 Quat Arc::rotationAt(double s) const {
@@ -75,7 +92,7 @@ Quat Arc::rotationAt(double s) const {
     case Tier::symmetric:
       return symmetricOrientation(model_->inertia, symmetry_axis_, state_.q, state_.L, s);
     case Tier::triaxial:
-      return triaxial_.orientationAt(s);
+      return triaxial_->orientationAt(s);
   }
   return state_.q;
 }
@@ -89,12 +106,12 @@ Vec3 Arc::velocityAt(double t) const { return state_.v + (t - start_) * gravity_
 
 State Arc::stateAt(double t) const { return {positionAt(t), rotationAt(t - start_), velocityAt(t), state_.L}; }
 
-Kinematics Arc::kinematicsAt(double t) const {
+Kinematics Arc::kinematicsOf(const State& s) const {
   Kinematics k;
-  k.x = positionAt(t);
-  k.v = velocityAt(t);
-  k.R = rotationAt(t - start_).toRotationMatrix();
-  if (model_->moving) k.w = k.R * model_->inverse_inertia.cwiseProduct(k.R.transpose() * state_.L);
+  k.x = s.x;
+  k.v = s.v;
+  k.R = s.q.toRotationMatrix();
+  if (model_->moving) k.w = k.R * model_->inverse_inertia.cwiseProduct(k.R.transpose() * s.L);
   k.R = model_->shapeToWorld(k.R);
   return k;
 }
@@ -121,7 +138,7 @@ RotationSensitivity Arc::rotationSensitivity(double t, Tier tier, bool products)
     case Tier::triaxial:
       break;
   }
-  if (tier_ == Tier::triaxial) return triaxial_.sensitivityAt(s, products);
+  if (triaxial_) return triaxial_->sensitivityAt(s, products);
   TriaxialRotation general;  // the motion needed less than its derivative does
   general.begin(model_->inverse_inertia, state_.q, state_.L);
   general.extendTo(s);

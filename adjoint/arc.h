@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "adjoint/body_model.h"
 #include "adjoint/flight_triaxial.h"
@@ -29,6 +29,11 @@ class Arc {
  public:
   /// A flight under gravity from the given state.
   Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
+  Arc(const Arc& other);
+  Arc& operator=(const Arc& other);
+  Arc(Arc&&) noexcept = default;
+  Arc& operator=(Arc&&) noexcept = default;
+  ~Arc() = default;
 
   ArcKind kind() const { return ArcKind::flight; }
   Tier tier() const { return tier_; }
@@ -42,7 +47,9 @@ class Arc {
   void extendTo(double t);
 
   State stateAt(double t) const;
-  Kinematics kinematicsAt(double t) const;
+  Kinematics kinematicsAt(double t) const { return kinematicsOf(stateAt(t)); }
+  /// Of a state of this body.
+  Kinematics kinematicsOf(const State& state) const;
   Vec3 positionAt(double t) const;
   Vec3 velocityAt(double t) const;
   /// d(state)/dt of the flow: (v, omega, g, 0).
@@ -62,12 +69,12 @@ class Arc {
 
   const BodyModel* model_;  // outlives the arc: held by the Motion
   Tier tier_;
-  Vec3 gravity_;
-  double start_;
-  State state_;
-  double spin_bound_ = 0, spin_rate_bound_ = 0;
   int symmetry_axis_ = 2;
-  TriaxialRotation triaxial_;
+  double start_;
+  double spin_bound_ = 0, spin_rate_bound_ = 0;
+  std::unique_ptr<TriaxialRotation> triaxial_;  // apart, so that the arcs of the other tiers are small
+  Vec3 gravity_;
+  State state_;
 };
 
 /// Tangent of the flight from arc.start() to t at fixed times: ds(t) from ds(start), dg and the model's derivative.

@@ -80,7 +80,7 @@ BodyModel modelOf(const Body& body) {
   }
   if (body.inertia.source == Inertia::Source::matrix) {
     // axes turns principal axes into shape axes; the integrator's body axes are the principal ones
-    model.R_BG = body.inertia.axes.toRotationMatrix().transpose();
+    model.R_BG = body.inertia.axes.normalized().toRotationMatrix().transpose();
     model.has_offset = !model.R_BG.isIdentity(0);
   }
   model.inverse_inertia = model.inertia.cwiseInverse();

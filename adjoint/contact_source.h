@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,11 +69,20 @@ class ContactSource {
   /// Body `body` follows `arc` from `from` on; the source may have to look at it up to `until`.
   virtual void setPath(int body, const Arc& arc, double from, double until) = 0;
 
-  /// Bodies that may touch `body` on the paths set so far, in increasing order; may name too many, never too few.
+  /// Time up to which `neighbours(body)`, asked for at time t, holds for a moving body on its present path; then it is
+  /// to be asked for again. A body that the list lacks asks for itself before it comes near, so this holds whatever
+  /// the paths of the others. Later than t; infinite where the lists hold for the whole of the paths.
+  virtual double window(int body, double t) {
+    (void)body, (void)t;
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// Bodies that may touch the moving body `body` on the paths set so far and within its window, in increasing order;
+  /// may name too many, never too few.
   virtual void neighbours(int body, std::vector<int>& out) = 0;
 
-  /// First impact of bodies a and b on the given arcs in [from, until]. Extends the arcs as far as it looks. Bodies
-  /// that touch at `from` and do not approach are not an impact.
+  /// First impact of bodies a and b in [from, until] on the given arcs, which are those of the paths set last. Extends
+  /// the arcs as far as it looks. Bodies that touch at `from` and do not approach are not an impact.
   virtual std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
                                                      double until) = 0;
 

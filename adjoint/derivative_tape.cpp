@@ -3,11 +3,26 @@
 #include <algorithm>
 #include <sstream>
 
+#include "adjoint/errors.h"
 #include "adjoint/event_linearization.h"
 
 namespace carom {
+namespace {
+
+constexpr std::size_t kRemembered = 10'000;  // sensitivities, of 288 bytes: what is read densely is not kept for good
+
+RotationSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
+  const auto b = static_cast<std::size_t>(body);
+  const BodyPlan& plan = motion.plan.bodies[b];
+  return motion.world_lines[b].arcs[static_cast<std::size_t>(k)].rotationSensitivity(t, plan.derivative_tier,
+                                                                                     plan.derivative_products);
+}
+
+}  // namespace
 
 DerivativeTape::DerivativeTape(const Motion& motion) : motion_(motion), events_(motion.events.size()) {
+  if (!motion.has_events)
+    throw InputError("found a motion whose events were not recorded, expected one with them: derivatives need them");
   for (const WorldLine& line : motion.world_lines) arcs_.emplace_back(line.arcs.size());
 }
 
@@ -19,16 +34,16 @@ const RotationSensitivity& DerivativeTape::arc(int body, int k) {
   if (!slot) {
     const WorldLine& line = motion_.world_lines[b];
     slot = std::make_unique<RotationSensitivity>(
-        arcUntil(body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
+        sensitivity(motion_, body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
   }
   return *slot;
 }
 
-RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) const {
-  const auto b = static_cast<std::size_t>(body);
-  const BodyPlan& plan = motion_.plan.bodies[b];
-  return motion_.world_lines[b].arcs[static_cast<std::size_t>(k)].rotationSensitivity(t, plan.derivative_tier,
-                                                                                      plan.derivative_products);
+RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
+  const auto found = until_.find({body, k, t});
+  if (found != until_.end()) return found->second;
+  if (until_.size() == kRemembered) until_.clear();
+  return until_[{body, k, t}] = sensitivity(motion_, body, k, t);
 }
 
 const EventLinearization& DerivativeTape::event(int event) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "adjoint/motion.h"
@@ -48,13 +50,14 @@ class DerivativeTape {
   const Motion& motion() const { return motion_; }
   /// Sensitivity over the whole of arc k of a body, which ends in an event.
   const RotationSensitivity& arc(int body, int k);
-  /// Sensitivity from the start of arc k to time t.
-  RotationSensitivity arcUntil(int body, int k, double t) const;
+  /// Sensitivity from the start of arc k to time t; remembered, because the rows of a Jacobian share their times.
+  RotationSensitivity arcUntil(int body, int k, double t);
   const EventLinearization& event(int event);
 
  private:
   const Motion& motion_;
   std::vector<std::vector<std::unique_ptr<RotationSensitivity>>> arcs_;
+  std::map<std::tuple<int, int, double>, RotationSensitivity> until_;  // by body, arc and time
   std::vector<std::unique_ptr<EventLinearization>> events_;
 };
 

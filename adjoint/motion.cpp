@@ -89,6 +89,7 @@ BodyState Motion::stateBefore(int event, int body) const {
 }
 
 std::optional<int> Motion::findImpact(int body, int n, int with) const {
+  if (!has_events) throw InputError("found a motion whose events were not recorded, expected one with them");
   int count = 0;
   for (int e : world_lines[static_cast<std::size_t>(body)].events) {
     if (with >= 0 && !events[static_cast<std::size_t>(e)].touches(body, with)) continue;

@@ -65,7 +65,7 @@ struct Event {
 
 struct WorldLine {
   std::vector<Arc> arcs;
-  std::vector<int> events;  ///< events[k] ends arcs[k] and starts arcs[k + 1]
+  std::vector<int> events;  ///< events[k] ends arcs[k] and starts arcs[k + 1]; empty when they were not recorded
 };
 
 enum class MotionStatus {
@@ -83,7 +83,9 @@ struct Motion {
   std::shared_ptr<const ContactGeometry> geometry;
   Plan plan;
   std::vector<WorldLine> world_lines;  ///< one a body
-  std::vector<Event> events;           ///< in increasing order of time
+  std::vector<Event> events;           ///< in increasing order of time; empty when they were not recorded
+  std::size_t impacts = 0;             ///< number of events, recorded or not
+  bool has_events = true;              ///< false: paths alone, which cannot be differentiated
   double duration = 0;                 ///< asked for
   double end = 0;                      ///< known up to here; = duration when complete
   MotionStatus status = MotionStatus::complete;

@@ -9,6 +9,9 @@ namespace carom {
 struct SimulateOptions {
   std::size_t impact_limit = 20000;  ///< events, after which the motion ends with MotionStatus::impact_limit
   std::vector<Asked> asked;          ///< a body each; empty asks for everything
+  /// false: the arcs of the bodies alone are kept, in less than half of the memory. Such a motion has no events, so it
+  /// cannot be differentiated, and times cannot be given as the n-th impact.
+  bool record_events = true;
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.

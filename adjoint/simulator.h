@@ -1,8 +1,9 @@
 #pragma once
 
-#include <queue>
+#include <unordered_map>
 #include <vector>
 
+#include "adjoint/event_queue.h"
 #include "adjoint/simulate.h"
 
 namespace carom {
@@ -14,71 +15,107 @@ inline constexpr double kInstant = 1e-10;  // s
 inline constexpr double kLowestBounce = 1e-12;  // m
 /// Bounces that low on changing features (a rattling box) count as a cascade after so many in a row.
 inline constexpr int kRattles = 8;
-/// As many events as this within kStall seconds are a cascade, whichever bodies they belong to.
+/// As many impacts of one body as this within kStall seconds are a cascade, whichever bodies it meets.
 inline constexpr std::size_t kStallEvents = 64;
 inline constexpr double kStall = 1e-9;  // s
 
-/// The event loop behind `simulate`.
+/// The event loop behind `simulate`. Every body has one entry in the queue: its first impact, as far as it has been
+/// searched for, or the horizon of that search. An impact touches the entries of its own bodies only; an entry whose
+/// partner has been struck in the meantime is found out when its time comes, and the search goes on from there.
 class Simulator {
  public:
   Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options);
   Motion run();
 
  private:
-  // The first impact of a pair, or (b = -1) the time up to which the pairs of body a have been searched.
+  // The first impact of a pair, found in a search of body `searched`.
   struct Prediction {
-    double time;
-    int a, b;
+    double time = 0;
+    int searched = -1, a = -1, b = -1;
+    int partner_version = 0;  // of the arc of the other body that it was made for
     FeaturePair features;
-    int version_a, version_b;  // of the arcs it was made for
-    bool isHorizon() const { return b < 0; }
-    bool operator>(const Prediction& o) const {
-      if (time != o.time) return time > o.time;
-      if (isHorizon() != o.isHorizon()) return isHorizon();  // an impact at its horizon comes first
-      return a != o.a ? a > o.a : b > o.b;
+    int partner() const { return searched == a ? b : a; }
+    bool operator<(const Prediction& o) const {
+      if (time != o.time) return time < o.time;
+      return a != o.a ? a < o.a : b < o.b;
     }
   };
-  // An event that is worked out but not yet part of the motion.
+  // What is known of a body's future on its present arc.
+  struct Outlook {
+    Prediction first;                    // first.a = -1: none up to the horizon
+    double horizon = 0;                  // without an impact: searched up to here
+    std::vector<Prediction> of_instant;  // further ones within an instant of the first
+  };
+  // An event that is worked out but not yet part of the motion. Its storage is used again and again.
   struct Draft {
     Event event;
-    std::vector<Arc> arcs;                // of the participants, from the event on
-    std::vector<Prediction> predictions;  // of the participants' pairs, on those arcs
+    std::vector<State> after;       // of the participants
+    std::vector<Arc> arcs;          // of the participants, from the event on
+    std::vector<Prediction> found;  // of the participants' pairs, on those arcs
+    std::vector<Outlook> outlooks;  // of the participants
   };
-  struct LowBounces {
-    int a, b, count;
+  // A body just before the event that is being worked out.
+  struct Snapshot {
+    int body;
+    State state;
+    Kinematics k;
+  };
+  struct TiltOfImpact {
+    int body, impact, tilt;
   };
 
   void start();
   bool takeNext(Prediction& next);
-  bool holds(const Prediction& p) const;  // the arcs it was made for are in force
-  Draft resolve(const Prediction& first);
-  Draft draft(double time, const std::vector<Contact>& contacts);
-  void predict(Draft& draft);
+  bool holds(const Prediction& p) const { return version_[index(p.partner())] == p.partner_version; }
+
+  // simulate.cpp: the event
+  void resolve(const Prediction& first);
+  void contactsOfInstant(const Prediction& first);
+  void addTouching(double time, int a, int b, const FeaturePair& features);
+  Contact makeContact(double time, int a, int b, const FeaturePair& features);
+  Snapshot snapshot(int body, double time);
+  void solveDraft();
+  bool joinInstant();
+  void commit();
+  int tiltOf(int body, int impact) const;
+
+  // simulator_search.cpp: predictions
+  void predictDraft();
   void predictBody(int body, double from);
-  template <class ArcOf, class VersionOf>
-  void searchBody(int body, double from, const ArcOf& arc_of, const VersionOf& version_of,
-                  std::vector<Prediction>& found);
-  std::vector<Contact> contactsOfInstant(const Prediction& first);
-  void addTouching(double time, int a, int b, const FeaturePair& features, std::vector<Contact>& contacts);
-  bool joinInstant(const Draft& draft, std::vector<Contact>& contacts);
-  void commit(Draft&& draft);
-  bool separates(const Draft& draft);
-  bool accumulates(const Draft& draft);
+  void search(int body, double from, Outlook& outlook);
+  void enter(int body, Outlook& outlook);
+  Arc& pathOf(int body) {
+    const int i = in_draft_[index(body)];
+    return i < 0 ? arcOf(body) : draft_.arcs[index(i)];
+  }
+
+  // simulator_endings.cpp: outcomes that end a motion early
+  bool separates();
+  bool accumulates();
+  bool isLow(const Contact& c, const Prediction*& next) const;
+  bool stalls(int body) const;
   void finish(MotionStatus status, double end, std::string message);
 
-  Arc& arcOf(int body) { return motion_.world_lines[static_cast<std::size_t>(body)].arcs.back(); }
-  Contact makeContact(double time, int a, int b, const FeaturePair& features);
-  int tiltOf(int body, int impact) const;
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  Arc& arcOf(int body) { return *arc_[index(body)]; }
 
   const Scene& scene_;
   ContactSource& contacts_;
   std::size_t impact_limit_;
   Motion motion_;
-  std::vector<int> version_, impacts_;  // a body each
+  // a body each
+  std::vector<Arc*> arc_;  // the last one of its world-line
+  std::vector<int> version_, impacts_, in_draft_;
   std::vector<const Material*> material_;
-  std::vector<LowBounces> low_bounces_;
-  std::vector<int> neighbours_;
-  std::priority_queue<Prediction, std::vector<Prediction>, std::greater<>> queue_;
+  std::vector<Outlook> outlook_;
+  EventQueue queue_;
+
+  std::vector<TiltOfImpact> tilts_;                     // in order
+  std::unordered_map<std::uint64_t, int> low_bounces_;  // in a row, of a pair
+  Draft draft_;
+  std::vector<Snapshot> snapshots_;
+  std::vector<Prediction> same_, found_;
+  std::vector<int> bodies_, neighbours_;
 };
 
 }  // namespace carom

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -9,63 +8,78 @@
 namespace carom {
 
 // An impulse along a tilted normal may fail to part the bodies: there is no motion after it.
-bool Simulator::separates(const Draft& d) {
-  for (const Contact& c : d.event.contacts) {
+bool Simulator::separates() {
+  const Event& event = draft_.event;
+  for (const Contact& c : event.contacts) {
     if (c.tilt_a < 0 && c.tilt_b < 0) continue;
     Vec3 u = Vec3::Zero();
     const auto add = [&](int body, double sign) {
-      const Participant* p = d.event.find(body);
-      if (!p) return;
-      const Kinematics k = d.arcs[static_cast<std::size_t>(p - d.event.participants.data())].kinematicsAt(d.event.time);
+      if (in_draft_[index(body)] < 0) return;
+      const Kinematics k = pathOf(body).kinematicsAt(event.time);
       u += sign * (k.v + k.w.cross(c.at.point - k.x));
     };
     add(c.a, 1);
     add(c.b, -1);
     if (c.at.normal.dot(u) >= 0 && c.impulse.dot(c.impulse_normal) > 0) continue;
     std::ostringstream text;
-    text << "the tilted normal at the impact of '" << scene_.bodies[static_cast<std::size_t>(c.a)].name << "' and '"
-         << scene_.bodies[static_cast<std::size_t>(c.b)].name << "' at t = " << d.event.time
-         << " s does not part the bodies";
-    finish(MotionStatus::unresolved_impact, d.event.time, text.str());
+    text << "the tilted normal at the impact of '" << scene_.bodies[index(c.a)].name << "' and '"
+         << scene_.bodies[index(c.b)].name << "' at t = " << event.time << " s does not part the bodies";
+    finish(MotionStatus::unresolved_impact, event.time, text.str());
     return false;
   }
   return true;
 }
 
-// True when the impacts of a pair pile up in finite time, or every impact does; sets status and message.
-bool Simulator::accumulates(const Draft& d) {
-  for (const Contact& c : d.event.contacts) {
-    auto low = std::find_if(low_bounces_.begin(), low_bounces_.end(),
-                            [&](const LowBounces& l) { return l.a == c.a && l.b == c.b; });
-    const auto next = std::find_if(d.predictions.begin(), d.predictions.end(),
-                                   [&](const Prediction& p) { return p.a == c.a && p.b == c.b; });
-    const double leaving = std::abs(c.pair.elasticity * c.approach);
-    const bool is_low = next != d.predictions.end() && 0.25 * leaving * (next->time - d.event.time) < kLowestBounce;
-    if (!is_low) {
-      if (low != low_bounces_.end()) low->count = 0;
+// Whether the next bounce of a contact, if it is known, is too low to count.
+bool Simulator::isLow(const Contact& c, const Prediction*& next) const {
+  next = nullptr;
+  for (const Prediction& p : found_)
+    if (p.a == c.a && p.b == c.b) {
+      next = &p;
+      break;
+    }
+  const double leaving = std::abs(c.pair.elasticity * c.approach);
+  return next && 0.25 * leaving * (next->time - draft_.event.time) < kLowestBounce;
+}
+
+// A body that is in infinitely many of the events that pile up has this many of them in no time.
+bool Simulator::stalls(int body) const {
+  const auto& arcs = motion_.world_lines[index(body)].arcs;
+  return arcs.size() > kStallEvents && draft_.event.time - arcs[arcs.size() - kStallEvents].start() < kStall;
+}
+
+// True when the impacts of a pair or of a body pile up in finite time; sets status and message.
+bool Simulator::accumulates() {
+  const Event& event = draft_.event;
+  for (const Contact& c : event.contacts) {
+    const std::uint64_t pair = static_cast<std::uint64_t>(c.a) << 32 | static_cast<std::uint32_t>(c.b);
+    const Prediction* next;
+    if (!isLow(c, next)) {
+      if (!low_bounces_.empty()) low_bounces_.erase(pair);
       continue;
     }
-    if (low == low_bounces_.end()) low = low_bounces_.insert(low_bounces_.end(), {c.a, c.b, 0});
-    if (!(next->features == c.features) && ++low->count < kRattles) continue;
+    if (!(next->features == c.features) && ++low_bounces_[pair] < kRattles) continue;
     // gaps shrink by e each, so the rest of the cascade takes gap / (1 - e)
-    const double gap = next->time - d.event.time, e = c.pair.elasticity;
+    const double gap = next->time - event.time, e = c.pair.elasticity;
     std::ostringstream text;
     text.precision(10);
-    text << "'" << scene_.bodies[static_cast<std::size_t>(c.a)].name << "' and '"
-         << scene_.bodies[static_cast<std::size_t>(c.b)].name
-         << "' stay in contact from t = " << d.event.time + (e < 1 ? gap / (1 - e) : gap) << " s on, at ("
-         << c.at.point.x() << ", " << c.at.point.y() << ", " << c.at.point.z() << "), after "
-         << motion_.events.size() + 1 << " impacts; lasting contact is not modelled, so the motion ends there";
-    finish(MotionStatus::cascade, d.event.time, text.str());
+    text << "'" << scene_.bodies[index(c.a)].name << "' and '" << scene_.bodies[index(c.b)].name
+         << "' stay in contact from t = " << event.time + (e < 1 ? gap / (1 - e) : gap) << " s on, at ("
+         << c.at.point.x() << ", " << c.at.point.y() << ", " << c.at.point.z() << "), after " << motion_.impacts + 1
+         << " impacts; lasting contact is not modelled, so the motion ends there";
+    finish(MotionStatus::cascade, event.time, text.str());
     return true;
   }
-  const auto& events = motion_.events;
-  if (events.size() < kStallEvents || d.event.time - events[events.size() - kStallEvents].time >= kStall) return false;
-  std::ostringstream text;
-  text << "impacts accumulate at t = " << d.event.time << " s, at (" << d.event.contacts[0].at.point.transpose()
-       << "): " << kStallEvents << " within " << kStall << " s; the motion ends there";
-  finish(MotionStatus::cascade, d.event.time, text.str());
-  return true;
+  for (const Participant& p : event.participants) {
+    if (!stalls(p.body)) continue;
+    std::ostringstream text;
+    text << "impacts accumulate at t = " << event.time << " s, at (" << event.contacts[0].at.point.transpose()
+         << "): " << kStallEvents << " of '" << scene_.bodies[index(p.body)].name << "' within " << kStall
+         << " s; the motion ends there";
+    finish(MotionStatus::cascade, event.time, text.str());
+    return true;
+  }
+  return false;
 }
 
 }  // namespace carom

@@ -126,8 +126,10 @@ void addIntegrals(Surface& s) {
   s.center = o + rough.first / rough.volume;
   const Moments m = momentsAbout(s, s.center);
   const Vec3 d = m.first / m.volume;
-  const Mat3 covariance = m.second / m.volume - d * d.transpose();
-  s.unit_inertia = covariance.trace() * Mat3::Identity() - covariance;
+  const Mat3 C = m.second / m.volume - d * d.transpose();
+  // trace(C) 1 - C, as sums: of a needle the difference would be rounding
+  s.unit_inertia = -C;
+  s.unit_inertia.diagonal() << C(1, 1) + C(2, 2), C(0, 0) + C(2, 2), C(0, 0) + C(1, 1);
 }
 
 }  // namespace

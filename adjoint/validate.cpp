@@ -2,6 +2,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "adjoint/body_model.h"
 #include "adjoint/errors.h"
 #include "adjoint/validation.h"
 
@@ -59,6 +60,8 @@ namespace {
 
 using namespace validation;
 
+constexpr double kThinnest = 1e-10;  // least share of the largest moment that the roots of an inertia tensor resolve
+
 void requireMoments(const Place& where, const Vec3& I) {
   for (int i = 0; i < 3; ++i) requirePositive(where, I[i]);
   for (int i = 0; i < 3; ++i) {
@@ -70,18 +73,22 @@ void requireMoments(const Place& where, const Vec3& I) {
 }
 
 // Mass and moments that follow from the shape must be numbers that can be divided by: 1e-110 m squared and cubed is
-// not.
+// not, nor is a moment that is lost in the rounding of the others.
 void requireDerived(const Place& where, const Body& body) {
   const bool derived = body.inertia.source == Inertia::Source::derived;
   if (body.fixed || (!derived && !body.density)) return;
-  const SolidProperties solid = kindOf(body.shape).properties(body.shape);
-  const double mass = body.density ? *body.density * solid.volume : *body.mass;
-  const double least = derived ? mass * solid.unit_inertia.diagonal().minCoeff() : mass;
-  const double most = derived ? mass * solid.unit_inertia.diagonal().maxCoeff() : mass;
-  if (!(mass > 1e-300 && mass < 1e300 && least > 1e-300 && most < 1e300))
+  const BodyModel model = modelOf(body);
+  const double least = derived ? model.inertia.minCoeff() : model.mass;
+  const double most = derived ? model.inertia.maxCoeff() : model.mass;
+  if (!(model.mass > 1e-300 && model.mass < 1e300 && least > 1e-300 && most < 1e300))
     fail(where / "shape",
-         "a size from which a mass of " + text(mass) + " kg and a least moment of " + text(least) + " kg m^2 follow",
+         "a size from which a mass of " + text(model.mass) + " kg and a least moment of " + text(least) +
+             " kg m^2 follow",
          "a size whose mass and moments can be divided by");
+  if (derived && model.has_offset && !(least > kThinnest * most))
+    fail(where / "shape",
+         "a body so thin that its least moment, " + text(least) + " kg m^2 of " + text(most) + ", is lost in rounding",
+         "a thicker one, or \"inertia\" written");
 }
 
 void validateMass(const Place& where, const Body& body) {

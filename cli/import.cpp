@@ -19,11 +19,11 @@ struct Options {
 };
 
 /// What the scene is like as a whole, which no node says.
-void warnIfOverlapping(const Scene& scene) {
+void addOverlap(Imported& imported) {
   try {
-    OdeContacts contacts(scene);
+    const OdeContacts contacts(imported.document.scene);
   } catch (const InputError& error) {
-    Output::warn(std::string("the scene cannot be simulated as it is: ") + error.what());
+    imported.report.warnings.push_back(std::string("the scene cannot be simulated as it is: ") + error.what());
   }
 }
 
@@ -34,8 +34,8 @@ Exit importScene(const Options& options, Output& out) {
   Imported imported = importGltf(options.input);
   if (options.duration) imported.document.duration = *options.duration;
   const std::vector<std::string> meshes = saveWithMeshes(options.output, imported.document);
+  addOverlap(imported);
   for (const std::string& warning : imported.report.warnings) Output::warn(warning);
-  warnIfOverlapping(imported.document.scene);
   if (out.json()) {
     out.document(importJson(options.output, imported, meshes));
     return Exit::done;

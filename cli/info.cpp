@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "adjoint/body_model.h"
 #include "carom/version.h"
 #include "cli/command.h"
 #include "cli/loading.h"
@@ -80,6 +81,17 @@ void printBodies(Output& out, const Scene& scene, const ScenePlan& plan) {
   table.print(out.text());
 }
 
+void printShapes(Output& out, const Scene& scene) {
+  out.text() << "\nShapes, and mass properties in their axes:\n";
+  Table table({"body", "shape", ">mass [kg]", "centre of mass [m]", "principal moments [kg m^2]"});
+  for (const Body& body : scene.bodies) {
+    const BodyModel model = body.fixed ? BodyModel() : modelOf(body);
+    table.row({body.name, kindOf(body.shape).name, body.fixed ? "fixed" : out.number(model.mass),
+               body.fixed ? "" : out.vector(model.center), body.fixed ? "" : out.vector(model.inertia)});
+  }
+  table.print(out.text());
+}
+
 // Pairs of the same materials have the same law and coefficients.
 void printPairs(Output& out, const Scene& scene, const ScenePlan& plan) {
   out.text() << "\nPairs that can touch, with their impact law:\n";
@@ -114,6 +126,7 @@ Exit describeScene(const std::string& path, Output& out) {
   }
   out.text() << path << ": " << out.number(plan.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
              << counted(plan.rows, "number") << " held\n";
+  printShapes(out, loaded.document.scene);
   printBodies(out, loaded.document.scene, plan);
   printPairs(out, loaded.document.scene, plan);
   return Exit::done;
@@ -158,9 +171,9 @@ Action declare(CLI::App& app) {
 
 const Command kInfoCommand{
     "info", "How a scene is computed, and why; or about this program",
-    "For a scene: the flight model of every body, for motion and for derivatives, the impact law and the\n"
-    "combined coefficients of every pair that can touch, each with its reason, and how many numbers may\n"
-    "vary and are held. Without a scene: version, build, libraries and formats.\n"
+    "For a scene: the shape and mass properties of every body, its flight model, for motion and for\n"
+    "derivatives, the impact law and the combined coefficients of every pair that can touch, each with its\n"
+    "reason, and how many numbers may vary and are held. Without a scene: version, build, libraries and formats.\n"
     "\n"
     "Examples:\n"
     "  carom info scene.json\n"

@@ -48,7 +48,9 @@ class Builder {
       return;
     }
     if (node.animated && (node.motion || node.collider))
-      report(node, "its animation is left out: it moves as it is simulated, or stands");
+      report(node, "its animation is left out: " + std::string(node.motion && !node.motion->kinematic
+                                                                   ? "it moves as it is simulated"
+                                                                   : "bodies do not follow animations"));
     if (node.motion && !stands(node)) {
       Draft draft{node, world, {}};
       const std::size_t place = entries_.size();
@@ -128,7 +130,7 @@ class Builder {
     try {
       setMotion(body, draft.node, shape_to_node, draft.world, report_);
     } catch (const InputError& error) {
-      throw InputError(draft.node.label(), error.message());
+      throw errorAt(draft.node, error.message());
     }
     return Entry{check(std::move(body), draft.node), &draft.node};
   }
@@ -160,7 +162,7 @@ class Builder {
       validate(scene);
     } catch (const InputError& error) {
       constexpr std::string_view kBody = "/bodies/0";
-      throw InputError(node.label(), error.where().substr(kBody.size()) + ": " + error.message());
+      throw errorAt(node, error.where().substr(kBody.size()) + ": " + error.message());
     }
     return body;
   }
@@ -171,8 +173,7 @@ class Builder {
       if (entry && entry->node == nullptr) taken.insert(entry->body.name);
     for (auto& entry : entries_) {
       if (!entry || entry->node == nullptr) continue;
-      constexpr std::size_t kLongest = 180;
-      std::string name = entry->node->name.substr(0, kLongest);
+      std::string name = shortName(entry->node->name);
       if (name.empty()) name = "node-" + std::to_string(entry->node->index);
       entry->body.name = name;
       for (int k = 2; !taken.insert(entry->body.name).second; ++k) entry->body.name = name + "-" + std::to_string(k);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <string_view>
 
 #include "adjoint/errors.h"
 
@@ -12,6 +14,10 @@ namespace carom {
 namespace {
 
 constexpr int kNoTarget = 0;
+
+std::size_t hashOf(const void* data, std::size_t bytes) {
+  return std::hash<std::string_view>()({static_cast<const char*>(data), bytes});
+}
 
 std::vector<float> flat(const std::vector<Vec3>& vectors) {
   std::vector<float> out;
@@ -44,14 +50,14 @@ int GltfBuffer::addVertices(const std::vector<Vec3>& vertices, const std::string
 }
 
 int GltfBuffer::addIndices(const std::vector<std::uint32_t>& indices) {
+  const std::size_t bytes = indices.size() * sizeof(std::uint32_t);
+  constexpr int kTarget = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+  if (const int found = findShared(indices.data(), bytes, kTarget); found >= 0) return found;
   tinygltf::Accessor accessor;
-  accessor.bufferView =
-      addView(indices.data(), indices.size() * sizeof(std::uint32_t), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
   accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   accessor.type = TINYGLTF_TYPE_SCALAR;
   accessor.count = indices.size();
-  model_.accessors.push_back(accessor);
-  return static_cast<int>(model_.accessors.size()) - 1;
+  return addAccessor(accessor, indices.data(), bytes, kTarget);
 }
 
 int GltfBuffer::addDoubles(const std::vector<Vec3>& vectors) {
@@ -63,8 +69,9 @@ int GltfBuffer::addFloats(const std::vector<float>& numbers, int width, int type
                           const std::string& what) {
   for (const float number : numbers)
     if (!std::isfinite(number)) throw InputError(what, "a number is too large for glTF's floats, or not finite");
+  const std::size_t bytes = numbers.size() * sizeof(float);
+  if (const int found = findShared(numbers.data(), bytes, target); found >= 0) return found;
   tinygltf::Accessor accessor;
-  accessor.bufferView = addView(numbers.data(), numbers.size() * sizeof(float), target);
   accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
   accessor.type = type;
   accessor.count = numbers.size() / static_cast<std::size_t>(width);
@@ -78,8 +85,28 @@ int GltfBuffer::addFloats(const std::vector<float>& numbers, int width, int type
       high = std::max(high, static_cast<double>(numbers[i]));
     }
   }
+  return addAccessor(accessor, numbers.data(), bytes, target);
+}
+
+int GltfBuffer::findShared(const void* data, std::size_t bytes, int target) const {
+  if (target == kNoTarget) return -1;
+  const auto [first, last] = shared_.equal_range(hashOf(data, bytes));
+  for (auto it = first; it != last; ++it) {
+    const auto& accessor = model_.accessors[static_cast<std::size_t>(it->second)];
+    const auto& view = model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+    if (view.target == target && view.byteLength == bytes &&
+        std::memcmp(model_.buffers[0].data.data() + view.byteOffset, data, bytes) == 0)
+      return it->second;
+  }
+  return -1;
+}
+
+int GltfBuffer::addAccessor(const tinygltf::Accessor& accessor, const void* data, std::size_t bytes, int target) {
+  const int index = static_cast<int>(model_.accessors.size());
   model_.accessors.push_back(accessor);
-  return static_cast<int>(model_.accessors.size()) - 1;
+  model_.accessors.back().bufferView = addView(data, bytes, target);
+  if (target != kNoTarget) shared_.emplace(hashOf(data, bytes), index);
+  return index;
 }
 
 int GltfBuffer::addView(const void* data, std::size_t bytes, int target) {

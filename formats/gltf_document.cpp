@@ -165,6 +165,10 @@ const Body* LeftDocument::bodyOf(const PhysicsNode& node, const Frame& world,
     return nullptr;
   }
   found_.insert(node.name);
+  if (named->inertia.source == Inertia::Source::matrix) {  // a document rounds what it puts together as a matrix
+    named->inertia.moments = *node.motion->inertia_diagonal;
+    named->inertia.axes = node.motion->inertia_orientation;
+  }
   return &*named;
 }
 
@@ -172,23 +176,28 @@ Scene LeftDocument::sceneOf(std::vector<Body> bodies, const PhysicsFile& file) {
   Scene scene;
   scene.gravity = turned(yToZ(), file.gravity);
   if (has_scene_ && near(scene.gravity, scene_.gravity)) scene.gravity = scene_.gravity;
-  scene.materials = scene_.materials;
-  for (const FileMaterial& found : file.materials) {
-    if (found.none) continue;
-    const auto named = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                    [&](const Material& m) { return m.name == found.material.name; });
-    if (named == scene.materials.end()) {
-      scene.materials.push_back(found.material);
-    } else if (!sameMaterial(*named, found.material)) {
-      *named = found.material;
-    }
-  }
+  scene.materials = materialsOf(file);
   scene.bodies = std::move(bodies);
   for (const Tilt& tilt : scene_.tilts)
     if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
                     [&](const Body& b) { return b.name == tilt.body && !b.fixed; }))
       scene.tilts.push_back(tilt);
   return scene;
+}
+
+/// In the order of the file: a document inside glTF keeps its materials by name, in no order.
+std::vector<Material> LeftDocument::materialsOf(const PhysicsFile& file) const {
+  std::vector<Material> left = scene_.materials, out;
+  for (const FileMaterial& found : file.materials) {
+    if (found.none) continue;
+    const auto named =
+        std::find_if(left.begin(), left.end(), [&](const Material& m) { return m.name == found.material.name; });
+    const bool same = named != left.end() && sameMaterial(*named, found.material);
+    out.push_back(same ? *named : found.material);
+    if (named != left.end()) left.erase(named);
+  }
+  out.insert(out.end(), left.begin(), left.end());
+  return out;
 }
 
 void LeftDocument::addEdit(Document& document) {

@@ -2,6 +2,7 @@
 // past the end of some binary files, recurses as deeply as a file nests, and takes wrong types in silence.
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -110,9 +111,13 @@ std::string fileName(const std::string& uri) {
   return name;
 }
 
+bool hasControlCharacter(const std::string& name) {
+  return std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; });
+}
+
 std::string readBufferFile(const std::string& uri, const std::string& folder, const std::string& where) try {
   const std::string name = fileName(uri);
-  if (uri.find("://") != std::string::npos || name.empty() || name.find('\0') != std::string::npos)
+  if (uri.find("://") != std::string::npos || name.empty() || hasControlCharacter(name))
     fail(where, quotedText(uri.substr(0, 60)), "the name of a file");
   const std::filesystem::path path = std::filesystem::path(folder) / name;
   if (std::error_code error; std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
@@ -180,10 +185,9 @@ void strip(Json& document) {
   widenIntegers(document);
 }
 
-std::string oneLine(std::string text) {
+std::string shortLine(std::string text) {
   constexpr std::size_t kMost = 300;
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  text = detail::oneLine(std::move(text));
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text.substr(0, kMost);
 }
@@ -211,7 +215,7 @@ tinygltf::Model parseGltf(std::string_view bytes, const std::string& folder) {
     error += exception.what();
   }
   if (!good || model.meshes.size() != meshes)
-    throw InputError("found no glTF that tinygltf reads (" + oneLine(error) + "), expected a glTF 2.0 file");
+    throw InputError("found no glTF that tinygltf reads (" + shortLine(error) + "), expected a glTF 2.0 file");
   model.buffers = std::move(buffers);
   return model;
 }

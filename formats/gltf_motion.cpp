@@ -15,7 +15,7 @@ bool same(const Value& a, const Value& b, double size) {
   return (a - b).cwiseAbs().maxCoeff() <= kSame * size;
 }
 
-/// Open meshes closed by their convex hulls.
+/// Open meshes closed by their convex hulls. Throws InputError for flat ones.
 Shape withHulls(const Shape& shape) {
   if (const auto* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && !mesh->surface->closed)
     return Hull{convexHull(mesh->surface->vertices), mesh->scale, ""};
@@ -25,6 +25,19 @@ Shape withHulls(const Shape& shape) {
     return out;
   }
   return shape;
+}
+
+/// What derives from the shape; for an open mesh, where the file does not say it all, from its hull.
+SolidProperties derivedFrom(const Shape& shape, bool solid, bool needed) {
+  if (solid) return kindOf(shape).properties(shape);
+  if (!needed) return {};
+  try {
+    const Shape closed = withHulls(shape);
+    return kindOf(closed).properties(closed);
+  } catch (const InputError& error) {
+    throw InputError("found a moving body of an open mesh that has no convex hull (" + error.message() +
+                     "), expected its mass, center of mass and inertia, or a closed mesh");
+  }
 }
 
 /// The moments of a file in the axes of the shape; none when they are missing or infinite.
@@ -55,9 +68,11 @@ std::optional<Inertia> writtenInertia(const PhysicsNode& node, const Quat& shape
 void setMotion(Body& body, const PhysicsNode& node, const Quat& shape_to_node, const Frame& world,
                ImportReport& report) {
   const Moving& motion = *node.motion;
+  std::optional<Vec3> center = motion.center_of_mass;
+  if (center) center = turned(shape_to_node.conjugate(), world.stretch * *center);
+  std::optional<Inertia> inertia = writtenInertia(node, shape_to_node, report);
   const bool solid = kindOf(body.shape).solid(body.shape);
-  const Shape solid_shape = solid ? body.shape : withHulls(body.shape);
-  const SolidProperties derived = kindOf(solid_shape).properties(solid_shape);
+  const SolidProperties derived = derivedFrom(body.shape, solid, !motion.mass || !center || !inertia);
   const double mass = motion.mass ? *motion.mass : kDensity * derived.volume;
   if (motion.mass || !solid) {
     body.mass = mass;
@@ -67,10 +82,6 @@ void setMotion(Body& body, const PhysicsNode& node, const Quat& shape_to_node, c
   if (!motion.mass)
     report.warnings.push_back(node.label() + ": it has no mass; it is that of its volume at " + numberText(kDensity) +
                               " kg/m^3, " + numberText(mass) + " kg");
-
-  std::optional<Vec3> center = motion.center_of_mass;
-  if (center) center = turned(shape_to_node.conjugate(), world.stretch * *center);
-  std::optional<Inertia> inertia = writtenInertia(node, shape_to_node, report);
   if (!solid && (!center || !inertia)) {
     report.warnings.push_back(node.label() + ": its mesh is open, so that " + (center ? "" : "its centre of mass") +
                               (center || inertia ? "" : " and ") + (inertia ? "" : "its inertia") +

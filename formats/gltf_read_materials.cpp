@@ -29,7 +29,7 @@ Combine readCombine(const JsonPlace& material, const char* member) {
 
 /// A name of its own for each; what has none is called by its number.
 std::string nameFor(const JsonPlace& material, std::size_t index, std::set<std::string>& taken) {
-  std::string name = material.textOr("name", "");
+  std::string name = shortName(material.textOr("name", ""));
   if (name.empty()) name = "material-" + std::to_string(index);
   std::string free = name;
   for (int k = 2; !taken.insert(free).second; ++k) free = name + "-" + std::to_string(k);

@@ -16,6 +16,12 @@ using detail::JsonPlace;
 constexpr int kDeepest = 500;  // nodes below one another; every level is a call
 constexpr const char* kRigidBodies = "KHR_physics_rigid_bodies";
 
+std::string labelOf(int index, const std::string& name) {
+  const std::string pointer = index < 0 ? "" : "/nodes/" + std::to_string(index);
+  if (name.empty()) return "node " + pointer;
+  return "node '" + name + "'" + (pointer.empty() ? "" : " (" + pointer + ")");
+}
+
 /// A matrix is a rotation times a scale along the node's axes, as glTF asks; mirrored ones are mirrored in x.
 void setMatrix(PhysicsNode& node, const JsonPlace& matrix) {
   Mat3 columns;
@@ -57,13 +63,14 @@ class NodeReader {
     if (const auto nodes = document_.find("nodes")) count_ = nodes->size();
   }
 
-  PhysicsNode read(int index, int depth = 0) {
+  PhysicsNode read(int index, bool carried = false, int depth = 0) {
     const JsonPlace place = document_.require("nodes").at(static_cast<std::size_t>(index));
     if (depth > kDeepest) fail(place.pointer, "a node below " + std::to_string(kDeepest) + " others", "fewer levels");
     PhysicsNode node;
     node.index = index;
     node.name = place.textOr("name", "");
-    node.animated = parts_.animated.count(index) > 0;
+    node.animated = carried || parts_.animated.count(index) > 0;
+    reached_.insert(index);
     if (const auto matrix = place.find("matrix")) {
       setMatrix(node, *matrix);
     } else {
@@ -75,11 +82,20 @@ class NodeReader {
     reportOthers(node, place);
     if (const auto children = place.find("children"))
       for (std::size_t i = 0; i < children->size(); ++i)
-        node.children.push_back(read(children->at(i).index(count_, "nodes"), depth + 1));
+        node.children.push_back(read(children->at(i).index(count_, "nodes"), node.animated && !node.motion, depth + 1));
     return node;
   }
 
-  void finish() { filters_.report(report_); }
+  /// Reports what concerns several nodes, and those that are not in the scene.
+  void finish() {
+    filters_.report(report_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const JsonPlace place = document_.require("nodes").at(i);
+      if (reached_.count(static_cast<int>(i)) > 0 || !extensionOf(place, kRigidBodies)) continue;
+      report_.warnings.push_back(nodeAt(static_cast<int>(i)) +
+                                 ": its physics is left out: it is not in the scene that is read");
+    }
+  }
 
  private:
   void readPhysicsOf(PhysicsNode& node, const JsonPlace& physics) {
@@ -88,8 +104,7 @@ class NodeReader {
     if (physics.find("trigger")) leaveOut(node, "its trigger", "triggers");
     if (const auto joint = physics.find("joint")) {
       const auto other = joint->find("connectedNode");
-      const std::string to = other ? " to node " + std::to_string(other->index(count_, "nodes")) : "";
-      leaveOut(node, "its joint" + to, "joints");
+      leaveOut(node, "its joint" + (other ? " to " + nodeAt(other->index(count_, "nodes")) : ""), "joints");
     }
   }
 
@@ -105,12 +120,16 @@ class NodeReader {
 
   void reportOthers(const PhysicsNode& node, const JsonPlace& place) {
     for (const char* name : {"KHR_rigid_bodies", "MSFT_rigid_bodies", "MSFT_physics", "OMI_physics_body",
-                             "OMI_physics_joint", "OMI_physics_gravity", "EXT_mesh_gpu_instancing"})
+                             "OMI_physics_joint", "OMI_physics_gravity", "OMI_collider", "EXT_mesh_gpu_instancing"})
       if (extensionOf(place, name)) leaveOut(node, name, "extensions of that name");
   }
 
   void leaveOut(const PhysicsNode& node, const std::string& what, const std::string& kind) {
     report_.warnings.push_back(node.label() + ": " + what + " is left out: " + kind + " are not supported");
+  }
+
+  std::string nodeAt(int index) const {
+    return labelOf(index, document_.require("nodes").at(static_cast<std::size_t>(index)).textOr("name", ""));
   }
 
   JsonPlace document_;
@@ -119,6 +138,7 @@ class NodeReader {
   ImportReport& report_;
   FilterList filters_;
   std::size_t count_ = 0;
+  std::set<int> reached_;
 };
 
 std::set<int> animatedNodes(const JsonPlace& document) {
@@ -169,10 +189,18 @@ void reportRequired(const JsonPlace& document, ImportReport& report) {
 
 }  // namespace
 
-std::string PhysicsNode::label() const {
-  const std::string pointer = index < 0 ? "" : "/nodes/" + std::to_string(index);
-  if (name.empty()) return "node " + pointer;
-  return "node '" + name + "'" + (pointer.empty() ? "" : " (" + pointer + ")");
+std::string PhysicsNode::label() const { return labelOf(index, name); }
+
+InputError errorAt(const PhysicsNode& node, const std::string& sentence) {
+  const std::string name = node.name.empty() ? "" : "node '" + detail::oneLine(node.name) + "': ";
+  return {"/nodes/" + std::to_string(node.index), name + sentence};
+}
+
+std::string shortName(const std::string& name) {
+  std::size_t length = 180;  // bytes, of which a document takes 200 characters
+  if (name.size() <= length) return name;
+  while (length > 0 && (static_cast<unsigned char>(name[length]) & 0xC0u) == 0x80u) --length;  // within a character
+  return name.substr(0, length);
 }
 
 std::optional<JsonPlace> defaultScene(const JsonPlace& document) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kFloats = 1e-6;  // scales that differ by less differ by the rounding of floats
 
 [[noreturn]] void fail(const PhysicsNode& node, const std::string& found, const std::string& expected) {
-  throw InputError(node.label(), "found " + found + ", expected " + expected);
+  throw errorAt(node, "found " + found + ", expected " + expected);
 }
 
 std::string text(const Vec3& v) {
@@ -160,8 +160,8 @@ std::optional<Shape> ShapeMaker::make(const PhysicsNode& node, const Mat3& stret
   if (mesh->convex) return Hull{surface, uniform ? scale : 1, ""};
   return Mesh{surface, uniform ? scale : 1, ""};
 } catch (const InputError& error) {
-  if (error.where() == node.label()) throw;
-  throw InputError(node.label(), error.what());
+  if (error.where() == errorAt(node, "").where()) throw;
+  throw errorAt(node, error.what());
 }
 
 }  // namespace carom::gltf

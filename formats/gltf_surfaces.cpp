@@ -1,6 +1,7 @@
 // Surfaces of colliders from the meshes of a glTF document.
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -47,6 +48,10 @@ ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3
 void ShapeMaker::appendBelow(int index, const Eigen::Affine3d& transform, Triangles& out) {
   const std::string where = "/nodes/" + std::to_string(index);
   const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
+  const bool morphed = std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; });
+  if (morphed)
+    report_.warnings.push_back("node '" + node.name + "' (" + where +
+                               "): its morph weights are left out: the mesh collides as it is at rest");
   if (node.skin >= 0)
     report_.warnings.push_back("node '" + node.name + "' (" + where +
                                "): its skin is left out: the mesh collides as it is at rest");

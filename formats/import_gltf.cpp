@@ -10,9 +10,8 @@
 #include "formats/read_file.h"
 
 namespace carom {
-namespace {
 
-Imported importFrom(const std::string& bytes, const std::string& folder) {
+Imported parseGltfScene(std::string_view bytes, const std::string& folder) {
   const tinygltf::Model model = parseGltf(bytes, folder);
   const detail::Json json = gltfJson(bytes);
   Imported out;
@@ -26,18 +25,17 @@ Imported importFrom(const std::string& bytes, const std::string& folder) {
   if (bodies.empty())
     throw InputError(
         "found no body, expected nodes with a collider (extension KHR_physics_rigid_bodies) in the default scene" +
-        std::string(out.report.warnings.empty() ? "" : "; " + out.report.warnings.front()));
+        std::string(out.report.warnings.empty() ? "" : "; " + detail::oneLine(out.report.warnings.front())));
   out.document.scene = left.sceneOf(std::move(bodies), file);
   validate(out.document.scene);
   left.addEdit(out.document);
+  for (std::string& warning : out.report.warnings) warning = detail::oneLine(std::move(warning));  // names of nodes
   return out;
 }
 
-}  // namespace
-
 Imported importGltf(const std::string& path) try {
   const std::string bytes = readFile(path, "a glTF file", kLargestMeshFile);
-  return importFrom(bytes, std::filesystem::path(path).parent_path().string());
+  return parseGltfScene(bytes, std::filesystem::path(path).parent_path().string());
 } catch (const FormatError&) {
   throw;
 } catch (const InputError& error) {

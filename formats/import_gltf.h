@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/document.h"
@@ -31,6 +32,9 @@ struct Imported {
 ///
 /// Throws FormatError with the JSON pointer or the node: no glTF, no physics in it, values that are not possible.
 Imported importGltf(const std::string& path);
+
+/// The same for the bytes of a file; buffers in other files are searched in `folder`. Throws InputError.
+Imported parseGltfScene(std::string_view bytes, const std::string& folder);
 
 /// Saves a document as saveDocument does. Surfaces of hulls and meshes that have no file are written beside it, as
 /// <name>-meshes/<body>.obj with all their digits, one for each surface; hulls of few points are written in the

@@ -1,13 +1,34 @@
 #include "formats/info_json.h"
 
+#include "adjoint/body_model.h"
 #include "formats/json_writer.h"
 
 namespace carom {
 namespace {
 
+void writeShapeOf(JsonWriter& out, const Body& body) {
+  const ShapeKind& kind = kindOf(body.shape);
+  out.key("shape").text(kind.name);
+  const std::vector<std::string> names = kind.dimension_names(body.shape);
+  const Eigen::VectorXd values = kind.dimensions(body.shape);
+  out.key("dimensions").beginObject(JsonWriter::Layout::line);
+  for (std::size_t i = 0; i < names.size(); ++i) out.key(names[i]).number(values[static_cast<Eigen::Index>(i)]);
+  out.endObject();
+}
+
+void writeMassProperties(JsonWriter& out, const Body& body) {
+  if (body.fixed) return;
+  const BodyModel model = modelOf(body);
+  out.key("mass").number(model.mass);
+  out.key("center_of_mass").vector(model.center);
+  out.key("moments").vector(model.inertia);
+}
+
 void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
   out.beginObject();
   out.key("name").text(body.name);
+  writeShapeOf(out, body);
+  writeMassProperties(out, body);
   out.key("tier").text(nameOf(plan.tier));
   out.key("why").text(plan.why);
   out.key("derivative_tier").text(nameOf(plan.derivative_tier));

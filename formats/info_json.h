@@ -26,8 +26,9 @@ struct ScenePlan {
   int rows = 0;      ///< numbers that are held
 };
 
-/// The answer of `carom info S.json --json`: duration, asked, bodies {name, tier, why, derivative_tier,
-/// derivative_why}, pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
+/// The answer of `carom info S.json --json`: duration, asked, bodies {name, shape, dimensions by name, of moving ones
+/// mass, center_of_mass (m, shape axes) and principal moments (kg m^2), tier, why, derivative_tier, derivative_why},
+/// pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
 std::string infoJson(const Scene& scene, const ScenePlan& plan);
 
 }  // namespace carom

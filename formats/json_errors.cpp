@@ -11,12 +11,15 @@ namespace {
 
 constexpr std::size_t kLongestExcerpt = 60;
 
-std::string shortened(std::string_view text) {
-  if (text.size() <= kLongestExcerpt) return quotedText(text);
-  std::size_t end = kLongestExcerpt;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;  // not inside a character
-  return quotedText(std::string(text.substr(0, end)) + "...");
+/// At most `most` bytes, not cut inside a character, with "..." for what is left out.
+std::string cut(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;
+  return std::string(text.substr(0, end)) + "...";
 }
+
+std::string shortened(std::string_view text) { return quotedText(cut(text, kLongestExcerpt)); }
 
 /// Number of letters to add, leave out, change or swap with their neighbour.
 std::size_t editDistance(std::string_view a, std::string_view b) {
@@ -38,12 +41,16 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string pointerTo(const std::string& parent, std::string_view member) {
+  constexpr std::size_t kLongestMember = 400;  // most names are whole
   std::string pointer = parent + "/";
-  for (const char c : member) {
+  for (const char c : cut(member, kLongestMember)) {
     if (c == '~') {
       pointer += "~0";
     } else if (c == '/') {
       pointer += "~1";
+    } else if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) {
+      const std::string quoted = quotedText({&c, 1});  // "\n": a message stays on its line
+      pointer += quoted.substr(1, quoted.size() - 2);
     } else {
       pointer += c;
     }
@@ -88,6 +95,12 @@ std::string describe(const Json& value) {
     default:
       return "an unknown value";
   }
+}
+
+std::string oneLine(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
+  return text;
 }
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known) {

@@ -153,6 +153,7 @@ class ObjParser {
   }
 
   // v, v/vt, v//vn or v/vt/vn: the vertex, counted from 0. One that comes later in the file is checked at the end.
+  // Programs that have no vt or vn may leave their places empty: v/ or v//.
   long long readCorner(std::string_view token) const {
     std::string_view rest = token;
     long long vertex = 0, ignored = 0;
@@ -160,7 +161,7 @@ class ObjParser {
     for (int part = 0; part < 2 && good && !rest.empty(); ++part) {
       good = rest[0] == '/';
       rest.remove_prefix(1);
-      if (part == 0 && !rest.empty() && rest[0] == '/') continue;
+      if (rest.empty() || (part == 0 && rest[0] == '/')) continue;
       good = good && takeInteger(rest, ignored);
     }
     if (!good || !rest.empty()) fail(shortened(token), "a corner such as 3, 3/1, 3//2 or 3/1/2");

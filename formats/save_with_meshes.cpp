@@ -71,7 +71,7 @@ class MeshFiles {
     if (files_.empty()) return;
     const fs::path into = folder_ / sub_;
     std::error_code error;
-    fs::create_directories(into, error);
+    fs::create_directory(into, error);  // not the folders above it: a path that leads nowhere is an error
     if (error) throw FormatError(into.string(), "", "cannot make the folder: " + error.message());
     for (const auto& [surface, file] : files_) writeFile((folder_ / file).string(), objText(*surface));
   }

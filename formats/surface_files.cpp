@@ -54,12 +54,18 @@ std::shared_ptr<const Surface> SurfaceFiles::find(Surfaces& known, Read read, co
                                                   const std::string& where) {
   if (folder_.empty())
     throw InputError(where, "found a file in a document that has no folder, expected a document read from a file");
-  if (file.find('\0') != std::string::npos) throw InputError(where, "found a zero byte, expected the name of a file");
+  for (const char c : file)  // a message that names the file stays on its line
+    if (static_cast<unsigned char>(c) < ' ')
+      throw InputError(where, std::string("found ") + (c == 0 ? "a zero byte" : "a control character") +
+                                  ", expected the name of a file");
   const fs::path path = fs::path(folder_) / file;
   const std::string key = shortest(path).string();
+  // "a/.." is not always nothing: `a` may be a link.
+  const fs::path normal = path.lexically_normal();
+  const std::string shown = (shortest(normal) == key ? normal : path).string();
   if (const auto found = known.find(key); found != known.end()) return found->second;
   try {
-    return known[key] = read(path.lexically_normal().string());
+    return known[key] = read(shown);
   } catch (const InputError& error) {
     known.erase(key);
     throw InputError(where, error.what());

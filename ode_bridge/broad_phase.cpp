@@ -78,15 +78,12 @@ void BroadPhase::setHalfSpace(int body, const Vec3& normal, double offset) {
   dGeomSetCollideBits(geom, kMoving);
 }
 
-void BroadPhase::neighbours(int body, std::vector<int>& out) const {
+void BroadPhase::pairs(std::vector<std::pair<int, int>>& out) const {
   prepareOdeThread();
-  std::vector<std::pair<int, int>> pairs;
-  dSpaceCollide2(space_->geoms[static_cast<std::size_t>(body)], reinterpret_cast<dGeomID>(space_->space), &pairs, note);
   out.clear();
-  for (const auto& [a, b] : pairs)
-    if (const int other = a == body ? b : a; other != body) out.push_back(other);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  dSpaceCollide(space_->space, &out, note);
+  for (auto& [a, b] : out)
+    if (a > b) std::swap(a, b);
 }
 
 }  // namespace carom

@@ -1,19 +1,15 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "adjoint/types.h"
+#include "ode_bridge/swept_bounds.h"
 
 namespace carom {
 
-/// Axis-aligned box in the world.
-struct Bounds {
-  Vec3 low, high;
-};
-
 /// Pairs of bodies whose bounds meet, by the collision library's sweep-and-prune space. Half spaces are known to it as
-/// such. Fixed bodies are not reported to each other.
+/// such. Fixed bodies are not paired with each other.
 class BroadPhase {
  public:
   BroadPhase();
@@ -26,8 +22,9 @@ class BroadPhase {
   void setBounds(int body, const Bounds& bounds, bool moving);
   /// The half space { p : normal . p <= offset }, fixed.
   void setHalfSpace(int body, const Vec3& normal, double offset);
-  /// Bodies whose bounds meet those of `body`, in increasing order.
-  void neighbours(int body, std::vector<int>& out) const;
+  /// All pairs (a < b) whose bounds meet, each once, in no particular order. A half space is named with all bodies that
+  /// its own axis-aligned bounds meet.
+  void pairs(std::vector<std::pair<int, int>>& out) const;
 
  private:
   struct Space;

@@ -15,9 +15,11 @@ namespace {
 
 using Polygons = std::vector<std::vector<int>>;
 
-constexpr double kLargest = 1e9;                // m, as for every number of a scene
-constexpr double kFlattest = 1e-9;              // least thickness of the points, of their size
-constexpr double kAbove = 1e-12;                // how far a vertex may be above a face, of the size
+constexpr double kLargest = 1e9;     // m, as for every number of a scene
+constexpr double kFlattest = 1e-9;   // least thickness of the points, of their size
+constexpr double kAbove = 1e-12;     // how far a vertex may be above a face, of the size
+constexpr double kShortest = 1e-13;  // least length of an edge, of the size: below, its direction is rounding
+constexpr double kReflex = 1e-14;    // how far an edge may be sunk in, of the size
 constexpr std::size_t kAllPairs = 100'000'000;  // points times faces up to which every point is held against every face
 
 template <class... Parts>
@@ -180,9 +182,35 @@ double unevenness(const Surface& s, const std::vector<Vec3>& points) {
   return worst;
 }
 
+double lengthOf(const Surface& s, const Surface::Edge& e) {
+  return (at(s.vertices, e.to) - at(s.vertices, e.from)).norm();
+}
+
+/// Largest product of length and reflex bend of an edge: how far it is sunk in, where its faces are no wider than it.
+double sunk(const Surface& s) {
+  double worst = 0;
+  for (const Surface::Edge& e : s.edges) worst = std::max(worst, -e.bend * lengthOf(s, e));
+  return worst;
+}
+
+/// The points without those, of two that an edge shorter than `least` joins, that come later.
+std::vector<Vec3> withoutCrowded(const std::vector<Vec3>& points, const Surface& s, double least) {
+  std::vector<char> dropped(s.vertices.size(), 0);
+  for (const Surface::Edge& e : s.edges) {
+    const auto [early, late] = std::minmax(e.from, e.to);
+    if (lengthOf(s, e) < least && !dropped[static_cast<std::size_t>(early)])
+      dropped[static_cast<std::size_t>(late)] = 1;
+  }
+  std::vector<Vec3> kept = points;
+  for (std::size_t v = 0; v < dropped.size(); ++v)
+    if (dropped[v]) std::erase(kept, s.vertices[v]);
+  return kept;
+}
+
 /// The hull from the library's facets; null, with what is wrong, when they do not make one.
 std::shared_ptr<const Surface> surfaceOf(Polygons polygons, const std::vector<Vec3>& points,
-                                         const std::vector<int>& first, double size, std::string& problem) {
+                                         const std::vector<int>& first, double size, double rounding,
+                                         std::string& problem) {
   for (auto& polygon : polygons)
     for (int& v : polygon) v = first[static_cast<std::size_t>(v)];
   problem = "a face without area";
@@ -193,7 +221,9 @@ std::shared_ptr<const Surface> surfaceOf(Polygons polygons, const std::vector<Ve
   std::vector<Vec3> vertices = keepUsed(polygons, points);
   auto surface = std::make_shared<Surface>(assembleSurface(std::move(vertices), polygons));
   problem = "a face that points stand out of";
-  return unevenness(*surface, points) <= kAbove * size ? surface : nullptr;
+  if (!(unevenness(*surface, points) <= kAbove * size)) return nullptr;
+  problem = "an edge that is sunk in";
+  return sunk(*surface) <= std::max(kReflex, rounding) * size ? surface : nullptr;
 }
 
 }  // namespace
@@ -209,7 +239,10 @@ std::shared_ptr<const Surface> convexHull(const std::vector<Vec3>& points) {
     const QhullFacets facets = qhullFacets(moved, rounding, attempt);
     problem = facets.problem;
     if (facets.polygons.empty()) continue;
-    if (auto surface = surfaceOf(facets.polygons, points, first, size, problem)) return surface;
+    if (auto surface = surfaceOf(facets.polygons, points, first, size, rounding, problem)) {
+      const std::vector<Vec3> apart = withoutCrowded(points, *surface, kShortest * size);
+      return apart.size() < points.size() ? convexHull(apart) : surface;
+    }
   }
   fail("", "found points whose hull cannot be told (", problem, "), expected none within rounding of others' planes");
 }

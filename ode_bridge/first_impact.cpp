@@ -1,126 +1,180 @@
 #include "ode_bridge/first_impact.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <queue>
+#include <vector>
+
+#include "ode_bridge/refine.h"
+#include "ode_bridge/touching.h"
 
 namespace carom {
-namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-// Positions of size 1 are known to 1e-16 and a separation is a sum of some ten of them.
-constexpr double kTouch = 1e-13;
-// Approach slower than this share of the speeds involved cannot be told from none.
-constexpr double kStill = 1e-12;
-
-double speedScale(const Placed& a, const Placed& b) {
-  return a.k.v.norm() + b.k.v.norm() + a.spin * a.solid->reach + b.spin * b.solid->reach;
-}
-
-double gapRate(const Placed& a, const Placed& b, const ContactPoint& c) {
-  return c.normal.dot(a.k.v + a.k.w.cross(c.point - a.k.x) - b.k.v - b.k.w.cross(c.point - b.k.x));
-}
-
-struct Root {
-  double time = 0;
-  bool approaching = false;
-};
-
-// Newton on the gap of frozen features from a time at which it is within rounding of zero.
-Root refine(const PairMotion& pair, const FeaturePair& features, double from, double t, const Placed& a0,
-            const Placed& b0) {
-  const Solid &sa = pair.geometry.solid(pair.a), &sb = pair.geometry.solid(pair.b);
-  ContactPoint c = pair.geometry.contact(pair.a, pair.b, features, a0.pose(), b0.pose());
-  double rate = gapRate(a0, b0, c);
-  if (!(rate < -kStill * speedScale(a0, b0))) return {t, false};
-  double best = std::abs(c.gap);
-  for (int round = 0; round < 6; ++round) {
-    const double next = std::max(from, t - c.gap / rate);
-    if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {next, true};
-    pair.arc_a.extendTo(next);
-    pair.arc_b.extendTo(next);
-    const Placed a(sa, pair.arc_a, next), b(sb, pair.arc_b, next);
-    c = pair.geometry.contact(pair.a, pair.b, features, a.pose(), b.pose());
-    const double new_rate = gapRate(a, b, c);
-    if (!(std::abs(c.gap) < best) || !(new_rate < 0)) return {std::abs(c.gap) <= best ? next : t, true};
-    best = std::abs(c.gap);
-    rate = new_rate;
-    t = next;
-  }
-  return {t, true};
-}
-
-}  // namespace
-
-double touchTolerance(const Placed& a, const Placed& b) {
-  double scale = 1;
-  for (const Placed* p : {&a, &b})
-    if (!p->solid->plane) scale = std::max({scale, p->k.x.cwiseAbs().maxCoeff(), p->solid->bound()});
-  return kTouch * scale;
-}
-
 namespace {
 
 // Bodies that glide along each other without approaching are followed in steps that the tolerance of contact allows.
 // After so many such steps in a row it is doubled, up to kLoosest times; what they may overlap by stays below 1e-10 m.
 constexpr int kGlideSteps = 64;
 constexpr double kLoosest = 1000;
+// Bodies that start in touch may overlap by this many tolerances of contact.
+constexpr double kDeepest = 4e4;
 
 // The library proposes a direction when boxes first come near, grown by this share of their size.
 constexpr double kGrown = 0.01;
 
-// The candidate direction, if the exact geometry says that the solids are apart along it.
-std::optional<Witness> candidateWitness(const PairMotion& pair, const Placed& a, const Placed& b, double tolerance) {
-  if (!a.solid->box || !b.solid->box) return std::nullopt;
-  const auto n =
-      pair.narrow_phase.candidateNormal(pair.a, pair.b, a, b, kGrown * std::min(a.solid->reach, b.solid->reach));
-  if (!n) return std::nullopt;
-  const Witness w = witnessAlong(a, b, *n);
-  return w.separation > tolerance ? std::optional(w) : std::nullopt;
-}
+// Balls further apart than this share of their size are followed as such; nearer ones are opened.
+constexpr double kFar = 0.05, kOpen = 0.25;
 
-// The earliest impact among the features that touch, if any of them approaches.
-std::optional<PredictedImpact> impactAtTouch(const PairMotion& pair, const Placed& a, const Placed& b,
-                                             const Witness& witness, double from, double t, double until,
-                                             double tolerance) {
-  std::optional<PredictedImpact> first;
-  const double reach = std::max(4 * tolerance, 2 * std::abs(witness.separation));
-  for (const FeaturePair& f : touchingFeatures(a, b, witness, reach)) {
-    const Root root = refine(pair, f, from, t, a, b);
-    if (root.approaching && root.time <= until && (!first || root.time < first->time))
-      first = PredictedImpact{root.time, f};
+// Two nodes, one of each body, that cannot touch before `time`.
+struct Pending {
+  double time = 0;
+  int node_a = 0, node_b = 0;
+  int gliding = 0;
+  bool near = false;
+
+  // for a queue with the earliest on top, in an order that does not depend on how it is kept
+  bool operator<(const Pending& o) const {
+    if (time != o.time) return time > o.time;
+    return node_a != o.node_a ? node_a > o.node_a : node_b > o.node_b;
   }
-  return first;
-}
+};
+
+class Search {
+ public:
+  Search(const PairMotion& pair, double from, double until)
+      : pair_(pair),
+        from_(from),
+        until_(until),
+        a_(pair.geometry.solid(pair.a), pair.arc_a, from),
+        b_(pair.geometry.solid(pair.b), pair.arc_b, from) {}
+
+  std::optional<PredictedImpact> run() {
+    now_ = {from_, 0, 0, 0, false};
+    do {
+      while (advance())
+        if (!queue_.empty() && now_ < queue_.top()) {  // others may touch before
+          queue_.push(now_);
+          break;
+        }
+    } while (takeNext());
+    return first_;
+  }
+
+ private:
+  double end() const { return first_ ? std::min(until_, first_->time) : until_; }
+
+  bool takeNext() {
+    if (queue_.empty() || !(queue_.top().time < end())) return false;
+    now_ = queue_.top();
+    queue_.pop();
+    return true;
+  }
+
+  void placeAt(double t) {
+    if (t == placed_at_) return;
+    pair_.arc_a.extendTo(t);
+    pair_.arc_b.extendTo(t);
+    a_ = Placed(*a_.solid, pair_.arc_a, t);
+    b_ = Placed(*b_.solid, pair_.arc_b, t);
+    placed_at_ = t;
+  }
+
+  // Follows the present two nodes by one step; false when they are done with: they cannot touch before the end, or
+  // have touched, or others stand for them.
+  bool advance() {
+    placeAt(now_.time);
+    const PlacedNode a{&a_, &a_.solid->nodes[static_cast<std::size_t>(now_.node_a)]},
+        b{&b_, &b_.solid->nodes[static_cast<std::size_t>(now_.node_b)]};
+    const bool leaves = a.node->piece >= 0 && b.node->piece >= 0;
+    const double apart = separationOf(a, b), size = sizeOf(a) + sizeOf(b);
+    if (apart > (leaves ? kFar : kOpen) * size) {
+      now_.gliding = 0;
+      return step(safeStep(a, b, apart, end() - now_.time));
+    }
+    if (!leaves) {
+      open(a, b);
+      return false;
+    }
+    return advancePieces({&a_, &a_.solid->pieces[static_cast<std::size_t>(a.node->piece)]},
+                         {&b_, &b_.solid->pieces[static_cast<std::size_t>(b.node->piece)]});
+  }
+
+  static double sizeOf(const PlacedNode& p) { return p.body->solid->plane ? 0 : p.node->radius; }
+
+  bool step(double h) {
+    if (!(now_.time + h < end())) return false;
+    now_.time = std::max(now_.time + h, std::nextafter(now_.time, until_));
+    return true;
+  }
+
+  void open(const PlacedNode& a, const PlacedNode& b) {
+    const bool first = b.node->piece >= 0 || (a.node->piece < 0 && a.node->radius >= b.node->radius);
+    const Node& node = first ? *a.node : *b.node;
+    for (const int child : {node.left, node.right}) {
+      Pending next = now_;
+      (first ? next.node_a : next.node_b) = child;
+      queue_.push(next);
+    }
+  }
+
+  bool advancePieces(const PlacedPiece& a, const PlacedPiece& b) {
+    const double tolerance = touchTolerance(a_, b_);
+    Witness witness = findWitness(a, b);
+    if (!now_.near) {
+      now_.near = true;
+      if (const auto candidate = candidateWitness(a, b, tolerance)) witness = *candidate;
+    }
+    if (witness.separation <= tolerance) {
+      if (impactAtTouch(a, b, witness, tolerance)) return false;
+      ++now_.gliding;
+    } else {
+      now_.gliding = 0;
+    }
+    double loose = 1;
+    for (int i = now_.gliding / kGlideSteps; i > 0 && loose < kLoosest; --i) loose *= 2;
+    return step(safeStep(a, b, witness, std::min(loose, kLoosest) * tolerance, end() - now_.time));
+  }
+
+  // The library's direction, if the exact geometry says that the boxes are apart along it.
+  std::optional<Witness> candidateWitness(const PlacedPiece& a, const PlacedPiece& b, double tolerance) const {
+    if (!a_.solid->box || !b_.solid->box) return std::nullopt;
+    const double margin = kGrown * std::min(a_.solid->bound(), b_.solid->bound());
+    const auto n = pair_.narrow_phase.candidateNormal(pair_.a, pair_.b, a_, b_, margin);
+    if (!n) return std::nullopt;
+    const Witness w = witnessAlong(a, b, *n);
+    return w.separation > tolerance ? std::optional(w) : std::nullopt;
+  }
+
+  // Takes over the earliest impact among the features that touch, if any of them approaches.
+  bool impactAtTouch(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance) {
+    const double reach = std::max(4 * tolerance, std::min(2 * std::abs(witness.separation), kDeepest * tolerance));
+    touching_.clear();
+    addTouching(a, b, witness, reach, touching_);
+    bool found = false;
+    for (const FeaturePair& f : touching_) {
+      const Root root = refineRoot(pair_, f, from_, now_.time, a_, b_);
+      if (!root.approaching) continue;
+      found = true;
+      if (root.time <= until_ && (!first_ || root.time < first_->time)) first_ = PredictedImpact{root.time, f};
+    }
+    return found;
+  }
+
+  const PairMotion& pair_;
+  double from_, until_;
+  Placed a_, b_;
+  double placed_at_ = std::numeric_limits<double>::quiet_NaN();
+  Pending now_;
+  std::priority_queue<Pending> queue_;
+  std::vector<FeaturePair> touching_;
+  std::optional<PredictedImpact> first_;
+};
 
 }  // namespace
 
 std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until) {
-  const Solid &sa = pair.geometry.solid(pair.a), &sb = pair.geometry.solid(pair.b);
-  int gliding = 0;
-  double loose = 1;
-  bool near = false;
-  for (double t = from;;) {
-    pair.arc_a.extendTo(t);
-    pair.arc_b.extendTo(t);
-    const Placed a(sa, pair.arc_a, t), b(sb, pair.arc_b, t);
-    const double tolerance = touchTolerance(a, b);
-    Witness witness = findWitness(a, b);
-    if (!witness.bounding && !near) {
-      near = true;
-      if (const auto candidate = candidateWitness(pair, a, b, tolerance)) witness = *candidate;
-    }
-    if (witness.separation <= tolerance && !witness.bounding) {
-      if (const auto first = impactAtTouch(pair, a, b, witness, from, t, until, tolerance)) return first;
-      if (++gliding % kGlideSteps == 0) loose = std::min(2 * loose, kLoosest);
-    } else {
-      gliding = 0;
-      loose = 1;
-    }
-    const double h = safeStep(a, b, witness, loose * tolerance, until - t);
-    if (!(t + h < until)) return std::nullopt;
-    t = std::max(t + h, std::nextafter(t, until));
-  }
+  pair.arc_a.extendTo(from);
+  pair.arc_b.extendTo(from);
+  return Search(pair, from, until).run();
 }
 
 }  // namespace carom

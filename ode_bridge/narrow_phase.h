@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "ode_bridge/separation.h"
+#include "ode_bridge/support.h"
 
 namespace carom {
 

@@ -5,8 +5,11 @@
 #include <sstream>
 
 #include "adjoint/errors.h"
-#include "ode_bridge/broad_phase.h"
+#include "ode_bridge/ball_impact.h"
 #include "ode_bridge/first_impact.h"
+#include "ode_bridge/neighbours.h"
+#include "ode_bridge/overlap.h"
+#include "ode_bridge/touching.h"
 
 namespace carom {
 namespace {
@@ -14,35 +17,45 @@ namespace {
 // Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).
 constexpr double kOverlap = 1e-9;
 
-// Everywhere that the body can be on a flight between two times: the parabola's ends and its summits.
-Bounds sweptBounds(const Solid& solid, const Arc& arc, double from, double until) {
-  const Vec3 p = arc.positionAt(from), q = arc.positionAt(until);
-  Bounds b{p.cwiseMin(q), p.cwiseMax(q)};
-  const Vec3 v = arc.velocityAt(from), g = arc.acceleration();
-  for (int k = 0; k < 3; ++k) {
-    if (g[k] == 0) continue;
-    const double summit = -v[k] / g[k];
-    if (!(summit > 0 && summit < until - from)) continue;
-    const double x = p[k] + 0.5 * v[k] * summit;
-    b.low[k] = std::min(b.low[k], x);
-    b.high[k] = std::max(b.high[k], x);
+// Whose impacts have a closed form.
+enum class Quick : char { no, ball, plane };
+
+// The box that a solid stands in, with room for rounding and for the tolerance of contact.
+Bounds standingBounds(const Solid& solid, const Kinematics& k) {
+  const Vec3 half = solid.box ? Vec3(k.R.cwiseAbs() * solid.half) : Vec3::Constant(solid.bound());
+  const Bounds bounds{k.x - half, k.x + half};
+  return grown(bounds, roundingRoom(bounds));
+}
+
+Extent extentOf(const Solid& solid, const Arc& arc) {
+  Extent e;
+  e.moving = arc.moving();
+  const Kinematics k = arc.kinematicsAt(arc.start());
+  if (solid.plane) {
+    e.half_space = true;
+    e.normal = k.R * solid.faces[0].direction;
+    e.offset = e.normal.dot(k.x) + solid.faces[0].point.dot(solid.faces[0].direction);
+    return e;
   }
-  // room for the rounding of positions and for the tolerance of contact
-  const double scale = std::max({1.0, b.low.cwiseAbs().maxCoeff(), b.high.cwiseAbs().maxCoeff()});
-  const Vec3 room = Vec3::Constant(solid.bound() + 1e-9 * scale);
-  b.low -= room;
-  b.high += room;
-  return b;
+  e.radius = solid.ball ? solid.vertices[0].radius : solid.bound();
+  e.box = standingBounds(solid, k);
+  return e;
 }
 
 }  // namespace
 
 struct OdeContacts::State {
-  BroadPhase broad_phase;
+  Neighbours neighbours;
   NarrowPhase narrow_phase;
   std::shared_ptr<const FeatureGeometry> geometry;
+  Vec3 gravity = Vec3::Zero();
+  std::vector<Quick> quick;  // of each body
+  int opened = -1;           // body whose window was asked for last, when and up to where
+  double opened_from = 0, opened_until = 0, end = 0;
 
-  void refuseOverlap(const Scene& scene, const std::vector<BodyModel>& models);
+  void refuseOverlap(const Scene& scene, const std::vector<Arc>& arcs);
+  BallImpact quickImpact(int a, int b, double from, double until) const;
+  void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
 };
 
 OdeContacts::OdeContacts(const Scene& scene) : state_(std::make_unique<State>()) { begin(scene); }
@@ -50,61 +63,114 @@ OdeContacts::OdeContacts(const Scene& scene) : state_(std::make_unique<State>())
 OdeContacts::~OdeContacts() = default;
 
 void OdeContacts::begin(const Scene& scene) {
+  const std::size_t n = scene.bodies.size();
   std::vector<Solid> solids;
   std::vector<BodyModel> models;
+  solids.reserve(n);
+  models.reserve(n);
   for (const Body& body : scene.bodies) {
-    solids.push_back(solidOf(body.shape));
+    solids.push_back(solidOf(body));
     models.push_back(modelOf(body));
   }
+  std::vector<Arc> arcs;
+  std::vector<Extent> extents;
+  arcs.reserve(n);
+  state_->quick.assign(n, Quick::no);
+  for (std::size_t i = 0; i < n; ++i) {
+    arcs.emplace_back(models[i], Tier::none, Vec3::Zero(), 0.0, startState(scene.bodies[i], models[i]));
+    extents.push_back(extentOf(solids[i], arcs[i]));
+    if (solids[i].plane) state_->quick[i] = Quick::plane;
+    if (solids[i].ball && models[i].moving) state_->quick[i] = Quick::ball;
+  }
+  state_->gravity = scene.gravity;
   state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
-  state_->broad_phase.reset(scene.bodies.size());
   state_->narrow_phase.reset(state_->geometry->solids());
-  state_->refuseOverlap(scene, models);
+  state_->neighbours.begin(std::move(extents), scene.gravity);
+  state_->refuseOverlap(scene, arcs);
 }
 
-void OdeContacts::State::refuseOverlap(const Scene& scene, const std::vector<BodyModel>& models) {
-  std::vector<Arc> arcs;
-  arcs.reserve(scene.bodies.size());
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    arcs.emplace_back(models[i], Tier::none, Vec3::Zero(), 0.0, startState(scene.bodies[i], models[i]));
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
-      if (scene.bodies[i].fixed && scene.bodies[j].fixed) continue;
-      const Placed a(geometry->solids()[i], arcs[i], 0), b(geometry->solids()[j], arcs[j], 0);
-      const Witness w = findWitness(a, b);
-      if (w.separation >= -kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13)) continue;
-      std::ostringstream text;
-      text << "found '" << scene.bodies[i].name << "' and '" << scene.bodies[j].name << "' overlapping by "
-           << -w.separation << " m at the start, expected bodies apart or touching";
-      throw InputError("/bodies/" + std::to_string(j), text.str());
-    }
+void OdeContacts::State::refuseOverlap(const Scene& scene, const std::vector<Arc>& arcs) {
+  std::vector<std::pair<int, int>> near;
+  neighbours.pairs(near);
+  std::sort(near.begin(), near.end());
+  for (const auto& [first, second] : near) {
+    const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+    const Placed a(geometry->solids()[i], arcs[i], 0), b(geometry->solids()[j], arcs[j], 0);
+    const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13));
+    if (!depth) continue;
+    std::ostringstream text;
+    text << "found '" << scene.bodies[i].name << "' and '" << scene.bodies[j].name << "' overlapping by "
+         << *depth << " m at the start, expected bodies apart or touching";
+    throw InputError("/bodies/" + std::to_string(j), text.str());
+  }
 }
 
 void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
-  const Solid& solid = state_->geometry->solid(body);
-  if (!solid.plane) {
-    state_->broad_phase.setBounds(body, sweptBounds(solid, arc, from, until), arc.moving());
-    return;
-  }
-  const Kinematics k = arc.kinematicsAt(from);
-  const Vec3 normal = k.R * solid.faces[0].direction;
-  state_->broad_phase.setHalfSpace(body, normal, normal.dot(k.x) + solid.faces[0].point.dot(solid.faces[0].direction));
+  if (!arc.moving()) return;
+  state_->end = until;
+  state_->opened = -1;
+  const carom::State& s = arc.startState();
+  state_->neighbours.setPath(body, {s.x, s.v, arc.start(), 0}, from, until);
 }
 
-void OdeContacts::neighbours(int body, std::vector<int>& out) { state_->broad_phase.neighbours(body, out); }
+double OdeContacts::window(int body, double t) {
+  const double until = state_->neighbours.window(body, t);
+  state_->opened = body;
+  state_->opened_from = t;
+  state_->opened_until = std::min(until, state_->end);
+  return until;
+}
+
+void OdeContacts::neighbours(int body, std::vector<int>& out) {
+  state_->neighbours.list(body, out);
+  if (state_->opened == body && state_->quick[static_cast<std::size_t>(body)] == Quick::ball)
+    state_->keepThoseThatMayMeet(body, out);
+}
+
+// Of balls and planes, those that the ball's present path can meet in its window.
+void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others) const {
+  const FlightPath& path = neighbours.path(body);
+  const double t = opened_from, until = opened_until;
+  const BallNow ball{path.positionAt(t, gravity), path.velocityAt(t, gravity), path.radius};
+  const auto apart = [&](int other) {
+    const Quick kind = quick[static_cast<std::size_t>(other)];
+    if (kind == Quick::ball) return !mayMeet(ball, neighbours.path(other), gravity, t, until);
+    if (kind == Quick::no) return false;
+    const Extent& plane = neighbours.extents()[static_cast<std::size_t>(other)];
+    return !mayMeet(ball, gravity, plane.normal, plane.offset, t, until);
+  };
+  others.erase(std::remove_if(others.begin(), others.end(), apart), others.end());
+}
+
+// Undecided unless both are of the quick kinds.
+BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double until) const {
+  const Quick qa = quick[static_cast<std::size_t>(a)], qb = quick[static_cast<std::size_t>(b)];
+  if (qa == Quick::no || qb == Quick::no) return {BallImpact::Found::undecided, 0};
+  if (qa == Quick::ball && qb == Quick::ball)
+    return ballBallImpact(neighbours.path(a), neighbours.path(b), gravity, from, until);
+  const int ball = qa == Quick::ball ? a : b;
+  const Extent& plane = neighbours.extents()[static_cast<std::size_t>(ball == a ? b : a)];
+  return ballPlaneImpact(neighbours.path(ball), gravity, plane.normal, plane.offset, from, until);
+}
 
 std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
                                                         double until) {
+  const BallImpact quick = state_->quickImpact(a, b, from, until);
+  if (quick.found == BallImpact::Found::none) return std::nullopt;
+  if (quick.found == BallImpact::Found::impact) {
+    const auto isPlane = [&](int body) { return state_->quick[static_cast<std::size_t>(body)] == Quick::plane; };
+    const std::int16_t kind = isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint;
+    return PredictedImpact{quick.time, {kind, 0, 0, 1}};
+  }
   return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b}, from, until);
 }
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
                                                double reach) {
+  const auto quick = [&](int body) { return state_->quick[static_cast<std::size_t>(body)] != Quick::no; };
+  if (quick(a) && quick(b)) return {};  // one contact at the most
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
-  const Witness witness = findWitness(placed_a, placed_b);
-  const double tolerance = std::max(reach, 4 * touchTolerance(placed_a, placed_b));
-  if (witness.bounding || witness.separation > tolerance) return {};
-  return touchingFeatures(placed_a, placed_b, witness, tolerance);
+  return touchingFeatures(placed_a, placed_b, std::max(reach, 4 * touchTolerance(placed_a, placed_b)));
 }
 
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }

@@ -19,6 +19,7 @@ class OdeContacts final : public ContactSource {
 
   void begin(const Scene& scene) override;
   void setPath(int body, const Arc& arc, double from, double until) override;
+  double window(int body, double t) override;
   void neighbours(int body, std::vector<int>& out) override;
   std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
   std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t, double reach) override;

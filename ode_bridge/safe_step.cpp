@@ -1,46 +1,50 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "ode_bridge/separation.h"
 
 // Along a direction n(t), from b to a, the separation at t + h is at least
-//   min_i (c_i + c'_i h) - max_j (d_j + d'_j h) - radii - 1/2 bend h^2,
-// where c_i and d_j are the vertices of a and b along n, seen from the origin of b, and `bend` bounds the sum of their
-// second derivatives over the step. For every pair (i, j) this is a concave parabola that starts positive, so it stays
-// positive up to its first root, and the least root over the pairs is a safe step.
+//   g(h) = c + c' h + min_A (n + m_A h).r - max_B (n + m_B h).r - 1/2 bend h^2,
+// r over the points of a core seen from its body's origin: every point is followed to first order, and `bend` bounds
+// the second derivatives over the step. Each of the three parts is concave in h (a least of linear functions, less a
+// greatest, less a parabola), so where g starts positive it stays positive up to its first root.
 
 namespace carom {
 namespace {
 
-constexpr int kMostVertices = 8;
-
+// g(h), and the parabola through the points that decide it at h, which lies above g.
 struct Front {
-  int count = 1;
-  std::array<double, kMostVertices> at{}, rate{};
+  double at = 0, rate = 0;  ///< g = at + rate h - 1/2 bend h^2 for the points that decide
+};
 
-  void add(double value, double slope) {
-    at[static_cast<std::size_t>(count)] = value;
-    rate[static_cast<std::size_t>(count++)] = slope;
+// The moving points of one side: a core in the body's axes, and (n + m h) there; or nothing for a half space.
+struct Side {
+  const Solid* solid = nullptr;
+  const Piece* piece = nullptr;  ///< without it the single point `center`
+  Vec3 center = Vec3::Zero();
+  Vec3 n = Vec3::Zero(), m = Vec3::Zero();
+
+  // the point that lies least (toward -1) or furthest (+1) along n + m h
+  void add(double h, double toward, Front& front) const {
+    if (!solid) return;
+    const Vec3 p = piece ? supportOf(*solid, *piece, toward * (n + h * m)).at : center;
+    front.at -= toward * n.dot(p);
+    front.rate -= toward * m.dot(p);
   }
 };
 
-struct Fronts {
-  Front a, b;
-  double radii = 0;
+struct Gap {
+  double at = 0, rate = 0;
+  Side a, b;
+
+  Front front(double h) const {
+    Front f{at, rate};
+    a.add(h, -1, f);
+    b.add(h, 1, f);
+    return f;
+  }
 };
-
-// Quantities of the pair that bound second derivatives.
-struct PairBounds {
-  double gravity, speed, distance, reach_a, reach_b, turn_a, turn_b;
-
-  double relativeSpeed(double h) const { return speed + gravity * h; }
-  double separationOfOrigins(double h) const { return distance + relativeSpeed(h) * h; }
-};
-
-// Acceleration of a vertex about its origin: |omega x (omega x r)| + |omega' x r|.
-double turning(const Placed& p) { return p.spin * p.spin + p.spin_rate; }
 
 // First root of c + rate h - bend h^2/2, c > 0.
 double firstRoot(double c, double rate, double bend) {
@@ -49,21 +53,28 @@ double firstRoot(double c, double rate, double bend) {
   return bend > 0 ? (rate + root) / bend : std::numeric_limits<double>::infinity();
 }
 
-double firstTouch(const Fronts& f, double lift, double bend, double limit) {
-  double h = limit;
-  for (int round = 0; round < kMostVertices * kMostVertices; ++round) {
-    std::size_t i = 0, j = 0;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(f.a.count); ++k)
-      if (const double v = f.a.at[k] + f.a.rate[k] * h; v < low) low = v, i = k;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(f.b.count); ++k)
-      if (const double v = f.b.at[k] + f.b.rate[k] * h; v > high) high = v, j = k;
-    if (low - high - f.radii + lift - 0.5 * bend * h * h >= 0) break;
-    const double next = firstRoot(f.a.at[i] - f.b.at[j] - f.radii + lift, f.a.rate[i] - f.b.rate[j], bend);
+constexpr int kMostRounds = 40;
+
+// A time up to which g stays positive, at most `limit`: nearly its first root. Every parabola lies above g, so their
+// roots come down to that of g; should they not reach it, the chord from g(0) ends before it.
+double firstTouch(const Gap& gap, double bend, double limit) {
+  const Front start = gap.front(0);
+  if (!(start.at > 0)) return 0;
+  double h = std::min(limit, firstRoot(start.at, start.rate, bend)), value = 0;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Front f = gap.front(h);
+    value = f.at + f.rate * h - 0.5 * bend * h * h;
+    if (value >= 0) return h;
+    const double next = firstRoot(f.at, f.rate, bend);
     if (!(next < h)) break;
     h = next;
+    if (round == kMostRounds - 1) {
+      const Front last = gap.front(h);
+      value = last.at + last.rate * h - 0.5 * bend * h * h;
+      if (value >= 0) return h;
+    }
   }
-  return h;
+  return h * (start.at / (start.at - value));
 }
 
 // Bounds on second derivatives grow with the window that they must hold in, and the step cannot pass the window: looks
@@ -86,102 +97,130 @@ double bestWindow(double limit, double guess, const Step& step) {
   return best;
 }
 
-template <class Visit>
-void eachVertex(const Placed& p, const Visit& visit) {
-  for (const Feature& v : p.solid->vertices) visit(Vec3(p.k.R * v.point));
+// One side of a pair, as the bounds see it.
+struct Mover {
+  const Placed* body;
+  const Piece* piece;  ///< or the single point `center`
+  Vec3 center;
+  double reach;   ///< furthest point of the core from the body's origin, m
+  bool half_space;
+
+  explicit Mover(const PlacedPiece& p)
+      : body(p.body), piece(p.piece), center(p.piece->center), reach(p.coreReach()), half_space(p.halfSpace()) {}
+  explicit Mover(const PlacedNode& p)
+      : body(p.body), piece(nullptr), center(p.node->center), reach(center.norm()), half_space(p.body->solid->plane) {}
+
+  /// Acceleration of a point at distance 1: |omega x (omega x r)| + |omega' x r|.
+  double turning() const { return body->spin * body->spin + body->spin_rate; }
+  Side side(const Vec3& n, const Vec3& m) const {
+    if (half_space) return {};
+    const Mat3& R = body->k.R;
+    return {body->solid, piece, center, R.transpose() * n, R.transpose() * m};
+  }
+  /// Spin that moves points of the core.
+  Vec3 spin() const { return body->spin > 0 ? body->k.w : Vec3::Zero(); }
+};
+
+double gravityOf(const Mover& a, const Mover& b) { return (a.body->acceleration - b.body->acceleration).norm(); }
+Vec3 apart(const Mover& a, const Mover& b) { return a.body->k.x - b.body->k.x; }
+Vec3 velocity(const Mover& a, const Mover& b) { return a.body->k.v - b.body->k.v; }
+
+// The level of a half space along its normal, seen from the origin of its body.
+double levelOf(const Mover& plane) {
+  const SolidFace& face = plane.body->solid->faces[0];
+  return face.point.dot(face.direction);
 }
 
-// The direction turns with b, whose vertices therefore stay where they are along it; or it stays as it is and the
-// vertices of both move (balls do not: they look the same from all sides).
-double stepInFrameOfB(const Placed& a, const Placed& b, const Witness& w, const Vec3& n, const PairBounds& bounds,
-                      double slack, double limit) {
-  const bool turns = w.frame != Witness::Frame::world && b.spin > 0 && !w.bounding;
-  const Vec3 wb = turns ? b.k.w : Vec3::Zero();
-  const Vec3 D = a.k.x - b.k.x, V = a.k.v - b.k.v;
-  Fronts f;
-  f.a.count = f.b.count = 0;
-  if (w.bounding) {
-    f.a.add(n.dot(D), n.dot(V));
-    f.radii = a.solid->bound();
-  } else {
-    eachVertex(a, [&](const Vec3& r) {
-      const Vec3 p = D + r;
-      f.a.add(n.dot(p), n.dot(V + a.k.w.cross(r) - wb.cross(p)));
-    });
-    f.radii = a.solid->radius;
-  }
-  if (b.solid->plane) {
-    f.b.add(b.solid->faces[0].point.dot(b.solid->faces[0].direction), 0);
-  } else if (w.bounding) {
-    f.b.add(0, 0);
-    f.radii += b.solid->bound();
-  } else {
-    eachVertex(b, [&](const Vec3& r) { f.b.add(n.dot(r), turns ? 0 : n.dot(b.k.w.cross(r))); });
-    f.radii += b.solid->radius;
-  }
-  const double lift = std::max(0.0, slack - w.separation);
-  const double own = w.bounding ? 0 : bounds.turn_a * bounds.reach_a;
-  if (!turns) {
-    const double pull = n.dot(a.acceleration - b.acceleration);
-    const double other = w.bounding ? 0 : bounds.turn_b * bounds.reach_b;
-    return firstTouch(f, lift, std::max(0.0, own + other - pull), limit);
-  }
-  // in the turning frame: relative, Coriolis and centrifugal parts, each at its largest within the window
-  return bestWindow(limit, (std::abs(w.separation) + slack) / (bounds.speed + a.spin * bounds.reach_a),
-                    [&](double window) {
-                      const double speed = bounds.relativeSpeed(window) + a.spin * bounds.reach_a;
-                      const double reach = bounds.separationOfOrigins(window) + bounds.reach_a;
-                      const double bend = bounds.gravity + own + 2 * b.spin * speed + bounds.turn_b * reach;
-                      return firstTouch(f, lift, bend, window);
-                    });
+// The direction stays as it is. `lift` is what is added to the separation, radii counted.
+double stepInWorld(const Mover& a, const Mover& b, const Vec3& n, double lift, double limit) {
+  Gap gap;
+  gap.at = n.dot(apart(a, b)) + lift - (b.half_space ? levelOf(b) : 0);
+  gap.rate = n.dot(velocity(a, b));
+  gap.a = a.side(n, n.cross(a.spin()));
+  gap.b = b.side(n, n.cross(b.spin()));
+  const double pull = n.dot(a.body->acceleration - b.body->acceleration);
+  const double own = a.turning() * a.reach, other = b.half_space ? 0 : b.turning() * b.reach;
+  return firstTouch(gap, std::max(0.0, own + other - pull), limit);
 }
 
-double stepAcrossEdges(const Placed& a, const Placed& b, const Witness& w, const PairBounds& bounds, double slack,
-                       double limit) {
-  const Vec3 c = w.edge_a.cross(w.edge_b), D = a.k.x - b.k.x, V = a.k.v - b.k.v;
-  const double sine = c.norm(), sign = c.dot(w.n) >= 0 ? 1 : -1;
-  const Vec3 dc = a.k.w.cross(w.edge_a).cross(w.edge_b) + w.edge_a.cross(b.k.w.cross(w.edge_b));
-  const Vec3 dn = sign / sine * (dc - w.n * w.n.dot(dc));
-  Fronts f;
-  f.a.count = f.b.count = 0;
-  eachVertex(a, [&](const Vec3& r) {
-    const Vec3 p = D + r;
-    f.a.add(w.n.dot(p), dn.dot(p) + w.n.dot(V + a.k.w.cross(r)));
+// The direction turns with b, whose points therefore stay where they are along it. `room` is the separation, to guess
+// a window by.
+double stepInFrameOfB(const Mover& a, const Mover& b, const Vec3& n, double room, double lift, double limit) {
+  if (!(b.body->spin > 0)) return stepInWorld(a, b, n, lift, limit);
+  const Vec3 wb = b.spin(), D = apart(a, b), V = velocity(a, b);
+  Gap gap;
+  gap.at = n.dot(D) + lift - (b.half_space ? levelOf(b) : 0);
+  gap.rate = n.dot(V - wb.cross(D));
+  gap.a = a.side(n, n.cross(a.spin() - wb));
+  gap.b = b.side(n, Vec3::Zero());
+  const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
+  const double own = a.turning() * a.reach;
+  // relative, Coriolis and centrifugal parts, each at its largest within the window
+  return bestWindow(limit, room / (speed + a.body->spin * a.reach), [&](double window) {
+    const double fastest = speed + gravity * window + a.body->spin * a.reach;
+    const double furthest = distance + (speed + gravity * window) * window + a.reach;
+    return firstTouch(gap, gravity + own + 2 * b.body->spin * fastest + b.turning() * furthest, window);
   });
-  eachVertex(b, [&](const Vec3& r) { f.b.add(w.n.dot(r), dn.dot(r) + w.n.dot(b.k.w.cross(r))); });
-  f.radii = a.solid->radius + b.solid->radius;
-  const double lift = std::max(0.0, slack - w.separation);
+}
+
+double stepAcrossEdges(const Mover& a, const Mover& b, const Witness& w, double room, double lift, double limit) {
+  const Vec3 c = w.edge_a.cross(w.edge_b), D = apart(a, b), V = velocity(a, b), wa = a.spin(), wb = b.spin();
+  const double sine = c.norm(), sign = c.dot(w.n) >= 0 ? 1 : -1;
+  const Vec3 dc = wa.cross(w.edge_a).cross(w.edge_b) + w.edge_a.cross(wb.cross(w.edge_b));
+  const Vec3 dn = sign / sine * (dc - w.n * w.n.dot(dc));
+  Gap gap;
+  gap.at = w.n.dot(D) + lift;
+  gap.rate = dn.dot(D) + w.n.dot(V);
+  gap.a = a.side(w.n, dn + w.n.cross(wa));
+  gap.b = b.side(w.n, dn + w.n.cross(wb));
   // |c'| <= W, |c''| <= Z, and |c| >= sine/2 within the window, so |n'| <= W/s, |n''| <= Z/s + 3 W^2/s^2
-  const double W = a.spin + b.spin, Z = W * W + a.spin_rate + b.spin_rate, s = 0.5 * sine;
+  const double W = a.body->spin + b.body->spin, Z = W * W + a.body->spin_rate + b.body->spin_rate, s = 0.5 * sine;
   const double n1 = W / s, n2 = Z / s + 3 * n1 * n1;
   const double longest = W > 0 ? std::min(limit, s / W) : limit;
+  const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
   return bestWindow(
-      longest, (std::abs(w.separation) + slack) / (bounds.speed + a.spin * bounds.reach_a + b.spin * bounds.reach_b),
+      longest, room / (speed + a.body->spin * a.reach + b.body->spin * b.reach),
       [&](double window) {
-        const double speed = bounds.relativeSpeed(window) + a.spin * bounds.reach_a;
-        const double reach = bounds.separationOfOrigins(window) + bounds.reach_a;
-        const double bend_a = n2 * reach + 2 * n1 * speed + bounds.turn_a * bounds.reach_a + bounds.gravity;
-        const double bend_b = (n2 + 2 * n1 * b.spin + bounds.turn_b) * bounds.reach_b;
-        return firstTouch(f, lift, bend_a + bend_b, window);
+        const double fastest = speed + gravity * window + a.body->spin * a.reach;
+        const double furthest = distance + (speed + gravity * window) * window + a.reach;
+        const double bend_a = n2 * furthest + 2 * n1 * fastest + a.turning() * a.reach + gravity;
+        const double bend_b = (n2 + 2 * n1 * b.body->spin + b.turning()) * b.reach;
+        return firstTouch(gap, bend_a + bend_b, window);
       });
 }
 
 }  // namespace
 
-double safeStep(const Placed& a, const Placed& b, const Witness& w, double slack, double limit) {
-  PairBounds bounds;
-  bounds.gravity = (a.acceleration - b.acceleration).norm();
-  bounds.speed = (a.k.v - b.k.v).norm();
-  bounds.distance = (a.k.x - b.k.x).norm();
-  bounds.reach_a = a.solid->reach;
-  bounds.reach_b = b.solid->reach;
-  bounds.turn_a = turning(a);
-  bounds.turn_b = turning(b);
-  if (w.frame == Witness::Frame::crossed) return stepAcrossEdges(a, b, w, bounds, slack, limit);
-  if (w.frame != Witness::Frame::body_a) return stepInFrameOfB(a, b, w, w.n, bounds, slack, limit);
-  std::swap(bounds.reach_a, bounds.reach_b);
-  std::swap(bounds.turn_a, bounds.turn_b);
-  return stepInFrameOfB(b, a, w, -w.n, bounds, slack, limit);
+double safeStep(const PlacedPiece& a, const PlacedPiece& b, const Witness& w, double slack, double limit) {
+  const Mover ma(a), mb(b);
+  const double room = std::max(slack, w.separation);
+  const double lift = room - w.separation - a.piece->radius - b.piece->radius;
+  switch (w.frame) {
+    case Witness::Frame::world: return stepInWorld(ma, mb, w.n, lift, limit);
+    case Witness::Frame::body_b: return stepInFrameOfB(ma, mb, w.n, room, lift, limit);
+    case Witness::Frame::body_a: return stepInFrameOfB(mb, ma, -w.n, room, lift, limit);
+    case Witness::Frame::crossed:
+      // nearly parallel edges turn their common normal fast: the direction as it is may serve longer
+      return std::max(stepAcrossEdges(ma, mb, w, room, lift, limit), stepInWorld(ma, mb, w.n, lift, limit));
+  }
+  return 0;
+}
+
+double separationOf(const PlacedNode& a, const PlacedNode& b) {
+  if (a.body->solid->plane) return separationOf(b, a);
+  const Vec3 center = a.body->k.x + a.arm();
+  if (!b.body->solid->plane) return (center - b.body->k.x - b.arm()).norm() - a.node->radius - b.node->radius;
+  const SolidFace& face = b.body->solid->faces[0];
+  return (b.body->k.R * face.direction).dot(center - b.body->k.x) - face.point.dot(face.direction) - a.node->radius;
+}
+
+double safeStep(const PlacedNode& a, const PlacedNode& b, double separation, double limit) {
+  if (a.body->solid->plane) return safeStep(b, a, separation, limit);
+  const Mover ma(a), mb(b);
+  if (mb.half_space)
+    return stepInFrameOfB(ma, mb, b.body->k.R * b.body->solid->faces[0].direction, separation, -a.node->radius, limit);
+  const Vec3 between = a.body->k.x + a.arm() - b.body->k.x - b.arm();
+  return stepInWorld(ma, mb, between / between.norm(), -a.node->radius - b.node->radius, limit);
 }
 
 }  // namespace carom

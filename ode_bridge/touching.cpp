@@ -1,78 +1,239 @@
-#include <cmath>
+#include "ode_bridge/touching.h"
 
-#include "ode_bridge/first_impact.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ode_bridge/near_features.h"
 
 namespace carom {
 namespace {
 
-Vec3 vertexOf(const Placed& p, std::size_t v) { return p.k.x + p.k.R * p.solid->vertices[v].point; }
+// Positions of size 1 are known to 1e-16 and a separation is a sum of some ten of them.
+constexpr double kTouch = 1e-13;
+// Two contacts this near, with normals this alike, are one; a normal may leave the cone of a feature by as much.
+constexpr double kSame = 1e-9;
+// Edges more parallel than this touch along a line: their ends carry the contact.
+constexpr double kParallel = 1e-6;
 
-// Vertices of `a` that touch the surface of box `b`, each with the face it is nearest to.
-template <class Add>
-void verticesOnBox(const Placed& a, const Placed& b, double tolerance, const Add& add) {
-  for (std::size_t v = 0; v < a.solid->vertices.size(); ++v) {
-    const Vec3 y = b.k.R.transpose() * (vertexOf(a, v) - b.k.x);
-    int axis;
-    const double depth = (y.cwiseAbs() - b.solid->half).maxCoeff(&axis);
-    if (std::abs(depth) <= tolerance) add(static_cast<int>(v), 2 * axis + (y[axis] > 0 ? 1 : 0));
-  }
-}
+struct Front {
+  Family family;
+  int index;
+};
 
-// Edges of a solid with both ends within tolerance of its furthest extent along a direction.
-std::vector<int> frontEdges(const Placed& p, const Vec3& direction, double tolerance) {
-  double furthest = -1e300;
-  std::vector<double> along(p.solid->vertices.size());
-  for (std::size_t v = 0; v < along.size(); ++v) {
-    along[v] = direction.dot(vertexOf(p, v));
-    furthest = std::max(furthest, along[v]);
-  }
-  std::vector<int> edges;
-  for (std::size_t e = 0; e < p.solid->edge_vertices.size(); ++e) {
-    const auto [v, w] = p.solid->edge_vertices[e];
-    if (along[static_cast<std::size_t>(v)] >= furthest - tolerance &&
-        along[static_cast<std::size_t>(w)] >= furthest - tolerance)
-      edges.push_back(static_cast<int>(e));
-  }
-  return edges;
-}
+struct Touching {
+  const PlacedPiece &a, &b;
+  const Witness& witness;
+  double tolerance;  ///< of a gap
+  double level;      ///< of lying in front
+  double scale;
+  std::vector<FeaturePair>& found;
 
-// Edges that cross strictly inside both.
-bool crossInside(const Placed& a, const Placed& b, int edge_a, int edge_b, const Vec3& n, std::int16_t& sign) {
-  const Feature &fa = a.solid->edges[static_cast<std::size_t>(edge_a)],
-                &fb = b.solid->edges[static_cast<std::size_t>(edge_b)];
-  const Vec3 d1 = a.k.R * fa.direction, d2 = b.k.R * fb.direction, c = d1.cross(d2);
-  const double s2 = c.squaredNorm();
-  if (s2 < 1e-12) return false;  // parallel edges touch along a line: their vertices carry the contact
-  const Vec3 w = a.k.x + a.k.R * fa.point - b.k.x - b.k.R * fb.point;
-  const double t1 = -w.dot(d2.cross(c)) / s2, t2 = -w.dot(d1.cross(c)) / s2;
-  sign = c.dot(n) >= 0 ? 1 : -1;
-  return std::abs(t1) < a.solid->half[edge_a / 4] && std::abs(t2) < b.solid->half[edge_b / 4];
-}
+  template <class Visit>
+  void each(const PlacedPiece& p, const Piece::Range& range, const Visit& visit) const {
+    for (int i = range.first; i < range.first + range.count; ++i)
+      visit(p.solid().piece_features[static_cast<std::size_t>(i)]);
+  }
+
+  // The features of a piece that lie, as a whole, within tolerance of its furthest extent along a direction (of a rim:
+  // one point of it).
+  std::vector<Front> frontOf(const PlacedPiece& p, const Vec3& direction) const {
+    std::vector<Front> front;
+    const Solid& solid = p.solid();
+    if (p.halfSpace()) return {{Family::face, 0}};
+    const Vec3 d = p.body->k.R.transpose() * direction;
+    const double furthest = d.dot(supportOf(solid, *p.piece, d).at) - level;
+    const auto vertex = [&](int v) { return solid.vertices[static_cast<std::size_t>(v)].point.dot(d) >= furthest; };
+    int marks = 0;
+    each(p, p.piece->vertices, [&](int v) {
+      if (vertex(v)) front.push_back({Family::vertex, v}), ++marks;
+    });
+    const bool round = p.piece->core == Piece::Core::cylinder;
+    each(p, p.piece->edges, [&](int e) {
+      const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
+      const bool lies = edge.from >= 0 ? vertex(edge.from) && vertex(edge.to)
+                                       : 2 * edge.half_length * std::abs(edge.direction.dot(d)) <= level;
+      if (lies) front.push_back({Family::edge, e});
+    });
+    each(p, p.piece->faces, [&](int f) {
+      const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
+      if (liesInFront(solid, face, d, vertex)) front.push_back({Family::face, f});
+    });
+    // a cylinder that stands flat touches with its marks, and its rims have no lowest point
+    if (round && marks >= 3) return front;
+    if (round) std::erase_if(front, [](const Front& f) { return f.family == Family::vertex; });
+    each(p, p.piece->rims, [&](int r) {
+      const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
+      if (rim.point.dot(d) + rim.rim * rim.direction.cross(d).norm() >= furthest) front.push_back({Family::rim, r});
+    });
+    return front;
+  }
+
+  template <class Vertex>
+  bool liesInFront(const Solid& solid, const SolidFace& face, const Vec3& d, const Vertex& vertex) const {
+    if (face.disc > 0) return face.direction.dot(d) > 0 && face.disc * face.direction.cross(d).norm() <= level;
+    if (!face.open && face.direction.dot(d) < 0) return false;
+    for (int i = face.first; i < face.first + face.count; ++i)
+      if (!vertex(solid.corners[static_cast<std::size_t>(i)])) return false;
+    return true;
+  }
+
+  // Whether the normal n (from b to a) is one that a sharp feature of `p` can push along: the surface near the feature
+  // falls away from the contact. `outward` is n for b, -n for a.
+  bool inCone(const PlacedPiece& p, const Front& f, const Vec3& outward) const {
+    const Solid& solid = p.solid();
+    const Vec3 n = p.body->k.R.transpose() * outward;
+    const auto at = static_cast<std::size_t>(f.index);
+    if (f.family == Family::vertex) {
+      const Vec3& v = solid.vertices[at].point;
+      for (int i = solid.neighbour_first[at]; i < solid.neighbour_first[at + 1]; ++i) {
+        const Vec3 to = solid.vertices[static_cast<std::size_t>(solid.neighbours[static_cast<std::size_t>(i)])].point - v;
+        if (n.dot(to) > kSame * to.norm()) return false;
+      }
+      return true;
+    }
+    if (f.family != Family::edge || p.piece->core != Piece::Core::triangle) return true;
+    const SolidEdge& edge = solid.edges[at];
+    if (!edge.convex) return false;
+    const auto falls = [&](int face, double along) {
+      return face < 0 || n.dot(along * solid.faces[static_cast<std::size_t>(face)].direction.cross(edge.direction)) <= kSame;
+    };
+    return falls(edge.left, 1) && falls(edge.right, -1);
+  }
+
+  // Whether the foot of the contact is on the feature itself, not on its continuation.
+  bool onFeature(const PlacedPiece& p, const Front& f, const Front& other, const Vec3& point) const {
+    const Solid& solid = p.solid();
+    const Vec3 local = p.body->k.R.transpose() * (point - p.body->k.x);
+    if (f.family == Family::face) {
+      const SolidFace& face = solid.faces[static_cast<std::size_t>(f.index)];
+      return (face.count == 0 && face.disc == 0) || outsideFace(solid, face, local) <= 10 * level;
+    }
+    if (f.family != Family::edge) return true;
+    const SolidEdge& edge = solid.edges[static_cast<std::size_t>(f.index)];
+    const double along = std::abs(edge.direction.dot(local - edge.point)), room = edge.half_length - along;
+    return other.family == Family::edge && level == tolerance ? room > 0 : room >= tolerance - level;
+  }
+
+  bool known(const ContactPoint& c, const FeaturePair& f) const {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found[i] == f) return true;
+      if ((points[i].point - c.point).norm() <= kSame * scale && (points[i].normal - c.normal).norm() <= 1e-6)
+        return true;
+    }
+    return false;
+  }
+
+  std::vector<ContactPoint> points;  // of `found`
+  std::size_t known_before = 0;
+
+  ContactPoint contactNow(GapKind kind, const Front& f, const Front& g, int sign) const {
+    return contactOf(kind, placeFeature(a.solid().feature(f.family, f.index), {a.body->k.x, a.body->k.R}),
+                     placeFeature(b.solid().feature(g.family, g.index), {b.body->k.x, b.body->k.R}), sign);
+  }
+
+  bool tryPair(const Front& f, const Front& g, int sign) {
+    const GapKind kind = gapKind(f.family, g.family);
+    const ContactPoint c = contactNow(kind, f, g, sign);
+    if (!(std::abs(c.gap) <= tolerance)) return false;
+    if (!(separationAlong(a, b, c.normal) >= c.gap - level)) return false;
+    if (!inCone(a, f, -c.normal) || !inCone(b, g, c.normal)) return false;
+    if (!onFeature(a, f, g, c.point) || !onFeature(b, g, f, c.point)) return false;
+    const FeaturePair pair{static_cast<std::int16_t>(kind), f.index, g.index, static_cast<std::int16_t>(sign)};
+    if (!known(c, pair)) found.push_back(pair), points.push_back(c);
+    return true;
+  }
+
+  bool canMeet(const Front& f, const Front& g) const {
+    if (!hasKind(f.family, g.family)) return false;
+    const Feature &fa = a.solid().feature(f.family, f.index), &fb = b.solid().feature(g.family, g.index);
+    const bool face = f.family == Family::face || g.family == Family::face;
+    const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
+    if (vertex && !face) return fa.radius + fb.radius > 0;  // sharp points meet in no general way
+    if (f.family == Family::edge && g.family == Family::edge)
+      return (a.body->k.R * fa.direction).cross(b.body->k.R * fb.direction).norm() >= kParallel;
+    return true;
+  }
+
+  void run() {
+    const std::vector<Front> of_a = frontOf(a, -witness.n), of_b = frontOf(b, witness.n);
+    // faces before edges and edges before vertices, so that a contact on a border is the face's
+    for (const int wanted : {0, 1, 2})
+      for (const Front& f : of_a)
+        for (const Front& g : of_b) {
+          const bool face = f.family == Family::face || g.family == Family::face;
+          const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
+          if ((face ? 0 : vertex ? 2 : 1) != wanted || !canMeet(f, g)) continue;
+          const GapKind kind = gapKind(f.family, g.family);
+          const bool sheet = face && isOpen(f, g);
+          for (int branch = 1; branch <= branches(kind); ++branch) {
+            tryPair(f, g, branch);
+            if (!face || sheet) tryPair(f, g, -branch);
+          }
+        }
+  }
+
+  bool isOpen(const Front& f, const Front& g) const {
+    if (f.family == Family::face) return a.solid().faces[static_cast<std::size_t>(f.index)].open;
+    return b.solid().faces[static_cast<std::size_t>(g.index)].open;
+  }
+};
 
 }  // namespace
 
-std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, const Witness& witness, double tolerance) {
-  std::vector<FeaturePair> found;
-  const auto add = [&](int kind, int fa, int fb, int sign = 1) {
-    found.push_back({static_cast<std::int16_t>(kind), fa, fb,
-                     static_cast<std::int16_t>(sign)});
-  };
-  if (a.solid->box && b.solid->plane) {
-    const double height = witness.n.dot(b.k.x) + b.solid->faces[0].point.dot(b.solid->faces[0].direction);
-    for (std::size_t v = 0; v < a.solid->vertices.size(); ++v)
-      if (witness.n.dot(vertexOf(a, v)) - height <= tolerance) add(kPointPlane, static_cast<int>(v), 0);
-  } else if (a.solid->plane && b.solid->box) {
-    const double height = -witness.n.dot(a.k.x) + a.solid->faces[0].point.dot(a.solid->faces[0].direction);
-    for (std::size_t v = 0; v < b.solid->vertices.size(); ++v)
-      if (-witness.n.dot(vertexOf(b, v)) - height <= tolerance) add(kPlanePoint, 0, static_cast<int>(v));
-  } else if (a.solid->box && b.solid->box) {
-    verticesOnBox(a, b, tolerance, [&](int v, int face) { add(kPointPlane, v, face); });
-    verticesOnBox(b, a, tolerance, [&](int v, int face) { add(kPlanePoint, face, v); });
-    for (int ea : frontEdges(a, -witness.n, tolerance))
-      for (int eb : frontEdges(b, witness.n, tolerance))
-        if (std::int16_t sign; crossInside(a, b, ea, eb, witness.n, sign)) add(kEdgeEdge, ea, eb, sign);
+double touchTolerance(const Placed& a, const Placed& b) {
+  double scale = 1;
+  for (const Placed* p : {&a, &b})
+    if (!p->solid->plane) scale = std::max({scale, p->k.x.cwiseAbs().maxCoeff(), p->solid->bound()});
+  return kTouch * scale;
+}
+
+void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
+                 std::vector<FeaturePair>& found) {
+  if (a.piece->core == Piece::Core::point && b.piece->core == Piece::Core::point && found.empty()) {
+    found.push_back(witness.features);
+    return;
   }
-  if (found.empty()) found.push_back(witness.features);
+  const double size = a.halfSpace() ? b.piece->reach : b.halfSpace() ? a.piece->reach : a.piece->reach + b.piece->reach;
+  const double scale = size + a.piece->radius + b.piece->radius;
+  Touching touching{a, b, witness, tolerance, tolerance, scale, found, {}, 0};
+  for (const FeaturePair& f : found)
+    touching.points.push_back(touching.contactNow(static_cast<GapKind>(f.kind),
+                                                  {familyOfFirst(static_cast<GapKind>(f.kind)), f.a},
+                                                  {familyOfSecond(static_cast<GapKind>(f.kind)), f.b}, f.sign));
+  touching.known_before = found.size();
+  touching.run();
+  if (found.size() > touching.known_before || witness.distance > tolerance) return;
+  // on a border by less than rounding: look again with room for it
+  touching.level = std::max(tolerance, kSame * scale);
+  touching.run();
+  const auto sheet = [](const PlacedPiece& p) { return p.piece->core == Piece::Core::triangle; };
+  if (found.empty() && !sheet(a) && !sheet(b) && witness.features.kind >= 0) found.push_back(witness.features);
+}
+
+std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double tolerance) {
+  std::vector<FeaturePair> found;
+  std::vector<std::pair<int, int>> open{{0, 0}};
+  while (!open.empty()) {
+    const auto [i, j] = open.back();
+    open.pop_back();
+    const PlacedNode na{&a, &a.solid->nodes[static_cast<std::size_t>(i)]},
+        nb{&b, &b.solid->nodes[static_cast<std::size_t>(j)]};
+    if (separationOf(na, nb) > tolerance) continue;
+    const bool leaf_a = na.node->piece >= 0, leaf_b = nb.node->piece >= 0;
+    if (leaf_a && leaf_b) {
+      const PlacedPiece pa{&a, &a.solid->pieces[static_cast<std::size_t>(na.node->piece)]},
+          pb{&b, &b.solid->pieces[static_cast<std::size_t>(nb.node->piece)]};
+      const Witness witness = findWitness(pa, pb);
+      if (witness.separation <= tolerance) addTouching(pa, pb, witness, tolerance, found);
+    } else if (leaf_b || (!leaf_a && na.node->radius >= nb.node->radius)) {
+      open.push_back({na.node->right, j});
+      open.push_back({na.node->left, j});
+    } else {
+      open.push_back({i, nb.node->right});
+      open.push_back({i, nb.node->left});
+    }
+  }
   return found;
 }
 

@@ -1,207 +1,230 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
+#include "ode_bridge/gjk.h"
+#include "ode_bridge/near_features.h"
 #include "ode_bridge/separation.h"
+
+// Any direction bounds the distance of two convex pieces from below; the best one equals it. Nearest points find that
+// direction while pieces are well apart. Where they nearly touch, nearest points say where but no longer say which way
+// (the vector between them is all rounding), and the features that meet there give the direction instead: each is
+// tried, and the slab along it decides.
 
 namespace carom {
 namespace {
 
-// Solids further apart than this share of their bounding radii are seen as balls: one smooth bound, long steps.
-constexpr double kFar = 0.25;
-// Edges within this angle are parallel: their cross product is no direction, and the faces decide.
-constexpr double kParallel = 1e-10;
-// Rounding of a separation along crossed edges, over the sine of their angle; found by comparison with long double.
+// Cores nearer than this share of their size are looked at feature by feature.
+constexpr double kNear = 0.1;
+// Features within this share of the size of a piece from its nearest point are tried; further ones if those explain
+// less than the distance that the points have.
+constexpr double kAround = 1e-6, kFurtherAround = 1e-2, kEverywhere = 1e100;
+constexpr double kRounding = 4e-16;
+// A crossed pair has to beat a face by the rounding of its cross product (that over the sine of the angle).
 constexpr double kEdgeRounding = 8e-16;
+
+FeaturePair pairOf(GapKind kind, int a, int b, int sign) {
+  return {static_cast<std::int16_t>(kind), a, b, static_cast<std::int16_t>(sign)};
+}
+
+// The vertex that a support point is; on a cylinder the rim.
+FeaturePair facing(const PlacedPiece& p, const Vec3& direction, GapKind with_vertex, GapKind with_rim, int face,
+                   int sign, bool piece_is_a) {
+  const Vec3 local = p.body->k.R.transpose() * direction;
+  GapKind kind = with_vertex;
+  int feature;
+  if (p.piece->core == Piece::Core::cylinder) {
+    kind = with_rim;
+    const int end = p.piece->axis.dot(local) >= 0 ? 1 : 0;
+    feature = p.solid().piece_features[static_cast<std::size_t>(p.piece->rims.first + end)];
+  } else {
+    const int point = supportOf(p.solid(), *p.piece, local).index - p.piece->points.first;
+    feature = p.solid().piece_features[static_cast<std::size_t>(p.piece->vertices.first + point)];
+  }
+  return piece_is_a ? pairOf(kind, feature, face, sign) : pairOf(kind, face, feature, sign);
+}
+
+class Search {
+ public:
+  Search(const PlacedPiece& a, const PlacedPiece& b) : a_(a), b_(b) {
+    best_.separation = -std::numeric_limits<double>::infinity();
+  }
+
+  Witness run() {
+    const Vec3 between = a_.body->world(a_.piece->center) - b_.body->world(b_.piece->center);
+    const CoreDistance points = coreDistance(a_, b_, between);
+    const double radii = a_.piece->radius + b_.piece->radius, size = a_.piece->reach + b_.piece->reach;
+    best_.distance = points.upper - radii;
+    if (!points.overlap) byPoints(points);
+    scale_ = size + points.at_a.norm() + points.at_b.norm();
+    if (points.upper - radii <= kNear * size) {
+      for (const double around : {kAround, kFurtherAround, kEverywhere}) {
+        byFeatures(points, around, 1e-3 * points.upper);
+        if (best_.separation >= best_.distance - 100 * kRounding * scale_) break;
+        if (best_.separation > 1e-9 * scale_) break;  // apart in any case: the features would only lengthen the step
+      }
+    }
+    if (!(best_.separation > -std::numeric_limits<double>::infinity())) {  // deep inside each other
+      const double length = between.norm();
+      best_.n = length > 0 ? Vec3(between / length) : Vec3::UnitZ();
+      best_.separation = separationAlong(a_, b_, best_.n);
+    }
+    return best_;
+  }
+
+ private:
+  // Features take the place of points that say the same but for rounding.
+  bool offer(const Vec3& n, Witness::Frame frame, double handicap = 0) {
+    const double separation = separationAlong(a_, b_, n);
+    if (best_.features.kind < 0) handicap = -10 * kRounding * scale_;
+    if (!(separation > best_.separation + handicap)) return false;
+    best_.n = n;
+    best_.separation = separation;
+    best_.frame = frame;
+    best_.features = {};
+    return true;
+  }
+
+  // A direction between nearest points turns with the body of the longer feature that they lie on.
+  void byPoints(const CoreDistance& points) {
+    const auto different = [&](const std::array<Vec3, 4>& of) {
+      int n = 0;
+      for (int i = 0; i < points.count; ++i) {
+        bool seen = false;
+        for (int j = 0; j < i; ++j)
+          seen = seen || of[static_cast<std::size_t>(i)] == of[static_cast<std::size_t>(j)];
+        n += !seen;
+      }
+      return n;
+    };
+    using Frame = Witness::Frame;
+    const int on_a = different(points.of_a), on_b = different(points.of_b);
+    Frame frame = Frame::world;
+    if (a_.piece->core != Piece::Core::cylinder && b_.piece->core != Piece::Core::cylinder) {
+      if (on_a == 1 && on_b > 1) frame = Frame::body_b;
+      if (on_b == 1 && on_a > 1) frame = Frame::body_a;
+      if (points.count == 3 && on_a == 2 && on_b == 2) frame = Frame::crossed;
+    }
+    if (!offer(points.normal, frame) || frame != Frame::crossed) return;
+    best_.edge_a = spread(points.of_a);
+    best_.edge_b = spread(points.of_b);
+  }
+  static Vec3 spread(const std::array<Vec3, 4>& of) {
+    return (of[1] != of[0] ? Vec3(of[1] - of[0]) : Vec3(of[2] - of[0])).normalized();
+  }
+
+  void byFeatures(const CoreDistance& points, double around, double further) {
+    const auto near = [&](const PlacedPiece& p, const Vec3& at) {
+      const Vec3 local = p.body->k.R.transpose() * (at - (p.body->k.x - b_.body->k.x));
+      return featuresNear(p.solid(), *p.piece, local, around * p.piece->reach + further);
+    };
+    const NearFeatures of_a = near(a_, points.at_a), of_b = near(b_, points.at_b);
+    for (const auto& g : of_b)
+      if (g.family == Family::face) faceOfB(g.index);
+    for (const auto& f : of_a)
+      if (f.family == Family::face) faceOfA(f.index);
+    for (const auto& f : of_a)
+      for (const auto& g : of_b)
+        if (f.family != Family::face && g.family != Family::face) crossing(f, g);
+  }
+
+  void faceOfB(int f) {
+    const SolidFace& face = b_.solid().faces[static_cast<std::size_t>(f)];
+    for (int sign = 1; sign >= (face.open ? -1 : 1); sign -= 2) {
+      const Vec3 n = sign * (b_.body->k.R * face.direction);
+      if (offer(n, Witness::Frame::body_b)) best_.features = facing(a_, -n, kPointPlane, kRimPlane, f, sign, true);
+    }
+  }
+  void faceOfA(int f) {
+    const SolidFace& face = a_.solid().faces[static_cast<std::size_t>(f)];
+    for (int sign = 1; sign >= (face.open ? -1 : 1); sign -= 2) {
+      const Vec3 n = -sign * (a_.body->k.R * face.direction);
+      if (offer(n, Witness::Frame::body_a)) best_.features = facing(b_, n, kPlanePoint, kPlaneRim, f, sign, false);
+    }
+  }
+
+  // Edges, rims and swept vertices.
+  void crossing(const NearFeatures::Entry& f, const NearFeatures::Entry& g) {
+    if (!hasKind(f.family, g.family)) return;
+    const Feature &fa = a_.solid().feature(f.family, f.index), &fb = b_.solid().feature(g.family, g.index);
+    const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
+    if (vertex && !(fa.radius + fb.radius > 0)) return;  // sharp points meet in no general way
+    const GapKind kind = gapKind(f.family, g.family);
+    const WorldFeature wa = placeFeature(fa, {a_.body->k.x, a_.body->k.R}),
+                       wb = placeFeature(fb, {b_.body->k.x, b_.body->k.R});
+    const double scale = a_.piece->reach + b_.piece->reach + (wa.point - wb.point).norm();
+    double handicap = 0;
+    if (!vertex && f.family == Family::edge && g.family == Family::edge) {
+      const double sine = wa.direction.cross(wb.direction).norm();
+      if (!(sine > 1e-14)) return;
+      handicap = kEdgeRounding * scale / sine;
+    }
+    for (int branch = 1; branch <= branches(kind); ++branch)
+      for (const int sign : {branch, -branch}) {
+        const ContactPoint c = contactOf(kind, wa, wb, sign);
+        if (!std::isfinite(c.gap) || !offer(c.normal, frameOf(f.family, g.family), handicap)) continue;
+        best_.features = pairOf(kind, f.index, g.index, sign);
+        if (best_.frame == Witness::Frame::crossed) best_.edge_a = wa.direction, best_.edge_b = wb.direction;
+      }
+  }
+
+  static Witness::Frame frameOf(Family a, Family b) {
+    if (a == Family::edge && b == Family::edge) return Witness::Frame::crossed;
+    if (b == Family::edge) return Witness::Frame::body_b;
+    if (a == Family::edge) return Witness::Frame::body_a;
+    return Witness::Frame::world;
+  }
+
+  PlacedPiece a_, b_;
+  Witness best_;
+  double scale_ = 0;
+};
+
+// A half space has one direction.
+Witness againstPlane(const PlacedPiece& a, const PlacedPiece& plane) {
+  Witness w;
+  w.frame = Witness::Frame::body_b;
+  w.n = plane.body->k.R * plane.solid().faces[0].direction;
+  w.separation = w.distance = separationAlong(a, plane, w.n);
+  w.features = facing(a, -w.n, kPointPlane, kRimPlane, 0, 1, true);
+  return w;
+}
 
 Witness swapped(Witness w) {
   w.n = -w.n;
+  w.frame = w.frame == Witness::Frame::body_b ? Witness::Frame::body_a : w.frame;
+  w.features.kind = static_cast<std::int16_t>(w.features.kind == kPointPlane ? kPlanePoint : kPlaneRim);
   std::swap(w.features.a, w.features.b);
-  std::swap(w.edge_a, w.edge_b);
-  if (w.frame == Witness::Frame::body_a)
-    w.frame = Witness::Frame::body_b;
-  else if (w.frame == Witness::Frame::body_b)
-    w.frame = Witness::Frame::body_a;
-  if (w.features.kind == kPointPlane)
-    w.features.kind = kPlanePoint;
-  else if (w.features.kind == kPlanePoint)
-    w.features.kind = kPointPlane;
-  else if (w.features.kind == kPointEdge)
-    w.features.kind = kEdgePoint;
-  else if (w.features.kind == kEdgePoint)
-    w.features.kind = kPointEdge;
   return w;
 }
 
-// The vertex of a solid that lies furthest along a world direction.
-int supportVertex(const Placed& a, const Vec3& direction) {
-  if (a.solid->ball) return 0;
-  const Vec3 local = a.k.R.transpose() * direction;
-  return (local.x() > 0 ? 1 : 0) | (local.y() > 0 ? 2 : 0) | (local.z() > 0 ? 4 : 0);
-}
-
-Witness againstPlane(const Placed& a, const Placed& plane) {
-  const Feature& face = plane.solid->faces[0];
+Witness ballBall(const PlacedPiece& a, const PlacedPiece& b) {
   Witness w;
-  w.frame = Witness::Frame::body_b;
-  w.n = plane.k.R * face.direction;
-  const double height = w.n.dot(a.k.x - plane.k.x) - face.point.dot(face.direction);
-  const double bound = a.solid->bound();
-  if (a.solid->box && height > (1 + kFar) * bound) {
-    w.bounding = true;
-    w.separation = height - bound;
-    return w;
-  }
-  const int v = supportVertex(a, -w.n);
-  w.features = {kPointPlane, static_cast<std::int16_t>(v), 0, 1};
-  w.separation = height + w.n.dot(a.k.R * a.solid->vertices[static_cast<std::size_t>(v)].point) - a.solid->radius;
-  return w;
-}
-
-Witness boundingBalls(const Placed& a, const Placed& b, const Vec3& D, double distance) {
-  Witness w;
-  w.bounding = true;
-  w.n = D / distance;
-  w.separation = distance - a.solid->bound() - b.solid->bound();
-  return w;
-}
-
-Witness ballBall(const Placed& a, const Placed& b) {
-  Witness w;
-  const Vec3 D = a.k.x - b.k.x;
+  const Vec3 D = a.body->world(a.piece->center) - b.body->world(b.piece->center);
   const double distance = D.norm();
   w.n = distance > 0 ? Vec3(D / distance) : Vec3::UnitZ();
-  w.separation = distance - a.solid->radius - b.solid->radius;
-  w.features = {kPointPoint, 0, 0, 1};
-  return w;
-}
-
-// The point of the box nearest to the ball's centre lies on a face, an edge or a vertex, by how many coordinates of the
-// centre are beyond the box.
-Witness ballBox(const Placed& ball, const Placed& box) {
-  Witness w;
-  w.frame = Witness::Frame::body_b;
-  const Vec3 y = box.k.R.transpose() * (ball.k.x - box.k.x), half = box.solid->half;
-  const Vec3 beyond = y - y.cwiseMax(-half).cwiseMin(half);
-  int outside = 0, bits = 0, axis = 0, inner = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (beyond[k] != 0) {
-      ++outside;
-      axis = k;
-    } else {
-      inner = k;
-    }
-    if (y[k] > 0) bits |= 1 << k;
-  }
-  if (outside == 0) {  // the centre is inside: leave by the nearest face
-    (half - y.cwiseAbs()).minCoeff(&axis);
-    outside = 1;
-  }
-  if (outside == 1) {
-    const double sign = y[axis] > 0 ? 1.0 : -1.0;
-    w.n = box.k.R.col(axis) * sign;
-    w.separation = sign * y[axis] - half[axis] - ball.solid->radius;
-    w.features = {kPointPlane, 0, static_cast<std::int16_t>(2 * axis + (sign > 0 ? 1 : 0)), 1};
-    return w;
-  }
-  const double distance = beyond.norm();
-  w.n = box.k.R * (beyond / distance);
-  w.separation = distance - ball.solid->radius;
-  if (outside == 3) {
-    w.features = {kPointPoint, 0, static_cast<std::int16_t>(bits), 1};
-  } else {
-    const int edge = 4 * inner + (bits >> (inner + 1) % 3 & 1) + 2 * (bits >> (inner + 2) % 3 & 1);
-    w.features = {kPointEdge, 0, static_cast<std::int16_t>(edge), 1};
-  }
-  return w;
-}
-
-// Edge along axis k of a box that lies furthest along a world direction.
-int supportEdge(const Placed& box, int k, const Vec3& direction) {
-  const Vec3 local = box.k.R.transpose() * direction;
-  return 4 * k + (local[(k + 1) % 3] > 0 ? 1 : 0) + (local[(k + 2) % 3] > 0 ? 2 : 0);
-}
-
-// Separating axes of two boxes: 6 face normals and 9 crossed edges.
-Witness boxBox(const Placed& a, const Placed& b) {
-  const Mat3 &A = a.k.R, &B = b.k.R;
-  const Vec3 &ha = a.solid->half, &hb = b.solid->half, D = a.k.x - b.k.x;
-  const Mat3 c = A.transpose() * B, ac = c.cwiseAbs();
-  const Vec3 ta = A.transpose() * D, tb = B.transpose() * D;
-  const Vec3 sep_a = ta.cwiseAbs() - ha - ac * hb, sep_b = tb.cwiseAbs() - hb - ac.transpose() * ha;
-  int ia, ib;
-  const double best_a = sep_a.maxCoeff(&ia), best_b = sep_b.maxCoeff(&ib);
-  double best = std::max(best_a, best_b);
-  const double scale = D.norm() + ha.sum() + hb.sum();
-  int ei = -1, ej = -1;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      const double s2 = c(i1, j) * c(i1, j) + c(i2, j) * c(i2, j);  // sin^2, without cancellation
-      if (s2 < kParallel * kParallel) continue;
-      const double s = std::sqrt(s2);
-      const double along = std::abs(c(i1, j) * ta[i2] - c(i2, j) * ta[i1]);
-      const double radii = ha[i1] * ac(i2, j) + ha[i2] * ac(i1, j) + hb[j1] * ac(i, j2) + hb[j2] * ac(i, j1);
-      const double separation = (along - radii) / s;
-      if (separation > best + kEdgeRounding * scale / s) best = separation, ei = i, ej = j;
-    }
-  Witness w;
-  w.separation = best;
-  if (ei >= 0) {
-    const Vec3 cross = A.col(ei).cross(B.col(ej));
-    const std::int16_t sign = cross.dot(D) >= 0 ? 1 : -1;
-    w.frame = Witness::Frame::crossed;
-    w.n = sign * cross.normalized();
-    w.edge_a = A.col(ei);
-    w.edge_b = B.col(ej);
-    w.features = {kEdgeEdge, static_cast<std::int16_t>(supportEdge(a, ei, -w.n)),
-                  static_cast<std::int16_t>(supportEdge(b, ej, w.n)), sign};
-  } else if (best_b >= best_a) {
-    const double sign = tb[ib] >= 0 ? 1.0 : -1.0;
-    w.frame = Witness::Frame::body_b;
-    w.n = sign * B.col(ib);
-    w.features = {kPointPlane, static_cast<std::int16_t>(supportVertex(a, -w.n)),
-                  static_cast<std::int16_t>(2 * ib + (sign > 0 ? 1 : 0)), 1};
-  } else {
-    const double sign = ta[ia] >= 0 ? 1.0 : -1.0;
-    w.frame = Witness::Frame::body_a;
-    w.n = sign * A.col(ia);
-    w.features = {kPlanePoint, static_cast<std::int16_t>(2 * ia + (sign > 0 ? 0 : 1)),
-                  static_cast<std::int16_t>(supportVertex(b, w.n)), 1};
-  }
+  w.separation = w.distance = distance - a.piece->radius - b.piece->radius;
+  const auto vertex = [](const PlacedPiece& p) {
+    return p.solid().piece_features[static_cast<std::size_t>(p.piece->vertices.first)];
+  };
+  w.features = pairOf(kPointPoint, vertex(a), vertex(b), 1);
   return w;
 }
 
 }  // namespace
 
-Placed::Placed(const Solid& s, const Arc& arc, double t)
-    : solid(&s),
-      k(arc.kinematicsAt(t)),
-      acceleration(arc.acceleration()),
-      spin(s.ball ? 0 : arc.spinBound()),
-      spin_rate(s.ball ? 0 : arc.spinRateBound()) {}
-
-Witness witnessAlong(const Placed& a, const Placed& b, const Vec3& n) {
+Witness witnessAlong(const PlacedPiece& a, const PlacedPiece& b, const Vec3& n) {
   Witness w;
   w.n = n;
-  const auto vertex = [&](const Placed& p, const Vec3& direction) {
-    const auto v = static_cast<std::size_t>(supportVertex(p, direction));
-    return Vec3(p.k.x + p.k.R * p.solid->vertices[v].point);
-  };
-  w.separation = n.dot(vertex(a, -n) - vertex(b, n)) - a.solid->radius - b.solid->radius;
+  w.separation = separationAlong(a, b, n);
   return w;
 }
 
-Witness findWitness(const Placed& a, const Placed& b) {
-  if (b.solid->plane) return againstPlane(a, b);
-  if (a.solid->plane) return swapped(againstPlane(b, a));
-  if (a.solid->ball && b.solid->ball) return ballBall(a, b);
-  const Vec3 D = a.k.x - b.k.x;
-  const double distance = D.norm(), bounds = a.solid->bound() + b.solid->bound();
-  if (distance > (1 + kFar) * bounds) return boundingBalls(a, b, D, distance);
-  if (a.solid->ball) return ballBox(a, b);
-  if (b.solid->ball) return swapped(ballBox(b, a));
-  return boxBox(a, b);
+Witness findWitness(const PlacedPiece& a, const PlacedPiece& b) {
+  if (b.halfSpace()) return againstPlane(a, b);
+  if (a.halfSpace()) return swapped(againstPlane(b, a));
+  if (a.piece->core == Piece::Core::point && b.piece->core == Piece::Core::point) return ballBall(a, b);
+  return Search(a, b).run();
 }
 
 }  // namespace carom

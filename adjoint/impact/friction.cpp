@@ -12,13 +12,13 @@ namespace carom {
 namespace {
 
 struct Terms {
-  explicit Terms(const ImpactProblem& p)
+  explicit Terms(const ContactProblem& p)
       : K(p.K),
         u(p.u),
-        n(p.normal[0]),
-        mu(p.pair[0].friction),
-        e1(1 + p.pair[0].elasticity),
-        et1(1 + p.pair[0].tangential_elasticity),
+        n(p.normal),
+        mu(p.pair.friction),
+        e1(1 + p.pair.elasticity),
+        et1(1 + p.pair.tangential_elasticity),
         Kn(K * n),
         u_n(n.dot(u)),
         a(n.dot(Kn)),
@@ -51,12 +51,12 @@ struct Terms {
 };
 
 ImpactSolution solve(const ImpactProblem& problem) {
-  const Terms t(problem);
-  return {t.e1 * t.P_I + t.kappa * t.d, t.slides ? ImpactMode::slide : ImpactMode::stick, t.margin};
+  const ContactSolution s = solveFriction(onlyContact(problem));
+  return {s.P, s.mode, s.stick_slip_margin};
 }
 
 Eigen::VectorXd tangent(const ImpactProblem& problem, const ImpactProblemDerivative& dp) {
-  const Terms t(problem);
+  const Terms t(onlyContact(problem));
   const Vec3 dn = dp.normal[0], du = dp.u;
   const Mat3 dK = dp.K;
   const double de = dp.pair[0].elasticity, dmu = dp.pair[0].friction, det = dp.pair[0].tangential_elasticity;
@@ -76,7 +76,7 @@ Eigen::VectorXd tangent(const ImpactProblem& problem, const ImpactProblemDerivat
 }
 
 void pullback(const ImpactProblem& problem, const Eigen::VectorXd& P_bar_in, ImpactProblemDerivative& bar) {
-  const Terms t(problem);
+  const Terms t(onlyContact(problem));
   const Vec3 P_bar = P_bar_in;
   Vec3 P_I_bar = t.e1 * P_bar, d_bar = t.kappa * P_bar, n_bar = Vec3::Zero();
   double e_bar = P_bar.dot(t.P_I);
@@ -103,6 +103,11 @@ void pullback(const ImpactProblem& problem, const Eigen::VectorXd& P_bar_in, Imp
 }
 
 }  // namespace
+
+ContactSolution solveFriction(const ContactProblem& problem) {
+  const Terms t(problem);
+  return {t.e1 * t.P_I + t.kappa * t.d, t.slides ? ImpactMode::slide : ImpactMode::stick, t.margin};
+}
 
 const ImpactLaw kFrictionLaw{"friction", solve, tangent, pullback};
 

@@ -6,11 +6,11 @@ namespace carom {
 namespace {
 
 struct Terms {
-  explicit Terms(const ImpactProblem& p)
+  explicit Terms(const ContactProblem& p)
       : K(p.K),
         u(p.u),
-        n(p.normal[0]),
-        e1(1 + p.pair[0].elasticity),
+        n(p.normal),
+        e1(1 + p.pair.elasticity),
         Kn(K * n),
         u_n(n.dot(u)),
         a(n.dot(Kn)),
@@ -23,12 +23,12 @@ struct Terms {
 };
 
 ImpactSolution solve(const ImpactProblem& problem) {
-  const Terms t(problem);
-  return {t.c * t.n, ImpactMode::frictionless, 1};
+  const ContactSolution s = solveFrictionless(onlyContact(problem));
+  return {s.P, s.mode, s.stick_slip_margin};
 }
 
 Eigen::VectorXd tangent(const ImpactProblem& problem, const ImpactProblemDerivative& d) {
-  const Terms t(problem);
+  const Terms t(onlyContact(problem));
   const Vec3 &dn = d.normal[0], du = d.u;
   const double du_n = dn.dot(t.u) + t.n.dot(du);
   const double da = 2 * dn.dot(t.Kn) + t.n.dot(d.K * t.n);
@@ -37,7 +37,7 @@ Eigen::VectorXd tangent(const ImpactProblem& problem, const ImpactProblemDerivat
 }
 
 void pullback(const ImpactProblem& problem, const Eigen::VectorXd& P_bar, ImpactProblemDerivative& bar) {
-  const Terms t(problem);
+  const Terms t(onlyContact(problem));
   const double c_bar = t.n.dot(P_bar);
   const double u_n_bar = -t.e1 / t.a * c_bar, a_bar = -t.c / t.a * c_bar;
   bar.pair[0].elasticity -= t.u_n / t.a * c_bar;
@@ -47,6 +47,11 @@ void pullback(const ImpactProblem& problem, const Eigen::VectorXd& P_bar, Impact
 }
 
 }  // namespace
+
+ContactSolution solveFrictionless(const ContactProblem& problem) {
+  const Terms t(problem);
+  return {t.c * t.n, ImpactMode::frictionless, 1};
+}
 
 const ImpactLaw kFrictionlessLaw{"frictionless", solve, tangent, pullback};
 

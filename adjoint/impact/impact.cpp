@@ -165,21 +165,59 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
   return before_bar;
 }
 
-std::vector<State> solveImpact(Event& event, const std::vector<BodyModel>& models) {
+namespace {
+
+void record(Contact& c, const Vec3& u, const Vec3& P) {
+  c.approach = c.at.normal.dot(u);
+  c.impulse = P;
+}
+
+Margins marginsOf(const Contact& c, const Vec3& u, double stick_slip) {
+  const double speed = u.norm();
+  return {speed > 0 ? std::abs(c.approach) / speed : 1, stick_slip};
+}
+
+// What ImpactAssembly does, for one contact and in fixed sizes.
+void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
+  Contact& c = event.contacts[0];
+  ContactProblem problem{Mat3::Zero(), Vec3::Zero(), c.impulse_normal, c.pair};
+  for (const Participant& p : event.participants) {
+    const BodyModel& model = models[static_cast<std::size_t>(p.body)];
+    const Mat3 A = model.inverseInertiaWorld(p.before.q.toRotationMatrix());
+    const Vec3 r = c.at.point - p.before.x, omega = A * p.before.L;
+    problem.u += (p.body == c.a ? 1.0 : -1.0) * (p.before.v + omega.cross(r));
+    problem.K += model.inverse_mass * Mat3::Identity() - skew(r) * A * skew(r);
+  }
+  const ContactSolution solution = lawOf(c.pair) == Law::friction ? solveFriction(problem) : solveFrictionless(problem);
+  record(c, problem.u, solution.P);
+  event.mode = solution.mode;
+  event.margins = marginsOf(c, problem.u, solution.stick_slip_margin);
+  for (const Participant& p : event.participants) {
+    State& s = after.emplace_back(p.before);
+    const Vec3 P = (p.body == c.a ? 1.0 : -1.0) * solution.P;
+    s.v += models[static_cast<std::size_t>(p.body)].inverse_mass * P;
+    s.L += (c.at.point - p.before.x).cross(P);
+  }
+}
+
+}  // namespace
+
+void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
+  after.clear();
+  if (event.contacts.size() == 1) {
+    solveSingle(event, models, after);
+    return;
+  }
   const ImpactAssembly assembly(event, models);
   const ImpactProblem& problem = assembly.problem();
   const ImpactSolution solution = lawFor(problem).solve(problem);
   event.mode = solution.mode;
-  event.margins = {1, solution.stick_slip_margin};
   for (std::size_t k = 0; k < event.contacts.size(); ++k) {
-    Contact& c = event.contacts[k];
-    const Vec3 u = problem.u.segment<3>(3 * static_cast<Eigen::Index>(k));
-    c.approach = c.at.normal.dot(u);
-    c.impulse = solution.P.segment<3>(3 * static_cast<Eigen::Index>(k));
-    const double speed = u.norm();
-    if (speed > 0 && k == 0) event.margins.grazing = std::abs(c.approach) / speed;
+    const auto row = 3 * static_cast<Eigen::Index>(k);
+    record(event.contacts[k], problem.u.segment<3>(row), solution.P.segment<3>(row));
   }
-  return assembly.after(solution.P);
+  event.margins = marginsOf(event.contacts[0], problem.u.head<3>(), solution.stick_slip_margin);
+  after = assembly.after(solution.P);
 }
 
 }  // namespace carom

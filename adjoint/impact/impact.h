@@ -52,7 +52,7 @@ class ImpactAssembly {
   ImpactProblem problem_;
 };
 
-/// Fills in impulses, mode, approach and margins of an event and returns the states of its participants after it.
-std::vector<State> solveImpact(Event& event, const std::vector<BodyModel>& models);
+/// Fills in impulses, mode, approach and margins of an event and gives the states of its participants after it.
+void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after);
 
 }  // namespace carom

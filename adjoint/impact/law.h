@@ -39,6 +39,23 @@ struct ImpactSolution {
   double stick_slip_margin = 1;  ///< see Margins
 };
 
+/// The same for one contact, of fixed size.
+struct ContactProblem {
+  Mat3 K;
+  Vec3 u, normal;
+  PairCoefficients pair;
+};
+struct ContactSolution {
+  Vec3 P;
+  ImpactMode mode = ImpactMode::frictionless;
+  double stick_slip_margin = 1;
+};
+ContactSolution solveFrictionless(const ContactProblem& problem);  ///< 4.1
+ContactSolution solveFriction(const ContactProblem& problem);      ///< 4.2
+
+/// The only contact of a problem.
+inline ContactProblem onlyContact(const ImpactProblem& p) { return {p.K, p.u, p.normal[0], p.pair[0]}; }
+
 /// One row of the table of impact laws. tangent and pullback differentiate the branch that solve takes.
 struct ImpactLaw {
   const char* name;

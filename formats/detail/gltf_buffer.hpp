@@ -2,18 +2,21 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "adjoint/types.h"
 
 namespace tinygltf {
 class Model;
-}
+struct Accessor;
+}  // namespace tinygltf
 
 namespace carom {
 
-/// Appends arrays to the one buffer of a model and returns the index of the accessor of each. Throws InputError, with
-/// `what` as the place, for a number that is not finite as a float.
+/// Appends arrays to the one buffer of a model and returns the index of the accessor of each. Vertices and indices that
+/// are there already, as those of equal bodies, are used again. Throws InputError, with `what` as the place, for a
+/// number that is not finite as a float.
 class GltfBuffer {
  public:
   explicit GltfBuffer(tinygltf::Model& model) : model_(model) {}
@@ -31,7 +34,11 @@ class GltfBuffer {
   int addFloats(const std::vector<float>& numbers, int width, int type, int target, bool bounds,
                 const std::string& what);
   int addView(const void* data, std::size_t bytes, int target);
+  int findShared(const void* data, std::size_t bytes, int target) const;  ///< accessor, -1 if there is none
+  int addAccessor(const tinygltf::Accessor& accessor, const void* data, std::size_t bytes, int target);
+
   tinygltf::Model& model_;
+  std::unordered_multimap<std::size_t, int> shared_;  // accessors of vertices and indices by the hash of their bytes
 };
 
 }  // namespace carom

@@ -27,6 +27,7 @@ class LeftDocument {
  private:
   void read(const detail::Json& json, std::size_t mesh_count, ShapeMaker& shapes);
   std::vector<FileMaterial> materials() const;
+  std::vector<Material> materialsOf(const PhysicsFile& file) const;
 
   ImportReport& report_;
   detail::Json edit_;  // object with duration, controls and constraints; empty when nothing was left

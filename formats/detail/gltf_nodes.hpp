@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "adjoint/errors.h"
 #include "adjoint/scene.h"
 #include "formats/detail/json.hpp"
 #include "formats/import_gltf.h"
@@ -57,12 +58,18 @@ struct PhysicsNode {
   Vec3 scale = Vec3::Ones();
   std::optional<Moving> motion;
   std::optional<Collider> collider;
-  bool animated = false;
+  bool animated = false;  ///< itself, or a node above that it moves along with
   std::vector<PhysicsNode> children;
 
   /// "node 'door' (/nodes/3)", for messages.
   std::string label() const;
 };
+
+/// An error at a node: its pointer, and a sentence that begins with its name.
+InputError errorAt(const PhysicsNode& node, const std::string& sentence);
+
+/// A name as a document takes it: cut between characters where it is long, with room for a number behind it.
+std::string shortName(const std::string& name);
 
 struct FileMaterial {
   Material material;

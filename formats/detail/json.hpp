@@ -18,12 +18,16 @@ Json parseJson(std::string_view text, std::size_t most_values = kMostValues);
 /// Throws InputError at the deepest place where the document breaks formats/scene.schema.json.
 void requireSchema(const Json& document);
 
-/// One step deeper, escaped as RFC 6901 asks.
+/// One step deeper, escaped as RFC 6901 asks, and control characters as in a JSON text; members of more than 400 bytes
+/// are cut, as pointers are for messages.
 std::string pointerTo(const std::string& parent, std::string_view member);
 std::string pointerTo(const std::string& parent, std::size_t index);
 
 /// A short text for messages: the value itself when it is small, what it is otherwise.
 std::string describe(const Json& value);
+
+/// The text with blanks in place of control characters: names from files stand in messages of one line.
+std::string oneLine(std::string text);
 
 /// The member of `known` that `word` is most likely a misspelling of; empty when none is near.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known);

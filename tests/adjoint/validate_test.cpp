@@ -7,6 +7,7 @@
 
 #include "adjoint/errors.h"
 #include "tests/support/scenes.h"
+#include "tests/support/solids.h"
 
 namespace carom {
 namespace {
@@ -25,6 +26,25 @@ Scene sound() {
   s.tilts = {{"box", 1, {0.1, 0}}};
   return s;
 }
+
+Mesh boxMesh(const Vec3& size = {1, 1, 1}) { return {boxTriangles(size).surface(), 1, ""}; }
+Mesh openMesh() {
+  Triangles cup = boxTriangles({1, 1, 1});
+  cup.triangles.pop_back();
+  return {cup.surface(), 1, ""};
+}
+Hull boxHull(double scale) { return {boxTriangles({1, 1, 1}).surface(), scale, ""}; }
+
+CompoundPart part(const Shape& shape, const Vec3& position = Vec3::Zero(), const Quat& q = Quat::Identity()) {
+  return {shape, position, q};
+}
+Compound nested(int levels) {
+  Compound c{{part(Sphere{0.1})}};
+  for (int i = 1; i < levels; ++i) c = Compound{{part(c)}};
+  return c;
+}
+// 1 m long and 1e-6 m thick, along no axis.
+Compound needle() { return {{part(boxMesh({1e-6, 1e-6, 1}), Vec3::Zero(), Quat(0.8, 0.3, -0.4, 0.2).normalized())}}; }
 
 struct Mistake {
   const char* where;  ///< JSON pointer that the error must name
@@ -56,14 +76,14 @@ std::vector<Mistake> mistakes() {
       {"/bodies/1/density", [](Scene& s) { s.bodies[1].density = 100; }},
       {"/bodies/2/density", [](Scene& s) { s.bodies[2].density = 0; }},
       {"/bodies/2/density", [](Scene& s) { s.bodies[2].density = -kInf; }},
-      {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{0}; }},
-      {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{-0.1}; }},
-      {"/bodies/1/shape/sphere", [](Scene& s) { s.bodies[1].shape = Sphere{kNan}; }},
-      {"/bodies/2/shape/box",
+      {"/bodies/1/shape/sphere/radius", [](Scene& s) { s.bodies[1].shape = Sphere{0}; }},
+      {"/bodies/1/shape/sphere/radius", [](Scene& s) { s.bodies[1].shape = Sphere{-0.1}; }},
+      {"/bodies/1/shape/sphere/radius", [](Scene& s) { s.bodies[1].shape = Sphere{kNan}; }},
+      {"/bodies/2/shape/box/size/1",
        [](Scene& s) {
          s.bodies[2].shape = Box{{0.1, 0, 0.3}};
        }},
-      {"/bodies/2/shape/box",
+      {"/bodies/2/shape/box/size/2",
        [](Scene& s) {
          s.bodies[2].shape = Box{{0.1, 0.1, kInf}};
        }},
@@ -112,6 +132,93 @@ std::vector<Mistake> mistakes() {
       {"/bodies/1/orientation", [](Scene& s) { s.bodies[1].orientation = Quat(kNan, 0, 0, 0); }},
       {"/bodies/2/velocity/1", [](Scene& s) { s.bodies[2].velocity.y() = -kInf; }},
       {"/bodies/2/angular_velocity/0", [](Scene& s) { s.bodies[2].angular_velocity.x() = kNan; }},
+      {"/bodies/1/shape/capsule/radius",
+       [](Scene& s) {
+         s.bodies[1].shape = Capsule{0, 1};
+       }},
+      {"/bodies/1/shape/capsule/radius",
+       [](Scene& s) {
+         s.bodies[1].shape = Capsule{kInf, 1};
+       }},
+      {"/bodies/1/shape/capsule/height",
+       [](Scene& s) {
+         s.bodies[1].shape = Capsule{0.1, -1};
+       }},
+      {"/bodies/1/shape/capsule/height",
+       [](Scene& s) {
+         s.bodies[1].shape = Capsule{0.1, kNan};
+       }},
+      {"/bodies/1/shape/cylinder/radius",
+       [](Scene& s) {
+         s.bodies[1].shape = Cylinder{-0.1, 1};
+       }},
+      {"/bodies/1/shape/cylinder/height",
+       [](Scene& s) {
+         s.bodies[1].shape = Cylinder{0.1, 0};
+       }},
+      {"/bodies/1/shape/cylinder/height",
+       [](Scene& s) {
+         s.bodies[1].shape = Cylinder{0.1, 2e9};
+       }},
+      {"/bodies/1/shape/hull", [](Scene& s) { s.bodies[1].shape = Hull{}; }},
+      {"/bodies/1/shape/hull",
+       [](Scene& s) {
+         s.bodies[1].shape = Hull{openMesh().surface, 1, ""};
+       }},
+      {"/bodies/1/shape/hull/scale", [](Scene& s) { s.bodies[1].shape = boxHull(0); }},
+      {"/bodies/1/shape/hull/scale", [](Scene& s) { s.bodies[1].shape = boxHull(kNan); }},
+      {"/bodies/1/shape/hull/scale", [](Scene& s) { s.bodies[1].shape = boxHull(1e10); }},
+      {"/bodies/1/shape/hull/scale", [](Scene& s) { s.bodies[1].shape = boxHull(8e9); }},
+      {"/bodies/1/shape/mesh", [](Scene& s) { s.bodies[1].shape = Mesh{}; }},
+      {"/bodies/1/shape/mesh", [](Scene& s) { s.bodies[1].shape = openMesh(); }},
+      {"/bodies/2/shape/mesh", [](Scene& s) { s.bodies[2].shape = openMesh(); }},
+      {"/bodies/1/shape/mesh/scale",
+       [](Scene& s) {
+         s.bodies[1].shape = Mesh{boxMesh().surface, -1, ""};
+       }},
+      {"/bodies/1/shape/mesh/scale",
+       [](Scene& s) {
+         s.bodies[1].shape = Mesh{boxMesh().surface, 6e8 * 6, ""};
+       }},
+      {"/bodies/1/shape/compound", [](Scene& s) { s.bodies[1].shape = Compound{}; }},
+      {"/bodies/1/shape/compound/1/plane",
+       [](Scene& s) {
+         s.bodies[1].shape = Compound{{part(Sphere{1}), part(Plane{})}};
+       }},
+      {"/bodies/1/shape/compound/0/box/size/2",
+       [](Scene& s) {
+         s.bodies[1].shape = Compound{{part(Box{{1, 1, 0}})}};
+       }},
+      {"/bodies/1/shape/compound/1/compound/0/sphere/radius",
+       [](Scene& s) {
+         s.bodies[1].shape = Compound{{part(Sphere{1}), part(Compound{{part(Sphere{-1})}})}};
+       }},
+      {"/bodies/1/shape/compound/0/position/1",
+       [](Scene& s) {
+         s.bodies[1].shape = Compound{{part(Sphere{1}, {0, kNan, 0})}};
+       }},
+      {"/bodies/1/shape/compound/0/orientation",
+       [](Scene& s) {
+         s.bodies[1].shape = Compound{{part(Sphere{1}, {0, 0, 0}, Quat(2, 0, 0, 0))}};
+       }},
+      {"/bodies/1/shape/compound/1/mesh",
+       [](Scene& s) {
+         s.bodies[1].shape = Compound{{part(Sphere{1}), part(openMesh())}};
+       }},
+      {"/bodies/1/shape", [](Scene& s) { s.bodies[1].shape = needle(); }},
+      {"/bodies/2/shape",
+       [](Scene& s) {
+         s.bodies[2].shape = Cylinder{1e-200, 1};
+       }},
+      {"/bodies/1/center_of_mass/2", [](Scene& s) { s.bodies[1].center_of_mass = Vec3(0, 0, kNan); }},
+      {"/bodies/1/shape/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/"
+       "compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound",
+       [](Scene& s) { s.bodies[1].shape = nested(17); }},
+      {"/bodies/2/shape/mesh",
+       [](Scene& s) {
+         s.bodies[2].shape = openMesh();
+         s.bodies[2].inertia = Inertia::fromMoments({1, 1, 1});
+       }},
       {"/tilts/0/body", [](Scene& s) { s.tilts[0].body = "floor"; }},
       {"/tilts/0/body", [](Scene& s) { s.tilts[0].body = "nobody"; }},
       {"/tilts/0/impact", [](Scene& s) { s.tilts[0].impact = 0; }},
@@ -122,6 +229,37 @@ std::vector<Mistake> mistakes() {
 TEST(Validate, SoundSceneIsAccepted) {
   EXPECT_NO_THROW(validate(sound()));
   EXPECT_NO_THROW(validate(Scene{})) << "nothing in it";
+}
+
+// What is unusual and has a meaning.
+TEST(Validate, OddShapesAreAccepted) {
+  const std::vector<std::function<void(Body&)>> odd = {
+      [](Body& b) {
+        b.shape = openMesh(), b.inertia = Inertia::fromMoments({1, 1, 1});
+      },
+      [](Body& b) { b.shape = openMesh(), b.fixed = true, b.mass.reset(); },
+      [](Body& b) {
+        b.shape = Compound{{part(openMesh()), part(Sphere{1})}}, b.inertia = Inertia::fromMoments({1, 1, 1});
+      },
+      [](Body& b) { b.shape = boxHull(1e-3); },
+      [](Body& b) {
+        b.shape = Compound{{part(Sphere{1}), part(Sphere{1})}};
+      },  // two at one place
+      [](Body& b) { b.shape = nested(16); },
+      [](Body& b) {
+        b.shape = needle(), b.inertia = Inertia::fromMoments({1, 1, 1e-12});
+      },
+      [](Body& b) {
+        b.shape = boxMesh({1e-6, 1e-6, 1});
+      },                                                  // its axes are principal, so that no digits are lost
+      [](Body& b) { b.center_of_mass = Vec3(5, 0, 0); },  // outside the body, as a boomerang's
+  };
+  for (std::size_t i = 0; i < odd.size(); ++i) {
+    SCOPED_TRACE(i);
+    Scene s = sound();
+    odd[i](s.bodies[1]);
+    EXPECT_NO_THROW(validate(s));
+  }
 }
 
 TEST(Validate, EveryMistakeIsNamed) {

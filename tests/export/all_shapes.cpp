@@ -44,7 +44,7 @@ Document documentOfAllShapes(bool fixed) {
   Document document;
   document.duration = 0.3;
   Body floor;
-  floor.name = "floor", floor.fixed = true, floor.shape = Plane{};
+  floor.name = "floor", floor.fixed = true, floor.shape = Plane{}, floor.position.z() = 0.55;
   Body ball;
   ball.name = "ball", ball.shape = Sphere{0.1}, ball.density = 500;
   ball.position = {1, -1, 1}, ball.velocity = {3, 0, 1};

@@ -114,7 +114,7 @@ TEST_P(DisplayMesh, NormalsAreUnitAndNearTheirFaces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryShape, DisplayMesh, testing::ValuesIn(solidShapes()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& shape) { return shape.param.name; });
 
 // As a player of glTF 2.0 joins keys, the pose of the origin stays on its path though the body turns about another
 // point.
@@ -153,6 +153,31 @@ TEST(DisplayMesh, TheOriginFollowsItsPathAboutTheCentreOfMass) {
     ++tracks;
   }
   EXPECT_EQ(tracks, static_cast<int>(solidShapes().size()) + 1);
+}
+
+// A pen of hundreds of equal balls is written with one ball's triangles.
+TEST(DisplayMesh, EqualBodiesShareTheirTriangles) {
+  Document document;
+  std::vector<std::size_t> vertex_bytes;
+  for (const int count : {1, 20}) {
+    document.scene.bodies.clear();
+    for (int i = 0; i < count; ++i) {
+      Body body;
+      body.name = "ball " + std::to_string(i), body.shape = Sphere{0.1}, body.density = 500;
+      body.position.x() = i;
+      document.scene.bodies.push_back(body);
+    }
+    const std::string path = temporaryPath("balls.glb");
+    exportGltf(path, document, handMotion(document.scene, 0.1, {}));
+    tinygltf::Model model;
+    std::string error, warning;
+    ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, path)) << error;
+    EXPECT_EQ(model.meshes.size(), static_cast<std::size_t>(count));
+    vertex_bytes.push_back(0);
+    for (const auto& view : model.bufferViews)
+      if (view.target != 0) vertex_bytes.back() += view.byteLength;
+  }
+  EXPECT_EQ(vertex_bytes[0], vertex_bytes[1]);
 }
 
 }  // namespace

@@ -200,6 +200,10 @@ TEST(BrokenGltf, brokenDocuments) {
        [](Json& j) { j["buffers"][0]["uri"] = "my%20mug.bin"; },
        "/buffers/0/uri",
        {"/nonexistent/my mug.bin: found no such file"}},
+      {"fileOfTwoLines",
+       [](Json& j) { j["buffers"][0]["uri"] = "my%0Amug.bin"; },
+       "/buffers/0/uri",
+       {"my%0Amug.bin", "the name of a file"}},
       {"network",
        [](Json& j) { j["buffers"][0]["uri"] = "https://example.org/a.bin"; },
        "/buffers/0/uri",
@@ -266,8 +270,14 @@ TEST(BrokenGltf, brokenTexts) {
   expectRefused("", "line 1, column 1", {"the end of the text"});
   expectRefused("v 0 0 0", "line 1, column 1", {"valid JSON"});
   expectRefused("[1]", "", {"found [1]", "an object"});
-  expectRefused(R"({"asset": {"version": "2.0"}, "extras": )" + nested, "", {"more than 48 levels"});
-  expectRefused(tetrahedronGltf(true).substr(0, 300), "line 8, column 39", {});
+  std::string place =
+      "/extras";  // the document is a level itself, and the arrays before the last have their first item
+  for (int level = 2; level < 49; ++level) place += "/0";
+  expectRefused(R"({"asset": {"version": "2.0"}, "extras": )" + nested, place, {"more than 48 levels"});
+  const std::string whole = tetrahedronGltf(true);
+  const std::size_t cut = whole.find("\"count\": 4") + 3;
+  expectRefused(whole.substr(0, cut), "line 8, column " + std::to_string(cut - whole.rfind('\n', cut)),
+                {"the end of the text"});
 }
 
 TEST(BrokenGltf, brokenContainers) {

@@ -4,15 +4,22 @@ namespace carom::formats_test {
 
 std::vector<BrokenDocument> brokenShapes() {
   const std::string ball = "\"sphere\": { \"radius\": 0.1 }";
-  const auto instead = [&](const char* name, const std::string& shape, const char* where,
+  const auto instead = [&](const char* name, const std::string& shape, const std::string& where,
                            const std::vector<std::string>& fragments) {
-    return BrokenDocument{name, ball, shape, std::string("/bodies/2/shape") + where, fragments};
+    return BrokenDocument{name, ball, shape, "/bodies/2/shape" + where, fragments};
   };
   const std::string tetrahedron = "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]";
-  std::string deep = "{ \"sphere\": { \"radius\": 1 } }";
-  for (int i = 0; i < 17; ++i) deep = "{ \"compound\": [" + deep + "] }";
-  std::string deeper = deep;
-  for (int i = 0; i < 20; ++i) deeper = "{ \"compound\": [" + deeper + "] }";
+  // Each `levels` compounds in one another.
+  const auto nested = [](int levels) {
+    std::string text = "\"sphere\": { \"radius\": 1 }";
+    for (int i = 0; i < levels; ++i) text = "\"compound\": [{ " + text + " }]";
+    return text;
+  };
+  const auto inside = [](int levels) {
+    std::string place;
+    for (int i = 0; i < levels; ++i) place += "/compound/0";
+    return place + "/compound";
+  };
   return {
       instead("capsuleWithoutHeight", R"("capsule": { "radius": 0.2 })", "/capsule",
               {"no member \"height\"", "\"height\": a number > 0"}),
@@ -21,7 +28,7 @@ std::vector<BrokenDocument> brokenShapes() {
       instead("capsuleRadius", R"("capsule": { "radius": "wide", "height": 1 })", "/capsule/radius",
               {"found \"wide\"", "a number > 0"}),
       instead("capsuleLength", R"("capsule": { "radius": 0.2, "length": 1 })", "/capsule/length",
-              {"unknown member", "radius, height", "radius"}),
+              {"unknown member", "one of \"radius\", \"height\""}),
       instead("capsuleArray", R"("capsule": [0.2, 1])", "/capsule",
               {"found [0.2, 1]", "an object with \"radius\" and \"height\""}),
       instead("cylinderWithoutRadius", R"("cylinder": { "height": 0.2 })", "/cylinder", {"no member \"radius\""}),
@@ -47,7 +54,7 @@ std::vector<BrokenDocument> brokenShapes() {
       instead("hullTooLarge", R"("hull": { "scale": 1e9, "points": [[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]] })",
               "/hull/scale", {"at most 1e9"}),
       instead("hullVertices", R"("hull": { "vertices": )" + tetrahedron + "}", "/hull/vertices",
-              {"unknown member", "points, file, scale"}),
+              {"unknown member", "one of \"points\", \"file\", \"scale\""}),
 
       instead("meshWithoutFile", R"("mesh": { "scale": 2 })", "/mesh",
               {"no member \"file\"", "the name of a mesh file"}),
@@ -56,7 +63,8 @@ std::vector<BrokenDocument> brokenShapes() {
       instead("meshWithoutFolder", R"("mesh": { "file": "mug.obj" })", "/mesh/file", {"no folder"}),
       instead("hullWithoutFolder", R"("hull": { "file": "mug.obj" })", "/hull/file", {"no folder"}),
       instead("meshScale", R"("mesh": { "file": "mug.obj", "scale": -1 })", "/mesh/scale", {"found -1"}),
-      instead("meshPoints", R"("mesh": { "points": [] })", "/mesh/points", {"unknown member", "file, scale"}),
+      instead("meshPoints", R"("mesh": { "points": [] })", "/mesh/points",
+              {"unknown member", "one of \"file\", \"scale\""}),
 
       instead("compoundOfNothing", R"("compound": [])", "/compound", {"found an empty array", "1 to 1000 parts"}),
       instead("compoundObject", R"("compound": { "sphere": { "radius": 1 } })", "/compound", {"an array of 1 to 1000"}),
@@ -75,8 +83,9 @@ std::vector<BrokenDocument> brokenShapes() {
               "/compound/0/velocity", {"unknown member"}),
       instead("partRadius", R"("compound": [{ "sphere": { "radius": 1 } }, { "compound": [{ "sphere": {} }] }])",
               "/compound/1/compound/0/sphere", {"no member \"radius\""}),
-      instead("compoundDepth", deep.substr(2, deep.size() - 4), "", {"nested deeper than 16"}),
-      instead("compoundBomb", deeper.substr(2, deeper.size() - 4), "", {"more than 48 levels of nesting"}),
+      instead("compoundDepth", nested(17), inside(16), {"nested deeper than 16"}),
+      // The document, its bodies, a body and its shape are four levels, every compound two more.
+      instead("compoundBomb", nested(37), inside(22), {"more than 48 levels of nesting"}),
 
       {"centerOfMass", "[0.013, -0.002, 0.001]", "[0.013, -0.002]", "/bodies/7/center_of_mass", {"3 numbers"}},
       {"centerOfMassNull", "[0.013, -0.002, 0.001]", "null", "/bodies/7/center_of_mass", {"found null"}},

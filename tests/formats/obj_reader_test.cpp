@@ -30,8 +30,9 @@ TEST(ObjReader, cube) {
 
 TEST(ObjReader, everyFormOfCorner) {
   const std::string extra = "vt 0 0\nvt 1 0\nvn 0 0 1\n";
-  for (const char* face : {"f 1 2 3", "f 1/1 2/2 3/1", "f 1//1 2//1 3//1", "f 1/1/1 2/2/1 3/1/1", "f -4 -3 -2",
-                           "f -4/1/1 2//1 3", "fo 1 2 3", "f\t1  2\t 3 ", "f 1/ 2/ 3/"}) {
+  for (const char* face :
+       {"f 1 2 3", "f 1/1 2/2 3/1", "f 1//1 2//1 3//1", "f 1/1/1 2/2/1 3/1/1", "f -4 -3 -2", "f -4/1/1 2//1 3",
+        "fo 1 2 3", "f\t1  2\t 3 ", "f 1/ 2/ 3/", "f 1// 2// 3//", "f 1/2/ 2/1/ 3/1/"}) {
     SCOPED_TRACE(face);
     const TriangleSoup soup = parseObj(kSquare + extra + face);
     EXPECT_EQ(soup.triangles, (Triangles{{0, 1, 2}}));
@@ -50,6 +51,9 @@ TEST(ObjReader, facesBeforeTheirVertices) {
 
 TEST(ObjReader, polygonsBecomeFans) {
   EXPECT_EQ(parseObj(std::string(kSquare) + "f 1 2 3 4\n").triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  // An L: the fan starts at its inner corner.
+  const TriangleSoup bent = parseObj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
+  EXPECT_EQ(bent.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
   // Corners on one line: the fan starts where no triangle is flat.
   const TriangleSoup soup = parseObj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3 4\n");
   EXPECT_EQ(soup.triangles, (Triangles{{1, 2, 3}, {1, 3, 0}}));
@@ -140,10 +144,10 @@ TEST(ObjReader, brokenTexts) {
       {std::string(1000000, 'x'), "line 1", {"xxx...\""}},
       {three + "v 1 \\\n 1 \\\n zero\n", "line 4", {"found \"zero\""}},
       {three + "\\\n\\\nf 1 2 9\n", "line 4", {"found vertex 9"}},
-      // An L: no fan covers it.
-      {"v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv .5 .4 0\nf 1 2 3 4 5 6 7\n",
-       "line 8",
-       {"a polygon of 7 corners that is not convex"}},
+      // A U: from no corner of it are all the others seen.
+      {"v 0 0 0\nv 3 0 0\nv 3 2 0\nv 2 2 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6 7 8\n",
+       "line 9",
+       {"a polygon of 8 corners that is not convex"}},
       {three + "f 1 2 3 1\n", "line 4", {"not convex, or has corners in one place"}},
       {three + many + "\n", "line 4", {"at most 10000"}},
   };

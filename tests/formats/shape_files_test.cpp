@@ -125,6 +125,7 @@ TEST_F(ShapeFiles, badFilesAreNamedWithTheirPlace) {
   expectRefused(R"("mesh": { "file": "meshes" })", "/mesh/file", {"no regular file"});
   expectRefused(R"("mesh": { "file": "/dev/zero" })", "/mesh/file", {"/dev/zero: found no regular file"});
   expectRefused(R"("mesh": { "file": "a\u0000.obj" })", "/mesh/file", {"a zero byte"});
+  expectRefused(R"("mesh": { "file": "a\nb.obj" })", "/mesh/file", {"a control character"});
   expectRefused(mesh("picture.png"), "/mesh/file", {"ends in \".png\"", ".obj, .gltf or .glb"});
   expectRefused(mesh("letters.obj"), "/mesh/file", {"letters.obj: line 2: found \"zero\", expected a number"});
   expectRefused(mesh("inside-out.obj"), "/mesh/file", {"inside-out.obj: edge from vertex"});

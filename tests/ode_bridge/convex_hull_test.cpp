@@ -55,7 +55,14 @@ void expectHull(const Surface& s, const std::vector<Vec3>& points) {
     for (int i = 0; i < f.count; ++i)
       EXPECT_LE(std::abs(f.normal.dot(corner(s, f, i) - corner(s, f, 0))), 1e-12 * size);
   }
-  for (const Surface::Edge& e : s.edges) EXPECT_GE(e.bend, -1e-12);
+  double farthest = 0;
+  for (const Vec3& p : points) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  for (const Surface::Edge& e : s.edges) {
+    const double length =
+        (s.vertices[static_cast<std::size_t>(e.to)] - s.vertices[static_cast<std::size_t>(e.from)]).norm();
+    EXPECT_GE(length, 1e-13 * size);
+    EXPECT_GE(e.bend * length, -std::max(1e-14 * size, 1e-15 * farthest)) << "reflex";
+  }
   auto next = points.begin();
   for (const Vec3& v : s.vertices) {
     next = std::find(next, points.end(), v);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "adjoint/so3.h"
 #include "ode_bridge/gaps.h"
 #include "tests/support/compare.h"
@@ -12,92 +14,80 @@ namespace {
 
 using namespace test;
 
-enum class Kind { ball, box, plane };
+enum class Kind { ball, box, plane, capsule, cylinder };
 
 struct GapRow {
   const char* name;
   Kind a, b;
-  FeaturePair features, swapped;
-  const char *described, *described_swapped;
+  GapKind kind;
+  const char *of_a, *of_b;  ///< names of the features
+  std::int16_t sign = 1;
+  std::int16_t swapped_sign = 1;  ///< of the same gap with the bodies in the other order
 };
 
 const GapRow kRows[] = {
-    {"ball on plane",
-     Kind::ball,
-     Kind::plane,
-     {kPointPlane, 0, 0, 1},
-     {kPlanePoint, 0, 0, 1},
-     "ball on plane",
-     "plane on ball"},
-    {"vertex on plane",
-     Kind::box,
-     Kind::plane,
-     {kPointPlane, 5, 0, 1},
-     {kPlanePoint, 0, 5, 1},
-     "vertex +x-y+z on plane",
-     "plane on vertex +x-y+z"},
-    {"vertex on face",
-     Kind::box,
-     Kind::box,
-     {kPointPlane, 3, 4, 1},
-     {kPlanePoint, 4, 3, 1},
-     "vertex +x+y-z on face -z",
-     "face -z on vertex +x+y-z"},
-    {"ball on face",
-     Kind::ball,
-     Kind::box,
-     {kPointPlane, 0, 3, 1},
-     {kPlanePoint, 3, 0, 1},
-     "ball on face +y",
-     "face +y on ball"},
-    {"ball on ball",
-     Kind::ball,
-     Kind::ball,
-     {kPointPoint, 0, 0, 1},
-     {kPointPoint, 0, 0, 1},
-     "ball on ball",
-     "ball on ball"},
-    {"ball on vertex",
-     Kind::ball,
-     Kind::box,
-     {kPointPoint, 0, 6, 1},
-     {kPointPoint, 6, 0, 1},
-     "ball on vertex -x+y+z",
-     "vertex -x+y+z on ball"},
-    {"ball on edge",
-     Kind::ball,
-     Kind::box,
-     {kPointEdge, 0, 1, 1},
-     {kEdgePoint, 1, 0, 1},
-     "ball on edge +y-z",
-     "edge +y-z on ball"},
-    {"ball on another edge",
-     Kind::ball,
-     Kind::box,
-     {kPointEdge, 0, 6, 1},
-     {kEdgePoint, 6, 0, 1},
-     "ball on edge -z+x",
-     "edge -z+x on ball"},
-    {"edge on edge",
-     Kind::box,
-     Kind::box,
-     {kEdgeEdge, 0, 11, 1},
-     {kEdgeEdge, 11, 0, 1},
-     "edge -y-z on edge +x+y",
-     "edge +x+y on edge -y-z"},
-    {"edge on edge, other side",
-     Kind::box,
-     Kind::box,
-     {kEdgeEdge, 5, 2, -1},
-     {kEdgeEdge, 2, 5, -1},
-     "edge +z-x on edge -y+z",
-     "edge -y+z on edge +z-x"},
+    {"ball on plane", Kind::ball, Kind::plane, kPointPlane, "ball", "plane"},
+    {"vertex on plane", Kind::box, Kind::plane, kPointPlane, "vertex +x-y+z", "plane"},
+    {"vertex on face", Kind::box, Kind::box, kPointPlane, "vertex +x+y-z", "face -z"},
+    {"vertex on back of face", Kind::box, Kind::box, kPointPlane, "vertex +x+y-z", "face -z", -1, -1},
+    {"ball on face", Kind::ball, Kind::box, kPointPlane, "ball", "face +y"},
+    {"ball on cap", Kind::ball, Kind::cylinder, kPointPlane, "ball", "cap -z"},
+    {"end on plane", Kind::capsule, Kind::plane, kPointPlane, "end -z", "plane"},
+    {"ball on ball", Kind::ball, Kind::ball, kPointPoint, "ball", "ball"},
+    {"ball on vertex", Kind::ball, Kind::box, kPointPoint, "ball", "vertex -x+y+z"},
+    {"end on ball", Kind::capsule, Kind::ball, kPointPoint, "end +z", "ball"},
+    {"ball on edge", Kind::ball, Kind::box, kPointEdge, "ball", "edge +y-z"},
+    {"ball on another edge", Kind::ball, Kind::box, kPointEdge, "ball", "edge -z+x"},
+    {"ball on side of capsule", Kind::ball, Kind::capsule, kPointEdge, "ball", "side"},
+    {"end on side", Kind::capsule, Kind::cylinder, kPointEdge, "end +z", "side"},
+    {"vertex on side", Kind::box, Kind::cylinder, kPointEdge, "vertex +x-y+z", "side"},
+    {"edge on edge", Kind::box, Kind::box, kEdgeEdge, "edge -y-z", "edge +x+y"},
+    {"edge on edge, other side", Kind::box, Kind::box, kEdgeEdge, "edge +z-x", "edge -y+z", -1, -1},
+    {"side on edge", Kind::capsule, Kind::box, kEdgeEdge, "side", "edge +x+y"},
+    {"side on side", Kind::cylinder, Kind::capsule, kEdgeEdge, "side", "side", -1, -1},
+    {"rim on plane", Kind::cylinder, Kind::plane, kRimPlane, "rim -z", "plane"},
+    {"rim on face", Kind::cylinder, Kind::box, kRimPlane, "rim +z", "face +x"},
+    {"rim on back of cap", Kind::cylinder, Kind::cylinder, kRimPlane, "rim +z", "cap -z", -1, -1},
+    {"rim on ball", Kind::cylinder, Kind::ball, kRimPoint, "rim -z", "ball"},
+    {"rim on end", Kind::cylinder, Kind::capsule, kRimPoint, "rim +z", "end +z"},
+    {"rim on edge", Kind::cylinder, Kind::box, kRimEdge, "rim +z", "edge +x+y", 1, 1},
+    {"rim on edge, other side", Kind::cylinder, Kind::box, kRimEdge, "rim -z", "edge +y-z", -1, -1},
+    {"rim on edge, second place", Kind::cylinder, Kind::box, kRimEdge, "rim -z", "edge +y-z", 2, 2},
+    {"rim on edge, second place, other side", Kind::cylinder, Kind::box, kRimEdge, "rim +z", "edge -z+x", -2, -2},
+    {"rim on side of capsule", Kind::cylinder, Kind::capsule, kRimEdge, "rim +z", "side", 1, 1},
+    {"rim on side of cylinder", Kind::cylinder, Kind::cylinder, kRimEdge, "rim -z", "side", 2, 2},
+    {"rim on rim", Kind::cylinder, Kind::cylinder, kRimRim, "rim +z", "rim +z", 1, 2},
+    {"rim on rim, other side", Kind::cylinder, Kind::cylinder, kRimRim, "rim -z", "rim +z", -1, -2},
+    {"rim on rim, second place", Kind::cylinder, Kind::cylinder, kRimRim, "rim +z", "rim -z", 2, 1},
+    {"rim on rim, second place, other side", Kind::cylinder, Kind::cylinder, kRimRim, "rim -z", "rim -z", -2, -1},
 };
 
-Shape shapeOf(Kind kind, const Vec3& size) {
-  if (kind == Kind::ball) return Sphere{size.x()};
-  if (kind == Kind::box) return Box{size};
-  return Plane{Vec3(0.6, 0, 0.8), 0.3};
+Body bodyOf(Kind kind, const Vec3& size) {
+  switch (kind) {
+    case Kind::ball:
+      return makeBall("", size.x(), Vec3::Zero());
+    case Kind::box:
+      return makeBox("", size, Vec3::Zero());
+    case Kind::plane:
+      return makePlane("", Vec3(0.6, 0, 0.8), 0.3);
+    case Kind::capsule:
+    case Kind::cylinder:
+      break;
+  }
+  Body body = makeBall("", 1, Vec3::Zero());
+  body.shape = kind == Kind::capsule ? Shape(Capsule{size.x(), size.y()}) : Shape(Cylinder{size.x(), size.y()});
+  return body;
+}
+
+int indexOf(const Solid& solid, Family family, const std::string& name) {
+  const std::size_t counts[] = {solid.vertices.size(), solid.edges.size(), solid.faces.size(), solid.rims.size()};
+  for (int i = 0; i < static_cast<int>(counts[static_cast<std::size_t>(family)]); ++i)
+    if (nameOf(solid, family, i) == name) return i;
+  throw std::runtime_error("no feature is called " + name);
+}
+
+FeaturePair pairOf(const FeatureGeometry& g, GapKind kind, const char* of_a, const char* of_b, std::int16_t sign) {
+  return {kind, indexOf(g.solid(0), familyOfFirst(kind), of_a), indexOf(g.solid(1), familyOfSecond(kind), of_b), sign};
 }
 
 /// One pair of bodies, with everything that its gap depends on.
@@ -106,18 +96,28 @@ struct Setting {
   Pose A, B;
   Vec3 size_a, size_b;
 
+  /// A random one in which the features are in general position.
   Setting(const GapRow& r, std::uint64_t seed) : row(r) {
     Random random(seed);
-    A = {random.vec(1), random.rotation().toRotationMatrix()};
-    B = {random.vec(1), random.rotation().toRotationMatrix()};
-    size_a = Vec3(0.5, 0.6, 0.7) + random.vec(0.2);
-    size_b = Vec3(0.8, 0.7, 0.6) + random.vec(0.2);
+    do {
+      A = {random.vec(1), random.rotation().toRotationMatrix()};
+      B = {random.vec(1), random.rotation().toRotationMatrix()};
+      size_a = Vec3(0.5, 0.6, 0.7) + random.vec(0.2);
+      size_b = Vec3(0.8, 0.7, 0.6) + random.vec(0.2);
+    } while (!general());
   }
   FeatureGeometry geometry() const {
-    return FeatureGeometry({solidOf(shapeOf(row.a, size_a)), solidOf(shapeOf(row.b, size_b))});
+    return FeatureGeometry({solidOf(bodyOf(row.a, size_a)), solidOf(bodyOf(row.b, size_b))});
   }
-  ContactPoint contact() const { return geometry().contact(0, 1, row.features, A, B); }
-  ContactJacobian jacobian() const { return geometry().jacobian(0, 1, row.features, A, B); }
+  FeaturePair features(const FeatureGeometry& g) const { return pairOf(g, row.kind, row.of_a, row.of_b, row.sign); }
+  ContactPoint contact() const {
+    const FeatureGeometry g = geometry();
+    return g.contact(0, 1, features(g), A, B);
+  }
+  ContactJacobian jacobian() const {
+    const FeatureGeometry g = geometry();
+    return g.jacobian(0, 1, features(g), A, B);
+  }
 
   /// Column c of a ContactJacobian (pose, sizes of a, sizes of b), by h.
   Setting moved(Eigen::Index c, double h) const {
@@ -141,6 +141,37 @@ struct Setting {
     s.A.x -= c.gap * c.normal;
     return s;
   }
+  /// The same gap with the bodies in the other order.
+  FeatureGeometry swappedGeometry() const {
+    return FeatureGeometry({solidOf(bodyOf(row.b, size_b)), solidOf(bodyOf(row.a, size_a))});
+  }
+  FeaturePair swappedFeatures(const FeatureGeometry& swapped) const {
+    return pairOf(swapped, gapKind(familyOfSecond(row.kind), familyOfFirst(row.kind)), row.of_b, row.of_a,
+                  row.swapped_sign);
+  }
+
+ private:
+  /// Edges that cross at an angle; rims that cross at an angle and nearly touch the other feature from outside, so
+  /// that the solids could touch there.
+  bool general() const {
+    const FeatureGeometry g = geometry();
+    const FeaturePair pair = features(g);
+    const WorldFeature f = placeFeature(g.solid(0).feature(familyOfFirst(row.kind), pair.a), A),
+                       h = placeFeature(g.solid(1).feature(familyOfSecond(row.kind), pair.b), B);
+    if (row.kind == kEdgeEdge) return f.direction.cross(h.direction).norm() > 0.2;
+    if (f.rim == 0) return true;
+    const ContactPoint c = g.contact(0, 1, pair, A, B);
+    if (row.kind == kRimPlane) return f.direction.cross(h.direction).norm() > 0.2;
+    if (!(std::abs(c.gap) < 0.02)) return false;
+    const Vec3 u = (c.point - f.point).normalized(), t = f.direction.cross(u);
+    if (!(c.normal.dot(u) < -0.2 && c.normal.dot(f.direction) < -0.2)) return false;
+    if (h.rim > 0) {
+      const Vec3 other = (c.point - c.gap * c.normal - h.point).normalized();
+      return c.normal.dot(other) > 0.2 && c.normal.dot(h.direction) > 0.2 &&
+             t.cross(h.direction.cross(other)).norm() > 0.5;
+    }
+    return row.kind != kRimEdge || t.cross(h.direction).norm() > 0.5;
+  }
 };
 
 Eigen::Matrix<double, 7, 1> numbersOf(const ContactPoint& c) {
@@ -159,15 +190,19 @@ Eigen::Matrix<double, 7, Eigen::Dynamic> columnsOf(const ContactJacobian& J) {
 class Gap : public ::testing::TestWithParam<GapRow> {};
 
 TEST_P(Gap, JacobianIsTheLimitOfDifferences) {
-  const double h = 1e-5;
+  const double h = 5e-5;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Setting s(GetParam(), seed);
     const auto jacobian = columnsOf(s.jacobian());
     Eigen::Matrix<double, 7, Eigen::Dynamic> differences(7, jacobian.cols());
-    for (Eigen::Index c = 0; c < jacobian.cols(); ++c)
-      differences.col(c) = (numbersOf(s.moved(c, h).contact()) - numbersOf(s.moved(c, -h).contact())) / (2 * h);
-    expectEntries(jacobian, differences, 1e-7, "jacobian");
+    for (Eigen::Index c = 0; c < jacobian.cols(); ++c) {
+      const auto wide = [&](double step) {
+        return (numbersOf(s.moved(c, step).contact()) - numbersOf(s.moved(c, -step).contact())).eval();
+      };
+      differences.col(c) = (8 * wide(h) - wide(2 * h)) / (12 * h);
+    }
+    expectEntries(jacobian, differences, 1e-9, "jacobian");
   }
 }
 
@@ -217,16 +252,16 @@ TEST_P(Gap, MovesWithTheBodies) {
 }
 
 TEST_P(Gap, SwappedBodiesHaveTheOppositeNormal) {
-  const GapRow& row = GetParam();
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Setting s = Setting(row, seed).touching();
-    const FeatureGeometry swapped({solidOf(shapeOf(row.b, s.size_b)), solidOf(shapeOf(row.a, s.size_a))});
-    const ContactPoint c = s.contact(), d = swapped.contact(0, 1, row.swapped, s.B, s.A);
+    const Setting s = Setting(GetParam(), seed).touching();
+    const FeatureGeometry swapped = s.swappedGeometry();
+    const FeaturePair features = s.swappedFeatures(swapped);
+    const ContactPoint c = s.contact(), d = swapped.contact(0, 1, features, s.B, s.A);
     expectEntries(d.gap, c.gap, 1e-14, "gap");
     expectEntries(d.normal, -c.normal, 1e-14, "normal");
     expectEntries(d.point, c.point, 1e-13, "point", 1 + (c.point - s.B.x).norm());
-    const ContactJacobian J = s.jacobian(), K = swapped.jacobian(0, 1, row.swapped, s.B, s.A);
+    const ContactJacobian J = s.jacobian(), K = swapped.jacobian(0, 1, features, s.B, s.A);
     ContactJacobian expected;
     expected.pose << J.pose.rightCols<6>(), J.pose.leftCols<6>();
     expected.size_a = J.size_b;
@@ -238,9 +273,25 @@ TEST_P(Gap, SwappedBodiesHaveTheOppositeNormal) {
 TEST_P(Gap, IsDescribed) {
   const GapRow& row = GetParam();
   const Setting s(row, 1);
-  EXPECT_EQ(s.geometry().describe(0, 1, row.features), row.described);
-  const FeatureGeometry swapped({solidOf(shapeOf(row.b, s.size_b)), solidOf(shapeOf(row.a, s.size_a))});
-  EXPECT_EQ(swapped.describe(0, 1, row.swapped), row.described_swapped);
+  const FeatureGeometry g = s.geometry(), swapped = s.swappedGeometry();
+  EXPECT_EQ(g.describe(0, 1, s.features(g)), std::string(row.of_a) + " on " + row.of_b);
+  EXPECT_EQ(swapped.describe(0, 1, s.swappedFeatures(swapped)), std::string(row.of_b) + " on " + row.of_a);
+}
+
+TEST(GapTable, EveryRowIsFoundByItsFamilies) {
+  int rows = 0;
+  for (Family a : {Family::vertex, Family::edge, Family::face, Family::rim})
+    for (Family b : {Family::vertex, Family::edge, Family::face, Family::rim}) {
+      EXPECT_EQ(hasKind(a, b), hasKind(b, a));
+      const bool of_face = a == Family::face || b == Family::face, of_edge = a == Family::edge || b == Family::edge;
+      EXPECT_EQ(hasKind(a, b), !(of_face && (of_edge || a == b)));
+      if (!hasKind(a, b)) continue;
+      ++rows;
+      EXPECT_EQ(familyOfFirst(gapKind(a, b)), a);
+      EXPECT_EQ(familyOfSecond(gapKind(a, b)), b);
+      EXPECT_EQ(branches(gapKind(a, b)), branches(gapKind(b, a)));
+    }
+  EXPECT_EQ(rows, kGapKinds);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Gap, ::testing::ValuesIn(kRows), [](const auto& row) {

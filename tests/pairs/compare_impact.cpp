@@ -13,16 +13,6 @@ void keepWorst(double& worst, double error) {
   if (!(error <= worst)) worst = error;
 }
 
-std::string withoutNumbers(const std::string& features) {
-  std::string kept;
-  for (const char c : features)
-    if (c < '0' || c > '9') kept += c;
-  std::string words;  // single spaces
-  std::istringstream in(kept);
-  for (std::string word; in >> word;) words += (words.empty() ? "" : " ") + word;
-  return words;
-}
-
 template <class... Parts>
 std::string sentence(const Parts&... parts) {
   std::ostringstream out;
@@ -32,6 +22,16 @@ std::string sentence(const Parts&... parts) {
 }
 
 }  // namespace
+
+std::string withoutNumbers(const std::string& features) {
+  std::string kept;
+  for (const char c : features)
+    if (c < '0' || c > '9') kept += c;
+  std::string words;  // single spaces
+  std::istringstream in(kept);
+  for (std::string word; in >> word;) words += (words.empty() ? "" : " ") + word;
+  return words;
+}
 
 Found firstFound(const Scene& scene, double duration) {
   OdeContacts contacts(scene);

@@ -35,6 +35,9 @@ class Agreement {
   std::string summary() const;
 };
 
+/// The kinds of features, such as "vertex on face".
+std::string withoutNumbers(const std::string& features);
+
 /// Scales a number of throws by CAROM_TEST_SCALE.
 int scaled(int throws);
 

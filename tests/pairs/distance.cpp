@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tests/pairs/enumerate.h"
+#include "tests/pairs/separation.h"
 
 namespace carom::pairs {
 namespace {
@@ -11,40 +12,6 @@ namespace {
 constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
 
 bool isHalfSpace(const Piece& piece) { return piece.kind == Piece::Kind::half_space; }
-
-// How far a piece extends along a unit vector.
-Real extent(const Piece& piece, const Vector& n) {
-  Real most = -kInfinite;
-  for (const Vector& p : piece.points) most = std::max(most, dot(n, p));
-  if (piece.kind == Piece::Kind::cylinder)
-    return most + piece.radius * norm(across(n, unit(piece.points[1] - piece.points[0])));
-  return most + piece.radius;
-}
-
-// Width of the slab at right angles to n that separates a (towards n) from b.
-Real slab(const Piece& a, const Piece& b, const Vector& n) {
-  if (isHalfSpace(b)) return -extent(a, -n) - dot(n, b.points[0]);
-  if (isHalfSpace(a)) return dot(n, a.points[0]) - extent(b, n);
-  return -extent(a, -n) - extent(b, n);
-}
-
-// A slab between the two pieces of a candidate, as wide as may be.
-struct Proof {
-  Real distance = -kInfinite;
-  Vector normal;
-};
-Proof proofOf(const Placed& A, const Placed& B, const Candidate& c) {
-  const Piece &a = A.pieces()[c.a.piece], &b = B.pieces()[c.b.piece];
-  Proof best;
-  const auto look = [&](const Vector& n) {
-    const Real distance = slab(a, b, n);
-    if (distance > best.distance) best = {distance, n};
-  };
-  if (const auto touch = c.touch(A, B)) look(touch->normal);
-  const Vector between = c.p - c.q;
-  if (!isHalfSpace(a) && !isHalfSpace(b) && dot(between, between) > 0) look(unit(between));
-  return best;
-}
 
 class Least final : public Collector {
  public:
@@ -86,8 +53,8 @@ Distance distanceOf(const Placed& A, const Placed& B, const Known& known) {
     here.cutoff = least;
     enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), here);
     if (here.best.a.piece < 0) return;  // all features are farther apart than the nearest so far
-    const Proof proof = proofOf(A, B, here.best);
-    result.proven = std::min(result.proven, proof.distance);
+    const Separation proof = separationOf(A, B, here.best);
+    result.proven = std::min(result.proven, proof.width);
     if (here.cutoff < least || result.nearest.a.piece < 0)
       least = here.cutoff, result.nearest = here.best, direction = proof.normal;
   };
@@ -105,6 +72,19 @@ Distance distanceOf(const Placed& A, const Placed& B, const Known& known) {
     for (std::size_t j = 0; j < B.pieces().size(); ++j)
       if ((i != first || j != second) && mayBeNearer(i, j)) look(i, j);
   return result;
+}
+
+std::vector<Candidate> nearestOfPiecesWithin(const Placed& A, const Placed& B, Real distance) {
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < A.pieces().size(); ++i)
+    for (std::size_t j = 0; j < B.pieces().size(); ++j) {
+      if (!(ballGap(A, i, B, j) < distance)) continue;
+      Least here;
+      here.cutoff = distance;
+      enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), here);
+      if (here.best.a.piece >= 0) all.push_back(here.best);
+    }
+  return all;
 }
 
 std::vector<Candidate> candidatesWithin(const Placed& A, const Placed& B, Real distance) {

@@ -35,5 +35,7 @@ Distance distanceOf(const Placed& A, const Placed& B, const Known& known = {});
 
 /// All locally nearest feature pairs within a distance.
 std::vector<Candidate> candidatesWithin(const Placed& A, const Placed& B, Real distance);
+/// The nearest features of every two pieces within a distance.
+std::vector<Candidate> nearestOfPiecesWithin(const Placed& A, const Placed& B, Real distance);
 
 }  // namespace carom::pairs

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+
 namespace carom::pairs {
 namespace {
 
@@ -83,14 +84,47 @@ Real Encounter::ballGap() const {
 
 // No two points of the bodies come nearer to each other than at v + g h, h after now.
 Real Encounter::safeStep(Real distance) const {
-  Real speed = (a_.state.v - b_.state.v).norm();
-  for (const Side* side : {&a_, &b_})
-    if (side->mass.moving && side->flight.spinBound() > 0) speed += side->flight.spinBound() * side->reach;
-  const Real g = (a_.flight.acceleration() - b_.flight.acceleration()).norm();
+  const Real g = (a_.flight.acceleration() - b_.flight.acceleration()).norm(), speed = this->speed();
   return 2 * distance / (speed + std::sqrt(speed * speed + 2 * g * distance) + 1e-30L);
 }
 
-Real Encounter::speed() const { return kTouching / safeStep(kTouching); }
+Drift Encounter::driftOf(const Side& side) {
+  if (!side.mass.moving) return {};
+  const Real spin = side.flight.spinBound();
+  return {brute::exactly(side.state.x), brute::exactly(side.state.v), brute::exactly(side.state.w),
+          brute::exactly(side.flight.acceleration()), (spin * spin + side.flight.spinRateBound()) * side.reach};
+}
+
+// A time for which slabs stay open between all pieces: those farther apart than any point can move, and the others by
+// the first-order motion of their points and a bound on what it leaves out.
+Real Encounter::longStep(Real distance) const {
+  const Drift a = driftOf(a_), b = driftOf(b_);
+  const Real bend = a.bend + b.bend + norm(a.g - b.g);
+  Real h = std::min(std::sqrt(2 * distance / (bend + 1e-9L)), kLongest);
+  if (h < 2 * safeStep(distance)) return 0;
+  for (const Candidate& c : nearestOfPiecesWithin(a_.placed, b_.placed, travelIn(h))) {
+    const Piece &p = a_.placed.pieces()[c.a.piece], &q = b_.placed.pieces()[c.b.piece];
+    const Separation apart = separationOf(a_.placed, b_.placed, c);
+    while (!(slabAfter(p, a, q, b, apart.normal, h) > kRounding)) {
+      h /= 2;
+      if (h < 1e-12L) return 0;
+    }
+  }
+  return kShort * h;
+}
+
+// How far any point of one body may get, seen from the other, in h seconds from now.
+Real Encounter::travelIn(Real h) const {
+  const Real g = (a_.flight.acceleration() - b_.flight.acceleration()).norm();
+  return 1.01L * (speed() + h / 2 * g) * h;
+}
+
+Real Encounter::speed() const {
+  Real speed = (a_.state.v - b_.state.v).norm();
+  for (const Side* side : {&a_, &b_})
+    if (side->mass.moving && side->flight.spinBound() > 0) speed += side->flight.spinBound() * side->reach;
+  return speed;
+}
 
 Distance Encounter::distanceAt(Real t, const Known& known) {
   moveTo(t);
@@ -143,7 +177,8 @@ std::optional<FirstImpact> Encounter::firstImpact(Real until, bool patient) {
       }
     }
     if (step > kMostSteps) return doubtful("a pass next to grazing");
-    t += kShort * safeStep(safe);
+    const Real plain = kShort * safeStep(safe);
+    t += patient || safe > kNear ? plain : std::max(plain, longStep(safe));
   }
   return {};
 }
@@ -193,7 +228,7 @@ std::optional<Real> Encounter::passes(const Candidate& nearest, Real now, Real d
   if (!least || *least < now) return {};
   const Real gap = gapAt(nearest, *least)->touch.gap, beyond = *least + (*least - now);
   moveTo(now);
-  const Real travel = 1.01L * speed() * (beyond - now);
+  const Real travel = travelIn(beyond - now);
   if (!(gap > 0) || travel > 1e4L * distance || !standsAlone(nearest, travel)) return {};
   if (!areNearestAt(nearest, *least, gap)) return {};
   closest_ = nearest, closest_.distance = gap, closest_time_ = *least;
@@ -206,7 +241,7 @@ std::optional<Real> Encounter::passes(const Candidate& nearest, Real now, Real d
 std::optional<FirstImpact> Encounter::refine(const Candidate& nearest, Real now, Real distance) {
   const bool touching = distance < kTouching;
   const auto zero = zeroOf(nearest, now);
-  const Real travel = zero ? 1.01L * speed() * (*zero - now) : 0;
+  const Real travel = zero ? travelIn(*zero - now) : 0;
   if (!touching) {
     moveTo(now);
     if (!zero || *zero < now || travel > 1e4L * distance || !standsAlone(nearest, travel)) return {};
@@ -220,6 +255,7 @@ std::optional<FirstImpact> Encounter::refine(const Candidate& nearest, Real now,
     impact.doubt = "ends of sharp features meet";
     return impact;
   }
+  impact.nearest = nearest, impact.nearest.p = impact.nearest.q = gap->touch.point;
   impact.touch = gap->touch, impact.approach = gap->rate, impact.speed = gap->speed;
   if (!touching && !areNearestAt(nearest, justBefore(impact), kTouching)) return {};
   impact.doubt = doubtOf(nearest, impact);

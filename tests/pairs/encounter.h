@@ -4,7 +4,7 @@
 #include <string>
 
 #include "adjoint/scene.h"
-#include "tests/pairs/distance.h"
+#include "tests/pairs/separation.h"
 #include "tests/support/brute/flight.h"
 
 namespace carom::pairs {
@@ -15,7 +15,8 @@ struct FirstImpact {
   Touch touch;          ///< normal from the scene's body 1 to body 0
   Real approach = 0;    ///< n . u, m/s, < 0
   Real speed = 0;       ///< |u|
-  std::string features;
+  std::string features;  ///< in words
+  Candidate nearest;     ///< the same
   /// Why the answer is not fit to be compared with: two feature pairs within a nanosecond, a border of a feature
   /// within a nanometre, a grazing touch. Empty for nearly all.
   std::string doubt;
@@ -30,8 +31,9 @@ class Encounter {
   explicit Encounter(const Scene& scene);
 
   /// Follows them by steps no longer than (proven distance) / (bound on the speed), which cannot pass a contact, until
-  /// no other features than the nearest can touch before these do; then solves for the zero of their smooth gap.
-  /// `patient` takes steps all the way to 1e-13 m, however lonely the nearest features are.
+  /// no other features than the nearest can touch before these do; then solves for the zero of their smooth gap. Bodies
+  /// that pass each other closely take the longer steps for which slabs between their pieces are proven to stay open.
+  /// `patient` takes the short steps alone, all the way to 1e-13 m, however lonely the nearest features are.
   std::optional<FirstImpact> firstImpact(Real until, bool patient = false);
 
   /// Distance at a time.
@@ -66,7 +68,10 @@ class Encounter {
   void moveTo(Real t);
   Real ballGap() const;
   Real safeStep(Real distance) const;
+  static Drift driftOf(const Side& side);
+  Real longStep(Real distance) const;
   Real speed() const;
+  Real travelIn(Real h) const;
   std::optional<FirstImpact> refine(const Candidate& nearest, Real now, Real distance);
   std::optional<Real> zeroOf(const Candidate& features, Real from);
   std::optional<Real> passes(const Candidate& nearest, Real now, Real distance);

@@ -1,19 +1,19 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "tests/reference/numbers.h"
 #include "tests/reference/principal.h"
 
-// Bodies made of balls, boxes and cylinders, of uniform density: what follows from their numbers, in 50 digits.
+// Bodies made of balls, boxes, capsules, cylinders, hulls and meshes, of uniform density: what follows from their
+// numbers, in 50 digits.
 
 namespace carom::reference {
 
 inline RMat diagonal(const RVec& d) { return {{axisVector(0, d[0]), axisVector(1, d[1]), axisVector(2, d[2])}}; }
-inline RMat operator*(const Real& s, const RMat& a) {
-  return {{s * a.column[0], s * a.column[1], s * a.column[2]}};
-}
+inline RMat operator*(const Real& s, const RMat& a) { return {{s * a.column[0], s * a.column[1], s * a.column[2]}}; }
 
 /// Mass properties in the axes of a shape, at density 1: J about the centre.
 struct RealSolid {
@@ -22,31 +22,70 @@ struct RealSolid {
   RMat J;
 };
 
-/// A ball, box or cylinder about its origin; `size` is radius; x, y, z; radius and height.
+/// By the divergence theorem: tetrahedra that the origin spans with the triangles of a surface.
+inline RealSolid solidOf(const Surface& surface) {
+  RealSolid s;
+  RMat second;  // integral of x x^T
+  for (const Surface::Face& f : surface.faces) {
+    const auto corner = [&](int i) {
+      return RVec(surface.vertices[static_cast<std::size_t>(surface.corners[static_cast<std::size_t>(f.first + i)])]);
+    };
+    for (int i = 1; i + 1 < f.count; ++i) {
+      const RVec a = corner(0), b = corner(i), c = corner(i + 1), sum = a + b + c;
+      const Real V = dot(a, cross(b, c)) / 6;
+      s.volume += V;
+      s.center = s.center + V / 4 * sum;
+      for (int j = 0; j < 3; ++j)
+        second.column[j] = second.column[j] + (V / 20) * (a[j] * a + b[j] * b + c[j] * c + sum[j] * sum);
+    }
+  }
+  s.center = (1 / s.volume) * s.center;
+  Real trace = 0;
+  for (int j = 0; j < 3; ++j) {
+    second.column[j] = second.column[j] - s.volume * s.center[j] * s.center;
+    trace += second.column[j][j];
+  }
+  for (int j = 0; j < 3; ++j) s.J.column[j] = axisVector(j, trace) - second.column[j];
+  return s;
+}
+
+/// A part of a shape; `size` is radius; x, y, z; radius and height; or the scale of a surface.
 struct PartNumbers {
-  enum class Kind { ball, box, cylinder };
+  enum class Kind { ball, box, cylinder, capsule, hull, mesh };
   Kind kind = Kind::ball;
   std::vector<Real> size;
+  std::shared_ptr<const Surface> surface;
   RVec position;
   RMat orientation = RMat::identity();
 
   RealSolid solid() const {
     const Real pi = BodyNumbers::pi(), &a = size[0];
+    if (surface && !surface->closed) return {1, RVec(), {}};  // mass and inertia are written
+    if (surface) {
+      const RealSolid one = solidOf(*surface);
+      return {a * a * a * one.volume, position + orientation * (a * one.center),
+              orientation * (a * a * a * a * a * one.J * transpose(orientation))};
+    }
     Real V;
-    RVec I;
+    RVec J;
     if (kind == Kind::ball) {
       V = 4 * pi / 3 * a * a * a;
-      I = (2 * a * a / 5) * RVec{1, 1, 1};
+      J = (V * 2 * a * a / 5) * RVec{1, 1, 1};
     } else if (kind == Kind::box) {
       const Real &b = size[1], &c = size[2];
       V = a * b * c;
-      I = (Real(1) / 12) * RVec{b * b + c * c, a * a + c * c, a * a + b * b};
+      J = (V / 12) * RVec{b * b + c * c, a * a + c * c, a * a + b * b};
     } else {
-      const Real &h = size[1], across = a * a / 4 + h * h / 12;
-      V = pi * a * a * h;
-      I = {across, across, a * a / 2};
+      const Real &h = size[1], tube = pi * a * a * h, across = a * a / 4 + h * h / 12;
+      V = tube;
+      J = tube * RVec{across, across, a * a / 2};
+      if (kind == Kind::capsule) {  // two half balls, their centres of mass 3/8 of the radius beyond the ends
+        const Real ball = 4 * pi / 3 * a * a * a, out = h / 2 + 3 * a / 8, side = 83 * a * a / 320 + out * out;
+        V += ball;
+        J = J + ball * RVec{side, side, 2 * a * a / 5};
+      }
     }
-    return {V, position, orientation * (diagonal(V * I) * transpose(orientation))};
+    return {V, position, orientation * (diagonal(J) * transpose(orientation))};
   }
 };
 
@@ -58,6 +97,12 @@ inline PartNumbers partOf(const Shape& shape, const Vec3& position, const Quat& 
     p.kind = PartNumbers::Kind::box, p.size = {box->size.x(), box->size.y(), box->size.z()};
   } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
     p.kind = PartNumbers::Kind::cylinder, p.size = {cylinder->radius, cylinder->height};
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    p.kind = PartNumbers::Kind::capsule, p.size = {capsule->radius, capsule->height};
+  } else if (const auto* hull = std::get_if<Hull>(&shape)) {
+    p.kind = PartNumbers::Kind::hull, p.size = {hull->scale}, p.surface = hull->surface;
+  } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    p.kind = PartNumbers::Kind::mesh, p.size = {mesh->scale}, p.surface = mesh->surface;
   } else {
     throw std::invalid_argument("the reference knows no such part");
   }
@@ -91,8 +136,7 @@ struct WrittenNumbers {
     for (const RealSolid& s : solids) {
       const RVec d = s.center - all.center;
       all.J = all.J + s.J;
-      for (int j = 0; j < 3; ++j)
-        all.J.column[j] = all.J.column[j] + s.volume * (dot(d, d) * axisVector(j) - d[j] * d);
+      for (int j = 0; j < 3; ++j) all.J.column[j] = all.J.column[j] + s.volume * (dot(d, d) * axisVector(j) - d[j] * d);
     }
     return all;
   }

@@ -13,14 +13,23 @@ struct Point {
   Real radius;
 };
 
+// In the order of sweptPointsOf.
 std::vector<Point> pointsOf(const std::vector<PartNumbers>& parts) {
+  using Kind = PartNumbers::Kind;
   std::vector<Point> points;
   for (const PartNumbers& part : parts) {
-    if (part.kind == PartNumbers::Kind::ball) points.push_back({part.position, part.size[0]});
-    for (int v = 0; part.kind == PartNumbers::Kind::box && v < 8; ++v) {
+    const auto add = [&](const RVec& at, const Real& radius) {
+      points.push_back({part.position + part.orientation * at, radius});
+    };
+    if (part.kind == Kind::ball) add(RVec(), part.size[0]);
+    if (part.kind == Kind::capsule)
+      for (int sign : {-1, 1}) add(axisVector(2, sign * part.size[1] / 2), part.size[0]);
+    if (part.kind == Kind::hull)
+      for (const Vec3& v : part.surface->vertices) add(part.size[0] * RVec(v), 0);
+    for (int v = 0; part.kind == Kind::box && v < 8; ++v) {
       RVec corner;
       for (int i = 0; i < 3; ++i) corner[i] = (v >> i & 1 ? 1 : -1) * part.size[static_cast<std::size_t>(i)] / 2;
-      points.push_back({part.position + part.orientation * corner, 0});
+      add(corner, 0);
     }
   }
   return points;
@@ -147,38 +156,51 @@ std::vector<ThrowKnob> throwKnobs(const ThrowNumbers& numbers, int body, int flo
                        [entry, i](D& d) -> double& { return entry(d)[i]; }});
   };
   const auto scalar = [&](const std::string& name, auto nudge, auto entry) { knobs.push_back({name, nudge, entry}); };
-  vector("gravity", [](N& n, const RVec& h) { n.body.gravity = n.body.gravity + h; },
-         [](D& d) -> Vec3& { return d.gravity; });
-  vector("position", [](N& n, const RVec& h) { n.body.position = n.body.position + h; },
-         [b](D& d) -> Vec3& { return d.bodies[b].position; });
-  vector("orientation", [](N& n, const RVec& h) { n.body.orientation = rotationBy(h) * n.body.orientation; },
-         [b](D& d) -> Vec3& { return d.bodies[b].orientation; });
-  vector("velocity", [](N& n, const RVec& h) { n.body.velocity = n.body.velocity + h; },
-         [b](D& d) -> Vec3& { return d.bodies[b].velocity; });
-  vector("angular_velocity", [](N& n, const RVec& h) { n.body.spin = n.body.spin + h; },
-         [b](D& d) -> Vec3& { return d.bodies[b].angular_velocity; });
-  vector("floor position", [](N& n, const RVec& h) { n.floor.position = n.floor.position + h; },
-         [f](D& d) -> Vec3& { return d.bodies[f].position; });
-  vector("floor orientation", [](N& n, const RVec& h) { n.floor.orientation = rotationBy(h) * n.floor.orientation; },
-         [f](D& d) -> Vec3& { return d.bodies[f].orientation; });
+  vector(
+      "gravity", [](N& n, const RVec& h) { n.body.gravity = n.body.gravity + h; },
+      [](D& d) -> Vec3& { return d.gravity; });
+  vector(
+      "position", [](N& n, const RVec& h) { n.body.position = n.body.position + h; },
+      [b](D& d) -> Vec3& { return d.bodies[b].position; });
+  vector(
+      "orientation", [](N& n, const RVec& h) { n.body.orientation = rotationBy(h) * n.body.orientation; },
+      [b](D& d) -> Vec3& { return d.bodies[b].orientation; });
+  vector(
+      "velocity", [](N& n, const RVec& h) { n.body.velocity = n.body.velocity + h; },
+      [b](D& d) -> Vec3& { return d.bodies[b].velocity; });
+  vector(
+      "angular_velocity", [](N& n, const RVec& h) { n.body.spin = n.body.spin + h; },
+      [b](D& d) -> Vec3& { return d.bodies[b].angular_velocity; });
+  vector(
+      "floor position", [](N& n, const RVec& h) { n.floor.position = n.floor.position + h; },
+      [f](D& d) -> Vec3& { return d.bodies[f].position; });
+  vector(
+      "floor orientation", [](N& n, const RVec& h) { n.floor.orientation = rotationBy(h) * n.floor.orientation; },
+      [f](D& d) -> Vec3& { return d.bodies[f].orientation; });
   if (!numbers.body.inertia_derived)
-    vector("inertia", [](N& n, const RVec& h) { n.body.moments = n.body.moments + h; },
-           [b](D& d) -> Vec3& { return d.bodies[b].inertia; });
+    vector(
+        "inertia", [](N& n, const RVec& h) { n.body.moments = n.body.moments + h; },
+        [b](D& d) -> Vec3& { return d.bodies[b].inertia; });
   const bool density = numbers.body.has_density;
-  scalar(density ? "density" : "mass", [](N& n, const Real& h) { n.body.mass_or_density += h; },
-         [b, density](D& d) -> double& { return density ? d.bodies[b].density : d.bodies[b].mass; });
-  scalar("elasticity", [](N& n, const Real& h) { n.body.elasticity += h; },
-         [](D& d) -> double& { return d.materials[0].elasticity; });
-  scalar("friction", [](N& n, const Real& h) { n.body.friction += h; },
-         [](D& d) -> double& { return d.materials[0].friction; });
-  scalar("tangential_elasticity", [](N& n, const Real& h) { n.body.tangential_elasticity += h; },
-         [](D& d) -> double& { return d.materials[0].tangential_elasticity; });
+  scalar(
+      density ? "density" : "mass", [](N& n, const Real& h) { n.body.mass_or_density += h; },
+      [b, density](D& d) -> double& { return density ? d.bodies[b].density : d.bodies[b].mass; });
+  scalar(
+      "elasticity", [](N& n, const Real& h) { n.body.elasticity += h; },
+      [](D& d) -> double& { return d.materials[0].elasticity; });
+  scalar(
+      "friction", [](N& n, const Real& h) { n.body.friction += h; },
+      [](D& d) -> double& { return d.materials[0].friction; });
+  scalar(
+      "tangential_elasticity", [](N& n, const Real& h) { n.body.tangential_elasticity += h; },
+      [](D& d) -> double& { return d.materials[0].tangential_elasticity; });
   Eigen::Index dimension = 0;
   for (std::size_t p = 0; p < numbers.body.parts.size(); ++p)
     for (std::size_t i = 0; i < numbers.body.parts[p].size.size(); ++i, ++dimension)
-      scalar("size " + std::to_string(p) + "." + std::to_string(i),
-             [p, i](N& n, const Real& h) { n.body.parts[p].size[i] += h; },
-             [b, dimension](D& d) -> double& { return d.bodies[b].size[dimension]; });
+      scalar(
+          "size " + std::to_string(p) + "." + std::to_string(i),
+          [p, i](N& n, const Real& h) { n.body.parts[p].size[i] += h; },
+          [b, dimension](D& d) -> double& { return d.bodies[b].size[dimension]; });
   return knobs;
 }
 

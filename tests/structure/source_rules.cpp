@@ -4,9 +4,12 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <string_view>
 
 namespace carom::structure {
 namespace {
+
+using namespace std::string_view_literals;
 
 constexpr int kLongestFile = 450;
 
@@ -64,9 +67,11 @@ std::string resolved(const std::string& path, const std::string& include) {
 }
 
 bool includesIpopt(const std::string& text) {
+  const auto& rows = confinedLibraries();
+  const auto ipopt = std::find_if(rows.begin(), rows.end(), [](const Confined& r) { return r.library == "Ipopt"sv; });
   const auto includes = includesOf(text);
   return std::any_of(includes.begin(), includes.end(),
-                     [](const std::string& name) { return std::regex_match(name, confinedLibraries()[1].include); });
+                     [&](const std::string& name) { return std::regex_match(name, ipopt->include); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/support/scenes.h"
+#include "tests/support/solids.h"
 
 namespace carom::test {
 namespace {
@@ -68,12 +69,13 @@ Scene compoundWithMoments() {
 // Two balls on a cylinder: whatever their sizes, it stays round.
 Compound dumbbell(const Vec3& at, const Quat& q) {
   const Vec3 axis = q * Vec3::UnitZ();
-  return {{part(Cylinder{0.02, 0.3}, at, q), part(Sphere{0.07}, at - 0.15 * axis), part(Sphere{0.05}, at + 0.15 * axis)}};
+  return {
+      {part(Cylinder{0.02, 0.3}, at, q), part(Sphere{0.07}, at - 0.15 * axis), part(Sphere{0.05}, at + 0.15 * axis)}};
 }
 Scene round() { return thrown(dumbbell({0, 0, 0.04}, Quat::Identity())); }
 Scene roundAskew() { return thrown(dumbbell({0.02, 0.03, -0.01}, kTurned)); }
 
-// Four balls at the corners of a square: one that grows turns the principal axes. The middle one touches nothing.
+// Four balls at the corners of a square: one that grows turns the principal axes.
 Scene square() {
   Compound c;
   for (double x : {-0.1, 0.1})
@@ -88,6 +90,55 @@ Scene cube() {
   for (int v = 0; v < 8; ++v)
     c.parts.push_back(part(Sphere{0.05}, 0.1 * Vec3(v & 1 ? 1 : -1, v & 2 ? 1 : -1, v & 4 ? 1 : -1) + kCenter));
   return thrown(c);
+}
+
+// A wedge whose centre of mass is far from its origin and whose principal axes are its own business.
+Triangles wedge() {
+  return tetrahedron({0.02, 0.01, -0.03}, {0.27, 0.03, 0.01}, {0.05, 0.22, -0.02}, {0.09, 0.06, 0.18});
+}
+Scene capsule() { return thrown(Capsule{0.06, 0.22}); }
+Scene capsuleByDensity() {
+  Scene s = thrown(Capsule{0.07, 0.16}, kCenter);
+  s.bodies[0].mass.reset();
+  s.bodies[0].density = 300;
+  return s;
+}
+Scene hull() { return thrown(Hull{wedge().surface(), 1.1, ""}); }
+Scene hullByDensity() {
+  Scene s = hull();
+  s.bodies[0].mass.reset();
+  s.bodies[0].density = 500;
+  return s;
+}
+// Of every kind one part, some of which stick out nowhere.
+Scene everyKind() {
+  return thrown(Compound{{part(Capsule{0.03, 0.3}, {0.02, 0, 0.05}, kTurned),
+                          part(Hull{wedge().surface(), 0.9, ""}, {-0.1, 0, 0.02}, kTurned.conjugate()),
+                          part(Mesh{torusTriangles(0.06, 0.02, 7, 5).surface(), 0.8, ""}, {0.03, 0.02, 0}, kTurned),
+                          part(Cylinder{0.03, 0.1}, {0.05, 0.01, 0.01}), part(Box{{0.1, 0.2, 0.05}}, {0, 0.05, 0})}});
+}
+
+// Shapes that nothing touches here: flights of what round rims and meshes weigh.
+Scene flying(Scene s) {
+  s.bodies[1].position.z() = -50;
+  return s;
+}
+Scene cylinder() { return flying(thrown(Cylinder{0.12, 0.2}, kCenter)); }
+Scene cylinderByDensity() {
+  Scene s = flying(thrown(Cylinder{0.12, 0.2}));
+  s.bodies[0].mass.reset();
+  s.bodies[0].density = 200;
+  return s;
+}
+Scene mesh() {
+  return flying(thrown(Mesh{torusTriangles(0.2, 0.07, 9, 6).placed(kTurned, kCenter).surface(), 0.8, ""}));
+}
+Scene openMesh() {  // its centre of mass is its origin
+  Triangles cup = boxTriangles({0.2, 0.3, 0.4});
+  cup.triangles.pop_back();
+  Scene s = flying(thrown(Mesh{cup.surface(), 0.8, ""}));
+  s.bodies[0].inertia = Inertia::fromMoments({0.006, 0.01, 0.013});
+  return s;
 }
 
 }  // namespace
@@ -110,6 +161,15 @@ const std::vector<OffsetScene>& offsetScenes() {
       {"square", square, 0.8, T::symmetric, T::triaxial, true},
       {"square_of_box", squareOfBox, 0.8, T::symmetric, T::triaxial, false},
       {"cube", cube, 0.8, T::spherical, T::triaxial, true},
+      {"capsule", capsule, 0.8, T::symmetric, T::symmetric, false},
+      {"capsule_density", capsuleByDensity, 0.8, T::symmetric, T::symmetric, false},
+      {"hull", hull, 0.8, T::triaxial, T::triaxial, false},
+      {"hull_density", hullByDensity, 0.8, T::triaxial, T::triaxial, false},
+      {"every_kind", everyKind, 0.8, T::triaxial, T::triaxial, true},
+      {"cylinder", cylinder, 0.8, T::symmetric, T::symmetric, false},
+      {"cylinder_density", cylinderByDensity, 0.8, T::symmetric, T::symmetric, false},
+      {"mesh", mesh, 0.8, T::triaxial, T::triaxial, false},
+      {"open_mesh", openMesh, 0.8, T::triaxial, T::triaxial, false},
   };
   return rows;
 }

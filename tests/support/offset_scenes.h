@@ -8,9 +8,9 @@
 
 namespace carom::test {
 
-/// One body, whose centre of mass or principal axes are not its shape's, thrown at a tilted floor: a way of writing a
-/// body, or a kind of change of its inertia tensor. All its shapes touch planes with swept points (swept_points.h). A
-/// new way adds one row.
+/// One body, most with a centre of mass or principal axes that are not its shape's, thrown at a tilted floor: a shape,
+/// a way of writing a body, or a kind of change of its inertia tensor. What touches the floor are swept points
+/// (swept_points.h); shapes that have none fly. A new way adds one row.
 struct OffsetScene {
   const char* name;
   Scene (*scene)();  ///< bodies: the thrown one, then the floor

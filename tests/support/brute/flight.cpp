@@ -53,7 +53,6 @@ Rotation toRotation(const Eigen::Matrix<Real, 1, 4>& row) {
 
 MassProperties massOf(const Body& body) {
   MassProperties m;
-  m.ball = std::holds_alternative<Sphere>(body.shape);
   m.moving = !body.fixed;
   if (body.fixed) return m;
   const auto solid = exact::integralsOf(exact::numbersOf<Real>(body.shape));
@@ -69,6 +68,8 @@ MassProperties massOf(const Body& body) {
     m.axes = body.inertia.axes.cast<Real>().normalized().toRotationMatrix();
   }
   m.inverse_inertia = m.inertia.cwiseInverse();
+  const bool round = m.inertia[0] == m.inertia[1] && m.inertia[1] == m.inertia[2] && m.center.isZero(0);
+  m.ball = round && std::holds_alternative<Sphere>(body.shape);
   return m;
 }
 

@@ -9,7 +9,8 @@ namespace carom::brute {
 
 /// Mass, centre of mass and principal moments, from a body as written; zero inverses when it is fixed.
 struct MassProperties {
-  bool moving = false, ball = false;
+  bool moving = false;
+  bool ball = false;  ///< looks and turns the same about all axes: its orientation has no effect
   Real mass = 0, inverse_mass = 0;
   Vector inertia = Vector::Zero(), inverse_inertia = Vector::Zero();
   Vector center = Vector::Zero();      ///< in the shape's axes

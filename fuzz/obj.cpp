@@ -1,0 +1,20 @@
+#include "formats/obj_reader.h"
+
+#include "fuzz/require.h"
+#include "fuzz/surfaces.h"
+#include "fuzz/targets.h"
+
+namespace carom::fuzz {
+
+void readObj(std::string_view bytes) {
+  TriangleSoup soup;
+  try {
+    soup = parseObj(bytes);
+  } catch (const InputError& error) {
+    requireMessage(error);
+    return;
+  }
+  requireSurfaces(soup);
+}
+
+}  // namespace carom::fuzz

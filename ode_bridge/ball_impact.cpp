@@ -1,0 +1,104 @@
+#include "ode_bridge/ball_impact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+// The same bounds as in the general search: an approach slower than this share of the speeds cannot be told from none,
+// and a gap of less than this share of the size of positions cannot be told from contact.
+constexpr double kStill = 1e-12, kTouch = 1e-13;
+
+struct Gap {
+  double gap, rate;
+};
+
+// Newton on the gap from a time at which it is zero but for rounding; the time of the smallest gap that it meets.
+template <class GapAt>
+double polish(const GapAt& gap_at, double from, double t) {
+  double best = std::numeric_limits<double>::infinity(), best_time = t;
+  for (int round = 0; round < 6; ++round) {
+    const Gap at = gap_at(t);
+    if (!(std::abs(at.gap) < best)) break;
+    best = std::abs(at.gap);
+    best_time = t;
+    if (!(at.rate < 0)) break;
+    const double next = std::max(from, t - at.gap / at.rate);
+    if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return next;
+    t = next;
+  }
+  return best_time;
+}
+
+}  // namespace
+
+BallImpact ballBallImpact(const FlightPath& a, const FlightPath& b, const Vec3& g, double from, double until) {
+  const Vec3 d = a.positionAt(from, g) - b.positionAt(from, g), w = a.velocityAt(from, g) - b.velocityAt(from, g);
+  const double dw = d.dot(w);
+  if (!(dw < 0)) return {};  // not nearing, and never will
+  const double R = a.radius + b.radius, w2 = w.squaredNorm();
+  const double distance = d.norm(), c = (distance - R) * (distance + R);
+  if (c > 0 && -dw * (until - from) < 0.5 * c && w2 * (until - from) < -dw) return {};  // too far for the time left
+  const double room = std::sqrt(w2) * R, miss = d.cross(w).norm();
+  const double D = (room - miss) * (room + miss);
+  if (!(D > 0)) return {};
+  const double root = std::sqrt(D);
+  const double s = c > 0 ? c / (root - dw) : 0;
+  if (!(from + s <= until)) return {};
+  const double time = polish(
+      [&](double t) {
+        const Vec3 e = a.positionAt(t, g) - b.positionAt(t, g);
+        const double l = e.norm();
+        return Gap{l - R, e.dot(a.velocityAt(t, g) - b.velocityAt(t, g)) / l};
+      },
+      from, from + s);
+  const double speeds = a.velocityAt(time, g).norm() + b.velocityAt(time, g).norm();
+  if (!(time <= until) || !(root > kStill * speeds * R)) return {};
+  return {BallImpact::Found::impact, time};
+}
+
+BallImpact ballPlaneImpact(const FlightPath& ball, const Vec3& g, const Vec3& normal, double offset, double from,
+                           double until) {
+  const auto gap_at = [&](double t) {
+    return Gap{normal.dot(ball.positionAt(t, g)) - offset - ball.radius, normal.dot(ball.velocityAt(t, g))};
+  };
+  const auto [h, v] = gap_at(from);
+  const double a = normal.dot(g);
+  const double touch = kTouch * std::max({1.0, ball.positionAt(from, g).cwiseAbs().maxCoeff(), ball.radius});
+  const double still = kStill * ball.velocityAt(from, g).norm();
+  double s;
+  if (h <= touch && std::abs(v) <= std::max(still, std::sqrt(2 * std::abs(a) * touch))) {
+    if (v >= 0 && a > 0) return {};  // it parts
+    return {BallImpact::Found::undecided, from};
+  }
+  if (h <= 0) {
+    if (v < 0) {
+      s = 0;
+    } else if (a < 0) {
+      s = (v + std::sqrt(std::max(0.0, v * v - 2 * a * h))) / -a;  // up and down again
+    } else {
+      return {};
+    }
+  } else {
+    const double D = v * v - 2 * a * h;
+    if (!(D >= 0)) return {};
+    const double root = std::sqrt(D);
+    if (v < 0) {
+      s = 2 * h / (root - v);
+    } else if (a < 0) {
+      s = (v + root) / -a;
+    } else {
+      return {};
+    }
+  }
+  if (!(from + s <= until)) return {};
+  const double time = polish(gap_at, from, from + s);
+  if (!(time <= until)) return {};
+  if (!(gap_at(time).rate < -kStill * ball.velocityAt(time, g).norm())) return {};
+  return {BallImpact::Found::impact, time};
+}
+
+}  // namespace carom

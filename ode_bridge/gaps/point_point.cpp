@@ -1,0 +1,31 @@
+#include "ode_bridge/gaps/rows.h"
+
+// phi = |w| - r_1 - r_2, w = P - Q, n = w/|w|, p = Q + r_2 n.
+namespace carom::gaps {
+
+ContactPoint pointPoint(const WorldFeature& f, const WorldFeature& g, int) {
+  const Vec3 w = f.point - g.point;
+  const double l = w.norm();
+  const Vec3 n = w / l;
+  // Both centres in one place: w/|w| is NaN, and the gap must say so too.
+  return {l > 0 ? l - f.radius - g.radius : n.x(), n, g.point + g.radius * n};
+}
+
+FeatureJacobian pointPointJacobian(const WorldFeature& f, const WorldFeature& g, int) {
+  FeatureJacobian J = FeatureJacobian::Zero();
+  const Vec3 w = f.point - g.point;
+  const double l = w.norm();
+  const Vec3 n = w / l;
+  const Mat3 dn = (Mat3::Identity() - n * n.transpose()) / l;
+  J.block<1, 3>(0, kP1) = n.transpose();
+  J.block<1, 3>(0, kP2) = -n.transpose();
+  J(0, kR1) = J(0, kR2) = -1;
+  J.block<3, 3>(1, kP1) = dn;
+  J.block<3, 3>(1, kP2) = -dn;
+  J.block<3, 3>(4, kP1) = g.radius * dn;
+  J.block<3, 3>(4, kP2) = Mat3::Identity() - g.radius * dn;
+  J.block<3, 1>(4, kR2) = n;
+  return J;
+}
+
+}  // namespace carom::gaps

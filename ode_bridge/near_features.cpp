@@ -1,0 +1,79 @@
+#include "ode_bridge/near_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+namespace {
+
+template <class Visit>
+void each(const Solid& solid, const Piece::Range& range, const Visit& visit) {
+  for (int i = range.first; i < range.first + range.count; ++i)
+    visit(solid.piece_features[static_cast<std::size_t>(i)]);
+}
+
+bool nearEdge(const SolidEdge& edge, const Vec3& p, double distance) {
+  const Vec3 to = p - edge.point;
+  const double along = std::clamp(edge.direction.dot(to), -edge.half_length, edge.half_length);
+  return (to - along * edge.direction).squaredNorm() <= distance * distance;
+}
+
+bool nearFace(const Solid& solid, const SolidFace& face, const Vec3& p, double distance) {
+  return std::abs(face.direction.dot(p - face.point)) <= distance && outsideFace(solid, face, p) <= distance;
+}
+
+void nearCylinder(const Solid& solid, const Piece& piece, const Vec3& p, double distance, NearFeatures& out) {
+  const Vec3 to = p - piece.center;
+  const double along = piece.axis.dot(to), out_of_axis = (to - along * piece.axis).norm();
+  each(solid, piece.faces, [&](int f) {
+    if (nearFace(solid, solid.faces[static_cast<std::size_t>(f)], p, distance)) out.add(Family::face, f);
+  });
+  if (std::abs(out_of_axis - piece.rho) > distance) return;
+  if (std::abs(along) <= piece.half_length + distance) each(solid, piece.edges, [&](int e) { out.add(Family::edge, e); });
+  each(solid, piece.rims, [&](int r) {
+    const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
+    if (std::abs(rim.direction.dot(p - rim.point)) <= distance) out.add(Family::rim, r);
+  });
+}
+
+}  // namespace
+
+double outsideFace(const Solid& solid, const SolidFace& face, const Vec3& p) {
+  if (face.disc > 0) {
+    const Vec3 to = p - face.point;
+    return (to - face.direction.dot(to) * face.direction).norm() - face.disc;
+  }
+  double outside = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < face.count; ++i) {
+    const auto corner = [&](int k) -> const Vec3& {
+      const int v = solid.corners[static_cast<std::size_t>(face.first + k % face.count)];
+      return solid.vertices[static_cast<std::size_t>(v)].point;
+    };
+    const Vec3 &from = corner(i), along = corner(i + 1) - from;
+    outside = std::max(outside, along.cross(face.direction).dot(p - from) / along.norm());
+  }
+  return outside;
+}
+
+NearFeatures featuresNear(const Solid& solid, const Piece& piece, const Vec3& p, double distance) {
+  NearFeatures near;
+  if (piece.core == Piece::Core::cylinder) {
+    nearCylinder(solid, piece, p, distance, near);
+    return near;
+  }
+  const bool few = piece.core != Piece::Core::polytope && piece.core != Piece::Core::triangle;
+  each(solid, piece.faces, [&](int f) {
+    if (few || nearFace(solid, solid.faces[static_cast<std::size_t>(f)], p, distance)) near.add(Family::face, f);
+  });
+  each(solid, piece.edges, [&](int e) {
+    if (few || nearEdge(solid.edges[static_cast<std::size_t>(e)], p, distance)) near.add(Family::edge, e);
+  });
+  each(solid, piece.vertices, [&](int v) {
+    if (few || (solid.vertices[static_cast<std::size_t>(v)].point - p).squaredNorm() <= distance * distance)
+      near.add(Family::vertex, v);
+  });
+  return near;
+}
+
+}  // namespace carom

@@ -1,0 +1,87 @@
+#include "ode_bridge/overlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "ode_bridge/separation.h"
+
+namespace carom {
+namespace {
+
+const Vec3& vertexOf(const Solid& solid, int corner) {
+  return solid.vertices[static_cast<std::size_t>(solid.corners[static_cast<std::size_t>(corner)])].point;
+}
+
+// Solid angle of a triangle seen from p (van Oosterom and Strackee, 1983).
+double solidAngle(const Solid& solid, const SolidFace& face, const Vec3& p) {
+  const Vec3 a = vertexOf(solid, face.first) - p, b = vertexOf(solid, face.first + 1) - p,
+             c = vertexOf(solid, face.first + 2) - p;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+// Whether a closed mesh goes around p (solid's axes), by the sum of the solid angles of its triangles.
+bool inside(const Solid& solid, const Vec3& p) {
+  double sum = 0;
+  for (const Piece& piece : solid.pieces) {
+    if (piece.core != Piece::Core::triangle) continue;
+    const auto f = static_cast<std::size_t>(solid.piece_features[static_cast<std::size_t>(piece.faces.first)]);
+    if (!solid.faces[f].open) sum += solidAngle(solid, solid.faces[f], p);
+  }
+  return std::abs(sum) > 2 * std::numbers::pi;
+}
+
+// Distance from p to the nearest vertex of the meshes: how deep it is inside, at most.
+double depthOf(const Solid& solid, const Vec3& p) {
+  double least = solid.bound();
+  for (const Feature& v : solid.vertices) least = std::min(least, (v.point - p).norm());
+  return least;
+}
+
+std::optional<double> insideMesh(const Placed& a, const Placed& mesh) {
+  if (!mesh.solid->closed_mesh || a.solid->plane) return std::nullopt;
+  std::optional<double> deepest;
+  int part = -1;
+  for (const Feature& v : a.solid->vertices) {
+    if (v.part == part) continue;  // one point of each part says where all of it is, for its surface touches nothing
+    part = v.part;
+    const Vec3 p = mesh.k.R.transpose() * (a.world(v.point) - mesh.k.x);
+    if (p.norm() < mesh.solid->bound() && inside(*mesh.solid, p))
+      deepest = std::max(deepest.value_or(0), depthOf(*mesh.solid, p));
+  }
+  return deepest;
+}
+
+}  // namespace
+
+std::optional<double> overlapOf(const Placed& a, const Placed& b, double tolerance) {
+  std::optional<double> deepest;
+  std::vector<std::pair<int, int>> open{{0, 0}};
+  while (!open.empty()) {
+    const auto [i, j] = open.back();
+    open.pop_back();
+    const PlacedNode na{&a, &a.solid->nodes[static_cast<std::size_t>(i)]},
+        nb{&b, &b.solid->nodes[static_cast<std::size_t>(j)]};
+    if (separationOf(na, nb) > 0) continue;
+    const bool leaf_a = na.node->piece >= 0, leaf_b = nb.node->piece >= 0;
+    if (leaf_a && leaf_b) {
+      const PlacedPiece pa{&a, &a.solid->pieces[static_cast<std::size_t>(na.node->piece)]},
+          pb{&b, &b.solid->pieces[static_cast<std::size_t>(nb.node->piece)]};
+      const double separation = findWitness(pa, pb).separation;
+      if (separation < -tolerance) deepest = std::max(deepest.value_or(0), -separation);
+    } else if (leaf_b || (!leaf_a && na.node->radius >= nb.node->radius)) {
+      open.push_back({na.node->right, j});
+      open.push_back({na.node->left, j});
+    } else {
+      open.push_back({i, nb.node->right});
+      open.push_back({i, nb.node->left});
+    }
+  }
+  if (deepest) return deepest;
+  if (const auto depth = insideMesh(a, b)) return depth;
+  return insideMesh(b, a);
+}
+
+}  // namespace carom

@@ -1,0 +1,50 @@
+#include "ode_bridge/refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+// Approach slower than this share of the speeds involved cannot be told from none.
+constexpr double kStill = 1e-12;
+
+double speedScale(const Placed& a, const Placed& b) {
+  const auto turning = [](const Placed& p) { return p.spin > 0 ? p.spin * p.solid->bound() : 0; };
+  return a.k.v.norm() + b.k.v.norm() + turning(a) + turning(b);
+}
+
+double gapRate(const Placed& a, const Placed& b, const ContactPoint& c) {
+  return c.normal.dot(a.k.v + a.k.w.cross(c.point - a.k.x) - b.k.v - b.k.w.cross(c.point - b.k.x));
+}
+
+}  // namespace
+
+Root refineRoot(const PairMotion& pair, const FeaturePair& features, double from, double t, const Placed& a0,
+                const Placed& b0) {
+  const auto contact = [&](const Placed& a, const Placed& b) {
+    return pair.geometry.contact(pair.a, pair.b, features, {a.k.x, a.k.R}, {b.k.x, b.k.R});
+  };
+  ContactPoint c = contact(a0, b0);
+  double rate = gapRate(a0, b0, c);
+  if (!(rate < -kStill * speedScale(a0, b0))) return {t, false};
+  double best = std::abs(c.gap);
+  for (int round = 0; round < 6; ++round) {
+    const double next = std::max(from, t - c.gap / rate);
+    if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {next, true};
+    pair.arc_a.extendTo(next);
+    pair.arc_b.extendTo(next);
+    const Placed a(*a0.solid, pair.arc_a, next), b(*b0.solid, pair.arc_b, next);
+    c = contact(a, b);
+    const double new_rate = gapRate(a, b, c);
+    if (!(std::abs(c.gap) < best) || !(new_rate < 0)) return {std::abs(c.gap) <= best ? next : t, true};
+    best = std::abs(c.gap);
+    rate = new_rate;
+    t = next;
+  }
+  return {t, true};
+}
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+#include "ode_bridge/solids/parts.h"
+
+namespace carom::solids {
+
+// One vertex, swept.
+void addBall(PartMaker& part, const Sphere& s) {
+  part.dimension(Vec3::Zero(), 1);
+  part.vertex(Vec3::Zero(), s.radius);
+  Piece& piece = part.piece(Piece::Core::point, Vec3::Zero());
+  piece.radius = s.radius;
+  part.takeAll(piece);
+}
+
+}  // namespace carom::solids

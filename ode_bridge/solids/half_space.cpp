@@ -1,0 +1,11 @@
+#include "ode_bridge/solids/parts.h"
+
+namespace carom::solids {
+
+// One face without end, which has no dimensions.
+void addHalfSpace(PartMaker& part, const Plane& s) {
+  part.face(s.offset * s.normal, s.normal);
+  part.takeAll(part.piece(Piece::Core::half_space, s.offset * s.normal));
+}
+
+}  // namespace carom::solids

@@ -1,0 +1,59 @@
+#include "ode_bridge/support.h"
+
+#include <cmath>
+
+namespace carom {
+
+Placed::Placed(const Solid& s, const Arc& arc, double t)
+    : solid(&s),
+      k(arc.kinematicsAt(t)),
+      acceleration(arc.acceleration()),
+      spin(s.ball ? 0 : arc.spinBound()),
+      spin_rate(s.ball ? 0 : arc.spinRateBound()) {}
+
+namespace {
+
+Support furthestPoint(const Solid& solid, const Piece& piece, const Vec3& direction) {
+  const auto first = static_cast<std::size_t>(piece.points.first);
+  std::size_t best = first;
+  double furthest = direction.dot(solid.points[first]);
+  for (std::size_t i = first + 1; i < first + static_cast<std::size_t>(piece.points.count); ++i)
+    if (const double along = direction.dot(solid.points[i]); along > furthest) furthest = along, best = i;
+  return {solid.points[best], static_cast<int>(best)};
+}
+
+Vec3 furthestOfCylinder(const Piece& piece, const Vec3& direction) {
+  const double along = piece.axis.dot(direction);
+  // as a double cross product it stays across the axis even where it is all rounding
+  const Vec3 across = piece.axis.cross(direction).cross(piece.axis);
+  const double length = across.norm();
+  Vec3 at = piece.center + (along >= 0 ? piece.half_length : -piece.half_length) * piece.axis;
+  if (length > 0) at += piece.rho / length * across;
+  return at;
+}
+
+}  // namespace
+
+Support supportOf(const Solid& solid, const Piece& piece, const Vec3& direction) {
+  if (piece.core == Piece::Core::cylinder) return {furthestOfCylinder(piece, direction), -1};
+  return furthestPoint(solid, piece, direction);
+}
+
+double extentAlong(const PlacedPiece& p, const Vec3& direction) {
+  const Vec3 local = p.body->k.R.transpose() * direction;
+  return local.dot(supportOf(p.solid(), *p.piece, local).at);
+}
+
+double separationAlong(const PlacedPiece& a, const PlacedPiece& b, const Vec3& n) {
+  const double apart = n.dot(a.body->k.x - b.body->k.x);
+  const double radii = a.piece->radius + b.piece->radius;
+  const auto height = [](const PlacedPiece& p) {
+    const SolidFace& face = p.solid().faces[0];
+    return face.point.dot(face.direction);
+  };
+  if (b.halfSpace()) return apart - extentAlong(a, -n) - height(b) - radii;
+  if (a.halfSpace()) return apart - height(a) - extentAlong(b, n) - radii;
+  return apart - extentAlong(a, -n) - extentAlong(b, n) - radii;
+}
+
+}  // namespace carom

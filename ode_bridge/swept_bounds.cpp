@@ -1,0 +1,52 @@
+#include "ode_bridge/swept_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+Bounds sweptCentre(const FlightPath& path, const Vec3& g, double from, double until) {
+  const Vec3 p = path.positionAt(from, g), q = path.positionAt(until, g), v = path.velocityAt(from, g);
+  Bounds b{p.cwiseMin(q), p.cwiseMax(q)};
+  for (int k = 0; k < 3; ++k) {
+    if (g[k] == 0) continue;
+    const double summit = -v[k] / g[k];
+    if (!(summit > 0 && summit < until - from)) continue;
+    const double x = p[k] + 0.5 * v[k] * summit;
+    b.low[k] = std::min(b.low[k], x);
+    b.high[k] = std::max(b.high[k], x);
+  }
+  return b;
+}
+
+Bounds grown(const Bounds& b, double room) { return {b.low.array() - room, b.high.array() + room}; }
+
+double roundingRoom(const Bounds& b) {
+  return 1e-9 * std::max({1.0, b.low.cwiseAbs().maxCoeff(), b.high.cwiseAbs().maxCoeff()});
+}
+
+namespace {
+
+// The first s > 0 with v s + a s^2/2 = c, for c >= 0.
+double timeTo(double c, double v, double a) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (!(c > 0)) return 0;
+  const double discriminant = v * v + 2 * a * c;
+  if (!(discriminant >= 0)) return kNever;
+  const double root = std::sqrt(discriminant);
+  if (v > 0) return 2 * c / (v + root);
+  return a > 0 ? (root - v) / a : kNever;
+}
+
+}  // namespace
+
+double leavingTime(const FlightPath& path, const Vec3& g, double from, const Bounds& bounds) {
+  const Vec3 p = path.positionAt(from, g), v = path.velocityAt(from, g);
+  double s = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k)
+    s = std::min({s, timeTo(bounds.high[k] - p[k], v[k], g[k]), timeTo(p[k] - bounds.low[k], -v[k], -g[k])});
+  return from + s;
+}
+
+}  // namespace carom
