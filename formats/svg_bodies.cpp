@@ -34,16 +34,10 @@ void polygon(SvgCanvas& canvas, const std::vector<Vec2>& points, const Look& loo
                              {"stroke-linejoin", "round"}});
 }
 
-void path(SvgCanvas& canvas, const std::string& name, const std::string& data, const Look& look) {
+void path(SvgCanvas& canvas, const std::string& data, SvgAttributes look) {
   if (data.empty()) return;
-  SvgAttributes attributes{{"d", data},
-                           {"fill", look.fill},
-                           {"fill-opacity", svgNumber(look.fill_opacity)},
-                           {"stroke", look.stroke},
-                           {"stroke-width", svgNumber(look.stroke_width)},
-                           {"stroke-linejoin", "round"}};
-  if (!name.empty()) attributes.insert(attributes.begin(), {"data-body", name});
-  canvas.element("path", attributes);
+  look.insert(look.begin(), {"d", data});
+  canvas.element("path", look);
 }
 
 struct ShapePainter {
@@ -69,10 +63,16 @@ struct ShapePainter {
   template <class Any>
   void operator()(const Any& shape) const {
     const Silhouette seen = silhouetteOf(shape, x, q, view);
-    const bool whole = seen.outline.empty();
-    path(canvas, name, seen.area, whole ? look : Look{look.fill, "none", 0, look.fill_opacity});
-    path(canvas, "", seen.edges, {"none", look.stroke, 0.5 * look.stroke_width, 1});
-    path(canvas, "", seen.outline, {"none", look.stroke, look.stroke_width, 1});
+    canvas.open("g", {{"data-body", name},
+                      {"fill", look.fill},
+                      {"fill-opacity", svgNumber(look.fill_opacity)},
+                      {"stroke", look.stroke},
+                      {"stroke-width", svgNumber(look.stroke_width)},
+                      {"stroke-linejoin", "round"}});
+    path(canvas, seen.area, seen.outline.empty() ? SvgAttributes() : SvgAttributes{{"stroke", "none"}});
+    path(canvas, seen.edges, {{"fill", "none"}, {"stroke-width", svgNumber(0.5 * look.stroke_width)}});
+    path(canvas, seen.outline, {{"fill", "none"}});
+    canvas.close();
   }
 
   // The half space seen from its edge: a line, hatched on the solid side. Otherwise it has no outline to draw.

@@ -48,7 +48,10 @@ std::vector<Entry> entriesOf(const Picture& picture) {
   if (picture.before) entries.push_back({Swatch::before, "path before the edit", kBeforeColour});
   if (moving > 0)
     entries.push_back({Swatch::ghost, "position every " + shortNumber(picture.ghost_interval) + " s", "#6d7580"});
-  if (!picture.motion.events.empty()) entries.push_back({Swatch::impact, "impact, numbered", kImpactColour});
+  if (!picture.motion.events.empty()) {
+    const char* words = impactsAreNumbered(picture) ? "impact, numbered" : "impact";
+    entries.push_back({Swatch::impact, words, kImpactColour});
+  }
   if (!picture.nails.empty()) entries.push_back({Swatch::nail, "nail", kNailColour});
   if (anyNail(picture, [](const Nail& nail) { return nail.orientation && nail.pose_origin; }))
     entries.push_back({Swatch::pose, "nailed pose", kNailColour});
@@ -111,6 +114,11 @@ void drawSwatch(SvgCanvas& canvas, const Entry& entry, const Vec2& at) {
 }
 
 }  // namespace
+
+bool impactsAreNumbered(const Picture& picture) {
+  constexpr std::size_t kMost = 40;  // more numbers than these could not be read
+  return picture.motion.events.size() <= kMost;
+}
 
 double legendHeight(const Picture& picture, double width) {
   const std::vector<PlacedEntry> placed = flow(entriesOf(picture), width);

@@ -10,8 +10,7 @@ namespace carom {
 namespace {
 
 constexpr double kFont = 13;
-constexpr double kImpactRadius = 5.5;
-constexpr int kMaxNumbers = 40;  // more than these numbers could not be read
+constexpr double kImpactRadius = 5.5, kSmallRadius = 3.5;
 constexpr int kMaxNames = 12;
 
 PixelBox boxAround(const Vec2& p, double radius) { return {p.x() - radius, p.y() - radius, 2 * radius, 2 * radius}; }
@@ -33,8 +32,7 @@ Vec3 placeOf(const Event& event) {
   return event.contacts.empty() ? sum : Vec3(sum / static_cast<double>(event.contacts.size()));
 }
 
-void drawImpactMark(SvgCanvas& canvas, const Vec2& p) {
-  const double r = kImpactRadius;
+void drawImpactMark(SvgCanvas& canvas, const Vec2& p, double r) {
   canvas.element("polygon", {{"class", "impact"},
                              {"points", svgPoints({p + Vec2(0, -r), p + Vec2(r, 0), p + Vec2(0, r), p + Vec2(-r, 0)})},
                              {"fill", kImpactColour},
@@ -131,16 +129,17 @@ void drawMarks(SvgCanvas& canvas, const View& view, const Picture& picture) {
   drawNails(canvas, view, picture, placer);
   canvas.close();
   canvas.open("g", {{"class", "impacts"}});
+  const bool numbered = impactsAreNumbered(picture);
   std::vector<Vec2> places;
   for (const Event& event : picture.motion.events) {
     places.push_back(view.pixel(placeOf(event)));
-    drawImpactMark(canvas, places.back());
-    if (places.size() <= kMaxNumbers) placer.avoid(boxAround(places.back(), kImpactRadius));
+    drawImpactMark(canvas, places.back(), numbered ? kImpactRadius : kSmallRadius);
+    if (numbered) placer.avoid(boxAround(places.back(), kImpactRadius));
   }
   canvas.close();
   canvas.open("g", {{"class", "labels"}, {"font-size", svgNumber(kFont)}});
   labelNails(canvas, view, picture, placer);
-  for (std::size_t k = 0; k < places.size() && k < kMaxNumbers; ++k) {
+  for (std::size_t k = 0; numbered && k < places.size(); ++k) {
     const std::string number = std::to_string(k + 1);
     label(canvas, placer.place(places[k], kImpactRadius, number, kFont), number, kImpactColour);
   }

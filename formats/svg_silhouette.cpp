@@ -34,13 +34,26 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points) {
   return out;
 }
 
+// Tenths of a pixel, and steps from point to point: pictures of many bodies are mostly these numbers.
 void addPath(std::string& out, const std::vector<Vec2>& points, bool closed) {
-  char command = 'M';
+  const auto append = [&](double tenths) {
+    const std::string number = svgNumber(tenths / 10);
+    if (number[0] != '-' && out.back() != 'M' && out.back() != 'l') out += ' ';
+    out += number;
+  };
+  Vec2 last(0, 0);
+  bool first = true;
   for (const Vec2& p : thinned(points)) {
-    out += command + svgNumber(p.x()) + "," + svgNumber(p.y());
-    command = command == 'M' ? 'L' : ' ';
+    const Vec2 tenths(std::round(10 * p.x()), std::round(10 * p.y())), step = tenths - last;
+    if (!first && step.isZero(0)) continue;
+    if (first) out += 'M';
+    append(step.x());
+    append(step.y());
+    if (first) out += 'l';
+    last = tenths, first = false;
   }
-  if (closed) out += "Z";
+  if (out.ends_with('l')) out += "0 0";
+  if (closed) out += 'Z';
 }
 
 // A short piece of a line, in pixels, with its depth towards the viewer in metres.

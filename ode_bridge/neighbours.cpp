@@ -91,13 +91,15 @@ double Neighbours::window(int body, double t) {
 }
 
 void Neighbours::list(int body, std::vector<int>& out) {
-  if (!few()) {
+  const bool opened = all_until_ != -kNever;
+  if (!few() && opened) {
     out = lists_[at(body)];
     return;
   }
+  // without windows that were asked for, nothing is known of many: everyone may be near
   out.clear();
   for (int other = 0; other < static_cast<int>(extents_.size()); ++other)
-    if (other != body && touches(body, other)) out.push_back(other);
+    if (other != body && (!few() || touches(body, other))) out.push_back(other);
 }
 
 // The box for the path from t on, up to where it has used its share of the reach. Returns the time for which that is.

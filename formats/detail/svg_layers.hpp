@@ -32,6 +32,9 @@ void drawPose(SvgCanvas& canvas, const View& view, const Body& body, const Vec3&
 /// Impacts, nails with their poses, and all labels.
 void drawMarks(SvgCanvas& canvas, const View& view, const Picture& picture);
 
+/// Whether there is room for numbers beside the impacts.
+bool impactsAreNumbered(const Picture& picture);
+
 /// A step of 1, 2 or 5 times a power of ten, not below `least`.
 double niceStep(double least);
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -39,15 +40,17 @@ std::string attribute(const std::string& text, const std::string& body, const st
   return text.substr(from, text.find('"', from) - from);
 }
 
-// Closed polygons of straight path data.
+// Closed polygons of path data: a point, then steps.
 std::vector<Polygon> polygonsOf(std::string data) {
   std::vector<Polygon> out;
-  for (char& c : data) c = c == ',' || c == 'L' ? ' ' : c;
+  for (std::size_t at = 0; (at = data.find('-', at)) != std::string::npos; at += 2) data.insert(at, " ");
+  std::replace(data.begin(), data.end(), 'l', ' ');
   std::size_t at = 0;
   while ((at = data.find('M', at)) != std::string::npos) {
     std::istringstream in(data.substr(at + 1, data.find('Z', at) - at - 1));
     out.emplace_back();
-    for (double x, y; in >> x >> y;) out.back().emplace_back(x, y);
+    Vec2 point(0, 0);
+    for (Vec2 step; in >> step.x() >> step.y();) out.back().push_back(point += step);
     ++at;
   }
   return out;
@@ -131,7 +134,7 @@ TEST(Silhouette, CoversTheShadowOfConvexShapes) {
     for (const Body& body : document.scene.bodies) {
       if (body.name != "box" && body.name != "capsule" && body.name != "cylinder" && body.name != "hull") continue;
       const double found = areaOf(polygonsOf(attribute(view.text, body.name, "d"))) / (scale * scale);
-      // 48 points to a circle and hundredths of a pixel.
+      // 48 points to a circle and tenths of a pixel.
       test::expectEntries(found, shadow(body.shape, body.orientation, view.viewer), 6e-3, body.name + " " + view.name,
                           1e-9);
     }

@@ -155,21 +155,21 @@ std::optional<FirstImpact> Encounter::firstImpact(Real until, bool patient) {
   for (long step = 0; t < until; ++step) {
     ++steps_;
     moveTo(t);
-    Real safe = ballGap();
+    Real safe = ballGap(), distance = kInfinite;
     if (!(safe > kAmple)) {
       const Distance d = distanceOf(a_.placed, b_.placed, known);
-      const Real distance = d.nearest.distance;
+      distance = d.nearest.distance;
       hint = d.nearest, safe = d.proven;
-      known = {&hint, distance + safe + kRounding};
       if (closest_.a.piece < 0 || distance < closest_.distance) closest_ = d.nearest, closest_time_ = t;
       if (distance > 1e-6L && distance < 1) worst_proof_ = std::max(worst_proof_, 1 - safe / distance);
       if (distance < kTouching || distance < looked_at) {
         looked_at = distance / 8;
         if (const auto impact = refine(d.nearest, t, distance)) return impact;
         if (const auto beyond = passes(d.nearest, t, distance)) {
-          t = *beyond, known.at_most = kInfinite;
+          t = *beyond, known = {};
           continue;
         }
+        moveTo(t);
       }
       if (!(safe > 0.5L * distance)) {
         if (!(distance < kFine)) throw std::runtime_error("the brute-force distance cannot be proven");
@@ -178,7 +178,10 @@ std::optional<FirstImpact> Encounter::firstImpact(Real until, bool patient) {
     }
     if (step > kMostSteps) return doubtful("a pass next to grazing");
     const Real plain = kShort * safeStep(safe);
-    t += patient || safe > kNear ? plain : std::max(plain, longStep(safe));
+    const Real forward = patient || safe > kNear ? plain : std::max(plain, longStep(safe));
+    known = {};
+    if (distance < kInfinite) known = {&hint, distance + travelIn(forward) + kRounding};
+    t += forward;
   }
   return {};
 }
