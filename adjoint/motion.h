@@ -72,7 +72,8 @@ enum class MotionStatus {
   complete,          ///< known up to the asked duration
   impact_limit,      ///< stopped after the allowed number of impacts
   cascade,           ///< impacts accumulate: infinitely many in finite time, or bodies stay in contact
-  unresolved_impact  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach)
+  unresolved_impact  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach), or a
+                     ///< contact without a normal
 };
 const char* nameOf(MotionStatus status);
 

@@ -25,6 +25,7 @@ Motion Simulator::run() {
              "stopped after " + std::to_string(impact_limit_) + " impacts, the limit that was set");
       return std::move(motion_);
     }
+    if (!isExplained(next)) return std::move(motion_);
     resolve(next);
     if (!separates()) return std::move(motion_);
     const bool last = accumulates();
@@ -97,9 +98,9 @@ void Simulator::contactsOfInstant(const Prediction& first) {
   queue_.visitUntil(limit, [&](int body) {
     const Outlook& outlook = outlook_[index(body)];
     if (outlook.first.a < 0) return;
-    if (holds(outlook.first)) same_.push_back(outlook.first);
+    if (holds(outlook.first) && outlook.first.explained()) same_.push_back(outlook.first);
     for (const Prediction& p : outlook.of_instant)
-      if (p.time <= limit && holds(p)) same_.push_back(p);
+      if (p.time <= limit && holds(p) && p.explained()) same_.push_back(p);
   });
   std::sort(same_.begin(), same_.end());
   addTouching(first.time, first.a, first.b, first.features);
@@ -199,7 +200,7 @@ bool Simulator::joinInstant() {
   const Event& event = draft_.event;
   const Prediction* soonest = nullptr;
   for (const Prediction& p : found_)
-    if (p.time <= event.time + kInstant && (!soonest || p < *soonest)) {
+    if (p.explained() && p.time <= event.time + kInstant && (!soonest || p < *soonest)) {
       const bool known = std::any_of(event.contacts.begin(), event.contacts.end(), [&](const Contact& c) {
         return c.a == p.a && c.b == p.b && c.features == p.features;
       });

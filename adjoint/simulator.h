@@ -35,6 +35,7 @@ class Simulator {
     int partner_version = 0;  // of the arc of the other body that it was made for
     FeaturePair features;
     int partner() const { return searched == a ? b : a; }
+    bool explained() const { return features.kind >= 0; }
     bool operator<(const Prediction& o) const {
       if (time != o.time) return time < o.time;
       return a != o.a ? a < o.a : b < o.b;
@@ -90,6 +91,7 @@ class Simulator {
   }
 
   // simulator_endings.cpp: outcomes that end a motion early
+  bool isExplained(const Prediction& next);
   bool separates();
   bool accumulates();
   bool isLow(const Contact& c, const Prediction*& next) const;

@@ -7,6 +7,16 @@
 
 namespace carom {
 
+// Bodies may come to overlap where no features say how they meet.
+bool Simulator::isExplained(const Prediction& next) {
+  if (next.explained()) return true;
+  std::ostringstream text;
+  text << "'" << scene_.bodies[index(next.a)].name << "' and '" << scene_.bodies[index(next.b)].name << "' meet at t = "
+       << next.time << " s where no face, edge, rim or vertex of theirs gives the contact a normal";
+  finish(MotionStatus::unresolved_impact, next.time, text.str());
+  return false;
+}
+
 // An impulse along a tilted normal may fail to part the bodies: there is no motion after it.
 bool Simulator::separates() {
   const Event& event = draft_.event;
@@ -34,7 +44,7 @@ bool Simulator::separates() {
 bool Simulator::isLow(const Contact& c, const Prediction*& next) const {
   next = nullptr;
   for (const Prediction& p : found_)
-    if (p.a == c.a && p.b == c.b) {
+    if (p.a == c.a && p.b == c.b && p.explained()) {
       next = &p;
       break;
     }

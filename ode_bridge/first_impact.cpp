@@ -15,7 +15,7 @@ namespace {
 // After so many such steps in a row it is doubled, up to kLoosest times; what they may overlap by stays below 1e-10 m.
 constexpr int kGlideSteps = 64;
 constexpr double kLoosest = 1000;
-// Bodies that start in touch may overlap by this many tolerances of contact.
+// Bodies that start in touch may overlap by somewhat less than this many tolerances of contact.
 constexpr double kDeepest = 4e4;
 
 // The library proposes a direction when boxes first come near, grown by this share of their size.
@@ -29,7 +29,7 @@ struct Pending {
   double time = 0;
   int node_a = 0, node_b = 0;
   int gliding = 0;
-  bool near = false;
+  Vec3 n = Vec3::Zero();  // the direction that told two pieces apart before; 0 for none yet
 
   // for a queue with the earliest on top, in an order that does not depend on how it is kept
   bool operator<(const Pending& o) const {
@@ -48,7 +48,7 @@ class Search {
         b_(pair.geometry.solid(pair.b), pair.arc_b, from) {}
 
   std::optional<PredictedImpact> run() {
-    now_ = {from_, 0, 0, 0, false};
+    now_ = {from_, 0, 0, 0, Vec3::Zero()};
     do {
       while (advance())
         if (!queue_.empty() && now_ < queue_.top()) {  // others may touch before
@@ -91,11 +91,25 @@ class Search {
       return step(safeStep(a, b, apart, end() - now_.time));
     }
     if (!leaves) {
+      if (const auto h = stepOfPieceBeforeBall(a, b)) return step(*h);
       open(a, b);
       return false;
     }
     return advancePieces({&a_, &a_.solid->pieces[static_cast<std::size_t>(a.node->piece)]},
                          {&b_, &b_.solid->pieces[static_cast<std::size_t>(b.node->piece)]});
+  }
+
+  // A long piece lies in a large ball: it may be well apart from a ball of the other body that its own ball meets.
+  std::optional<double> stepOfPieceBeforeBall(const PlacedNode& a, const PlacedNode& b) const {
+    const PlacedNode &leaf = a.node->piece >= 0 ? a : b, &node = a.node->piece >= 0 ? b : a;
+    if (leaf.node->piece < 0 || leaf.body->solid->plane) return std::nullopt;
+    const Piece& own = leaf.body->solid->pieces[static_cast<std::size_t>(leaf.node->piece)];
+    if (own.core == Piece::Core::point) return std::nullopt;
+    const Piece ball = ballOf(*node.node);
+    const PlacedPiece p{leaf.body, &own}, q{node.body, &ball};
+    const Witness witness = findDirection(p, q);
+    if (!(witness.separation > kOpen * node.node->radius)) return std::nullopt;
+    return safeStep(p, q, witness, 0, end() - now_.time);
   }
 
   static double sizeOf(const PlacedNode& p) { return p.body->solid->plane ? 0 : p.node->radius; }
@@ -118,13 +132,16 @@ class Search {
 
   bool advancePieces(const PlacedPiece& a, const PlacedPiece& b) {
     const double tolerance = touchTolerance(a_, b_);
-    Witness witness = findWitness(a, b);
-    if (!now_.near) {
-      now_.near = true;
+    Witness witness = findWitness(a, b, now_.n);
+    if (now_.n.isZero(0))
       if (const auto candidate = candidateWitness(a, b, tolerance)) witness = *candidate;
-    }
+    now_.n = witness.n;
     if (witness.separation <= tolerance) {
       if (impactAtTouch(a, b, witness, tolerance)) return false;
+      if (witness.separation < -kDeepest * tolerance) {
+        first_ = PredictedImpact{now_.time, {}};  // they meet with no features that say how
+        return false;
+      }
       ++now_.gliding;
     } else {
       now_.gliding = 0;

@@ -34,16 +34,15 @@ class Simplex {
     return false;
   }
 
-  // The nearest point by trying every subset: never misled by a flat simplex, which a case analysis can be.
+  // The nearest point by trying every subset that has the corner added last, which any nearer point needs: never misled
+  // by a flat simplex, which a case analysis can be.
   Mix nearest() const {
     Mix best;
-    for (int i = 0; i < count_; ++i) point(i, best);
-    for (int i = 0; i < count_; ++i)
-      for (int j = i + 1; j < count_; ++j) segment(i, j, best);
-    if (count_ >= 3)
-      for (int i = 0; i < count_; ++i)
-        for (int j = i + 1; j < count_; ++j)
-          for (int k = j + 1; k < count_; ++k) triangle(i, j, k, best);
+    const int last = count_ - 1;
+    point(last, best);
+    for (int i = 0; i < last; ++i) segment(i, last, best);
+    for (int i = 0; i < last; ++i)
+      for (int j = i + 1; j < last; ++j) triangle(i, j, last, best);
     if (count_ == 4) tetrahedron(best);
     return best;
   }

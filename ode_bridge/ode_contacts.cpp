@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "adjoint/errors.h"
@@ -22,8 +23,16 @@ enum class Quick : char { no, ball, plane };
 
 // The box that a solid stands in, with room for rounding and for the tolerance of contact.
 Bounds standingBounds(const Solid& solid, const Kinematics& k) {
-  const Vec3 half = solid.box ? Vec3(k.R.cwiseAbs() * solid.half) : Vec3::Constant(solid.bound());
-  const Bounds bounds{k.x - half, k.x + half};
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Bounds bounds{Vec3::Constant(kInfinite), Vec3::Constant(-kInfinite)};
+  const auto furthest = [&](const Piece& piece, const Vec3& direction) {
+    return direction.dot(k.x + k.R * supportOf(solid, piece, k.R.transpose() * direction).at) + piece.radius;
+  };
+  for (const Piece& piece : solid.pieces)
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds.high[axis] = std::max(bounds.high[axis], furthest(piece, Vec3::Unit(axis)));
+      bounds.low[axis] = std::min(bounds.low[axis], -furthest(piece, -Vec3::Unit(axis)));
+    }
   return grown(bounds, roundingRoom(bounds));
 }
 
@@ -99,8 +108,8 @@ void OdeContacts::State::refuseOverlap(const Scene& scene, const std::vector<Arc
     const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13));
     if (!depth) continue;
     std::ostringstream text;
-    text << "found '" << scene.bodies[i].name << "' and '" << scene.bodies[j].name << "' overlapping by "
-         << *depth << " m at the start, expected bodies apart or touching";
+    text << "found '" << scene.bodies[i].name << "' and '" << scene.bodies[j].name << "' overlapping by " << *depth
+         << " m at the start, expected bodies apart or touching";
     throw InputError("/bodies/" + std::to_string(j), text.str());
   }
 }

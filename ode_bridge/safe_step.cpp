@@ -206,6 +206,14 @@ double safeStep(const PlacedPiece& a, const PlacedPiece& b, const Witness& w, do
   return 0;
 }
 
+Piece ballOf(const Node& node) {
+  Piece ball;
+  ball.core = Piece::Core::point;
+  ball.center = node.center;
+  ball.radius = node.radius;
+  return ball;
+}
+
 double separationOf(const PlacedNode& a, const PlacedNode& b) {
   if (a.body->solid->plane) return separationOf(b, a);
   const Vec3 center = a.body->k.x + a.arm();

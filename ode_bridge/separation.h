@@ -22,8 +22,11 @@ struct Witness {
 };
 
 /// The direction of largest separation of two pieces among those that decide: face normals, crossed edges and rims,
-/// nearest points.
-Witness findWitness(const PlacedPiece& a, const PlacedPiece& b);
+/// nearest points. `guess`, where it is not 0, is a direction from b to a to begin with; it saves time.
+Witness findWitness(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess = Vec3::Zero());
+
+/// The same by nearest points alone, for pieces that are well apart: no features are looked at.
+Witness findDirection(const PlacedPiece& a, const PlacedPiece& b);
 
 /// The separation along a given direction from b to a, as a witness that stays as it is in the world: any direction
 /// along which solids are apart proves it.
@@ -36,6 +39,9 @@ struct PlacedNode {
 
   Vec3 arm() const { return body->k.R * node->center; }  ///< of the centre, world axes
 };
+
+/// The ball as a piece.
+Piece ballOf(const Node& node);
 
 /// Separation of two balls, or of a ball and the half space that the other one is, m.
 double separationOf(const PlacedNode& a, const PlacedNode& b);

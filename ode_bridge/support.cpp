@@ -36,6 +36,7 @@ Vec3 furthestOfCylinder(const Piece& piece, const Vec3& direction) {
 
 Support supportOf(const Solid& solid, const Piece& piece, const Vec3& direction) {
   if (piece.core == Piece::Core::cylinder) return {furthestOfCylinder(piece, direction), -1};
+  if (piece.core == Piece::Core::point) return {piece.center, piece.points.first};
   return furthestPoint(solid, piece, direction);
 }
 

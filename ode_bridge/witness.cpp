@@ -46,16 +46,13 @@ FeaturePair facing(const PlacedPiece& p, const Vec3& direction, GapKind with_ver
 
 class Search {
  public:
-  Search(const PlacedPiece& a, const PlacedPiece& b) : a_(a), b_(b) {
+  Search(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess) : a_(a), b_(b), guess_(guess) {
     best_.separation = -std::numeric_limits<double>::infinity();
   }
 
   Witness run() {
-    const Vec3 between = a_.body->world(a_.piece->center) - b_.body->world(b_.piece->center);
-    const CoreDistance points = coreDistance(a_, b_, between);
+    const CoreDistance points = nearestPoints();
     const double radii = a_.piece->radius + b_.piece->radius, size = a_.piece->reach + b_.piece->reach;
-    best_.distance = points.upper - radii;
-    if (!points.overlap) byPoints(points);
     scale_ = size + points.at_a.norm() + points.at_b.norm();
     if (points.upper - radii <= kNear * size) {
       for (const double around : {kAround, kFurtherAround, kEverywhere}) {
@@ -64,15 +61,34 @@ class Search {
         if (best_.separation > 1e-9 * scale_) break;  // apart in any case: the features would only lengthen the step
       }
     }
-    if (!(best_.separation > -std::numeric_limits<double>::infinity())) {  // deep inside each other
-      const double length = between.norm();
-      best_.n = length > 0 ? Vec3(between / length) : Vec3::UnitZ();
+    return decided();
+  }
+
+  Witness byPointsAlone() {
+    nearestPoints();
+    return decided();
+  }
+
+ private:
+  Vec3 between() const { return a_.body->world(a_.piece->center) - b_.body->world(b_.piece->center); }
+
+  CoreDistance nearestPoints() {
+    const CoreDistance points = coreDistance(a_, b_, guess_.isZero(0) ? between() : guess_);
+    best_.distance = points.upper - a_.piece->radius - b_.piece->radius;
+    if (!points.overlap) byPoints(points);
+    return points;
+  }
+
+  // The best there is; deep inside each other, any.
+  Witness decided() {
+    if (!(best_.separation > -std::numeric_limits<double>::infinity())) {
+      const double length = between().norm();
+      best_.n = length > 0 ? Vec3(between() / length) : Vec3::UnitZ();
       best_.separation = separationAlong(a_, b_, best_.n);
     }
     return best_;
   }
 
- private:
   // Features take the place of points that say the same but for rounding.
   bool offer(const Vec3& n, Witness::Frame frame, double handicap = 0) {
     const double separation = separationAlong(a_, b_, n);
@@ -176,6 +192,7 @@ class Search {
   }
 
   PlacedPiece a_, b_;
+  Vec3 guess_;
   Witness best_;
   double scale_ = 0;
 };
@@ -220,11 +237,15 @@ Witness witnessAlong(const PlacedPiece& a, const PlacedPiece& b, const Vec3& n) 
   return w;
 }
 
-Witness findWitness(const PlacedPiece& a, const PlacedPiece& b) {
+Witness findDirection(const PlacedPiece& a, const PlacedPiece& b) {
+  return Search(a, b, Vec3::Zero()).byPointsAlone();
+}
+
+Witness findWitness(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess) {
   if (b.halfSpace()) return againstPlane(a, b);
   if (a.halfSpace()) return swapped(againstPlane(b, a));
   if (a.piece->core == Piece::Core::point && b.piece->core == Piece::Core::point) return ballBall(a, b);
-  return Search(a, b).run();
+  return Search(a, b, guess).run();
 }
 
 }  // namespace carom
