@@ -1,5 +1,6 @@
 // Plays the scenes of the gallery, which have shapes of every kind, and tells how each begins and ends.
 #include <cstdio>
+#include <string>
 
 #include "adjoint/simulate.h"
 #include "formats/scene_json.h"

@@ -38,6 +38,41 @@ Value valueOf(const Json& json) {
   return Value(members);
 }
 
+// The members of a glTF object have no order here, but the targets of a constraint have: their names stand beside them.
+constexpr const char* kOrder = "constraint_members";
+
+void noteOrder(Json& document) {
+  const auto constraints = document.find("constraints");
+  if (constraints == document.end() || constraints->empty()) return;
+  Json order = Json::array();
+  for (const Json& constraint : *constraints) {
+    Json names = Json::array();
+    for (const auto& member : constraint.items()) names.push_back(member.key());
+    order.push_back(std::move(names));
+  }
+  document[kOrder] = std::move(order);
+}
+
+/// Takes the order out and puts members into it; those that it does not name come last.
+void restoreOrder(Json& document) {
+  const auto found = document.find(kOrder);
+  if (found == document.end()) return;
+  const Json order = *found;
+  document.erase(kOrder);
+  const auto constraints = document.find("constraints");
+  for (std::size_t i = 0; constraints != document.end() && i < constraints->size() && i < order.size(); ++i) {
+    Json& constraint = (*constraints)[i];
+    if (!constraint.is_object() || !order[i].is_array()) continue;
+    Json sorted = Json::object();
+    for (const Json& name : order[i])
+      if (name.is_string() && constraint.contains(name.get<std::string>()))
+        sorted[name.get<std::string>()] = constraint[name.get<std::string>()];
+    for (const auto& member : constraint.items())
+      if (!sorted.contains(member.key())) sorted[member.key()] = member.value();
+    constraint = std::move(sorted);
+  }
+}
+
 void nameSurfaces(Shape& shape, const SurfaceMeshes& meshes) {
   if (auto* hull = std::get_if<Hull>(&shape)) hull->file = meshReference(meshes.at(hull->surface.get()));
   if (auto* mesh = std::get_if<Mesh>(&shape)) mesh->file = meshReference(meshes.at(mesh->surface.get()));
@@ -94,6 +129,7 @@ Value documentOf(const Document& document, const Scene& scene, const SurfaceMesh
   Json json = detail::parseJson(writeDocument(whole));
   for (auto member = json.begin(); member != json.end();)  // tinygltf would write an empty list as null
     member = member->is_structured() && member->empty() ? json.erase(member) : std::next(member);
+  noteOrder(json);
   return valueOf(json);
 }
 
@@ -129,6 +165,7 @@ LeftDocument::LeftDocument(const Json& document, std::size_t mesh_count, ShapeMa
 
 void LeftDocument::read(const Json& json, std::size_t mesh_count, ShapeMaker& shapes) {
   Json whole = json;
+  restoreOrder(whole);
   has_scene_ = whole.contains("bodies");
   if (!has_scene_) {  // older files hold the edit alone
     whole["carom"] = 1;

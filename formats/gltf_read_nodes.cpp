@@ -19,7 +19,7 @@ constexpr const char* kRigidBodies = "KHR_physics_rigid_bodies";
 std::string labelOf(int index, const std::string& name) {
   const std::string pointer = index < 0 ? "" : "/nodes/" + std::to_string(index);
   if (name.empty()) return "node " + pointer;
-  return "node '" + name + "'" + (pointer.empty() ? "" : " (" + pointer + ")");
+  return "node '" + detail::oneLine(name) + "'" + (pointer.empty() ? "" : " (" + pointer + ")");
 }
 
 /// A matrix is a rotation times a scale along the node's axes, as glTF asks; mirrored ones are mirrored in x.

@@ -33,11 +33,9 @@ Vec3 placeOf(const Event& event) {
 }
 
 void drawImpactMark(SvgCanvas& canvas, const Vec2& p, double r) {
-  canvas.element("polygon", {{"class", "impact"},
-                             {"points", svgPoints({p + Vec2(0, -r), p + Vec2(r, 0), p + Vec2(0, r), p + Vec2(-r, 0)})},
-                             {"fill", kImpactColour},
-                             {"stroke", "#ffffff"},
-                             {"stroke-width", "1.2"}});
+  canvas.element(
+      "polygon",
+      {{"class", "impact"}, {"points", svgPoints({p + Vec2(0, -r), p + Vec2(r, 0), p + Vec2(0, r), p + Vec2(-r, 0)})}});
 }
 
 // The free component runs through the whole panel: the nail is a line there.
@@ -128,7 +126,7 @@ void drawMarks(SvgCanvas& canvas, const View& view, const Picture& picture) {
   canvas.open("g", {{"class", "nails"}});
   drawNails(canvas, view, picture, placer);
   canvas.close();
-  canvas.open("g", {{"class", "impacts"}});
+  canvas.open("g", {{"class", "impacts"}, {"fill", kImpactColour}, {"stroke", "#ffffff"}, {"stroke-width", "1.2"}});
   const bool numbered = impactsAreNumbered(picture);
   std::vector<Vec2> places;
   for (const Event& event : picture.motion.events) {

@@ -209,7 +209,8 @@ void Neighbours::chooseReach(double t) {
     }
     const Vec3 size = (all.high - all.low).cwiseMax(2 * radius);
     const double spacing = std::cbrt(size.prod() / static_cast<double>(moving_));
-    reach_ = std::max(0.6 * spacing - radius, 0.25 * radius);
+    // a box of half size h has about (4 h / spacing)^3 neighbours; on the mean half of the reach is in use
+    reach_ = std::max(2 * (0.6 * spacing - radius), 0.25 * radius);
     return;
   }
   std::size_t total = 0;

@@ -167,6 +167,8 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
   const BallImpact quick = state_->quickImpact(a, b, from, until);
   if (quick.found == BallImpact::Found::none) return std::nullopt;
   if (quick.found == BallImpact::Found::impact) {
+    arc_a.extendTo(quick.time);
+    arc_b.extendTo(quick.time);
     const auto isPlane = [&](int body) { return state_->quick[static_cast<std::size_t>(body)] == Quick::plane; };
     const std::int16_t kind = isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint;
     return PredictedImpact{quick.time, {kind, 0, 0, 1}};

@@ -94,7 +94,8 @@ struct Touching {
     }
     if (f.family != Family::edge || p.piece->core != Piece::Core::triangle) return true;
     const SolidEdge& edge = solid.edges[at];
-    if (!edge.convex) return false;
+    // what is a valley from the front of a sheet is a ridge from its back
+    if (!edge.convex && !solid.faces[static_cast<std::size_t>(edge.left)].open) return false;
     const auto falls = [&](int face, double along) {
       return face < 0 || n.dot(along * solid.faces[static_cast<std::size_t>(face)].direction.cross(edge.direction)) <= kSame;
     };
@@ -208,7 +209,11 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
   touching.level = std::max(tolerance, kSame * scale);
   touching.run();
   const auto sheet = [](const PlacedPiece& p) { return p.piece->core == Piece::Core::triangle; };
-  if (found.empty() && !sheet(a) && !sheet(b) && witness.features.kind >= 0) found.push_back(witness.features);
+  if (!found.empty() || sheet(a) || sheet(b) || witness.features.kind < 0) return;
+  const auto kind = static_cast<GapKind>(witness.features.kind);
+  const ContactPoint c = touching.contactNow(kind, {familyOfFirst(kind), witness.features.a},
+                                             {familyOfSecond(kind), witness.features.b}, witness.features.sign);
+  if (std::abs(c.gap) <= tolerance && !c.point.hasNaN()) found.push_back(witness.features);
 }
 
 std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double tolerance) {

@@ -66,7 +66,11 @@ void addMaterialsAndEdit(Document& document) {
   document.duration = 0.7 + 1.0 / 3;
   document.controls = {velocity("sphere"), size("box").only({"x", "z"}), elasticity("felt").within(0.2, 0.9)};
   document.controls[1].weight = 0.3;
-  document.constraints = {{"sphere", 0.9, {{"position", {1.0 / 3, any, any}, Vec3::Zero()}}},
+  document.constraints = {{"sphere",
+                           0.9,
+                           {{"velocity", {any, any, 0.25}, Vec3::Zero()},
+                            {"position", {1.0 / 3, any, any}, Vec3::Zero()},
+                            {"orientation", {1, 0, 0, 0}, Vec3::Zero()}}},
                           {"capsule", nthImpact(1, "floor"), {{"velocity", {any, 0.1, any}, Vec3::Zero()}}}};
 }
 

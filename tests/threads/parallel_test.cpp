@@ -26,7 +26,8 @@ std::vector<std::uint64_t> bitsOf(const Motion& motion) {
   for (const Event& e : motion.events) {
     bits.add(e.time);
     for (const Contact& c : e.contacts) {
-      for (int i : {c.a, c.b, static_cast<int>(c.features.kind), c.features.a, c.features.b}) bits.add(i);
+      for (int i : {c.a, c.b, static_cast<int>(c.features.kind), c.features.a, c.features.b})
+        bits.add(static_cast<double>(i));
       bits.add(c.at.point), bits.add(c.at.normal), bits.add(c.impulse);
     }
   }

@@ -26,9 +26,9 @@ const std::vector<Case>& allCases();
 struct Bits {
   std::vector<std::uint64_t> values;
   void add(double x) { values.push_back(std::bit_cast<std::uint64_t>(x)); }
-  template <class Vector>
-  void add(const Vector& v) {
-    for (int i = 0; i < v.size(); ++i) add(static_cast<double>(v[i]));
+  template <class Derived>
+  void add(const Eigen::MatrixBase<Derived>& v) {
+    for (int i = 0; i < v.size(); ++i) add(v[i]);
   }
 };
 
