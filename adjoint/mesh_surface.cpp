@@ -4,7 +4,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "adjoint/errors.h"
+#include "adjoint/refuse.h"
 #include "adjoint/surface.h"
 #include "adjoint/weld.h"
 
@@ -17,14 +17,6 @@ constexpr double kLargest = 1e9;     // m, as for every number of a scene
 constexpr double kFlattest = 1e-12;  // least (twice the area) / (longest side)^2: below, the normal has few digits left
 constexpr double kThinnest = 1e-12;  // least volume / (area x extent) of a closed mesh: below, its sign is rounding
 
-template <class... Parts>
-[[noreturn]] void fail(const std::string& where, const Parts&... parts) {
-  std::ostringstream out;
-  out.precision(17);
-  (out << ... << parts);
-  throw InputError(where, out.str());
-}
-
 // A number that was computed, to six digits.
 std::string about(double value) {
   std::ostringstream out;
@@ -36,18 +28,19 @@ std::string nameOf(const char* item, std::size_t i) { return std::string(item) +
 
 void checkNumbers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
   if (vertices.empty() || triangles.empty())
-    fail("", "found a mesh of ", vertices.size(), " vertices and ", triangles.size(),
-         " triangles, expected a triangle or more");
+    refuse("", "found a mesh of ", vertices.size(), " vertices and ", triangles.size(),
+           " triangles, expected a triangle or more");
   if (triangles.size() > std::size_t{100'000'000})
-    fail("", "found a mesh of ", triangles.size(), " triangles, expected at most 100000000");
+    refuse("", "found a mesh of ", triangles.size(), " triangles, expected at most 100000000");
   for (std::size_t i = 0; i < vertices.size(); ++i)
     for (int k = 0; k < 3; ++k)
       if (!(std::abs(vertices[i][k]) <= kLargest))
-        fail(nameOf("vertex", i), "found ", vertices[i][k], ", expected a finite coordinate of magnitude at most 1e9");
+        refuse(nameOf("vertex", i), "found ", vertices[i][k],
+               ", expected a finite coordinate of magnitude at most 1e9");
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (int v : triangles[t])
       if (v < 0 || static_cast<std::size_t>(v) >= vertices.size())
-        fail(nameOf("triangle", t), "found vertex ", v, ", expected 0 to ", vertices.size() - 1);
+        refuse(nameOf("triangle", t), "found vertex ", v, ", expected 0 to ", vertices.size() - 1);
 }
 
 void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const Triangle& triangle) {
@@ -56,14 +49,14 @@ void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const Trian
   };
   for (int k = 0; k < 3; ++k)
     if (at(k) == at((k + 1) % 3))
-      fail(nameOf("triangle", t), "found two corners at the same place, expected three places");
+      refuse(nameOf("triangle", t), "found two corners at the same place, expected three places");
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, (at((k + 1) % 3) - at(k)).squaredNorm());
   double area = 0;  // twice; the largest of the three ways to compute it errs on the side of the triangle
   for (int k = 0; k < 3; ++k) area = std::max(area, (at((k + 1) % 3) - at(k)).cross(at((k + 2) % 3) - at(k)).norm());
   if (!(area > kFlattest * longest))
-    fail(nameOf("triangle", t), "found corners on one line (area ", about(area / 2), " m^2 at a longest side of ",
-         about(std::sqrt(longest)), " m), expected a triangle with an area");
+    refuse(nameOf("triangle", t), "found corners on one line (area ", about(area / 2), " m^2 at a longest side of ",
+           about(std::sqrt(longest)), " m), expected a triangle with an area");
 }
 
 // Vertices are named by the numbers they were written with.
@@ -87,12 +80,12 @@ void checkEdges(const std::vector<Triangle>& triangles) {
     if (a.low != b.low || a.high != b.high) continue;
     const std::string edge = "edge from vertex " + std::to_string(a.low) + " to " + std::to_string(a.high);
     if (i + 1 < sides.size() && sides[i + 1].low == a.low && sides[i + 1].high == a.high)
-      fail(edge, "found it in triangles ", a.triangle, ", ", b.triangle, " and ", sides[i + 1].triangle,
-           ", expected at most two");
+      refuse(edge, "found it in triangles ", a.triangle, ", ", b.triangle, " and ", sides[i + 1].triangle,
+             ", expected at most two");
     if (a.forward == b.forward)
-      fail(edge, "found triangles ", a.triangle, " and ", b.triangle,
-           " both running along it in one direction, expected opposite ones (corners counter-clockwise seen from "
-           "outside)");
+      refuse(edge, "found triangles ", a.triangle, " and ", b.triangle,
+             " both running along it in one direction, expected opposite ones (corners counter-clockwise seen from "
+             "outside)");
   }
 }
 
@@ -159,16 +152,16 @@ void checkVolume(const Surface& s) {
         pieces.size() > 1 ? nameOf("triangle", piece.first_triangle) + " and those joined to it" : "";
     const double least = kThinnest * piece.area * piece.extent();
     if (std::abs(piece.volume) <= least)
-      fail(where, "found a closed mesh without volume (", about(piece.volume), " m^3), expected one > 0");
+      refuse(where, "found a closed mesh without volume (", about(piece.volume), " m^3), expected one > 0");
     const auto around = [&](const Piece& p) { return p.volume > -piece.volume && piece.within(p); };
     if (piece.volume < 0 && std::none_of(pieces.begin(), pieces.end(), around))
-      fail(where, "found a closed mesh inside out (volume ", about(piece.volume),
-           " m^3), expected corners counter-clockwise seen from outside");
+      refuse(where, "found a closed mesh inside out (volume ", about(piece.volume),
+             " m^3), expected corners counter-clockwise seen from outside");
   }
   const Mat3 covariance = s.unit_inertia.trace() / 2 * Mat3::Identity() - s.unit_inertia;
   const Vec3 spread = Eigen::SelfAdjointEigenSolver<Mat3>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(s.volume > 0) || !(spread[0] > -kThinnest * spread[2]))  // of a thin plate the least is rounding
-    fail("", "found a closed mesh that overlaps itself so that no body has its mass properties, expected a solid");
+    refuse("", "found a closed mesh that overlaps itself so that no body has its mass properties, expected a solid");
 }
 
 }  // namespace

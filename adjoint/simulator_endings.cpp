@@ -11,8 +11,8 @@ namespace carom {
 bool Simulator::isExplained(const Prediction& next) {
   if (next.explained()) return true;
   std::ostringstream text;
-  text << "'" << scene_.bodies[index(next.a)].name << "' and '" << scene_.bodies[index(next.b)].name << "' meet at t = "
-       << next.time << " s where no face, edge, rim or vertex of theirs gives the contact a normal";
+  text << "'" << scene_.bodies[index(next.a)].name << "' and '" << scene_.bodies[index(next.b)].name
+       << "' meet at t = " << next.time << " s where no face, edge, rim or vertex of theirs gives the contact a normal";
   finish(MotionStatus::unresolved_impact, next.time, text.str());
   return false;
 }
@@ -55,6 +55,7 @@ bool Simulator::isLow(const Contact& c, const Prediction*& next) const {
 // A body that is in infinitely many of the events that pile up has this many of them in no time.
 bool Simulator::stalls(int body) const {
   const auto& arcs = motion_.world_lines[index(body)].arcs;
+  if (!(draft_.event.time - arcs.back().start() < kStall)) return false;  // far most often; the last arc is at hand
   return arcs.size() > kStallEvents && draft_.event.time - arcs[arcs.size() - kStallEvents].start() < kStall;
 }
 

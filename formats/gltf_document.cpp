@@ -60,7 +60,8 @@ void restoreOrder(Json& document) {
   const Json order = *found;
   document.erase(kOrder);
   const auto constraints = document.find("constraints");
-  for (std::size_t i = 0; constraints != document.end() && i < constraints->size() && i < order.size(); ++i) {
+  if (!order.is_array() || constraints == document.end() || !constraints->is_array()) return;
+  for (std::size_t i = 0; i < constraints->size() && i < order.size(); ++i) {
     Json& constraint = (*constraints)[i];
     if (!constraint.is_object() || !order[i].is_array()) continue;
     Json sorted = Json::object();

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace carom {
 namespace {
 
 constexpr int kMostCells = 1024;  // along an axis
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 bool fits(const Bounds& b, double half) { return (b.high - b.low).maxCoeff() <= 2 * half; }
 
@@ -41,11 +43,14 @@ void BoxGrid::rebuild(const std::vector<Bounds>& boxes, double half) {
   first_.assign(
       static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(cells_[2]),
       -1);
-  next_.assign(boxes.size(), -1);
+  filed_.assign(boxes.size(), {});
   before_.assign(boxes.size(), -1);
   slot_.assign(boxes.size(), -1);
   large_.clear();
-  for (std::size_t i = boxes.size(); i-- > 0;) insert(static_cast<int>(i), slotOf(boxes[i]));
+  for (std::size_t i = boxes.size(); i-- > 0;) {
+    file(static_cast<int>(i), boxes[i]);
+    insert(static_cast<int>(i), slotOf(boxes[i]));
+  }
 }
 
 BoxGrid::Cell BoxGrid::cellAt(const Vec3& p) const {
@@ -72,7 +77,7 @@ void BoxGrid::insert(int body, int slot) {
     return;
   }
   int& first = first_[static_cast<std::size_t>(slot)];
-  next_[b] = first;
+  filed_[b].next = first;
   before_[b] = -1;
   if (first >= 0) before_[static_cast<std::size_t>(first)] = body;
   first = body;
@@ -84,17 +89,28 @@ void BoxGrid::remove(int body) {
     large_.erase(std::find(large_.begin(), large_.end(), body));
     return;
   }
-  (before_[b] >= 0 ? next_[static_cast<std::size_t>(before_[b])] : first_[static_cast<std::size_t>(slot_[b])]) =
-      next_[b];
-  if (next_[b] >= 0) before_[static_cast<std::size_t>(next_[b])] = before_[b];
+  const int next = filed_[b].next;
+  (before_[b] >= 0 ? filed_[static_cast<std::size_t>(before_[b])].next : first_[static_cast<std::size_t>(slot_[b])]) =
+      next;
+  if (next >= 0) before_[static_cast<std::size_t>(next)] = before_[b];
 }
 
 void BoxGrid::move(int body, const std::vector<Bounds>& boxes) {
   const auto b = static_cast<std::size_t>(body);
+  file(body, boxes[b]);
   const int slot = slotOf(boxes[b]);
   if (slot == slot_[b]) return;
   remove(body);
   insert(body, slot);
+}
+
+void BoxGrid::file(int body, const Bounds& box) {
+  Filed& filed = filed_[static_cast<std::size_t>(body)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    filed.low[k] = std::nextafter(static_cast<float>(box.low[i]), -kInfinite);
+    filed.high[k] = std::nextafter(static_cast<float>(box.high[i]), kInfinite);
+  }
 }
 
 void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>& out) const {
@@ -102,13 +118,20 @@ void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>&
   const double reach = half_ * (1 + 1e-9);
   for (int other : large_)
     if (other != body && meet(box, boxes[static_cast<std::size_t>(other)])) out.push_back(other);
+  const Filed mine = filed_[static_cast<std::size_t>(body)];
+  const auto mayMeet = [&](const Filed& f) {
+    return mine.low[0] <= f.high[0] && f.low[0] <= mine.high[0] && mine.low[1] <= f.high[1] &&
+           f.low[1] <= mine.high[1] && mine.low[2] <= f.high[2] && f.low[2] <= mine.high[2];
+  };
   const Cell low = cellAt(box.low.array() - reach), high = cellAt(box.high.array() + reach);
   for (int z = low[2]; z <= high[2]; ++z)
     for (int y = low[1]; y <= high[1]; ++y)
       for (int x = low[0]; x <= high[0]; ++x)
-        for (int other = first_[static_cast<std::size_t>((z * cells_[1] + y) * cells_[0] + x)]; other >= 0;
-             other = next_[static_cast<std::size_t>(other)])
-          if (other != body && meet(box, boxes[static_cast<std::size_t>(other)])) out.push_back(other);
+        for (int other = first_[static_cast<std::size_t>((z * cells_[1] + y) * cells_[0] + x)]; other >= 0;) {
+          const Filed& f = filed_[static_cast<std::size_t>(other)];
+          if (mayMeet(f) && other != body && meet(box, boxes[static_cast<std::size_t>(other)])) out.push_back(other);
+          other = f.next;
+        }
 }
 
 }  // namespace carom

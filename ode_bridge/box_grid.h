@@ -29,8 +29,16 @@ class BoxGrid {
   double half_ = 1, cell_size_ = 1;
   Vec3 corner_ = Vec3::Zero();
   Cell cells_{1, 1, 1};
-  std::vector<int> first_;                 // of each cell, -1: none
-  std::vector<int> next_, before_, slot_;  // of each body: chained in its cell
+  // What a search reads of a body, close together: its box, rounded outwards, and the next body of its cell.
+  struct alignas(32) Filed {
+    std::array<float, 3> low, high;
+    int next;
+  };
+  void file(int body, const Bounds& box);
+
+  std::vector<int> first_;          // of each cell, -1: none
+  std::vector<Filed> filed_;        // of each body
+  std::vector<int> before_, slot_;  // of each body: the one before it in its cell, and the cell
   std::vector<int> large_;
 };
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "adjoint/errors.h"
+#include "adjoint/refuse.h"
 #include "adjoint/weld.h"
 #include "ode_bridge/qhull_facets.h"
 
@@ -22,14 +22,6 @@ constexpr double kShortest = 1e-13;  // least length of an edge, of the size: be
 constexpr double kReflex = 1e-14;    // how far an edge may be sunk in, of the size
 constexpr std::size_t kAllPairs = 100'000'000;  // points times faces up to which every point is held against every face
 
-template <class... Parts>
-[[noreturn]] void fail(const std::string& where, const Parts&... parts) {
-  std::ostringstream out;
-  out.precision(17);
-  (out << ... << parts);
-  throw InputError(where, out.str());
-}
-
 // A number that was computed, to three digits.
 std::string about(double value) {
   std::ostringstream out;
@@ -41,14 +33,14 @@ std::string about(double value) {
 const Vec3& at(const std::vector<Vec3>& points, int i) { return points[static_cast<std::size_t>(i)]; }
 
 void checkNumbers(const std::vector<Vec3>& points) {
-  if (points.size() < 4) fail("", "found a hull of ", points.size(), " points, expected four or more");
+  if (points.size() < 4) refuse("", "found a hull of ", points.size(), " points, expected four or more");
   if (points.size() > std::size_t{100'000'000})
-    fail("", "found a hull of ", points.size(), " points, expected at most 100000000");
+    refuse("", "found a hull of ", points.size(), " points, expected at most 100000000");
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int k = 0; k < 3; ++k)
       if (!(std::abs(points[i][k]) <= kLargest))
-        fail("point " + std::to_string(i), "found ", points[i][k],
-             ", expected a finite coordinate of magnitude at most 1e9");
+        refuse("point " + std::to_string(i), "found ", points[i][k],
+               ", expected a finite coordinate of magnitude at most 1e9");
 }
 
 /// Size of the points; throws when they do not span a volume.
@@ -57,7 +49,7 @@ double checkSpread(const std::vector<Vec3>& points) {
   for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const double size = (high - low).norm();
   const auto expected = ", expected points that span a volume";
-  if (!(size > 0)) fail("", "found all ", points.size(), " points of a hull at one place", expected);
+  if (!(size > 0)) refuse("", "found all ", points.size(), " points of a hull at one place", expected);
   const auto farthest = [&](auto&& measure) {
     return *std::max_element(points.begin(), points.end(),
                              [&](const Vec3& a, const Vec3& b) { return measure(a) < measure(b); });
@@ -68,12 +60,13 @@ double checkSpread(const std::vector<Vec3>& points) {
   const auto fromLine = [&](const Vec3& p) { return along.cross(p - a).norm(); };
   const Vec3 c = farthest(fromLine);
   if (!(fromLine(c) > kFlattest * size))
-    fail("", "found all ", points.size(), " points of a hull on one line", expected);
+    refuse("", "found all ", points.size(), " points of a hull on one line", expected);
   const Vec3 normal = along.cross(c - a).normalized();
   const auto fromPlane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
   const double thickness = fromPlane(farthest(fromPlane));
   if (!(thickness > kFlattest * size))
-    fail("", "found all ", points.size(), " points of a hull in one plane (within ", about(thickness), " m)", expected);
+    refuse("", "found all ", points.size(), " points of a hull in one plane (within ", about(thickness), " m)",
+           expected);
   return size;
 }
 
@@ -244,7 +237,7 @@ std::shared_ptr<const Surface> convexHull(const std::vector<Vec3>& points) {
       return apart.size() < points.size() ? convexHull(apart) : surface;
     }
   }
-  fail("", "found points whose hull cannot be told (", problem, "), expected none within rounding of others' planes");
+  refuse("", "found points whose hull cannot be told (", problem, "), expected none within rounding of others' planes");
 }
 
 }  // namespace carom

@@ -49,7 +49,8 @@ class Simplex {
 
   void keep(const Mix& mix) {
     std::array<Corner, 4> kept;
-    for (int i = 0; i < mix.count; ++i) kept[static_cast<std::size_t>(i)] = (*this)[mix.of[static_cast<std::size_t>(i)]];
+    for (int i = 0; i < mix.count; ++i)
+      kept[static_cast<std::size_t>(i)] = (*this)[mix.of[static_cast<std::size_t>(i)]];
     corners_ = kept;
     count_ = mix.count;
   }

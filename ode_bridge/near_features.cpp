@@ -30,7 +30,8 @@ void nearCylinder(const Solid& solid, const Piece& piece, const Vec3& p, double 
     if (nearFace(solid, solid.faces[static_cast<std::size_t>(f)], p, distance)) out.add(Family::face, f);
   });
   if (std::abs(out_of_axis - piece.rho) > distance) return;
-  if (std::abs(along) <= piece.half_length + distance) each(solid, piece.edges, [&](int e) { out.add(Family::edge, e); });
+  if (std::abs(along) <= piece.half_length + distance)
+    each(solid, piece.edges, [&](int e) { out.add(Family::edge, e); });
   each(solid, piece.rims, [&](int r) {
     const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
     if (std::abs(rim.direction.dot(p - rim.point)) <= distance) out.add(Family::rim, r);

@@ -58,8 +58,9 @@ struct OdeContacts::State {
   NarrowPhase narrow_phase;
   std::shared_ptr<const FeatureGeometry> geometry;
   Vec3 gravity = Vec3::Zero();
-  std::vector<Quick> quick;  // of each body
-  int opened = -1;           // body whose window was asked for last, when and up to where
+  std::vector<Quick> quick;     // of each body
+  std::vector<char> in_series;  // whether its arcs have to be extended; known here, arcs are far away in memory
+  int opened = -1;              // body whose window was asked for last, when and up to where
   double opened_from = 0, opened_until = 0, end = 0;
 
   void refuseOverlap(const Scene& scene, const std::vector<Arc>& arcs);
@@ -85,6 +86,7 @@ void OdeContacts::begin(const Scene& scene) {
   std::vector<Extent> extents;
   arcs.reserve(n);
   state_->quick.assign(n, Quick::no);
+  state_->in_series.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     arcs.emplace_back(models[i], Tier::none, Vec3::Zero(), 0.0, startState(scene.bodies[i], models[i]));
     extents.push_back(extentOf(solids[i], arcs[i]));
@@ -118,6 +120,7 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
   if (!arc.moving()) return;
   state_->end = until;
   state_->opened = -1;
+  state_->in_series[static_cast<std::size_t>(body)] = arc.tier() == Tier::triaxial;
   const carom::State& s = arc.startState();
   state_->neighbours.setPath(body, {s.x, s.v, arc.start(), 0}, from, until);
 }
@@ -167,8 +170,9 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
   const BallImpact quick = state_->quickImpact(a, b, from, until);
   if (quick.found == BallImpact::Found::none) return std::nullopt;
   if (quick.found == BallImpact::Found::impact) {
-    arc_a.extendTo(quick.time);
-    arc_b.extendTo(quick.time);
+    const auto inSeries = [&](int body) { return state_->in_series[static_cast<std::size_t>(body)] != 0; };
+    if (inSeries(a)) arc_a.extendTo(quick.time);
+    if (inSeries(b)) arc_b.extendTo(quick.time);
     const auto isPlane = [&](int body) { return state_->quick[static_cast<std::size_t>(body)] == Quick::plane; };
     const std::int16_t kind = isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint;
     return PredictedImpact{quick.time, {kind, 0, 0, 1}};

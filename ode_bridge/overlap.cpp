@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
-#include "ode_bridge/separation.h"
+#include "ode_bridge/leaf_pairs.h"
 
 namespace carom {
 namespace {
@@ -58,27 +57,10 @@ std::optional<double> insideMesh(const Placed& a, const Placed& mesh) {
 
 std::optional<double> overlapOf(const Placed& a, const Placed& b, double tolerance) {
   std::optional<double> deepest;
-  std::vector<std::pair<int, int>> open{{0, 0}};
-  while (!open.empty()) {
-    const auto [i, j] = open.back();
-    open.pop_back();
-    const PlacedNode na{&a, &a.solid->nodes[static_cast<std::size_t>(i)]},
-        nb{&b, &b.solid->nodes[static_cast<std::size_t>(j)]};
-    if (separationOf(na, nb) > 0) continue;
-    const bool leaf_a = na.node->piece >= 0, leaf_b = nb.node->piece >= 0;
-    if (leaf_a && leaf_b) {
-      const PlacedPiece pa{&a, &a.solid->pieces[static_cast<std::size_t>(na.node->piece)]},
-          pb{&b, &b.solid->pieces[static_cast<std::size_t>(nb.node->piece)]};
-      const double separation = findWitness(pa, pb).separation;
-      if (separation < -tolerance) deepest = std::max(deepest.value_or(0), -separation);
-    } else if (leaf_b || (!leaf_a && na.node->radius >= nb.node->radius)) {
-      open.push_back({na.node->right, j});
-      open.push_back({na.node->left, j});
-    } else {
-      open.push_back({i, nb.node->right});
-      open.push_back({i, nb.node->left});
-    }
-  }
+  eachLeafPair(a, b, 0, [&](const PlacedPiece& p, const PlacedPiece& q) {
+    const double separation = findWitness(p, q).separation;
+    if (separation < -tolerance) deepest = std::max(deepest.value_or(0), -separation);
+  });
   if (deepest) return deepest;
   if (const auto depth = insideMesh(a, b)) return depth;
   return insideMesh(b, a);

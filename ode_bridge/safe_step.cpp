@@ -102,7 +102,7 @@ struct Mover {
   const Placed* body;
   const Piece* piece;  ///< or the single point `center`
   Vec3 center;
-  double reach;   ///< furthest point of the core from the body's origin, m
+  double reach;  ///< furthest point of the core from the body's origin, m
   bool half_space;
 
   explicit Mover(const PlacedPiece& p)
@@ -178,15 +178,13 @@ double stepAcrossEdges(const Mover& a, const Mover& b, const Witness& w, double 
   const double n1 = W / s, n2 = Z / s + 3 * n1 * n1;
   const double longest = W > 0 ? std::min(limit, s / W) : limit;
   const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
-  return bestWindow(
-      longest, room / (speed + a.body->spin * a.reach + b.body->spin * b.reach),
-      [&](double window) {
-        const double fastest = speed + gravity * window + a.body->spin * a.reach;
-        const double furthest = distance + (speed + gravity * window) * window + a.reach;
-        const double bend_a = n2 * furthest + 2 * n1 * fastest + a.turning() * a.reach + gravity;
-        const double bend_b = (n2 + 2 * n1 * b.body->spin + b.turning()) * b.reach;
-        return firstTouch(gap, bend_a + bend_b, window);
-      });
+  return bestWindow(longest, room / (speed + a.body->spin * a.reach + b.body->spin * b.reach), [&](double window) {
+    const double fastest = speed + gravity * window + a.body->spin * a.reach;
+    const double furthest = distance + (speed + gravity * window) * window + a.reach;
+    const double bend_a = n2 * furthest + 2 * n1 * fastest + a.turning() * a.reach + gravity;
+    const double bend_b = (n2 + 2 * n1 * b.body->spin + b.turning()) * b.reach;
+    return firstTouch(gap, bend_a + bend_b, window);
+  });
 }
 
 }  // namespace
@@ -196,9 +194,12 @@ double safeStep(const PlacedPiece& a, const PlacedPiece& b, const Witness& w, do
   const double room = std::max(slack, w.separation);
   const double lift = room - w.separation - a.piece->radius - b.piece->radius;
   switch (w.frame) {
-    case Witness::Frame::world: return stepInWorld(ma, mb, w.n, lift, limit);
-    case Witness::Frame::body_b: return stepInFrameOfB(ma, mb, w.n, room, lift, limit);
-    case Witness::Frame::body_a: return stepInFrameOfB(mb, ma, -w.n, room, lift, limit);
+    case Witness::Frame::world:
+      return stepInWorld(ma, mb, w.n, lift, limit);
+    case Witness::Frame::body_b:
+      return stepInFrameOfB(ma, mb, w.n, room, lift, limit);
+    case Witness::Frame::body_a:
+      return stepInFrameOfB(mb, ma, -w.n, room, lift, limit);
     case Witness::Frame::crossed:
       // nearly parallel edges turn their common normal fast: the direction as it is may serve longer
       return std::max(stepAcrossEdges(ma, mb, w, room, lift, limit), stepInWorld(ma, mb, w.n, lift, limit));

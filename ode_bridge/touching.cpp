@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ode_bridge/leaf_pairs.h"
 #include "ode_bridge/near_features.h"
 
 namespace carom {
@@ -87,7 +88,8 @@ struct Touching {
     if (f.family == Family::vertex) {
       const Vec3& v = solid.vertices[at].point;
       for (int i = solid.neighbour_first[at]; i < solid.neighbour_first[at + 1]; ++i) {
-        const Vec3 to = solid.vertices[static_cast<std::size_t>(solid.neighbours[static_cast<std::size_t>(i)])].point - v;
+        const Vec3 to =
+            solid.vertices[static_cast<std::size_t>(solid.neighbours[static_cast<std::size_t>(i)])].point - v;
         if (n.dot(to) > kSame * to.norm()) return false;
       }
       return true;
@@ -97,7 +99,8 @@ struct Touching {
     // what is a valley from the front of a sheet is a ridge from its back
     if (!edge.convex && !solid.faces[static_cast<std::size_t>(edge.left)].open) return false;
     const auto falls = [&](int face, double along) {
-      return face < 0 || n.dot(along * solid.faces[static_cast<std::size_t>(face)].direction.cross(edge.direction)) <= kSame;
+      return face < 0 ||
+             n.dot(along * solid.faces[static_cast<std::size_t>(face)].direction.cross(edge.direction)) <= kSame;
     };
     return falls(edge.left, 1) && falls(edge.right, -1);
   }
@@ -218,27 +221,10 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
 
 std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double tolerance) {
   std::vector<FeaturePair> found;
-  std::vector<std::pair<int, int>> open{{0, 0}};
-  while (!open.empty()) {
-    const auto [i, j] = open.back();
-    open.pop_back();
-    const PlacedNode na{&a, &a.solid->nodes[static_cast<std::size_t>(i)]},
-        nb{&b, &b.solid->nodes[static_cast<std::size_t>(j)]};
-    if (separationOf(na, nb) > tolerance) continue;
-    const bool leaf_a = na.node->piece >= 0, leaf_b = nb.node->piece >= 0;
-    if (leaf_a && leaf_b) {
-      const PlacedPiece pa{&a, &a.solid->pieces[static_cast<std::size_t>(na.node->piece)]},
-          pb{&b, &b.solid->pieces[static_cast<std::size_t>(nb.node->piece)]};
-      const Witness witness = findWitness(pa, pb);
-      if (witness.separation <= tolerance) addTouching(pa, pb, witness, tolerance, found);
-    } else if (leaf_b || (!leaf_a && na.node->radius >= nb.node->radius)) {
-      open.push_back({na.node->right, j});
-      open.push_back({na.node->left, j});
-    } else {
-      open.push_back({i, nb.node->right});
-      open.push_back({i, nb.node->left});
-    }
-  }
+  eachLeafPair(a, b, tolerance, [&](const PlacedPiece& p, const PlacedPiece& q) {
+    const Witness witness = findWitness(p, q);
+    if (witness.separation <= tolerance) addTouching(p, q, witness, tolerance, found);
+  });
   return found;
 }
 

@@ -107,8 +107,7 @@ class Search {
       int n = 0;
       for (int i = 0; i < points.count; ++i) {
         bool seen = false;
-        for (int j = 0; j < i; ++j)
-          seen = seen || of[static_cast<std::size_t>(i)] == of[static_cast<std::size_t>(j)];
+        for (int j = 0; j < i; ++j) seen = seen || of[static_cast<std::size_t>(i)] == of[static_cast<std::size_t>(j)];
         n += !seen;
       }
       return n;
@@ -237,9 +236,7 @@ Witness witnessAlong(const PlacedPiece& a, const PlacedPiece& b, const Vec3& n) 
   return w;
 }
 
-Witness findDirection(const PlacedPiece& a, const PlacedPiece& b) {
-  return Search(a, b, Vec3::Zero()).byPointsAlone();
-}
+Witness findDirection(const PlacedPiece& a, const PlacedPiece& b) { return Search(a, b, Vec3::Zero()).byPointsAlone(); }
 
 Witness findWitness(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess) {
   if (b.halfSpace()) return againstPlane(a, b);

@@ -15,11 +15,11 @@ enum class Family : std::uint8_t { vertex, edge, face, rim };
 /// vertex with a radius, the side of a cylinder an edge with one; what is sharp has radius 0.
 struct Feature {
   Vec3 point = Vec3::Zero();      ///< the vertex, the middle of the edge, a point of the face, the centre of the rim
-  Vec3 direction = Vec3::Zero();  ///< unit: along the edge, out of the face, out of the cap that the rim bounds; 0 for a
-                                  ///< vertex
-  double radius = 0;              ///< swept radius of a vertex or an edge, m
-  double rim = 0;                 ///< radius of the circle of a rim, m
-  int part = 0;                   ///< which Part of the solid it belongs to
+  Vec3 direction = Vec3::Zero();  ///< unit: along the edge, out of the face, out of the cap that the rim bounds; 0 for
+                                  ///< a vertex
+  double radius = 0;  ///< swept radius of a vertex or an edge, m
+  double rim = 0;     ///< radius of the circle of a rim, m
+  int part = 0;       ///< which Part of the solid it belongs to
 };
 
 /// Rates of a feature by the dimensions of the whole shape. Directions never change with a dimension.
@@ -30,18 +30,18 @@ struct FeatureRates {
 };
 
 struct SolidEdge : Feature {
-  double half_length = 0;    ///< m
-  int from = -1, to = -1;    ///< vertices; -1 where the edge ends at a rim (side of a cylinder)
-  int left = -1, right = -1; ///< faces; -1 where there is none (capsule, side of a cylinder, border of an open mesh)
-  bool convex = true;        ///< false for flat and reflex edges of a mesh: nothing can touch there but what touches its
-                             ///< faces too
+  double half_length = 0;     ///< m
+  int from = -1, to = -1;     ///< vertices; -1 where the edge ends at a rim (side of a cylinder)
+  int left = -1, right = -1;  ///< faces; -1 where there is none (capsule, side of a cylinder, border of an open mesh)
+  bool convex = true;  ///< false for flat and reflex edges of a mesh: nothing can touch there but what touches its
+                       ///< faces too
 };
 
 struct SolidFace : Feature {
-  int first = 0, count = 0;  ///< corners[first .. first + count): vertices, counter-clockwise seen from outside; none for
-                             ///< a half space or a disc
-  double disc = 0;           ///< radius of a disc about `point`; 0 for a polygon or a half space
-  bool open = false;         ///< a face of an open mesh, which may be struck from both sides
+  int first = 0, count = 0;  ///< corners[first .. first + count): vertices, counter-clockwise seen from outside; none
+                             ///< for a half space or a disc
+  double disc = 0;    ///< radius of a disc about `point`; 0 for a polygon or a half space
+  bool open = false;  ///< a face of an open mesh, which may be struck from both sides
 };
 
 /// A convex piece of a solid: what a bound on a separation is taken over. A piece is the set of all points within
@@ -65,7 +65,7 @@ struct Piece {
   Vec3 axis = Vec3::UnitZ();   ///< cylinder: from its low to its high end, unit
   double half_length = 0;      ///< cylinder, m
   double rho = 0;              ///< cylinder, m
-  Range points;                ///< in Solid::points: the core's support points (point 1, segment 2, polytope, triangle 3)
+  Range points;  ///< in Solid::points: the core's support points (point 1, segment 2, polytope, triangle 3)
   Range vertices, edges, faces, rims;  ///< in Solid::piece_features: indices of the solid's features
 };
 
@@ -111,10 +111,10 @@ struct Solid {
   std::vector<Part> parts;
   Eigen::Matrix3Xd center_rates;  ///< rate of the centre of mass in the shape by the dimensions (3 x dimensions)
   Vec3 half = Vec3::Zero();       ///< box: half the size
-  bool ball = false;   ///< a single ball about the origin, which looks the same from all sides
-  bool box = false;    ///< a single box about the origin
-  bool plane = false;  ///< a half space
-  bool closed_mesh = false;  ///< has parts that are closed meshes: what is inside without touching overlaps
+  bool ball = false;              ///< a single ball about the origin, which looks the same from all sides
+  bool box = false;               ///< a single box about the origin
+  bool plane = false;             ///< a half space
+  bool closed_mesh = false;       ///< has parts that are closed meshes: what is inside without touching overlaps
 
   const Feature& feature(Family family, int index) const;
   /// Radius about the origin that holds all of it; infinite for a half space.

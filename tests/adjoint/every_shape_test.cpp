@@ -50,7 +50,10 @@ Scene pair(const Shape& a, const Shape& b) {
 }
 
 Shape wedge() {
-  return Hull{convexHull(tetrahedron({0, 0, 0}, {0.4, 0, 0}, {0.05, 0.35, 0}, {0.1, 0.1, 0.3}).vertices), 1.1, ""};
+  return Hull{
+      convexHull(
+          tetrahedron({-0.15, -0.12, -0.1}, {0.3, -0.1, -0.08}, {-0.1, 0.25, -0.1}, {-0.05, 0.02, 0.25}).vertices),
+      1.1, ""};
 }
 Shape ring() { return Mesh{torusTriangles(0.22, 0.08, 11, 7).surface(), 0.9, ""}; }
 Shape twoBalls() {
