@@ -31,7 +31,7 @@ void BoxGrid::rebuild(const std::vector<Bounds>& boxes, double half) {
     extent[k] = std::max(0.0, middles[middles.size() - 1 - static_cast<std::size_t>(tail)] - corner_[k]);
   }
   const double most = 4.0 * static_cast<double>(boxes.size()) + 64;
-  for (cell_size_ = 1.5 * half;; cell_size_ *= 1.25) {
+  for (cell_size_ = 2 * half;; cell_size_ *= 1.25) {
     double count = 1;
     for (std::size_t k = 0; k < 3; ++k) {
       cells_[k] = static_cast<int>(
@@ -40,17 +40,12 @@ void BoxGrid::rebuild(const std::vector<Bounds>& boxes, double half) {
     }
     if (count <= most) break;
   }
-  first_.assign(
-      static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(cells_[2]),
-      -1);
-  filed_.assign(boxes.size(), {});
-  before_.assign(boxes.size(), -1);
-  slot_.assign(boxes.size(), -1);
+  places_.assign(kDepth * static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) *
+                     static_cast<std::size_t>(cells_[2]),
+                 {});
+  cell_.assign(boxes.size(), -1);
   large_.clear();
-  for (std::size_t i = boxes.size(); i-- > 0;) {
-    file(static_cast<int>(i), boxes[i]);
-    insert(static_cast<int>(i), slotOf(boxes[i]));
-  }
+  for (std::size_t i = 0; i < boxes.size(); ++i) insert(static_cast<int>(i), cellOf(boxes[i]), boxes[i]);
 }
 
 BoxGrid::Cell BoxGrid::cellAt(const Vec3& p) const {
@@ -63,54 +58,61 @@ BoxGrid::Cell BoxGrid::cellAt(const Vec3& p) const {
   return c;
 }
 
-int BoxGrid::slotOf(const Bounds& box) const {
+int BoxGrid::cellOf(const Bounds& box) const {
   if (!fits(box, half_)) return -1;
   const Cell c = cellAt(0.5 * (box.low + box.high));
   return (c[2] * cells_[1] + c[1]) * cells_[0] + c[0];
 }
 
-void BoxGrid::insert(int body, int slot) {
-  const auto b = static_cast<std::size_t>(body);
-  slot_[b] = slot;
-  if (slot < 0) {
-    large_.push_back(body);
-    return;
+BoxGrid::Filed BoxGrid::filed(int body, const Bounds& box) {
+  Filed f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    f.low[k] = std::nextafter(static_cast<float>(box.low[i]), -kInfinite);
+    f.high[k] = std::nextafter(static_cast<float>(box.high[i]), kInfinite);
   }
-  int& first = first_[static_cast<std::size_t>(slot)];
-  filed_[b].next = first;
-  before_[b] = -1;
-  if (first >= 0) before_[static_cast<std::size_t>(first)] = body;
-  first = body;
+  f.body = body;
+  return f;
+}
+
+void BoxGrid::insert(int body, int cell, const Bounds& box) {
+  int& mine = cell_[static_cast<std::size_t>(body)] = -1;
+  if (cell >= 0) {
+    Filed* places = placesOf(cell);
+    Filed* end = places + kDepth;
+    Filed* free = std::find_if(places, end, [](const Filed& f) { return f.body < 0; });
+    if (free != end) {
+      *free = filed(body, box);
+      mine = cell;
+      return;
+    }
+  }
+  large_.push_back(body);
 }
 
 void BoxGrid::remove(int body) {
-  const auto b = static_cast<std::size_t>(body);
-  if (slot_[b] < 0) {
+  const int cell = cell_[static_cast<std::size_t>(body)];
+  if (cell < 0) {
     large_.erase(std::find(large_.begin(), large_.end(), body));
     return;
   }
-  const int next = filed_[b].next;
-  (before_[b] >= 0 ? filed_[static_cast<std::size_t>(before_[b])].next : first_[static_cast<std::size_t>(slot_[b])]) =
-      next;
-  if (next >= 0) before_[static_cast<std::size_t>(next)] = before_[b];
+  Filed* places = placesOf(cell);
+  Filed* mine = std::find_if(places, places + kDepth, [&](const Filed& f) { return f.body == body; });
+  Filed* last = std::find_if(mine, places + kDepth, [](const Filed& f) { return f.body < 0; }) - 1;
+  *mine = *last;
+  *last = {};
 }
 
 void BoxGrid::move(int body, const std::vector<Bounds>& boxes) {
-  const auto b = static_cast<std::size_t>(body);
-  file(body, boxes[b]);
-  const int slot = slotOf(boxes[b]);
-  if (slot == slot_[b]) return;
-  remove(body);
-  insert(body, slot);
-}
-
-void BoxGrid::file(int body, const Bounds& box) {
-  Filed& filed = filed_[static_cast<std::size_t>(body)];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    filed.low[k] = std::nextafter(static_cast<float>(box.low[i]), -kInfinite);
-    filed.high[k] = std::nextafter(static_cast<float>(box.high[i]), kInfinite);
+  const Bounds& box = boxes[static_cast<std::size_t>(body)];
+  const int cell = cellOf(box);
+  if (cell >= 0 && cell == cell_[static_cast<std::size_t>(body)]) {
+    Filed* places = placesOf(cell);
+    *std::find_if(places, places + kDepth, [&](const Filed& f) { return f.body == body; }) = filed(body, box);
+    return;
   }
+  remove(body);
+  insert(body, cell, box);
 }
 
 void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>& out) const {
@@ -118,20 +120,22 @@ void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>&
   const double reach = half_ * (1 + 1e-9);
   for (int other : large_)
     if (other != body && meet(box, boxes[static_cast<std::size_t>(other)])) out.push_back(other);
-  const Filed mine = filed_[static_cast<std::size_t>(body)];
+  const Filed mine = filed(body, box);
   const auto mayMeet = [&](const Filed& f) {
     return mine.low[0] <= f.high[0] && f.low[0] <= mine.high[0] && mine.low[1] <= f.high[1] &&
            f.low[1] <= mine.high[1] && mine.low[2] <= f.high[2] && f.low[2] <= mine.high[2];
   };
   const Cell low = cellAt(box.low.array() - reach), high = cellAt(box.high.array() + reach);
   for (int z = low[2]; z <= high[2]; ++z)
-    for (int y = low[1]; y <= high[1]; ++y)
-      for (int x = low[0]; x <= high[0]; ++x)
-        for (int other = first_[static_cast<std::size_t>((z * cells_[1] + y) * cells_[0] + x)]; other >= 0;) {
-          const Filed& f = filed_[static_cast<std::size_t>(other)];
-          if (mayMeet(f) && other != body && meet(box, boxes[static_cast<std::size_t>(other)])) out.push_back(other);
-          other = f.next;
+    for (int y = low[1]; y <= high[1]; ++y) {
+      const auto row = static_cast<std::size_t>((z * cells_[1] + y) * cells_[0]);
+      for (std::size_t cell = row + static_cast<std::size_t>(low[0]); cell <= row + static_cast<std::size_t>(high[0]);
+           ++cell)
+        for (std::size_t i = kDepth * cell; i < kDepth * (cell + 1) && places_[i].body >= 0; ++i) {
+          const Filed& f = places_[i];
+          if (mayMeet(f) && f.body != body && meet(box, boxes[static_cast<std::size_t>(f.body)])) out.push_back(f.body);
         }
+    }
 }
 
 }  // namespace carom

@@ -9,7 +9,8 @@ namespace carom {
 
 /// Which boxes of many meet a given one, in a time that does not depend on how many there are: the collision library's
 /// spaces answer for one body by walking through all. Every box is filed once, in the cell of its middle, and found
-/// from the cells within half the largest size of the asked one. Boxes larger than that stand in a list of their own.
+/// from the cells within half the largest size of the asked one. Boxes larger than that, and those that find their cell
+/// full, stand in a list of their own.
 class BoxGrid {
  public:
   /// Files the boxes anew. Cells are laid for boxes of half size `half` and less.
@@ -20,25 +21,26 @@ class BoxGrid {
   void find(int body, const std::vector<Bounds>& boxes, std::vector<int>& out) const;
 
  private:
+  // What a search reads of a body, side by side with the others of its cell: its box, rounded outwards.
+  struct alignas(32) Filed {
+    std::array<float, 3> low, high;
+    int body = -1;
+  };
   using Cell = std::array<int, 3>;
+  static constexpr std::size_t kDepth = 8;  // boxes in a cell
+
   Cell cellAt(const Vec3& p) const;
-  int slotOf(const Bounds& box) const;  // -1: large
-  void insert(int body, int slot);
+  int cellOf(const Bounds& box) const;  // -1: large
+  static Filed filed(int body, const Bounds& box);
+  Filed* placesOf(int cell) { return &places_[kDepth * static_cast<std::size_t>(cell)]; }
+  void insert(int body, int cell, const Bounds& box);
   void remove(int body);
 
   double half_ = 1, cell_size_ = 1;
   Vec3 corner_ = Vec3::Zero();
   Cell cells_{1, 1, 1};
-  // What a search reads of a body, close together: its box, rounded outwards, and the next body of its cell.
-  struct alignas(32) Filed {
-    std::array<float, 3> low, high;
-    int next;
-  };
-  void file(int body, const Bounds& box);
-
-  std::vector<int> first_;          // of each cell, -1: none
-  std::vector<Filed> filed_;        // of each body
-  std::vector<int> before_, slot_;  // of each body: the one before it in its cell, and the cell
+  std::vector<Filed> places_;  // kDepth of each cell, the taken ones first
+  std::vector<int> cell_;      // of each body, -1: in the list of the large ones
   std::vector<int> large_;
 };
 

@@ -129,22 +129,28 @@ void Neighbours::renew(int body, double t) {
   relist(body);
 }
 
-// Puts found_ in place of the list of a body.
+// Puts found_ in place of the list of a body. The changes are gathered first, so that the lists that they concern are
+// fetched side by side.
 void Neighbours::relist(int body) {
   std::vector<int>& list = lists_[at(body)];
+  changes_.clear();
   auto left = list.begin();
   auto right = found_.begin();
+  const auto note = [&](int other, bool joins) {
+    if (!extents_[at(other)].moving) return;
+    __builtin_prefetch(lists_[at(other)].data());
+    changes_.push_back({other, joins});
+  };
   while (left != list.end() || right != found_.end()) {
     if (right == found_.end() || (left != list.end() && *left < *right)) {
-      if (extents_[at(*left)].moving) take(lists_[at(*left)], body);
-      ++left;
+      note(*left++, false);
     } else if (left == list.end() || *right < *left) {
-      if (extents_[at(*right)].moving) add(lists_[at(*right)], body);
-      ++right;
+      note(*right++, true);
     } else {
       ++left, ++right;
     }
   }
+  for (const auto& [other, joins] : changes_) joins ? add(lists_[at(other)], body) : take(lists_[at(other)], body);
   list.assign(found_.begin(), found_.end());
 }
 

@@ -72,6 +72,7 @@ class Neighbours {
   BoxGrid grid_;
   std::vector<std::pair<int, int>> pairs_;
   std::vector<int> found_;
+  std::vector<std::pair<int, bool>> changes_;  // of lists: whose, and whether it joins
 };
 
 }  // namespace carom

@@ -143,6 +143,8 @@ void OdeContacts::neighbours(int body, std::vector<int>& out) {
 void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others) const {
   const FlightPath& path = neighbours.path(body);
   const double t = opened_from, until = opened_until;
+  // the paths lie all over the memory: they are fetched side by side rather than one after the other
+  for (int other : others) __builtin_prefetch(&neighbours.path(other));
   const BallNow ball{path.positionAt(t, gravity), path.velocityAt(t, gravity), path.radius};
   const auto apart = [&](int other) {
     const Quick kind = quick[static_cast<std::size_t>(other)];
