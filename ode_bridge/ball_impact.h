@@ -29,12 +29,11 @@ struct BallNow {
 inline bool mayMeet(const BallNow& ball, const FlightPath& other, const Vec3& g, double from, double until) {
   const double s = from - other.start, T = until - from;
   const Vec3 d = ball.x - other.x - s * (other.v + 0.5 * s * g), w = ball.v - other.v - s * g;
-  const double dw = d.dot(w);
-  if (!(dw < 0)) return false;
-  const double R = ball.radius + other.radius, d2 = d.squaredNorm(), w2 = w.squaredNorm();
+  const double dw = d.dot(w), R = ball.radius + other.radius, d2 = d.squaredNorm(), w2 = w.squaredNorm();
   const double c = d2 - R * R, rounding = 1e-12 * d2 + 1e-14 * ball.x.squaredNorm();
   // |d + s w|^2 - R^2 >= c + 2 s d.w, and its least value is c - (d.w)^2 / |w|^2
-  return c + 2 * T * dw <= rounding && w2 * (c - rounding) <= dw * dw;
+  // without branches: which of the three says no is a toss-up
+  return bool(int(dw < 0) & int(c + 2 * T * dw <= rounding) & int(w2 * (c - rounding) <= dw * dw));
 }
 
 /// The same for a fixed half space.

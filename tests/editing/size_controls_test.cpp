@@ -69,8 +69,9 @@ TEST(SizeControls, NamesValuesAndTheScenesTheyMake) {
         if (set.size() > 1 || v.component != "value") {
           EXPECT_EQ(set.describeVariable(i), "size." + v.component + " of 'box'");
         }
-        EXPECT_EQ(v.lower, 0);
-        EXPECT_TRUE(v.logarithmic) << "a size is weighed relative to itself";
+        EXPECT_GT(v.lower, 0);
+        EXPECT_LT(v.lower, 1e-5 * v.start);
+        EXPECT_EQ(v.scale, v.start) << "a size is weighed relative to itself";
       }
       Eigen::VectorXd values = set.startValues();
       for (Eigen::Index i = 0; i < values.size(); ++i) values[i] *= 1.1 + 0.1 * static_cast<double>(i);
@@ -136,14 +137,16 @@ TEST(SizeControls, EditsFindASize) {
     Scene scene = sceneOf(row.shape);
     scene.bodies[1].position.z() = 0.7;
     scene.bodies[1].velocity.z() = -1;
-    test::SweptPointContacts contacts(scene);
-    Scene other = scene;
+    test::SweptPointContacts contacts(scene), of_other(scene);
     const ControlSet set(scene, {size("box").only({row.word})});
-    other = set.sceneAt(row.wanted * set.startValues());
-    contacts.begin(other);
-    const double T = 0.45;
-    const Motion there = simulate(other, contacts, T);
-    ASSERT_EQ(there.events.size(), 1u);
+    const Scene other = set.sceneAt(row.wanted * set.startValues());
+    of_other.begin(other);
+    const Motion here = simulate(scene, contacts, 0.6), there = simulate(other, of_other, 0.6);
+    ASSERT_GE(std::min(here.events.size(), there.events.size()), 2u);
+    // between the first impact of both and the second of either
+    const double T = 0.5 * std::max(here.events[0].time, there.events[0].time) +
+                     0.5 * std::min(here.events[1].time, there.events[1].time);
+    ASSERT_GT(T, std::max(here.events[0].time, there.events[0].time));
     Edit edit(scene, contacts, T);
     edit.vary(size("box").only({row.word}));
     edit.nail("box", T).position({any, any, there.stateAt("box", T).position.z()});
