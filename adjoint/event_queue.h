@@ -1,59 +1,60 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 namespace carom {
 
-/// When each body has to be looked at next, earliest first: a heap with one entry a body, which can be moved.
-/// Entries of one time come in the order: impacts before horizons, then by body.
+/// When each body has to be looked at next, earliest first: one entry a body, which can be changed. A tournament: every
+/// inner place of a binary tree holds the earlier of the two entries below it, so a change climbs from its leaf to the
+/// root, always in as many steps. Entries of one time come in the order: impacts before horizons, then by body.
 class EventQueue {
  public:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  explicit EventQueue(std::size_t bodies = 0) : place_(bodies, kNone) {}
+  explicit EventQueue(std::size_t bodies = 0)
+      : leaves_(std::bit_ceil(bodies + 1)), tree_(2 * leaves_, Entry{kNever, kNobody}) {}
 
-  bool empty() const { return heap_.empty(); }
-  double time() const { return heap_.front().time; }
-  int body() const { return bodyOf(heap_.front()); }
+  bool empty() const { return tree_[1].time == kNever; }
+  double time() const { return tree_[1].time; }
+  int body() const { return bodyOf(tree_[1]); }
 
   /// Sets the time of a body; kNever takes the body out.
   void set(int body, double time, bool is_horizon);
 
-  /// Calls f(body) for every entry up to a time, in no particular order.
+  /// Calls f(body) for every entry up to a finite time, in increasing order of bodies.
   template <class F>
   void visitUntil(double time, const F& f) const {
-    visitFrom(0, time, f);
+    visitFrom(1, time, f);
   }
 
  private:
   struct Entry {
     double time;
     std::uint32_t order;  // body, with the highest bit set for a horizon
-    bool operator<(const Entry& o) const { return time != o.time ? time < o.time : order < o.order; }
+    // without branches: which entry of two is the earlier one is a toss-up
+    bool operator<(const Entry& o) const {
+      return bool(int(time < o.time) | (int(time == o.time) & int(order < o.order)));
+    }
   };
-  static constexpr std::size_t kChildren = 4;  // of each place: a flat heap touches less memory
-  static constexpr std::uint32_t kHorizon = 0x80000000u, kNone = 0xffffffffu;
+  static constexpr std::uint32_t kHorizon = 0x80000000u, kNobody = 0xffffffffu;
   static int bodyOf(const Entry& e) { return static_cast<int>(e.order & ~kHorizon); }
-  std::uint32_t& placeOf(const Entry& e) { return place_[e.order & ~kHorizon]; }
-
-  void moveUp(std::size_t i, const Entry& entry);
-  void moveDown(std::size_t i, const Entry& entry);
-  void put(std::size_t i, const Entry& entry) {
-    heap_[i] = entry;
-    placeOf(entry) = static_cast<std::uint32_t>(i);
-  }
 
   template <class F>
   void visitFrom(std::size_t i, double time, const F& f) const {
-    if (i >= heap_.size() || heap_[i].time > time) return;
-    f(bodyOf(heap_[i]));
-    for (std::size_t k = 1; k <= kChildren; ++k) visitFrom(kChildren * i + k, time, f);
+    if (tree_[i].time > time) return;
+    if (i >= leaves_) {
+      f(bodyOf(tree_[i]));
+      return;
+    }
+    visitFrom(2 * i, time, f);
+    visitFrom(2 * i + 1, time, f);
   }
 
-  std::vector<Entry> heap_;
-  std::vector<std::uint32_t> place_;  // in the heap, of each body
+  std::size_t leaves_;
+  std::vector<Entry> tree_;  // the root is 1, below i are 2 i and 2 i + 1; leaf of body b: leaves_ + b
 };
 
 }  // namespace carom

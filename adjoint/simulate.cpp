@@ -141,17 +141,18 @@ void Simulator::addTouching(double time, int a, int b, const FeaturePair& featur
 }
 
 // State of a body at the event, worked out once.
-Simulator::Snapshot Simulator::snapshot(int body, double time) {
+const Simulator::Snapshot& Simulator::snapshot(int body, double time) {
   for (const Snapshot& s : snapshots_)
     if (s.body == body) return s;
-  Snapshot s{body, arcOf(body).stateAt(time), {}};
+  Snapshot& s = snapshots_.emplace_back();
+  s.body = body;
+  s.state = arcOf(body).stateAt(time);
   s.k = arcOf(body).kinematicsOf(s.state);
-  snapshots_.push_back(s);
   return s;
 }
 
 Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& features) {
-  const Kinematics ka = snapshot(a, time).k, kb = snapshot(b, time).k;
+  const Kinematics &ka = snapshot(a, time).k, &kb = snapshot(b, time).k;
   Contact c;
   c.a = a;
   c.b = b;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <unordered_map>
 #include <vector>
 
@@ -57,7 +58,7 @@ class Simulator {
   };
   // A body just before the event that is being worked out.
   struct Snapshot {
-    int body;
+    int body = -1;
     State state;
     Kinematics k;
   };
@@ -74,7 +75,7 @@ class Simulator {
   void contactsOfInstant(const Prediction& first);
   void addTouching(double time, int a, int b, const FeaturePair& features);
   Contact makeContact(double time, int a, int b, const FeaturePair& features);
-  Snapshot snapshot(int body, double time);
+  const Snapshot& snapshot(int body, double time);
   void solveDraft();
   bool joinInstant();
   void commit();
@@ -115,7 +116,7 @@ class Simulator {
   std::vector<TiltOfImpact> tilts_;                     // in order
   std::unordered_map<std::uint64_t, int> low_bounces_;  // in a row, of a pair
   Draft draft_;
-  std::vector<Snapshot> snapshots_;
+  std::deque<Snapshot> snapshots_;  // references to them stay good
   std::vector<Prediction> same_, found_;
   std::vector<int> bodies_, neighbours_;
 };

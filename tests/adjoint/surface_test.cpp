@@ -187,6 +187,29 @@ TEST(Surface, SeveralPieces) {
   expectEntries(s->unit_inertia, boxInertia(size) + Mat3(Vec3(0, 2.25, 2.25).asDiagonal()), 1e-14, "inertia");
 }
 
+TEST(Surface, PlatesAndNeedles) {
+  Random random(14);
+  for (double thin : {1e-3, 1e-6, 1e-8}) {
+    SCOPED_TRACE(thin);
+    for (const Vec3& size : {Vec3(1, 1, thin), Vec3(1, thin, thin)}) {
+      const auto s = boxTriangles(size).surface();
+      const Vec3 found = s->unit_inertia.diagonal(), expected = boxInertia(size).diagonal();
+      for (int i = 0; i < 3; ++i) expectEntries(found[i] / expected[i], 1, 1e-14, "moment, of its own size");
+    }
+    const Quat q = random.rotation();
+    const auto plate = boxTriangles({1, 1, thin}).placed(q, random.vec(1)).surface();
+    expectEntries(plate->unit_inertia, turned(q, boxInertia({1, 1, thin})), 1e-15 / thin + 1e-13, "turned plate");
+  }
+}
+
+// Two pieces with one corner in common are a solid.
+TEST(Surface, PiecesMayShareACorner) {
+  const auto s = boxTriangles({1, 1, 1}).with(boxTriangles({1, 1, 1}).placed(Quat::Identity(), {1, 1, 1})).surface();
+  EXPECT_EQ(s->vertices.size(), 15u);
+  EXPECT_TRUE(s->closed);
+  expectEntries(s->volume, 2, 1e-15, "volume");
+}
+
 TEST(Surface, EqualVerticesAreJoined) {
   // every triangle with corners of its own, as STL files and many glTF files have them; -0 is 0
   const Triangles box = boxTriangles({2, 2, 2}).placed(Quat::Identity(), {1, 1, 1});
