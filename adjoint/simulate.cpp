@@ -140,19 +140,20 @@ void Simulator::addTouching(double time, int a, int b, const FeaturePair& featur
   }
 }
 
-// State of a body at the event, worked out once.
-const Simulator::Snapshot& Simulator::snapshot(int body, double time) {
-  for (const Snapshot& s : snapshots_)
-    if (s.body == body) return s;
+// State of a body at the event, worked out once: its place in snapshots_.
+std::size_t Simulator::snapshot(int body, double time) {
+  for (std::size_t i = 0; i < snapshots_.size(); ++i)
+    if (snapshots_[i].body == body) return i;
   Snapshot& s = snapshots_.emplace_back();
   s.body = body;
   s.state = arcOf(body).stateAt(time);
   s.k = arcOf(body).kinematicsOf(s.state);
-  return s;
+  return snapshots_.size() - 1;
 }
 
 Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& features) {
-  const Kinematics &ka = snapshot(a, time).k, &kb = snapshot(b, time).k;
+  const std::size_t place_a = snapshot(a, time), place_b = snapshot(b, time);
+  const Kinematics &ka = snapshots_[place_a].k, &kb = snapshots_[place_b].k;
   Contact c;
   c.a = a;
   c.b = b;
@@ -191,7 +192,7 @@ void Simulator::solveDraft() {
   event.participants.reserve(bodies_.size());
   for (int body : bodies_)
     event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1,
-                                  impacts_[index(body)] + 1, snapshot(body, event.time).state});
+                                  impacts_[index(body)] + 1, snapshots_[snapshot(body, event.time)].state});
   solveImpact(event, *motion_.models, draft_.after);
   draft_.arcs.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

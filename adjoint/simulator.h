@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <unordered_map>
 #include <vector>
 
@@ -75,7 +74,7 @@ class Simulator {
   void contactsOfInstant(const Prediction& first);
   void addTouching(double time, int a, int b, const FeaturePair& features);
   Contact makeContact(double time, int a, int b, const FeaturePair& features);
-  const Snapshot& snapshot(int body, double time);
+  std::size_t snapshot(int body, double time);
   void solveDraft();
   bool joinInstant();
   void commit();
@@ -116,7 +115,7 @@ class Simulator {
   std::vector<TiltOfImpact> tilts_;                     // in order
   std::unordered_map<std::uint64_t, int> low_bounces_;  // in a row, of a pair
   Draft draft_;
-  std::deque<Snapshot> snapshots_;  // references to them stay good
+  std::vector<Snapshot> snapshots_;
   std::vector<Prediction> same_, found_;
   std::vector<int> bodies_, neighbours_;
 };

@@ -24,20 +24,25 @@ struct BallNow {
   double radius;
 };
 
-/// False only where `other` and the ball, which falls as fast, surely do not meet from `from` until then: a few
-/// products, to spare most pairs the exact answer.
-inline bool mayMeet(const BallNow& ball, const FlightPath& other, const Vec3& g, double from, double until) {
+/// What is known of two balls under the same acceleration by a few products.
+struct Approach {
+  bool overlap;  ///< they do, within rounding
+  bool meet;     ///< they may come to touch, while nearing each other, in the time looked at
+};
+
+/// `meet` is false only where the balls surely do not: that spares most pairs the exact answer.
+inline Approach approachOf(const BallNow& ball, const FlightPath& other, const Vec3& g, double from, double until) {
   const double s = from - other.start, T = until - from;
   const Vec3 d = ball.x - other.x - s * (other.v + 0.5 * s * g), w = ball.v - other.v - s * g;
   const double dw = d.dot(w), R = ball.radius + other.radius, d2 = d.squaredNorm(), w2 = w.squaredNorm();
   const double c = d2 - R * R, rounding = 1e-12 * d2 + 1e-14 * ball.x.squaredNorm();
-  // |d + s w|^2 - R^2 >= c + 2 s d.w, and its least value is c - (d.w)^2 / |w|^2
+  // |d + s w|^2 - R^2 >= c + 2 s d.w, and its least value is c - (d.w)^2 / |w|^2;
   // without branches: which of the three says no is a toss-up
-  return bool(int(dw < 0) & int(c + 2 * T * dw <= rounding) & int(w2 * (c - rounding) <= dw * dw));
+  return {c <= rounding, bool(int(dw < 0) & int(c + 2 * T * dw <= rounding) & int(w2 * (c - rounding) <= dw * dw))};
 }
 
-/// The same for a fixed half space.
-inline bool mayMeet(const BallNow& ball, const Vec3& g, const Vec3& normal, double offset, double from, double until) {
+/// Whether a ball may touch a fixed half space from `from` until then; false only where it surely does not.
+inline bool mayTouch(const BallNow& ball, const Vec3& g, const Vec3& normal, double offset, double from, double until) {
   const double h = normal.dot(ball.x) - offset - ball.radius, v = normal.dot(ball.v), a = normal.dot(g);
   const double T = until - from;
   const double lowest = std::min(h, h + T * (a < 0 ? v + 0.5 * T * a : v));

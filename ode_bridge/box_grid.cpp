@@ -126,16 +126,22 @@ void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>&
            f.low[1] <= mine.high[1] && mine.low[2] <= f.high[2] && f.low[2] <= mine.high[2];
   };
   const Cell low = cellAt(box.low.array() - reach), high = cellAt(box.high.array() + reach);
-  for (int z = low[2]; z <= high[2]; ++z)
-    for (int y = low[1]; y <= high[1]; ++y) {
-      const auto row = static_cast<std::size_t>((z * cells_[1] + y) * cells_[0]);
-      for (std::size_t cell = row + static_cast<std::size_t>(low[0]); cell <= row + static_cast<std::size_t>(high[0]);
-           ++cell)
-        for (std::size_t i = kDepth * cell; i < kDepth * (cell + 1) && places_[i].body >= 0; ++i) {
-          const Filed& f = places_[i];
-          if (mayMeet(f) && f.body != body && meet(box, boxes[static_cast<std::size_t>(f.body)])) out.push_back(f.body);
-        }
-    }
+  // each row of cells lies together, the rows all over the memory: they are fetched side by side
+  const auto forEachRow = [&](const auto& f) {
+    for (int z = low[2]; z <= high[2]; ++z)
+      for (int y = low[1]; y <= high[1]; ++y) {
+        const auto row = static_cast<std::size_t>((z * cells_[1] + y) * cells_[0]);
+        f(row + static_cast<std::size_t>(low[0]), row + static_cast<std::size_t>(high[0]) + 1);
+      }
+  };
+  forEachRow([&](std::size_t cell, std::size_t end) {
+    for (; cell < end; ++cell) __builtin_prefetch(&places_[kDepth * cell]);
+  });
+  forEachRow([&](std::size_t cell, std::size_t end) {
+    for (; cell < end; ++cell)
+      for (std::size_t i = kDepth * cell; i < kDepth * (cell + 1) && places_[i].body >= 0; ++i)
+        if (mayMeet(places_[i]) && places_[i].body != body) out.push_back(places_[i].body);
+  });
 }
 
 }  // namespace carom

@@ -11,7 +11,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 // Lists of this mean length are wanted: longer ones cost searches, shorter ones cost new boxes.
 constexpr double kListLength = 14;
 // All boxes are laid anew after about this many single ones a body.
-constexpr double kRenewals = 8;
+constexpr double kRenewals = 16;
 // Of the reach of a body in its box, the share that it gets on its present path; the rest is room for when it is
 // struck.
 constexpr double kAhead = 0.7;

@@ -18,8 +18,9 @@ namespace {
 // Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).
 constexpr double kOverlap = 1e-9;
 
-// Whose impacts have a closed form.
-enum class Quick : char { no, ball, plane };
+// Impacts among balls that move and planes have a closed form.
+enum class Quick : char { fixed, moving, ball, plane };
+bool isQuick(Quick q) { return q == Quick::ball || q == Quick::plane; }
 
 // The box that a solid stands in, with room for rounding and for the tolerance of contact.
 Bounds standingBounds(const Solid& solid, const Kinematics& k) {
@@ -85,13 +86,13 @@ void OdeContacts::begin(const Scene& scene) {
   std::vector<Arc> arcs;
   std::vector<Extent> extents;
   arcs.reserve(n);
-  state_->quick.assign(n, Quick::no);
+  state_->quick.assign(n, Quick::fixed);
   state_->in_series.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     arcs.emplace_back(models[i], Tier::none, Vec3::Zero(), 0.0, startState(scene.bodies[i], models[i]));
     extents.push_back(extentOf(solids[i], arcs[i]));
     if (solids[i].plane) state_->quick[i] = Quick::plane;
-    if (solids[i].ball && models[i].moving) state_->quick[i] = Quick::ball;
+    if (models[i].moving) state_->quick[i] = solids[i].ball ? Quick::ball : Quick::moving;
   }
   state_->gravity = scene.gravity;
   state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
@@ -135,23 +136,28 @@ double OdeContacts::window(int body, double t) {
 
 void OdeContacts::neighbours(int body, std::vector<int>& out) {
   state_->neighbours.list(body, out);
-  if (state_->opened == body && state_->quick[static_cast<std::size_t>(body)] == Quick::ball)
-    state_->keepThoseThatMayMeet(body, out);
+  if (state_->opened == body) state_->keepThoseThatMayMeet(body, out);
 }
 
-// Of balls and planes, those that the ball's present path can meet in its window.
+// Those that the body can meet on its present path in its window, as far as bounding balls tell.
 void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others) const {
   const FlightPath& path = neighbours.path(body);
+  const bool is_ball = quick[static_cast<std::size_t>(body)] == Quick::ball;
   const double t = opened_from, until = opened_until;
   // the paths lie all over the memory: they are fetched side by side rather than one after the other
   for (int other : others) __builtin_prefetch(&neighbours.path(other));
-  const BallNow ball{path.positionAt(t, gravity), path.velocityAt(t, gravity), path.radius};
+  BallNow ball{path.positionAt(t, gravity), path.velocityAt(t, gravity), path.radius};
+  ball.radius += 1e-9 * (1 + ball.x.cwiseAbs().maxCoeff() + ball.radius);  // the tolerance of contact, and rounding
   const auto apart = [&](int other) {
     const Quick kind = quick[static_cast<std::size_t>(other)];
-    if (kind == Quick::ball) return !mayMeet(ball, neighbours.path(other), gravity, t, until);
-    if (kind == Quick::no) return false;
+    if (kind == Quick::fixed) return false;
+    if (kind != Quick::plane) {
+      // what is inside touching balls may meet while they part
+      const Approach a = approachOf(ball, neighbours.path(other), gravity, t, until);
+      return !(a.meet || (a.overlap && !(is_ball && kind == Quick::ball)));
+    }
     const Extent& plane = neighbours.extents()[static_cast<std::size_t>(other)];
-    return !mayMeet(ball, gravity, plane.normal, plane.offset, t, until);
+    return !mayTouch(ball, gravity, plane.normal, plane.offset, t, until);
   };
   others.erase(std::remove_if(others.begin(), others.end(), apart), others.end());
 }
@@ -159,7 +165,7 @@ void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others
 // Undecided unless both are of the quick kinds.
 BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double until) const {
   const Quick qa = quick[static_cast<std::size_t>(a)], qb = quick[static_cast<std::size_t>(b)];
-  if (qa == Quick::no || qb == Quick::no) return {BallImpact::Found::undecided, 0};
+  if (!isQuick(qa) || !isQuick(qb)) return {BallImpact::Found::undecided, 0};
   if (qa == Quick::ball && qb == Quick::ball)
     return ballBallImpact(neighbours.path(a), neighbours.path(b), gravity, from, until);
   const int ball = qa == Quick::ball ? a : b;
@@ -184,7 +190,7 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
                                                double reach) {
-  const auto quick = [&](int body) { return state_->quick[static_cast<std::size_t>(body)] != Quick::no; };
+  const auto quick = [&](int body) { return isQuick(state_->quick[static_cast<std::size_t>(body)]); };
   if (quick(a) && quick(b)) return {};  // one contact at the most
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
   return touchingFeatures(placed_a, placed_b, std::max(reach, 4 * touchTolerance(placed_a, placed_b)));

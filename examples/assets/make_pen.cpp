@@ -45,10 +45,10 @@ Body wall(const std::string& name, const Vec3& size, const Vec3& position) {
 
 Document pen(int count) {
   Document document;
-  document.duration = 2;
+  document.duration = 1;
   Scene& scene = document.scene;
-  scene.materials.push_back({.name = "rubber", .elasticity = 0.95, .friction = 0.2});
-  scene.materials.push_back({.name = "wood", .elasticity = 0.95, .friction = 0.2});
+  scene.materials.push_back({.name = "rubber", .elasticity = 0.98, .friction = 0.05});
+  scene.materials.push_back({.name = "wood", .elasticity = 0.98, .friction = 0.05});
   Body floor;
   floor.name = "floor";
   floor.fixed = true;
@@ -72,6 +72,11 @@ Document pen(int count) {
     ball.position = (1000 * ball.position).array().round() / 1000;
     ball.velocity = random.vec(1.5);
     scene.bodies.push_back(ball);
+  }
+  if (count > 0) {  // something to direct: the last ball, after it has met the wall
+    const std::string last = "ball " + std::to_string(count);
+    document.controls = {velocity(last)};
+    document.constraints = {{last, 0.22, {{"position", {0.18, 0.47, any}}}}};
   }
   return document;
 }

@@ -78,7 +78,8 @@ TEST_P(Bullets, neverTunnel) {
   const int shots = only ? 1 : scaled(kShots / kBlocks);
   int failures = 0;
   for (int i = 0; i < shots && failures < kMostFailures; ++i) {
-    const auto seed = only ? std::strtoull(only, nullptr, 10) : static_cast<std::uint64_t>(1 + GetParam() + kBlocks * i);
+    const auto seed =
+        only ? std::strtoull(only, nullptr, 10) : static_cast<std::uint64_t>(1 + GetParam() + kBlocks * i);
     const Shot shot = shotOf(seed);
     const std::string wrong = examine(shot, seed % 2 == 0, agreement);
     failures += !wrong.empty();

@@ -63,15 +63,17 @@ std::string Agreement::compare(const Found& found, const std::optional<FirstImpa
   }
   ++impacts;
   ++features[withoutNumbers(expected->features)];
-  if (!found.any) return sentence("missed:", expected->features, "at", double(expected->time), "approach", double(expected->approach));
+  if (!found.any)
+    return sentence("missed:", expected->features, "at", double(expected->time), "approach",
+                    double(expected->approach));
   const double time = std::abs(double(found.time - expected->time));
   const double normal = (found.normal - expected->touch.normal.rounded()).norm();
   const double point = (found.point - expected->touch.point.rounded()).norm();
   keepWorst(worst_time, time), keepWorst(worst_normal, normal), keepWorst(worst_point, point);
   if (time <= kTimeTolerance && normal <= kPlaceTolerance && point <= kPlaceTolerance && found.contacts == 1) return "";
   return sentence("found", found.what, "at", found.time, "with", found.contacts, "contacts; expected",
-                  expected->features, "at", double(expected->time), "; off by", time, "s,", normal, "in the normal,", point,
-                  "m in the point; approach", double(expected->approach), "of", double(expected->speed), "m/s");
+                  expected->features, "at", double(expected->time), "; off by", time, "s,", normal, "in the normal,",
+                  point, "m in the point; approach", double(expected->approach), "of", double(expected->speed), "m/s");
 }
 
 std::string Agreement::summary() const {

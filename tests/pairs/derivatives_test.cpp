@@ -14,8 +14,8 @@
 #include "tests/support/throws.h"
 
 // Derivatives of the first impact (time, normal, point, states before and after it) by every number of the scene,
-// against a replay in 50-digit arithmetic: a few throws of every kind of shape at every other, as many kinds of features
-// as meet in the first throws.
+// against a replay in 50-digit arithmetic: a few throws of every kind of shape at every other, as many kinds of
+// features as meet in the first throws.
 
 namespace carom::pairs {
 namespace {
@@ -36,7 +36,8 @@ std::optional<Played> play(const Scene& scene, double impact) {
   for (const double longer : {1e-2, 1e-3, 1e-4}) {
     OdeContacts contacts(scene);
     Motion motion = simulate(scene, contacts, impact + longer);
-    if (motion.events.size() == 1 && motion.status == MotionStatus::complete) return Played{std::move(motion), impact + longer};
+    if (motion.events.size() == 1 && motion.status == MotionStatus::complete)
+      return Played{std::move(motion), impact + longer};
   }
   return {};
 }
@@ -46,7 +47,8 @@ class Rates {
  public:
   Rates(const Motion& motion, DerivativeTape& tape, double after)
       : motion_(motion), tape_(tape), after_(after), contact_(motion.events[0].contacts[0]) {
-    jacobian_ = motion.geometry->jacobian(contact_.a, contact_.b, contact_.features, poseOf(contact_.a), poseOf(contact_.b));
+    jacobian_ =
+        motion.geometry->jacobian(contact_.a, contact_.b, contact_.features, poseOf(contact_.a), poseOf(contact_.b));
   }
 
   void along(const SceneTangent& direction) {
@@ -129,7 +131,9 @@ Worst compare(const Scene& scene, const Played& played, const Replay& replay) {
   Rates rates(played.motion, tape, played.after);
   const std::vector<PairRow> rows = rowsOf(replay.numbers());
   std::vector<SceneGradient> gradients(rows.size());
-  const auto by_adjoint = [](const PairRow& row) { return row.of != PairRow::Of::normal && row.of != PairRow::Of::point; };
+  const auto by_adjoint = [](const PairRow& row) {
+    return row.of != PairRow::Of::normal && row.of != PairRow::Of::point;
+  };
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (by_adjoint(rows[i])) gradients[i] = adjoint(tape, std::vector{rates.seedOf(rows[i])});
   Worst worst;

@@ -87,6 +87,18 @@ std::vector<Candidate> nearestOfPiecesWithin(const Placed& A, const Placed& B, R
   return all;
 }
 
+bool provenApart(const Placed& A, const Placed& B) {
+  for (std::size_t i = 0; i < A.pieces().size(); ++i)
+    for (std::size_t j = 0; j < B.pieces().size(); ++j) {
+      if (ballGap(A, i, B, j) > 0) continue;
+      Least here;
+      here.cutoff = kInfinite;
+      enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), here);
+      if (here.best.a.piece < 0 || !(separationOf(A, B, here.best).width > 0)) return false;
+    }
+  return true;
+}
+
 std::vector<Candidate> candidatesWithin(const Placed& A, const Placed& B, Real distance) {
   Within found;
   found.cutoff = distance;

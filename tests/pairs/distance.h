@@ -33,6 +33,9 @@ struct Known {
 };
 Distance distanceOf(const Placed& A, const Placed& B, const Known& known = {});
 
+/// Whether every two pieces have a slab between them, however thin.
+bool provenApart(const Placed& A, const Placed& B);
+
 /// All locally nearest feature pairs within a distance.
 std::vector<Candidate> candidatesWithin(const Placed& A, const Placed& B, Real distance);
 /// The nearest features of every two pieces within a distance.

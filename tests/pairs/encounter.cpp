@@ -5,22 +5,21 @@
 #include <limits>
 #include <stdexcept>
 
-
 namespace carom::pairs {
 namespace {
 
 constexpr Real kTouching = 1e-13L;  // m: from here on Newton's method
-constexpr Real kNear = 3e-3L;       // m: from here on the nearest features may be followed to their impact
+constexpr Real kNear = 3e-3L;       // m: from here on longer steps are worth their price
 constexpr Real kRounding = 1e-15L;  // m, generous for distances in long double
 constexpr Real kAmple = 0.02L;      // m between the whole bodies' balls: no need to look at their features
 constexpr Real kFine = 1e-7L;       // m: below, sharp features that meet at their ends have no provable distance
-constexpr Real kLongest = 0.1L;      // s, that frozen features are followed
+constexpr Real kLongest = 0.1L;     // s, that frozen features are followed
 constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
-constexpr Real kShort = 0.99L;       // of a safe step, so that none ends in the contact itself
-constexpr long kMostSteps = 4000;   // of one encounter; a pass that takes more is next to grazing
-constexpr Real kGrazing = 0.01L;    // least n.u / |u|
-constexpr Real kSlow = 1e-3L;       // m/s, least n.u
-constexpr Real kParallel = 1e-3L;   // least sine between two curves that cross, or a rim's axis and a normal
+constexpr Real kShort = 0.99L;     // of a safe step, so that none ends in the contact itself
+constexpr long kMostSteps = 4000;  // of one encounter; a pass that takes more is next to grazing
+constexpr Real kGrazing = 0.01L;   // least n.u / |u|
+constexpr Real kSlow = 1e-3L;      // m/s, least n.u
+constexpr Real kParallel = 1e-3L;  // least sine between two curves that cross, or a rim's axis and a normal
 
 bool isHalfSpace(const Solid& solid) { return solid.pieces[0].kind == Piece::Kind::half_space; }
 
@@ -146,7 +145,7 @@ std::optional<Encounter::Gap> Encounter::gapAt(const Candidate& features, Real t
 std::optional<FirstImpact> Encounter::firstImpact(Real until, bool patient) {
   Candidate hint;
   Known known;
-  Real t = 0, looked_at = patient ? kTouching : kNear;
+  Real t = 0;
   const auto doubtful = [&t](const char* why) {
     FirstImpact impact;
     impact.time = t, impact.doubt = why;
@@ -162,15 +161,7 @@ std::optional<FirstImpact> Encounter::firstImpact(Real until, bool patient) {
       hint = d.nearest, safe = d.proven;
       if (closest_.a.piece < 0 || distance < closest_.distance) closest_ = d.nearest, closest_time_ = t;
       if (distance > 1e-6L && distance < 1) worst_proof_ = std::max(worst_proof_, 1 - safe / distance);
-      if (distance < kTouching || distance < looked_at) {
-        looked_at = distance / 8;
-        if (const auto impact = refine(d.nearest, t, distance)) return impact;
-        if (const auto beyond = passes(d.nearest, t, distance)) {
-          t = *beyond, known = {};
-          continue;
-        }
-        moveTo(t);
-      }
+      if (distance < kTouching) return impactOf(d.nearest, t);
       if (!(safe > 0.5L * distance)) {
         if (!(distance < kFine)) throw std::runtime_error("the brute-force distance cannot be proven");
         return doubtful("ends of sharp features meet");
@@ -224,35 +215,12 @@ std::optional<Real> Encounter::leastGap(const Candidate& features, Real from) {
   return {};
 }
 
-// If the nearest features pass each other without touching, and nothing else can touch meanwhile: a time when they have
-// parted again.
-std::optional<Real> Encounter::passes(const Candidate& nearest, Real now, Real distance) {
-  const auto least = leastGap(nearest, now);
-  if (!least || *least < now) return {};
-  const Real gap = gapAt(nearest, *least)->touch.gap, beyond = *least + (*least - now);
-  moveTo(now);
-  const Real travel = travelIn(beyond - now);
-  if (!(gap > 0) || travel > 1e4L * distance || !standsAlone(nearest, travel)) return {};
-  if (!areNearestAt(nearest, *least, gap)) return {};
-  closest_ = nearest, closest_.distance = gap, closest_time_ = *least;
-  return beyond;
-}
-
-// The impact of the nearest features, if nothing else can come before it: until then no point moves farther than the
-// speed bound allows, and within that distance there are no others (or the bodies are within 1e-13 m already); and when
-// it comes they are the nearest still.
-std::optional<FirstImpact> Encounter::refine(const Candidate& nearest, Real now, Real distance) {
-  const bool touching = distance < kTouching;
-  const auto zero = zeroOf(nearest, now);
-  const Real travel = zero ? travelIn(*zero - now) : 0;
-  if (!touching) {
-    moveTo(now);
-    if (!zero || *zero < now || travel > 1e4L * distance || !standsAlone(nearest, travel)) return {};
-  }
+// The impact of bodies within 1e-13 m of each other.
+FirstImpact Encounter::impactOf(const Candidate& nearest, Real now) {
   FirstImpact impact;
-  impact.time = zero.value_or(now);
-  impact.features = a_.solid.pieces[nearest.a.piece].nameOf(nearest.a) + " on " +
-                    b_.solid.pieces[nearest.b.piece].nameOf(nearest.b);
+  impact.time = zeroOf(nearest, now).value_or(now);
+  impact.features =
+      a_.solid.pieces[nearest.a.piece].nameOf(nearest.a) + " on " + b_.solid.pieces[nearest.b.piece].nameOf(nearest.b);
   const auto gap = gapAt(nearest, impact.time);
   if (!gap) {
     impact.doubt = "ends of sharp features meet";
@@ -260,16 +228,11 @@ std::optional<FirstImpact> Encounter::refine(const Candidate& nearest, Real now,
   }
   impact.nearest = nearest, impact.nearest.p = impact.nearest.q = gap->touch.point;
   impact.touch = gap->touch, impact.approach = gap->rate, impact.speed = gap->speed;
-  if (!touching && !areNearestAt(nearest, justBefore(impact), kTouching)) return {};
   impact.doubt = doubtOf(nearest, impact);
+  if (!impact.doubt.empty()) return impact;
+  moveTo(justBefore(impact));
+  if (!provenApart(a_.placed, b_.placed)) throw std::runtime_error("the bodies overlap before their first impact");
   return impact;
-}
-
-bool Encounter::areNearestAt(const Candidate& chosen, Real t, Real distance) {
-  const Distance d = distanceAt(t);
-  const auto touch = chosen.touch(a_.placed, b_.placed);
-  return touch && sameTouch(d.nearest.touch(a_.placed, b_.placed), *touch) &&
-         std::abs(d.nearest.distance - distance) < distance / 2;
 }
 
 // All candidates within a distance are the same touch, seen in pieces that share a feature.

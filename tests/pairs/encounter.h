@@ -12,9 +12,9 @@ namespace carom::pairs {
 /// The first impact of two bodies.
 struct FirstImpact {
   Real time = 0;
-  Touch touch;          ///< normal from the scene's body 1 to body 0
-  Real approach = 0;    ///< n . u, m/s, < 0
-  Real speed = 0;       ///< |u|
+  Touch touch;           ///< normal from the scene's body 1 to body 0
+  Real approach = 0;     ///< n . u, m/s, < 0
+  Real speed = 0;        ///< |u|
   std::string features;  ///< in words
   Candidate nearest;     ///< the same
   /// Why the answer is not fit to be compared with: two feature pairs within a nanosecond, a border of a feature
@@ -30,10 +30,10 @@ class Encounter {
   /// Of a scene with two bodies.
   explicit Encounter(const Scene& scene);
 
-  /// Follows them by steps no longer than (proven distance) / (bound on the speed), which cannot pass a contact, until
-  /// no other features than the nearest can touch before these do; then solves for the zero of their smooth gap. Bodies
-  /// that pass each other closely take the longer steps for which slabs between their pieces are proven to stay open.
-  /// `patient` takes the short steps alone, all the way to 1e-13 m, however lonely the nearest features are.
+  /// Follows them by steps that cannot pass a contact, down to a distance of 1e-13 m, and solves for the zero of the
+  /// smooth gap of the features that are nearest there. Steps are no longer than (proven distance) / (bound on the
+  /// speed); or, near a contact, than the time for which slabs between the pieces are proven to stay open. `patient`
+  /// takes the former alone.
   std::optional<FirstImpact> firstImpact(Real until, bool patient = false);
 
   /// Distance at a time.
@@ -72,10 +72,8 @@ class Encounter {
   Real longStep(Real distance) const;
   Real speed() const;
   Real travelIn(Real h) const;
-  std::optional<FirstImpact> refine(const Candidate& nearest, Real now, Real distance);
+  FirstImpact impactOf(const Candidate& nearest, Real now);
   std::optional<Real> zeroOf(const Candidate& features, Real from);
-  std::optional<Real> passes(const Candidate& nearest, Real now, Real distance);
-  bool areNearestAt(const Candidate& chosen, Real t, Real distance);
   bool standsAlone(const Candidate& chosen, Real within);
   std::string doubtOf(const Candidate& chosen, const FirstImpact& impact);
 

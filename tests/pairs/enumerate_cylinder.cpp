@@ -16,7 +16,10 @@ struct Round {
   Real height;
 
   Round(const Piece& p, int n)
-      : piece(&p), number(n), low(p.points[0]), axis(unit(p.points[1] - p.points[0])),
+      : piece(&p),
+        number(n),
+        low(p.points[0]),
+        axis(unit(p.points[1] - p.points[0])),
         height(norm(p.points[1] - p.points[0])) {}
 
   struct Nearest {
@@ -106,8 +109,12 @@ void rimsOnFaces(const Piece& piece, int i, const Round& round, bool swapped, Co
       const Vector p = round.piece->points[k] - round.piece->radius / norm(down) * down;
       const Real height = side * dot(face.normal, p - origin);
       if (height < 0 || height > out.cutoff || !isOver(piece, face, p)) continue;
-      tell({{i, FeatureKind::plane, f}, {round.number, FeatureKind::circle, k}, height, p - side * height * face.normal,
-            p, side},
+      tell({{i, FeatureKind::plane, f},
+            {round.number, FeatureKind::circle, k},
+            height,
+            p - side * height * face.normal,
+            p,
+            side},
            swapped, out);
     }
   }

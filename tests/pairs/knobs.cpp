@@ -31,8 +31,9 @@ struct Table {
   void vector(const std::string& name, int body, const std::function<FineVector&(PairNumbers&)>& number,
               const std::function<Vec3&(SceneDerivative&)>& entry) {
     for (int i = 0; i < 3; ++i)
-      scalar(name + "." + "xyz"[i], body, [number, i](PairNumbers& n) -> Fine& { return number(n)[i]; },
-             [entry, i](SceneDerivative& d) -> double& { return entry(d)[i]; });
+      scalar(
+          name + "." + "xyz"[i], body, [number, i](PairNumbers& n) -> Fine& { return number(n)[i]; },
+          [entry, i](SceneDerivative& d) -> double& { return entry(d)[i]; });
   }
 };
 
@@ -41,8 +42,9 @@ void addBody(Table& table, const BodyNumbers& body, std::size_t b) {
   using D = SceneDerivative;
   const std::string of = " of body " + std::to_string(b);
   const int own = static_cast<int>(b);
-  table.vector("position" + of, -1, [b](N& n) -> FineVector& { return n.bodies[b].position; },
-               [b](D& d) -> Vec3& { return d.bodies[b].position; });
+  table.vector(
+      "position" + of, -1, [b](N& n) -> FineVector& { return n.bodies[b].position; },
+      [b](D& d) -> Vec3& { return d.bodies[b].position; });
   for (int i = 0; i < 3; ++i)
     table.knobs.push_back({"orientation" + of + "." + "xyz"[i], -1,
                            [b, i](N& n, const Fine& h) {
@@ -51,20 +53,23 @@ void addBody(Table& table, const BodyNumbers& body, std::size_t b) {
                            },
                            [b, i](D& d) -> double& { return d.bodies[b].orientation[i]; }});
   for (int i = 0; i < body.shape.dimensions(); ++i)
-    table.scalar("dimension " + std::to_string(i) + of, own,
-                 [b, i](N& n) -> Fine& { return n.bodies[b].shape.dimension(i); },
-                 [b, i](D& d) -> double& { return d.bodies[b].size[i]; });
+    table.scalar(
+        "dimension " + std::to_string(i) + of, own, [b, i](N& n) -> Fine& { return n.bodies[b].shape.dimension(i); },
+        [b, i](D& d) -> double& { return d.bodies[b].size[i]; });
   if (!body.moving) return;
-  table.vector("velocity" + of, -1, [b](N& n) -> FineVector& { return n.bodies[b].velocity; },
-               [b](D& d) -> Vec3& { return d.bodies[b].velocity; });
-  table.vector("spin" + of, -1, [b](N& n) -> FineVector& { return n.bodies[b].spin; },
-               [b](D& d) -> Vec3& { return d.bodies[b].angular_velocity; });
+  table.vector(
+      "velocity" + of, -1, [b](N& n) -> FineVector& { return n.bodies[b].velocity; },
+      [b](D& d) -> Vec3& { return d.bodies[b].velocity; });
+  table.vector(
+      "spin" + of, -1, [b](N& n) -> FineVector& { return n.bodies[b].spin; },
+      [b](D& d) -> Vec3& { return d.bodies[b].angular_velocity; });
   const bool density = body.has_density;
   table.scalar((density ? "density" : "mass") + of, own, [b](N& n) -> Fine& { return n.bodies[b].mass_or_density; },
                [b, density](D& d) -> double& { return density ? d.bodies[b].density : d.bodies[b].mass; });
   if (!body.inertia_derived)
-    table.vector("moments" + of, own, [b](N& n) -> FineVector& { return n.bodies[b].moments; },
-                 [b](D& d) -> Vec3& { return d.bodies[b].inertia; });
+    table.vector(
+        "moments" + of, own, [b](N& n) -> FineVector& { return n.bodies[b].moments; },
+        [b](D& d) -> Vec3& { return d.bodies[b].inertia; });
 }
 
 }  // namespace
@@ -84,17 +89,20 @@ std::vector<PairKnob> knobsOf(const PairNumbers& numbers) {
   using N = PairNumbers;
   using D = SceneDerivative;
   Table table;
-  table.vector("gravity", -1, [](N& n) -> FineVector& { return n.gravity; }, [](D& d) -> Vec3& { return d.gravity; });
+  table.vector(
+      "gravity", -1, [](N& n) -> FineVector& { return n.gravity; }, [](D& d) -> Vec3& { return d.gravity; });
   for (std::size_t i = 0; i < 2; ++i) {
     addBody(table, numbers.bodies[i], i);
     const std::string of = " of material " + std::to_string(i);
-    table.scalar("elasticity" + of, -1, [i](N& n) -> Fine& { return n.materials[i].elasticity; },
-                 [i](D& d) -> double& { return d.materials[i].elasticity; });
-    table.scalar("friction" + of, -1, [i](N& n) -> Fine& { return n.materials[i].friction; },
-                 [i](D& d) -> double& { return d.materials[i].friction; });
-    table.scalar("tangential elasticity" + of, -1,
-                 [i](N& n) -> Fine& { return n.materials[i].tangential_elasticity; },
-                 [i](D& d) -> double& { return d.materials[i].tangential_elasticity; });
+    table.scalar(
+        "elasticity" + of, -1, [i](N& n) -> Fine& { return n.materials[i].elasticity; },
+        [i](D& d) -> double& { return d.materials[i].elasticity; });
+    table.scalar(
+        "friction" + of, -1, [i](N& n) -> Fine& { return n.materials[i].friction; },
+        [i](D& d) -> double& { return d.materials[i].friction; });
+    table.scalar(
+        "tangential elasticity" + of, -1, [i](N& n) -> Fine& { return n.materials[i].tangential_elasticity; },
+        [i](D& d) -> double& { return d.materials[i].tangential_elasticity; });
   }
   return table.knobs;
 }

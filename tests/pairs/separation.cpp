@@ -27,9 +27,7 @@ Real highestAfter(const Piece& piece, const Drift& drift, const Vector& n, Real 
 
 }  // namespace
 
-Real slab(const Piece& a, const Piece& b, const Vector& n) {
-  return slabAfter(a, {}, b, {}, n, 0);
-}
+Real slab(const Piece& a, const Piece& b, const Vector& n) { return slabAfter(a, {}, b, {}, n, 0); }
 
 Real slabAfter(const Piece& a, const Drift& of_a, const Piece& b, const Drift& of_b, const Vector& n, Real h) {
   const Real fall = h * h / 2 * std::min(Real(0), dot(n, of_a.g - of_b.g));

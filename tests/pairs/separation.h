@@ -22,8 +22,8 @@ struct Drift {
   Real bend = 0;
 };
 
-/// A bound from below on the slab's width for the next h seconds, all of them: concave in h, and exact now. The direction
-/// stays where it is, the points on either side move.
+/// A bound from below on the slab's width for the next h seconds, all of them: concave in h, and exact now. The
+/// direction stays where it is, the points on either side move.
 Real slabAfter(const Piece& a, const Drift& of_a, const Piece& b, const Drift& of_b, const Vector& n, Real h);
 
 }  // namespace carom::pairs

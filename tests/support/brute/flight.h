@@ -13,8 +13,8 @@ struct MassProperties {
   bool ball = false;  ///< looks and turns the same about all axes: its orientation has no effect
   Real mass = 0, inverse_mass = 0;
   Vector inertia = Vector::Zero(), inverse_inertia = Vector::Zero();
-  Vector center = Vector::Zero();      ///< in the shape's axes
-  Matrix axes = Matrix::Identity();    ///< principal to shape axes
+  Vector center = Vector::Zero();    ///< in the shape's axes
+  Matrix axes = Matrix::Identity();  ///< principal to shape axes
 };
 MassProperties massOf(const Body& body);
 
@@ -29,8 +29,8 @@ inline Matrix inverseInertia(const MassProperties& m, const Matrix& R) {
 }
 
 /// Free flight in long double, by a way of its own: the rotation q' = 1/2 omega(q) q with constant angular momentum is
-/// solved on short stretches by Picard iteration on Chebyshev nodes, whose polynomial is the answer in between; with equal
-/// moments the spin is constant.
+/// solved on short stretches by Picard iteration on Chebyshev nodes, whose polynomial is the answer in between; with
+/// equal moments the spin is constant.
 class Flight {
  public:
   Flight() = default;  ///< fixed at the origin
