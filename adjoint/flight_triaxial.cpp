@@ -104,7 +104,7 @@ Quat TriaxialRotation::orientationIn(const Segment& s, double h) {
 
 void TriaxialRotation::extendTo(double elapsed) {
   if (segments_.empty()) {
-    segments_.reserve(8);
+    segments_.reserve(2);  // most flights end within them
     segments_.push_back(makeSegment(0, q_));
   }
   while (segments_.back().start + segments_.back().length < elapsed) {
