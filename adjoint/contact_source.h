@@ -52,8 +52,8 @@ class ContactGeometry {
   virtual std::string describe(int a, int b, const FeaturePair& f) const = 0;
 };
 
-/// The first impact of a pair: gap = 0 with a decreasing gap. Without features (kind -1) the bodies come to overlap from
-/// then on, and no features say how they meet: the motion cannot go on.
+/// The first impact of a pair: gap = 0 with a decreasing gap. Without features (kind -1) the bodies come to overlap
+/// from then on, and no features say how they meet: the motion cannot go on.
 struct PredictedImpact {
   double time = 0;
   FeaturePair features;

@@ -17,8 +17,8 @@ class BoxGrid {
   void rebuild(const std::vector<Bounds>& boxes, double half);
   /// The box of one body has changed.
   void move(int body, const std::vector<Bounds>& boxes);
-  /// Adds the bodies other than `body` whose boxes meet that of `body`, in no particular order; may add some whose boxes
-  /// miss it by less than the rounding of single precision.
+  /// Adds the bodies other than `body` whose boxes meet that of `body`, in no particular order; may add some whose
+  /// boxes miss it by less than the rounding of single precision.
   void find(int body, const std::vector<Bounds>& boxes, std::vector<int>& out) const;
 
  private:

@@ -17,9 +17,9 @@ struct Feature {
   Vec3 point = Vec3::Zero();      ///< the vertex, the middle of the edge, a point of the face, the centre of the rim
   Vec3 direction = Vec3::Zero();  ///< unit: along the edge, out of the face, out of the cap that the rim bounds; 0 for
                                   ///< a vertex
-  double radius = 0;  ///< swept radius of a vertex or an edge, m
-  double rim = 0;     ///< radius of the circle of a rim, m
-  int part = 0;       ///< which Part of the solid it belongs to
+  double radius = 0;              ///< swept radius of a vertex or an edge, m
+  double rim = 0;                 ///< radius of the circle of a rim, m
+  int part = 0;                   ///< which Part of the solid it belongs to
 };
 
 /// Rates of a feature by the dimensions of the whole shape. Directions never change with a dimension.
@@ -40,8 +40,8 @@ struct SolidEdge : Feature {
 struct SolidFace : Feature {
   int first = 0, count = 0;  ///< corners[first .. first + count): vertices, counter-clockwise seen from outside; none
                              ///< for a half space or a disc
-  double disc = 0;    ///< radius of a disc about `point`; 0 for a polygon or a half space
-  bool open = false;  ///< a face of an open mesh, which may be struck from both sides
+  double disc = 0;           ///< radius of a disc about `point`; 0 for a polygon or a half space
+  bool open = false;         ///< a face of an open mesh, which may be struck from both sides
 };
 
 /// A convex piece of a solid: what a bound on a separation is taken over. A piece is the set of all points within

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "adjoint/body_model.h"
-#include "tests/support/brute/flight.h"
 #include "tests/random/solid.h"
+#include "tests/support/brute/flight.h"
 
 namespace carom::brute {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "adjoint/scene.h"
-#include "tests/support/brute/flight.h"
 #include "tests/random/solid.h"
+#include "tests/support/brute/flight.h"
 
 namespace carom::brute {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "tests/support/brute/flight.h"
 #include "tests/random/solid.h"
+#include "tests/support/brute/flight.h"
 
 // The pieces of the brute-force check against what is known of them.
 

@@ -14,7 +14,7 @@ using namespace std::string_view_literals;
 constexpr int kLongestFile = 450;
 
 const std::vector<std::string> kFolders = {"adjoint", "ode_bridge", "editing", "formats", "cli",
-                                           "studio",  "examples",   "tests",   "bench",  "fuzz"};
+                                           "studio",  "examples",   "tests",   "bench",   "fuzz"};
 
 // Which folders of the project a library may include; a folder that is not listed may include all.
 const std::map<std::string, std::vector<std::string>> kMayInclude = {

@@ -51,7 +51,8 @@ void giveMass(Body& body, Random& r) {
     body.mass = r.in(0.2, 3);
   else
     body.density = r.in(100, 2000);
-  if (r.below(4) == 0) body.inertia = Inertia::fromMoments({r.in(0.004, 0.006), r.in(0.005, 0.007), r.in(0.006, 0.008)});
+  if (r.below(4) == 0)
+    body.inertia = Inertia::fromMoments({r.in(0.004, 0.006), r.in(0.005, 0.007), r.in(0.006, 0.008)});
 }
 
 Body makeBody(const ShapeMaker& maker, const char* name, const char* material, bool fixed, Random& r) {
@@ -81,7 +82,7 @@ Vec3 startBeside(const Body& fixed, double reach, Random& r, Vec3& direction) {
 
 const std::vector<ShapeMaker>& shapeMakers() {
   static const std::vector<ShapeMaker> rows = {
-      {"sphere", true, makeSphere},   {"box", true, makeBoxShape}, {"plane", false, makePlaneShape},
+      {"sphere", true, makeSphere},   {"box", true, makeBoxShape},      {"plane", false, makePlaneShape},
       {"capsule", true, makeCapsule}, {"cylinder", true, makeCylinder}, {"hull", true, makeHull},
       {"mesh", true, makeMesh},       {"compound", true, makeCompound},
   };
@@ -96,7 +97,7 @@ Mesh bracketMesh(Random& random, double jitter) {
   std::vector<Vec3> vertices;
   for (const double y : {width / 2, -width / 2})
     for (int i = 0; i < 6; ++i) vertices.push_back({x[i] - length / 2, y, z[i] - height / 2});
-  std::vector<std::array<int, 3>> triangles = {{0, 3, 1}, {1, 3, 2}, {0, 5, 3}, {3, 5, 4},
+  std::vector<std::array<int, 3>> triangles = {{0, 3, 1}, {1, 3, 2}, {0, 5, 3},  {3, 5, 4},
                                                {6, 7, 9}, {7, 8, 9}, {6, 9, 11}, {9, 10, 11}};
   for (int i = 0; i < 6; ++i) addQuad(triangles, i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i);
   return meshOf(random, std::move(vertices), triangles, jitter);
@@ -122,7 +123,7 @@ Mesh cupMesh(Random& random, int sides, double jitter) {
       addQuad(triangles, low + i, low + j, high + j, high + i);
     }
   for (int i = 1; i + 1 < sides; ++i) {
-    triangles.push_back({0, i + 1, i});                                     // from below
+    triangles.push_back({0, i + 1, i});                                  // from below
     triangles.push_back({3 * sides, 3 * sides + i, 3 * sides + i + 1});  // the inside's floor
   }
   return meshOf(random, std::move(vertices), triangles, jitter);

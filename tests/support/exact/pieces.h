@@ -122,8 +122,8 @@ template <class T>
 Piece<T> boxPiece(const std::vector<T>& size) {
   Piece<T> piece;
   for (int i = 0; i < 8; ++i)
-    piece.points.push_back({(i & 1 ? 1 : -1) * size[0] / 2, (i & 2 ? 1 : -1) * size[1] / 2,
-                            (i & 4 ? 1 : -1) * size[2] / 2});
+    piece.points.push_back(
+        {(i & 1 ? 1 : -1) * size[0] / 2, (i & 2 ? 1 : -1) * size[1] / 2, (i & 4 ? 1 : -1) * size[2] / 2});
   for (const std::vector<int>& corners : std::vector<std::vector<int>>{
            {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}})
     addFace(piece, corners);

@@ -114,7 +114,8 @@ Touch<T> circleOnLine(const Feature<T>& a, const Feature<T>& line, int side, con
 
 /// Where two circles are locally nearest: their connection is at right angles to both.
 template <class T>
-Touch<T> circleOnCircle(const Feature<T>& a, const Feature<T>& b, int side, const Vec<T>& near_a, const Vec<T>& near_b) {
+Touch<T> circleOnCircle(const Feature<T>& a, const Feature<T>& b, int side, const Vec<T>& near_a,
+                        const Vec<T>& near_b) {
   using std::abs;
   const Circle<T> first(a, near_a), second(b, near_b);
   T s = 0, t = 0;
@@ -135,8 +136,9 @@ Touch<T> circleOnCircle(const Feature<T>& a, const Feature<T>& b, int side, cons
 }
 
 /// Two features that face each other. `side` is the sign of the normal where the features leave it open: which way
-/// curves cross, and from which side a face is met. `near_a`, `near_b`: the nearest points of a and b, roughly (used for
-/// circles only). Their smooth gap; nothing for features that meet in no general way (an edge and a plane, two sharp points).
+/// curves cross, and from which side a face is met. `near_a`, `near_b`: the nearest points of a and b, roughly (used
+/// for circles only). Their smooth gap; nothing for features that meet in no general way (an edge and a plane, two
+/// sharp points).
 template <class T>
 std::optional<Touch<T>> touchOf(const Feature<T>& a, const Feature<T>& b, int side, const Vec<T>& near_a,
                                 const Vec<T>& near_b) {
