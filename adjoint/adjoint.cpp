@@ -45,11 +45,15 @@ class ReversePass {
     const StateDerivative bar = seedPullback((*motion_.models)[b], place.state, seed, model_bar_[b]);
     if (seed.at.event >= 0) {
       Pending& at = pendingAt(seed.at.event);
-      at.before[participantOf(seed.at.event, seed.body)] += bar;
       at.time += seed.time;
-      return;
+      if (motion_.events[static_cast<std::size_t>(seed.at.event)].find(seed.body)) {
+        at.before[participantOf(seed.at.event, seed.body)] += bar;
+        return;
+      }
+      // a body that has no part in the event moves on while the event comes later
+      at.time += bar.dot(motion_.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state));
     }
-    throughFlight(seed.body, place.arc, seed.at.time, tape_.arcUntil(seed.body, place.arc, seed.at.time), bar);
+    throughFlight(seed.body, place.arc, place.time, tape_.arcUntil(seed.body, place.arc, place.time), bar);
   }
 
   // From time t on arc k back to the start of the arc, which is an event or the start of the motion.

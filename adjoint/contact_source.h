@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,12 +43,22 @@ struct ContactJacobian {
   Eigen::Matrix<double, 7, Eigen::Dynamic> size_a, size_b;
 };
 
+/// A direction in which poses and dimensions of two shapes change: rates of (x_a, theta_a, x_b, theta_b), theta a world
+/// rotation vector, and of the dimensions; no dimensions given: they stay.
+struct PairTangent {
+  Eigen::Matrix<double, 12, 1> pose = Eigen::Matrix<double, 12, 1>::Zero();
+  Eigen::VectorXd size_a, size_b;
+};
+
 /// The smooth gap of frozen feature pairs, for the shapes of one scene. Immutable: a Motion keeps it.
 class ContactGeometry {
  public:
   virtual ~ContactGeometry() = default;
   virtual ContactPoint contact(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const = 0;
   virtual ContactJacobian jacobian(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const = 0;
+  /// Second derivatives: the rate of every entry of `jacobian` along each direction.
+  virtual std::vector<ContactJacobian> jacobianRates(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
+                                                     std::span<const PairTangent> directions) const = 0;
   /// Such as "vertex 3 on face +z", in the order a, b.
   virtual std::string describe(int a, int b, const FeaturePair& f) const = 0;
 };
@@ -95,6 +106,10 @@ class ContactSource {
   }
 
   virtual std::shared_ptr<const ContactGeometry> geometry() const = 0;
+
+  /// An independent source of the same kind, for use in another thread once `begin` was called; null where there is
+  /// none.
+  virtual std::unique_ptr<ContactSource> another() const { return nullptr; }
 };
 
 }  // namespace carom

@@ -12,7 +12,8 @@ namespace carom {
 
 class EventLinearization;
 
-/// When a state is read: at a time, or just before an event (then the time itself moves with the causes).
+/// When a state is read: at a time, or just before an event (then the time itself moves with the causes). A body that
+/// takes no part in the event is read at the time of the event.
 struct Instant {
   double time = 0;
   int event = -1;
@@ -22,11 +23,13 @@ struct Instant {
 };
 
 /// One linear functional of the state of a body at an instant, in the terms of BodyState: the weights of position,
-/// orientation (world rotation vector), velocity and angular velocity, and of the time of the event.
+/// orientation (world rotation vector), velocity and angular velocity, and of the time of the event; besides, of the
+/// centre of mass.
 struct StateSeed {
   int body = -1;
   Instant at;
   Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  Vec3 center_of_mass = Vec3::Zero();  ///< weights of the place of the centre of mass
   double time = 0;
 };
 

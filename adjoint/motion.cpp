@@ -81,10 +81,9 @@ BodyState Motion::stateAt(int body, double t) const {
 }
 
 BodyState Motion::stateBefore(int event, int body) const {
-  const Participant* p = events.at(static_cast<std::size_t>(event)).find(body);
-  if (!p)
-    throw InputError("body '" + scene->bodies[static_cast<std::size_t>(body)].name + "' has no part in event " +
-                     std::to_string(event));
+  const Event& e = events.at(static_cast<std::size_t>(event));
+  const Participant* p = e.find(body);
+  if (!p) return stateAt(body, e.time);
   return toBodyState((*models)[static_cast<std::size_t>(body)], p->before);
 }
 

@@ -95,7 +95,7 @@ struct Motion {
   /// State of a body at 0 <= t <= end; at the time of an impact, the state after it. Throws InputError outside.
   BodyState stateAt(const std::string& body, double t) const;
   BodyState stateAt(int body, double t) const;
-  /// State just before event `event`, in which the body takes part.
+  /// State just before event `event`; of a body that takes no part in it, at its time.
   BodyState stateBefore(int event, int body) const;
 
   /// The event that is the n-th impact of a body (1 = first), counting only those with `with` unless that is -1.

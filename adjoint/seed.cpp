@@ -7,7 +7,7 @@ namespace carom {
 StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
                              BodyModelDerivative& model_bar) {
   StateDerivative bar;
-  bar.x = seed.position;
+  bar.x = seed.position + seed.center_of_mass;
   bar.theta = seed.orientation;
   bar.v = seed.velocity;
   if (!model.moving) return bar;
@@ -43,16 +43,24 @@ Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const St
 ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
   const auto b = static_cast<std::size_t>(body);
   if (instant.event >= 0) {
-    const Participant* p = motion.events.at(static_cast<std::size_t>(instant.event)).find(body);
-    if (!p) throw InputError("body '" + motion.scene->bodies[b].name + "' has no part in the impact that is read");
-    return {p->arc, p->before};
+    const Event& event = motion.events.at(static_cast<std::size_t>(instant.event));
+    const Participant* p = event.find(body);
+    return p ? ReadPlace{event.time, p->arc, p->before} : readPlace(motion, body, Instant::at(event.time));
   }
   if (!(instant.time >= 0 && instant.time <= motion.end))
     throw InputError("found the time " + std::to_string(instant.time) + ", expected one in [0, " +
                      std::to_string(motion.end) + "]" +
                      (motion.status == MotionStatus::complete ? "" : "; " + motion.message));
   const int k = motion.arcAt(body, instant.time);
-  return {k, motion.world_lines[b].arcs[static_cast<std::size_t>(k)].stateAt(instant.time)};
+  return {instant.time, k, motion.world_lines[b].arcs[static_cast<std::size_t>(k)].stateAt(instant.time)};
+}
+
+double timeDerivative(const Motion& motion, const StateSeed& seed) {
+  const auto b = static_cast<std::size_t>(seed.body);
+  const ReadPlace place = readPlace(motion, seed.body, seed.at);
+  const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state);
+  BodyModelDerivative unused;
+  return seedPullback((*motion.models)[b], place.state, seed, unused).dot(F) + (seed.at.event >= 0 ? seed.time : 0);
 }
 
 }  // namespace carom

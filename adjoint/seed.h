@@ -16,9 +16,14 @@ Vec3 originTangent(const BodyModel& model, const State& state, const StateDeriva
 Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const StateDerivative& dstate,
                             const BodyModelDerivative& dmodel);
 
-/// Where an instant falls on the world-line of a body: arc, state there. Throws InputError where the motion does not
-/// reach, or where the body has no part in the event.
+/// d(seed . state)/d(instant): the rate at which the reading changes when it is taken later in one and the same motion,
+/// per second. Of an instant at an event: along the flight before it, with the seed's weight of the time itself.
+double timeDerivative(const Motion& motion, const StateSeed& seed);
+
+/// Where an instant falls on the world-line of a body: time, arc, state there; of a body that takes part in the event,
+/// just before it. Throws InputError where the motion does not reach.
 struct ReadPlace {
+  double time = 0;
   int arc = 0;
   State state;
 };

@@ -91,6 +91,8 @@ struct ShapeKind {
   void (*setDimensions)(Shape&, const Eigen::VectorXd&);
   bool (*solid)(const Shape&);  ///< has a volume, so that mass properties can be derived
   SolidProperties (*properties)(const Shape&);
+  /// Rate of every entry of `properties`, its rates included, as the dimensions change at the given rates.
+  SolidProperties (*propertiesRate)(const Shape&, const Eigen::VectorXd& dimension_rates);
   double (*boundingRadius)(const Shape&);  ///< about the shape's origin; infinite for a plane
 };
 

@@ -7,7 +7,7 @@ namespace carom {
 
 double BodyStateRate::dot(const StateSeed& s) const {
   return position.dot(s.position) + orientation.dot(s.orientation) + velocity.dot(s.velocity) +
-         angular_velocity.dot(s.angular_velocity) + time * s.time;
+         angular_velocity.dot(s.angular_velocity) + center_of_mass.dot(s.center_of_mass) + time * s.time;
 }
 
 StateDerivative MotionTangent::stateTangent(int body, int k, double t) const {
@@ -21,15 +21,14 @@ BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
   const auto b = static_cast<std::size_t>(body);
   const ReadPlace place = readPlace(motion, body, instant);
   BodyStateRate rate;
-  const bool at_event = instant.event >= 0;
-  const double t = at_event ? motion.events[static_cast<std::size_t>(instant.event)].time : instant.time;
-  StateDerivative ds = stateTangent(body, place.arc, t);
-  if (at_event) {  // the instant moves along
+  StateDerivative ds = stateTangent(body, place.arc, place.time);
+  if (instant.event >= 0) {  // the instant moves along
     rate.time = eventTime(instant.event);
     ds.addScaled(rate.time, motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state));
   }
   const BodyModel& model = (*motion.models)[b];
   rate.position = originTangent(model, place.state, ds, dmodels_[b]);
+  rate.center_of_mass = ds.x;
   rate.orientation = ds.theta;
   rate.velocity = ds.v;
   rate.angular_velocity = angularVelocityTangent(model, place.state, ds, dmodels_[b]);

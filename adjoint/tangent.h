@@ -11,6 +11,7 @@ namespace carom {
 /// instant itself (0 at a given time).
 struct BodyStateRate {
   Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  Vec3 center_of_mass = Vec3::Zero();
   double time = 0;
 
   double dot(const StateSeed& seed) const;

@@ -1,6 +1,7 @@
 // carom edit: solves the edit of a document.
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -19,11 +20,12 @@ struct Options {
   int iterations = EditOptions{}.max_iterations;
   double seconds = EditOptions{}.time_budget_seconds;
   bool same_sequence = false;
+  int alternatives = 1, threads = 0;
 };
 
-void printChanges(Output& out, const EditResult& result) {
+void printNumbers(Output& out, const std::vector<ChangedNumber>& changed) {
   Table table({"control", ">before", "", ">after", ">change"});
-  for (const ChangedNumber& number : result.changed)
+  for (const ChangedNumber& number : changed)
     table.row({number.name, out.number(number.before), "->", out.number(number.after),
                out.number(number.after - number.before)});
   if (!table.empty()) table.print(out.text());
@@ -43,7 +45,7 @@ void printLines(Output& out, const char* heading, const std::vector<std::string>
 }
 
 void printResult(Output& out, const EditResult& result) {
-  printChanges(out, result);
+  printNumbers(out, result.changed);
   out.text() << '\n';
   printResiduals(out, result);
   out.text() << '\n'
@@ -58,11 +60,47 @@ void printResult(Output& out, const EditResult& result) {
   out.text() << nameOf(result.status) << ": " << result.message << '\n';
 }
 
+void printAlternatives(Output& out, const EditResult& result) {
+  for (std::size_t i = 0; i < result.alternatives.size(); ++i) {
+    const EditAlternative& other = result.alternatives[i];
+    out.text() << "\nSolution " << i + 2 << ": change " << out.number(other.objective)
+               << " (solution 1: " << out.number(result.objective) << "), largest error " << out.number(other.residual)
+               << '\n';
+    printNumbers(out, other.changed);
+    for (const SequenceChange& change : other.sequence_changes) out.text() << "  " << change.sentence << '\n';
+  }
+}
+
+/// OUT.json for the first solution, OUT-2.json, OUT-3.json, ... for the others.
+std::string fileOfSolution(const std::string& output, std::size_t number) {
+  if (number == 1) return output;
+  std::filesystem::path path(output);
+  const std::string name = path.stem().string() + "-" + std::to_string(number) + path.extension().string();
+  return path.replace_filename(name).string();
+}
+
+/// Writes the solutions; the files that were written.
+std::vector<std::string> save(const Document& document, const EditResult& result, const std::string& output) {
+  if (output.empty() || !result.solved()) return {};
+  std::vector<std::string> files;
+  const auto write = [&](const Scene& scene) {
+    Document edited = document;
+    edited.scene = scene;
+    files.push_back(fileOfSolution(output, files.size() + 1));
+    saveDocument(files.back(), edited);
+  };
+  write(result.scene);
+  for (const EditAlternative& other : result.alternatives) write(other.scene);
+  return files;
+}
+
 EditResult solve(Loaded& loaded, const Options& options) {
   Progress progress;
   EditOptions edit_options;
   edit_options.max_iterations = options.iterations;
   edit_options.time_budget_seconds = options.seconds;
+  edit_options.alternatives = options.alternatives;
+  edit_options.threads = options.threads;
   if (options.same_sequence) edit_options.sequence = SequencePolicy::stay;
   edit_options.progress = [&](const EditProgress& at) {
     const Output numbers(false, 3);
@@ -87,17 +125,13 @@ EditResult solve(Loaded& loaded, const Options& options) {
 Exit edit(const Options& options, Output& out) {
   Loaded loaded(options.scene);
   const EditResult result = solve(loaded, options);
-  const std::string output = result.solved() ? options.output : "";
-  if (!output.empty()) {
-    Document edited = loaded.document;
-    edited.scene = result.scene;
-    saveDocument(output, edited);
-  }
+  const std::vector<std::string> files = save(loaded.document, result, options.output);
   if (out.json()) {
-    out.document(editJson(result, output));
+    out.document(editJson(result, files));
   } else {
     printResult(out, result);
-    if (!output.empty()) out.text() << "Written: " << output << '\n';
+    printAlternatives(out, result);
+    for (const std::string& file : files) out.text() << "Written: " << file << '\n';
   }
   if (result.solved()) return Exit::done;
   std::cerr << "carom: " << result.message << '\n';
@@ -114,6 +148,12 @@ Action declare(CLI::App& app) {
       ->type_name("N");
   app.add_option("--seconds", options->seconds, "Give up after so long")->check(positiveNumber())->type_name("T");
   app.add_flag("--same-sequence", options->same_sequence, "Stay within the scene's impact sequence");
+  app.add_option("--alternatives", options->alternatives, "Look for so many different solutions, 1 if not given")
+      ->check(CLI::Range(1, 100))
+      ->type_name("K");
+  app.add_option("--threads", options->threads, "Cores to search on, all if not given; the answer is the same")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   return [options](Output& out) { return edit(*options, out); };
 }
 
@@ -124,13 +164,17 @@ const Command kEditCommand{
     "Prints every control before and after, every constrained number with its error, and the impacts\n"
     "before and after. The result is simulated afresh: its errors are those of the edited scene.\n"
     "OUT.json is written only when all constraints are met, whole or not at all; the input stays as it\n"
-    "is unless -o names it. Ends with 3 and a sentence where the constraints cannot be met.\n"
+    "is unless -o names it. With --alternatives the others go to OUT-2.json, OUT-3.json, ...: each has\n"
+    "other impacts, or else clearly other numbers; the smallest change comes first, but a solution with\n"
+    "the scene's own impacts is always the first one. Ends with 3 and a sentence where the constraints\n"
+    "cannot be met.\n"
     "\n"
     "Examples:\n"
     "  carom edit scene.json\n"
     "  carom edit scene.json -o edited.json && carom export edited.json -o edited.glb\n"
     "  carom edit scene.json --json | jq .changed\n"
-    "  carom edit scene.json --same-sequence --seconds 2",
+    "  carom edit scene.json --same-sequence --seconds 2\n"
+    "  carom edit scene.json --alternatives 3 -o edited.json",
     declare};
 
 }  // namespace carom::cli

@@ -50,6 +50,8 @@ class ControlSet {
 
   /// The scene at the start of the edit: as written, except for what ControlKind::prepare and the bounds changed.
   const Scene& startScene() const { return start_; }
+  /// As written but for what ControlKind::prepare changed: the same controls of this scene start at the same values.
+  const Scene& writtenScene() const { return written_; }
   Eigen::VectorXd startValues() const;
   Scene sceneAt(const Eigen::VectorXd& values) const;
 

@@ -14,9 +14,15 @@ constexpr double kSmallWeight = 1e-7;
 }  // namespace
 
 RowSplit splitRows(const Eigen::MatrixXd& jacobian) {
+  std::vector<int> all(static_cast<std::size_t>(jacobian.rows()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  return splitRows(jacobian, all);
+}
+
+RowSplit splitRows(const Eigen::MatrixXd& jacobian, const std::vector<int>& wanted) {
   RowSplit split;
   std::vector<int> rows;  // that are not zero
-  for (int i = 0; i < jacobian.rows(); ++i) {
+  for (int i : wanted) {
     // Written so that a row with a NaN counts as one that nothing is known about.
     if (!(jacobian.row(i).norm() > kZeroRow)) {
       split.zero.push_back(i);

@@ -27,6 +27,8 @@ inline constexpr double kRankTolerance = 1e-9;
 
 /// Splits the rows of a dimensionless Jacobian by a rank-revealing QR of its transpose, rows brought to unit length.
 RowSplit splitRows(const Eigen::MatrixXd& jacobian);
+/// Looks at some of the rows alone; indices in the result are those of the whole Jacobian.
+RowSplit splitRows(const Eigen::MatrixXd& jacobian, const std::vector<int>& rows);
 
 /// By how much a dependent row is out of reach while the independent ones are at their targets, to first order: its
 /// residual less the same combination of theirs.

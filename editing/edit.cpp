@@ -1,11 +1,9 @@
 #include "editing/edit.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 
-#include "adjoint/errors.h"
 #include "adjoint/simulate.h"
+#include "editing/alternatives.h"
 #include "editing/edit_result.h"
 #include "editing/edit_solution.h"
 
@@ -44,34 +42,9 @@ EditResult Edit::solve(const EditOptions& options) const {
   EditSearch search(problem, options);
   const EditSolution solution = findSolution(search);
   EditResult result = verify(scene_, search, solution);
+  if (result.solved()) result.alternatives = alternativesTo(scene_, search, solution);
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   return result;
-}
-
-Nail& Nail::set(Target target) {
-  for (Edit::Nailed& nailed : edit_->nails_) {
-    if (nailed.id != id_) continue;
-    std::vector<Target>& targets = nailed.constraint.targets;
-    const auto same = std::find_if(targets.begin(), targets.end(), [&](const Target& other) {
-      return other.quantity == target.quantity && other.body_point == target.body_point;
-    });
-    if (same != targets.end()) {
-      *same = std::move(target);
-    } else {
-      targets.push_back(std::move(target));
-    }
-    return *this;
-  }
-  throw InputError("this nail was removed");
-}
-
-Nail& Nail::position(const Vec3& p) { return set({"position", {p.x(), p.y(), p.z()}}); }
-Nail& Nail::orientation(const Quat& q) { return set({"orientation", {q.w(), q.x(), q.y(), q.z()}}); }
-Nail& Nail::velocity(const Vec3& v) { return set({"velocity", {v.x(), v.y(), v.z()}}); }
-Nail& Nail::angularVelocity(const Vec3& w) { return set({"angular_velocity", {w.x(), w.y(), w.z()}}); }
-Nail& Nail::time(double t) { return set({"time", {t}}); }
-Nail& Nail::point(const Vec3& body_point, const Vec3& world) {
-  return set({"point", {world.x(), world.y(), world.z()}, body_point});
 }
 
 const char* nameOf(EditStatus status) {

@@ -11,30 +11,10 @@
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/jacobian.h"
+#include "editing/nail.h"
+#include "editing/sequence_changes.h"
 
 namespace carom {
-
-class Edit;
-
-/// A handle to one constraint of an Edit, which holds until Edit::unnail. Each function nails one more quantity down
-/// (again: replaces its target). A component `any` stays free. Valid as long as its Edit.
-class Nail {
- public:
-  Nail& position(const Vec3& p_W);                         ///< m
-  Nail& orientation(const Quat& q);                        ///< shape to world, unit
-  Nail& velocity(const Vec3& v_W);                         ///< m/s
-  Nail& angularVelocity(const Vec3& w_W);                  ///< rad/s, world axes
-  Nail& time(double t);                                    ///< s, of the impact; only for nails at an impact
-  Nail& point(const Vec3& body_point, const Vec3& world);  ///< a point in shape axes comes to a place in the world
-
- private:
-  friend class Edit;
-  Nail(Edit* edit, int id) : edit_(edit), id_(id) {}
-  Nail& set(Target target);
-
-  Edit* edit_;
-  int id_;
-};
 
 enum class EditStatus {
   solved,                   ///< verified, in the impact sequence of the start
@@ -64,6 +44,8 @@ struct EditOptions {
   double time_budget_seconds = std::numeric_limits<double>::infinity();
   double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
   SequencePolicy sequence = SequencePolicy::prefer_start;
+  int alternatives = 1;  ///< distinct solutions that are looked for, see EditResult::alternatives
+  int threads = 0;       ///< of the search across impact sequences; 0: all cores. The answer does not depend on it
   std::function<bool(const EditProgress&)> progress;  ///< false cancels; must not solve an edit itself
 };
 
@@ -82,6 +64,25 @@ struct HeldNumber {
   std::string component;                    ///< "position.x"
   double value = 0, target = 0, error = 0;  ///< SI; NaN where the motion does not have it
   double scaled_error = 0;                  ///< dimensionless
+  /// Allowed values, SI, infinite on a side that is open; `target` is NaN where they are a range, else equal to both.
+  double lower = 0, upper = 0;
+};
+
+/// When a constraint at some time of a span is met, in the verified motion.
+struct MetTime {
+  int constraint = -1;                ///< index of the Constraint
+  std::string name;                   ///< "'hat' between 1 s and 2 s"
+  double from = 0, to = 0, time = 0;  ///< s
+};
+
+/// Another solution of an edit, simulated afresh like the result itself.
+struct EditAlternative {
+  Scene scene;
+  std::vector<ChangedNumber> changed;
+  double objective = 0;
+  double residual = 0, scaled_residual = 0;
+  std::vector<std::string> sequence;             ///< one line an impact
+  std::vector<SequenceChange> sequence_changes;  ///< from the start's
 };
 
 struct EditResult {
@@ -91,6 +92,7 @@ struct EditResult {
   Motion motion;        ///< of that scene, simulated afresh
   std::vector<ChangedNumber> changed;
   std::vector<HeldNumber> residuals;
+  std::vector<MetTime> times;  ///< one for each constraint `between` two times
   double residual = 0;         ///< largest |error| of that motion, SI (m, m/s, rad, rad/s, s mixed)
   double scaled_residual = 0;  ///< the same, dimensionless: this is compared with EditOptions::tolerance
   double objective = 0;        ///< 1/2 sum (w_i z_i)^2
@@ -98,6 +100,10 @@ struct EditResult {
   double milliseconds = 0;
   std::vector<std::string> sequence_before, sequence_after;  ///< one line an impact
   bool signature_changed = false;  ///< impacts that can matter to the constraints (up to the last one) are others
+  std::vector<SequenceChange> sequence_changes;  ///< which of them came, went, or moved to another feature
+  /// Solutions besides this one, where EditOptions::alternatives asks for several: each of another impact sequence, or
+  /// else clearly of other numbers; the smallest change first.
+  std::vector<EditAlternative> alternatives;
   Reliability reliability;         ///< of the derivatives at the result, worst row
 
   bool solved() const { return status == EditStatus::solved || status == EditStatus::solved_sequence_changed; }

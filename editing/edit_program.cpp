@@ -23,10 +23,20 @@ EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<
     : search_(search),
       start_(std::move(start)),
       rows_(std::move(rows)),
+      equations_(rows_.size()),
       signature_(signature),
       lowest_violation_(kInfinity),
       lowest_at_mark_(kInfinity),
-      objective_at_mark_(kInfinity) {}
+      objective_at_mark_(kInfinity) {
+  const std::vector<int>& ranges = search.problem().constraints.ranges();
+  rows_.insert(rows_.end(), ranges.begin(), ranges.end());
+}
+
+// A range is measured from one of its limits, an equation from its target.
+double EditProgram::anchor(int row) const {
+  const Row& r = search_.problem().constraints.rows()[static_cast<std::size_t>(row)];
+  return std::isfinite(r.lower) ? r.lower : r.upper;
+}
 
 int EditProgram::constraints() const { return static_cast<int>(rows_.size()) + search_.problem().validity.size(); }
 
@@ -34,6 +44,12 @@ NonlinearProgram::Bounds EditProgram::bounds() const {
   const Eigen::Index rows = static_cast<Eigen::Index>(rows_.size());
   Bounds bounds{search_.lower(), search_.upper(), Eigen::VectorXd::Zero(constraints()),
                 Eigen::VectorXd::Zero(constraints())};
+  for (std::size_t k = equations_; k < rows_.size(); ++k) {
+    const Row& row = search_.problem().constraints.rows()[static_cast<std::size_t>(rows_[k])];
+    const auto at = static_cast<Eigen::Index>(k);
+    bounds.g_lower[at] = (row.lower - anchor(rows_[k])) / row.scale;
+    bounds.g_upper[at] = (row.upper - anchor(rows_[k])) / row.scale;
+  }
   bounds.g_lower.tail(constraints() - rows).setConstant(kValidityMargin);
   bounds.g_upper.tail(constraints() - rows).setConstant(kInfinity);
   return bounds;
@@ -45,12 +61,13 @@ EditPointPtr EditProgram::at(const Eigen::VectorXd& x) {
 }
 
 bool EditProgram::objective(const Eigen::VectorXd& x, double& f) {
-  f = 0.5 * x.squaredNorm();
+  f = search_.problem().objective(x);
   return true;
 }
 
 bool EditProgram::gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) {
   df_dx = x;
+  df_dx.tail(search_.problem().times()).setZero();
   return true;
 }
 
@@ -58,7 +75,11 @@ bool EditProgram::constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g)
   const EditPointPtr point = at(x);
   if (!point) return false;
   g.resize(constraints());
-  for (std::size_t k = 0; k < rows_.size(); ++k) g[static_cast<Eigen::Index>(k)] = point->rows.scaled[rows_[k]];
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const double scale = search_.problem().constraints.rows()[static_cast<std::size_t>(rows_[k])].scale;
+    g[static_cast<Eigen::Index>(k)] =
+        k < equations_ ? point->rows.scaled[rows_[k]] : (point->rows.values[rows_[k]] - anchor(rows_[k])) / scale;
+  }
   g.tail(point->validity.size()) = point->validity;
   return true;
 }
@@ -99,6 +120,7 @@ bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::
   if (!jacobian(x, dg_dx)) return false;
   learnCurvature(x, dg_dx);
   h = factor * Eigen::MatrixXd::Identity(x.size(), x.size());
+  h.diagonal().tail(search_.problem().times()).setZero();
   for (std::size_t k = 0; k < curvature_.size(); ++k) {
     h += multipliers[static_cast<Eigen::Index>(k)] * curvature_[k];
   }

@@ -9,14 +9,16 @@
 /// An edit as a nonlinear program. Internal to editing/.
 namespace carom {
 
-/// minimise 1/2 |y|^2 subject to chosen rows = 0, validity >= 0, bounds; y the changes of ControlSet.
+/// minimise 1/2 |y|^2 subject to chosen rows = 0, ranges, validity >= 0, bounds; y the unknowns of EditProblem, of
+/// which the free times cost nothing.
 ///
 /// The objective's second derivative is the identity; those of the rows are learnt from their gradients, row by row, by
 /// Powell's symmetric rank-one-two (PSB) secant update. This costs a fraction of the solver's own limited-memory
 /// approximation. Exact second derivatives would replace `hessian` and nothing else.
 class EditProgram final : public NonlinearProgram {
  public:
-  /// With a signature, points whose motion has another impact sequence are refused.
+  /// `rows` are of those that hold a number. With a signature, points whose motion has another impact sequence are
+  /// refused.
   EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature);
 
   int variables() const override { return static_cast<int>(start_.size()); }
@@ -35,11 +37,13 @@ class EditProgram final : public NonlinearProgram {
 
  private:
   EditPointPtr at(const Eigen::VectorXd& x);
+  double anchor(int row) const;
   void learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd& dg_dx);
 
   EditSearch& search_;
   Eigen::VectorXd start_;
-  std::vector<int> rows_;
+  std::vector<int> rows_;  // equations first, then ranges
+  std::size_t equations_;  // how many
   const std::string* signature_;
   std::vector<Eigen::MatrixXd> curvature_;  // of each constraint
   double lowest_violation_, lowest_at_mark_, objective_at_mark_;

@@ -31,9 +31,19 @@ std::vector<HeldNumber> heldNumbers(const ConstraintSet& constraints, const RowV
   for (int i = 0; i < constraints.size(); ++i) {
     const Row& row = constraints.rows()[i];
     held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.wanted, rows.residuals[i],
-                    rows.scaled[i]});
+                    rows.scaled[i], row.lower, row.upper});
   }
   return held;
+}
+
+std::vector<MetTime> metTimes(const ConstraintSet& constraints, const RowValues& rows) {
+  std::vector<MetTime> times;
+  for (std::size_t k = 0; k < constraints.freeTimes().size(); ++k) {
+    const FreeTime& free = constraints.freeTimes()[k];
+    times.push_back({free.constraint, constraints.describeConstraint(free.constraint), free.from, free.to,
+                     rows.times[static_cast<Eigen::Index>(k)]});
+  }
+  return times;
 }
 
 /// Largest magnitude; NaN if any entry is.
@@ -47,10 +57,10 @@ double largest(const Eigen::VectorXd& values) {
 Reliability reliabilityOf(const Motion& motion, const RowValues& rows) {
   Reliability worst;
   DerivativeTape tape(motion);
-  for (const StateSeed& seed : rows.seeds) {
-    if (seed.body < 0) continue;
+  for (const std::vector<StateSeed>& seeds : rows.seeds) {
+    if (seeds.empty()) continue;
     Reliability one;
-    adjoint(tape, {&seed, 1}, &one);
+    adjoint(tape, seeds, &one);
     worst.events = std::max(worst.events, one.events);
     worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
     if (worst.reliable && !one.reliable) worst.message = one.message;
@@ -59,17 +69,35 @@ Reliability reliabilityOf(const Motion& motion, const RowValues& rows) {
   return worst;
 }
 
-/// The impacts that count, of the scene as written. The start of the search is that, unless its bounds moved it.
-std::string signatureBefore(const Scene& written, const EditProblem& problem, const EditSolution& solution) {
-  if (!problem.controls.startMoved()) return solution.start->signature;
+/// How the impacts that count differ from those of the scene as written. The start of the search is that, unless its
+/// bounds moved it.
+std::vector<SequenceChange> sequenceChangesOf(const Scene& written, const EditProblem& problem,
+                                              const EditSolution& solution) {
+  const EditPoint &start = *solution.start, &end = *solution.point;
+  const auto counted = [&](const Motion& motion, const Eigen::VectorXd& times) {
+    return problem.constraints.extentIn(motion, times).events;
+  };
+  const std::size_t after = counted(end.motion, end.rows.times);
+  if (!problem.controls.startMoved())
+    return sequenceChanges(start.motion, counted(start.motion, start.rows.times), end.motion, after);
   const Motion motion = simulate(written, *problem.contacts, problem.horizon);
-  return motion.signature(problem.constraints.extentIn(motion).events);
+  return sequenceChanges(motion, counted(motion, {}), end.motion, after);
+}
+
+/// The first few of them, in sentences.
+std::string sentencesOf(const std::vector<SequenceChange>& changes) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, changes.size()); ++i) text += " " + changes[i].sentence;
+  if (changes.size() > kMost) text += " (" + std::to_string(changes.size() - kMost) + " more differences.)";
+  return text;
 }
 
 /// Fills in everything that is read from the motion of result.scene.
-void readMotion(const EditProblem& problem, EditResult& result) {
-  const RowValues rows = problem.constraints.evaluate(result.motion);
+void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditResult& result) {
+  const RowValues rows = problem.constraints.evaluate(result.motion, times);
   result.residuals = heldNumbers(problem.constraints, rows);
+  result.times = metTimes(problem.constraints, rows);
   result.residual = largest(rows.residuals);
   result.scaled_residual = largest(rows.scaled);
   result.sequence_after = describeEvents(result.motion);
@@ -92,7 +120,7 @@ void conclude(const EditOptions& options, const EditSolution& solution, EditResu
                              : "All constraints are met, the largest error is " + number(result.residual) + ".";
   if (result.signature_changed) {
     result.status = EditStatus::solved_sequence_changed;
-    result.message += " The impacts on the way are others than before.";
+    result.message += " The impacts on the way are others than before." + sentencesOf(result.sequence_changes);
   }
   if (!result.reliability.reliable) result.message += " " + result.reliability.message;
 }
@@ -108,12 +136,13 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   result.changed = changesOf(problem.controls, point.values);
   result.objective = point.objective;
   result.iterations = search.iterations();
-  result.signature_changed = point.signature != signatureBefore(written, problem, solution);
+  result.sequence_changes = sequenceChangesOf(written, problem, solution);
+  result.signature_changed = !result.sequence_changes.empty();
 
   result.motion = simulate(result.scene, *problem.contacts, problem.duration);
   result.sequence_before = untouched ? describeEvents(result.motion)
                                      : describeEvents(simulate(written, *problem.contacts, problem.duration));
-  readMotion(problem, result);
+  readMotion(problem, problem.timesOf(point.changes), result);
   conclude(search.options(), solution, result);
   for (const std::string& note : problem.controls.notes()) result.message += " " + note;
   return result;

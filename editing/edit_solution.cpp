@@ -7,6 +7,7 @@
 #include "editing/edit_program.h"
 #include "editing/ipopt_solver.h"
 #include "editing/row_choice.h"
+#include "editing/sequence_search.h"
 #include "editing/text.h"
 
 namespace carom {
@@ -36,7 +37,7 @@ std::string unmetRows(const EditSearch& search, const EditPoint& point) {
 bool isStuck(EditSearch& search, EditPoint& point) {
   search.differentiate(point);
   const double before = point.rows.scaled.norm();
-  const double after = (point.rows.scaled + *point.row_jacobian * smallestStep(search, point)).norm();
+  const double after = residualsAfter(search, point, smallestStep(search, point)).norm();
   return !(after < 0.5 * before);
 }
 
@@ -83,26 +84,45 @@ EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const 
   return worse ? start : end;
 }
 
+EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+                            int max_iterations) {
+  EditSearch smooth = search.branch({nullptr, from}, false);
+  const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
+  search.adopt(smooth);
+  return search.evaluate(end->changes);
+}
+
+EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {
+  search.differentiate(*point);
+  const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
+  return minimiseChange(search, point, split.independent, &point->signature,
+                        std::min(max_iterations, search.iterationsLeft()));
+}
+
 namespace {
 
-/// Straight onto the constraints from the start and from the best point, whatever impacts that takes; then the smallest
-/// change within the sequence where the better of the two ended.
-void crossSequences(EditSearch& search, const EditPointPtr& start) {
-  EditPointPtr nearest;
-  for (const EditPointPtr& from : {start, search.best()}) {
-    const EditPointPtr point = projectOntoConstraints(search, from, kCrossingSteps);
-    if (search.reached(*point) && (!nearest || point->objective < nearest->objective)) nearest = point;
+/// The smallest change within the impact sequence of the start.
+void solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start, int iterations) {
+  static const char* e = getenv("CAROM_EXP");
+  const std::string x = e ? e : "";
+  if (x.find('f') != std::string::npos) {
+    const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations);
+    if (search.reached() || !search.goesOn()) return;
   }
-  if (nearest) minimiseWithin(search, nearest);
+  if (x.find('n') != std::string::npos) return;
+  minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
+}
+
+/// Solutions of other impact sequences, until there is one, or as many as are asked for.
+std::vector<EditPointPtr> solveAcross(EditSearch& search, const EditPointPtr& start) {
+  SequenceSearch across(search, start);
+  const auto wanted = static_cast<std::size_t>(std::max(1, search.options().alternatives));
+  if (search.reached()) across.add(search.best());
+  while (across.solutions().size() < wanted && across.round()) continue;
+  return across.solutions();
 }
 
 }  // namespace
-
-EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point) {
-  search.differentiate(*point);
-  const RowSplit split = splitRows(*point->row_jacobian);
-  return minimiseChange(search, point, split.independent, &point->signature, search.iterationsLeft());
-}
 
 EditSolution findSolution(EditSearch& search) {
   EditSolution solution;
@@ -125,11 +145,9 @@ EditSolution findSolution(EditSearch& search) {
 
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
   const int share = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
-  const auto goesOn = [&] { return may_leave && !search.reached() && search.goesOn(); };
-  minimiseChange(search, choice.from, choice.rows, &start->signature, share);
-  if (goesOn()) crossSequences(search, start);
-  if (goesOn()) minimiseChange(search, search.best(), choice.rows, nullptr, search.iterationsLeft() / 2);
-  if (goesOn()) searchElsewhere(search);
+  solveInSequence(search, choice, start, share);
+  if (may_leave && (!search.reached() || search.options().alternatives > 1))
+    solution.others = solveAcross(search, start);
 
   solution.point = search.halt() == Halt::none ? polished(search) : search.best();
   if (!search.reached(*solution.point)) return unsolved(search, std::move(solution));

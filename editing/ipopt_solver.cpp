@@ -30,15 +30,18 @@ bool expired(const SolverOptions& options) {
 class Adapter final : public Ipopt::TNLP {
  public:
   Adapter(NonlinearProgram& program, const SolverOptions& options, SolverResult& result)
-      : program_(program), options_(options), result_(result), n_(program.variables()), m_(program.constraints()) {}
+      : program_(program), options_(options), result_(result), n_(program.variables()), m_(program.constraints()),
+        jacobian_places_(program.jacobianPlaces()) {
+    if (program.hasHessian()) hessian_places_ = program.hessianPlaces();
+  }
 
   bool outOfTime() const { return out_of_time_; }
   std::exception_ptr thrown() const { return thrown_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag, IndexStyleEnum& index_style) override {
     n = n_, m = m_;
-    nnz_jac_g = n_ * m_;
-    nnz_h_lag = n_ * (n_ + 1) / 2;
+    nnz_jac_g = static_cast<Index>(jacobian_places_.size());
+    nnz_h_lag = static_cast<Index>(hessian_places_.size());
     index_style = C_STYLE;
     return true;
   }
@@ -78,35 +81,23 @@ class Adapter final : public Ipopt::TNLP {
     });
   }
 
-  bool eval_jac_g(Index, const Number* x, bool, Index, Index, Index* rows, Index* columns, Number* values) override {
-    if (!values) {
-      for (Index i = 0, k = 0; i < m_; ++i) {
-        for (Index j = 0; j < n_; ++j, ++k) rows[k] = i, columns[k] = j;
-      }
-      return true;
-    }
+  bool eval_jac_g(Index, const Number* x, bool, Index, Index entries, Index* rows, Index* columns,
+                  Number* values) override {
+    if (!values) return copyPlaces(jacobian_places_, rows, columns);
     return evaluate([&] {
-      if (!program_.jacobian(point(x), matrix_) || !matrix_.allFinite()) return false;
-      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      Eigen::Map<RowMajor>(values, m_, n_) = matrix_;
+      if (!program_.jacobianEntries(point(x), vector_) || !vector_.allFinite()) return false;
+      Eigen::Map<Eigen::VectorXd>(values, entries) = vector_;
       return true;
     });
   }
 
-  bool eval_h(Index, const Number* x, bool, Number factor, Index, const Number* lambda, bool, Index, Index* rows,
-              Index* columns, Number* values) override {
-    if (!values) {
-      for (Index i = 0, k = 0; i < n_; ++i) {
-        for (Index j = 0; j <= i; ++j, ++k) rows[k] = i, columns[k] = j;
-      }
-      return true;
-    }
+  bool eval_h(Index, const Number* x, bool, Number factor, Index, const Number* lambda, bool, Index entries,
+              Index* rows, Index* columns, Number* values) override {
+    if (!values) return copyPlaces(hessian_places_, rows, columns);
     return evaluate([&] {
       const Eigen::VectorXd multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m_);
-      if (!program_.hessian(point(x), factor, multipliers, matrix_) || !matrix_.allFinite()) return false;
-      for (Index i = 0, k = 0; i < n_; ++i) {
-        for (Index j = 0; j <= i; ++j, ++k) values[k] = matrix_(i, j);
-      }
+      if (!program_.hessianEntries(point(x), factor, multipliers, vector_) || !vector_.allFinite()) return false;
+      Eigen::Map<Eigen::VectorXd>(values, entries) = vector_;
       return true;
     });
   }
@@ -141,6 +132,11 @@ class Adapter final : public Ipopt::TNLP {
     for (Eigen::Index i = 0; i < from.size(); ++i) to[i] = std::clamp(from[i], -kIpoptInfinity, kIpoptInfinity);
   }
 
+  static bool copyPlaces(const std::vector<NonlinearProgram::Place>& places, Index* rows, Index* columns) {
+    for (const NonlinearProgram::Place& place : places) *rows++ = place.row, *columns++ = place.column;
+    return true;
+  }
+
   /// Ipopt takes a refused point calmly, an exception not: it ends the whole solve.
   template <class Evaluation>
   bool evaluate(Evaluation evaluation) {
@@ -159,8 +155,8 @@ class Adapter final : public Ipopt::TNLP {
   const SolverOptions& options_;
   SolverResult& result_;
   Index n_, m_;
+  std::vector<NonlinearProgram::Place> jacobian_places_, hessian_places_;
   Eigen::VectorXd vector_;
-  Eigen::MatrixXd matrix_;
   bool out_of_time_ = false;
   std::exception_ptr thrown_;
 };

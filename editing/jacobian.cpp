@@ -1,10 +1,12 @@
 #include "editing/jacobian.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "adjoint/adjoint.h"
 #include "adjoint/errors.h"
+#include "adjoint/seed.h"
 #include "adjoint/tangent.h"
 #include "editing/control_families.h"
 #include "editing/text.h"
@@ -46,16 +48,75 @@ EditProblem::EditProblem(const Scene& scene, ContactSource& contact_source, doub
                          const std::vector<Control>& varied, const std::vector<Constraint>& held)
     : contacts(&contact_source),
       controls(checkedScene(scene), varied),
-      constraints(controls.startScene(), held),
+      constraints(controls.startScene(), held, checkedDuration(length)),
       validity(controls),
       duration(checkedDuration(length)),
       horizon(constraints.horizon(duration)),
       asked(askedOf(controls, constraints)) {}
 
-Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until) {
+Eigen::VectorXd EditProblem::valuesOf(const Eigen::VectorXd& unknowns) const {
+  return controls.valuesOf(unknowns.head(controls.size()));
+}
+
+Eigen::VectorXd EditProblem::timesOf(const Eigen::VectorXd& unknowns) const {
+  Eigen::VectorXd t(times());
+  for (int k = 0; k < times(); ++k) {
+    const FreeTime& free = constraints.freeTimes()[k];
+    t[k] = std::clamp(free.from + free.scale * unknowns[controls.size() + k], free.from, free.to);
+  }
+  return t;
+}
+
+Eigen::VectorXd EditProblem::unknownTimes(const Eigen::VectorXd& t) const {
+  Eigen::VectorXd y(times());
+  for (int k = 0; k < times(); ++k) {
+    const FreeTime& free = constraints.freeTimes()[k];
+    y[k] = (t[k] - free.from) / free.scale;
+  }
+  return y;
+}
+
+Eigen::VectorXd EditProblem::rates(const Eigen::VectorXd& unknowns) const {
+  Eigen::VectorXd d(this->unknowns());
+  d.head(controls.size()) = controls.valueRates(unknowns.head(controls.size()));
+  for (int k = 0; k < times(); ++k) d[controls.size() + k] = constraints.freeTimes()[k].scale;
+  return d;
+}
+
+Eigen::VectorXd EditProblem::lower() const {
+  Eigen::VectorXd bounds(unknowns());
+  bounds << controls.lowerChanges(), Eigen::VectorXd::Zero(times());
+  return bounds;
+}
+
+Eigen::VectorXd EditProblem::upper() const {
+  Eigen::VectorXd ends(times());
+  for (int k = 0; k < times(); ++k) ends[k] = constraints.freeTimes()[k].to;
+  Eigen::VectorXd bounds(unknowns());
+  bounds << controls.upperChanges(), unknownTimes(ends);
+  return bounds;
+}
+
+double EditProblem::objective(const Eigen::VectorXd& unknowns) const {
+  return 0.5 * unknowns.head(controls.size()).squaredNorm();
+}
+
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, ContactSource* contacts) {
   SimulateOptions options;
   options.asked = problem.asked;
-  return simulate(problem.controls.sceneAt(values), *problem.contacts, until, options);
+  return simulate(problem.controls.sceneAt(values), contacts ? *contacts : *problem.contacts, until, options);
+}
+
+Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
+                ContactSource* contacts) {
+  const Scene scene = problem.controls.sceneAt(values);
+  const std::vector<BoundControl>& controls = problem.controls.controls();
+  const bool resized = std::any_of(controls.begin(), controls.end(),
+                                   [](const BoundControl& c) { return c.kind == &kSizeControl; });
+  if (!resized) return replay(like, scene, like.geometry, until);
+  ContactSource& source = contacts ? *contacts : *problem.contacts;
+  source.begin(scene);
+  return replay(like, scene, source.geometry(), until);
 }
 
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
@@ -64,9 +125,8 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
   if (reliability) reliability->assign(static_cast<std::size_t>(J.rows()), {});
   DerivativeTape tape(motion);
   for (Eigen::Index i = 0; i < J.rows(); ++i) {
-    const StateSeed& seed = rows.seeds[i];
-    if (seed.body < 0) continue;
-    const SceneGradient gradient = adjoint(tape, {&seed, 1}, reliability ? &(*reliability)[i] : nullptr);
+    if (rows.seeds[i].empty()) continue;
+    const SceneGradient gradient = adjoint(tape, rows.seeds[i], reliability ? &(*reliability)[i] : nullptr);
     J.row(i) = problem.controls.gather(gradient, values).transpose();
   }
   return J;
@@ -80,8 +140,21 @@ Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::Vecto
     const SceneTangent direction = problem.controls.scatter(Eigen::VectorXd::Unit(J.cols(), j), values);
     const MotionTangent moved = tangent(tape, direction);
     for (Eigen::Index i = 0; i < J.rows(); ++i) {
-      const StateSeed& seed = rows.seeds[i];
-      if (seed.body >= 0) J(i, j) = moved.at(seed.body, seed.at).dot(seed);
+      if (rows.seeds[i].empty()) continue;
+      J(i, j) = 0;
+      for (const StateSeed& seed : rows.seeds[i]) J(i, j) += moved.at(seed.body, seed.at).dot(seed);
+    }
+  }
+  return J;
+}
+
+Eigen::MatrixXd jacobianByTimes(const EditProblem& problem, const Motion& motion, const RowValues& rows) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(problem.constraints.size(), problem.times());
+  for (int k = 0; k < problem.times(); ++k) {
+    for (int i = 0; i < problem.constraints.size(); ++i) {
+      const Row& row = problem.constraints.rows()[i];
+      if (row.constraint != problem.constraints.freeTimes()[k].constraint || row.region >= 0) continue;
+      for (const StateSeed& seed : rows.seeds[i]) J(i, k) += timeDerivative(motion, seed);
     }
   }
   return J;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "adjoint/replay.h"
 #include "adjoint/simulate.h"
 #include "editing/constraint_rows.h"
 #include "editing/control_set.h"
@@ -21,6 +22,19 @@ struct EditProblem {
   ControlSet controls;
   ConstraintSet constraints;
   ValidityRows validity;
+  /// The unknowns of the edit: the changes of the controls, then the free times, t = from + y (scale).
+  int unknowns() const { return controls.size() + times(); }
+  int times() const { return static_cast<int>(constraints.freeTimes().size()); }
+  Eigen::VectorXd valuesOf(const Eigen::VectorXd& unknowns) const;  ///< of the controls
+  Eigen::VectorXd timesOf(const Eigen::VectorXd& unknowns) const;   ///< s
+  Eigen::VectorXd unknownTimes(const Eigen::VectorXd& times) const;
+  /// d(values, times)/d(unknowns), a diagonal.
+  Eigen::VectorXd rates(const Eigen::VectorXd& unknowns) const;
+  Eigen::VectorXd lower() const;
+  Eigen::VectorXd upper() const;
+  /// 1/2 |changes of the controls|^2: the free times cost nothing.
+  double objective(const Eigen::VectorXd& unknowns) const;
+
   double duration;           ///< s, of the motion
   double horizon;            ///< s; nothing after it counts for the constraints
   std::vector<Asked> asked;  ///< as little as the rows and their derivatives need
@@ -35,7 +49,12 @@ struct RowsAndJacobian {
 };
 
 /// Simulates up to a time, with no more detail than the problem asks for.
-Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until);
+/// By another source than the problem's, if one is given: the problem's is for one thread at a time.
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until,
+                  ContactSource* contacts = nullptr);
+/// The same along the impact sequence of another motion of the problem, see adjoint/replay.h.
+Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
+                ContactSource* contacts = nullptr);
 
 /// d(rows)/d(values) of a motion simulated at `values`: one reverse pass a row, whatever the number of controls.
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
@@ -43,6 +62,9 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
 /// The same by one forward pass a control.
 Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
                                   const RowValues& rows);
+
+/// d(rows)/d(free times): size() x times(), SI.
+Eigen::MatrixXd jacobianByTimes(const EditProblem& problem, const Motion& motion, const RowValues& rows);
 
 RowsAndJacobian evaluateByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values);
 RowsAndJacobian evaluateByTangent(const EditProblem& problem, const Eigen::VectorXd& values);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace carom {
@@ -29,17 +31,25 @@ class NonlinearProgram {
   virtual bool objective(const Eigen::VectorXd& x, double& f) = 0;
   virtual bool gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) = 0;
   virtual bool constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g) = 0;
-  /// dg_dx is constraints() x variables(), dense.
-  virtual bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) = 0;
+  /// dg_dx is constraints() x variables(), dense. A program gives this, or else the entries below.
+  virtual bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx);
 
   /// Second derivatives of factor * f + multipliers . g, a full symmetric matrix. Where hasHessian() is false the
   /// solver approximates them from gradients.
   virtual bool hasHessian() const { return false; }
   virtual bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                       Eigen::MatrixXd& h) {
-    static_cast<void>(x), static_cast<void>(factor), static_cast<void>(multipliers), static_cast<void>(h);
-    return false;
-  }
+                       Eigen::MatrixXd& h);
+
+  /// The same for sparse programs: the entries that may differ from zero. Several entries of one place add up. Of
+  /// symmetric matrices the lower triangle alone. Without an override every place has an entry.
+  struct Place {
+    int row = 0, column = 0;
+  };
+  virtual std::vector<Place> jacobianPlaces() const;
+  virtual bool jacobianEntries(const Eigen::VectorXd& x, Eigen::VectorXd& entries);
+  virtual std::vector<Place> hessianPlaces() const;
+  virtual bool hessianEntries(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                              Eigen::VectorXd& entries);
 
   /// Called after each iteration; false stops the solver.
   virtual bool iteration(const Iteration&) { return true; }

@@ -66,7 +66,8 @@ std::string explainContradictions(const EditSearch& search, const EditPoint& sta
 RowChoice chooseRows(EditSearch& search, const EditPointPtr& start) {
   search.differentiate(*start);
   const Eigen::MatrixXd& J = *start->row_jacobian;
-  const RowSplit split = splitRows(J);
+  const std::vector<int>& equations = search.problem().constraints.equations();
+  const RowSplit split = splitRows(J, equations);
   RowChoice choice{split.independent, start, ""};
   if (split.zero.empty() && split.dependent.empty()) return choice;
 
@@ -77,10 +78,10 @@ RowChoice chooseRows(EditSearch& search, const EditPointPtr& start) {
     const Eigen::MatrixXd& beside = *point->row_jacobian;
     all.conservativeResize(Eigen::NoChange, all.cols() + beside.cols());
     all.rightCols(beside.cols()) = beside;
-    const RowSplit split_beside = splitRows(beside);
+    const RowSplit split_beside = splitRows(beside, equations);
     if (split_beside.independent.size() > choice.rows.size()) choice = {split_beside.independent, point, ""};
   }
-  choice.contradiction = explainContradictions(search, *start, splitRows(all));
+  choice.contradiction = explainContradictions(search, *start, splitRows(all, equations));
   return choice;
 }
 

@@ -10,7 +10,8 @@ namespace carom {
 
 /// Rows that say the same as others would stop the solver, and rows that nothing influences cannot be met.
 struct RowChoice {
-  std::vector<int> rows;      ///< independent: for the solver; the others are left to verification
+  std::vector<int> rows;      ///< independent, of those that hold a number: for the solver; the others are left to
+                              ///< verification
   EditPointPtr from;          ///< where they are independent: the start, or a point beside it
   std::string contradiction;  ///< not empty: these constraints cannot be met together; sentences that name them
 };

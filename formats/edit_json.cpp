@@ -43,9 +43,47 @@ void writeLines(JsonWriter& out, const char* name, const std::vector<std::string
   out.endArray();
 }
 
+void writeSequenceChanges(JsonWriter& out, const std::vector<SequenceChange>& changes) {
+  const auto event = [&](int index) { index < 0 ? out.null() : out.integer(index); };
+  out.key("sequence_changes").beginArray();
+  for (const SequenceChange& change : changes) {
+    out.beginObject(Layout::line);
+    out.key("kind").text(nameOf(change.kind));
+    out.key("before");
+    event(change.before);
+    out.key("after");
+    event(change.after);
+    out.key("sentence").text(change.sentence);
+    out.endObject();
+  }
+  out.endArray();
+}
+
+void writeOutput(JsonWriter& out, const std::vector<std::string>& outputs, std::size_t index) {
+  out.key("output");
+  index < outputs.size() && !outputs[index].empty() ? out.text(outputs[index]) : out.null();
+}
+
+void writeAlternatives(JsonWriter& out, const EditResult& result, const std::vector<std::string>& outputs) {
+  out.key("alternatives").beginArray();
+  for (std::size_t i = 0; i < result.alternatives.size(); ++i) {
+    const EditAlternative& other = result.alternatives[i];
+    out.beginObject();
+    out.key("objective").number(other.objective);
+    out.key("residual").number(other.residual);
+    out.key("scaled_residual").number(other.scaled_residual);
+    writeChanged(out, other.changed);
+    writeLines(out, "sequence", other.sequence);
+    writeSequenceChanges(out, other.sequence_changes);
+    writeOutput(out, outputs, i + 1);
+    out.endObject();
+  }
+  out.endArray();
+}
+
 }  // namespace
 
-std::string editJson(const EditResult& result, const std::string& output) {
+std::string editJson(const EditResult& result, const std::vector<std::string>& outputs) {
   JsonWriter out;
   out.beginObject();
   out.key("status").text(nameOf(result.status));
@@ -60,9 +98,10 @@ std::string editJson(const EditResult& result, const std::string& output) {
   writeLines(out, "sequence_before", result.sequence_before);
   writeLines(out, "sequence_after", result.sequence_after);
   out.key("signature_changed").boolean(result.signature_changed);
+  writeSequenceChanges(out, result.sequence_changes);
   out.key("reliable").boolean(result.reliability.reliable);
-  out.key("output");
-  output.empty() ? out.null() : out.text(output);
+  writeOutput(out, outputs, 0);
+  writeAlternatives(out, result, outputs);
   out.endObject();
   return out.take();
 }

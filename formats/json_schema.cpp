@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstring>
 #include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -11,12 +12,42 @@
 
 namespace carom::detail {
 
-extern const char* const kSceneSchema;  // made from scene.schema.json
+extern const char* const kSceneSchema;    // made from scene.schema.json
+extern const char* const kJournalSchema;  // made from journal.schema.json
 
 namespace {
 
-struct SceneSchema {
-  SceneSchema() : tree(Json::parse(kSceneSchema)) {
+constexpr const char* kSceneFile = "scene.schema.json";
+
+/// Journals refer to the definitions of scene documents: they become their own, and the scene document one more.
+void pointInside(Json& node) {
+  if (node.is_array())
+    for (Json& item : node) pointInside(item);
+  if (!node.is_object()) return;
+  for (auto& member : node.items()) {
+    if (member.key() != "$ref") {
+      pointInside(member.value());
+      continue;
+    }
+    const auto target = member.value().get<std::string>();
+    if (target == kSceneFile) member.value() = "#/definitions/scene_document";
+    if (target.starts_with(std::string(kSceneFile) + "#")) member.value() = target.substr(std::strlen(kSceneFile));
+  }
+}
+
+Json withScene(Json journal) {
+  Json scene = Json::parse(kSceneSchema);
+  pointInside(journal);
+  for (const auto& definition : scene["definitions"].items())
+    journal["definitions"][definition.key()] = definition.value();
+  scene.erase("definitions");
+  scene.erase("$schema");
+  journal["definitions"]["scene_document"] = std::move(scene);
+  return journal;
+}
+
+struct Schema {
+  explicit Schema(Json rules) : tree(std::move(rules)) {
     const nlohmann::json plain = tree;
     valijson::SchemaParser(valijson::SchemaParser::kDraft7)
         .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), checker);
@@ -26,9 +57,11 @@ struct SceneSchema {
   valijson::Schema checker;  // for whether and where the document breaks it
 };
 
-const SceneSchema& sceneSchema() {
-  static const SceneSchema schema;
-  return schema;
+const Schema& schemaOf(DocumentKind kind) {
+  static const Schema scene(Json::parse(kSceneSchema));
+  if (kind == DocumentKind::scene) return scene;
+  static const Schema journal(withScene(Json::parse(kJournalSchema)));
+  return journal;
 }
 
 const Json* memberOf(const Json* object, const char* name) {
@@ -38,9 +71,9 @@ const Json* memberOf(const Json* object, const char* name) {
 }
 
 /// The definition that a node refers to.
-const Json* resolved(const Json* node) {
+const Json* resolved(const Json* node, const Json& tree) {
   while (const Json* reference = memberOf(node, "$ref"))
-    node = &sceneSchema().tree.at(Json::json_pointer(reference->get<std::string>().substr(1)));
+    node = &tree.at(Json::json_pointer(reference->get<std::string>().substr(1)));
   return node;
 }
 
@@ -51,11 +84,11 @@ bool typeMatches(const Json* node, const Json& value) {
 }
 
 /// The definition that says what is inside `value`: of alternatives the one of its type.
-const Json* alternativeFor(const Json* node, const Json& value) {
-  node = resolved(node);
+const Json* alternativeFor(const Json* node, const Json& value, const Json& tree) {
+  node = resolved(node, tree);
   if (const Json* alternatives = memberOf(node, "anyOf"))
     for (const Json& alternative : *alternatives)
-      if (const Json* candidate = resolved(&alternative); typeMatches(candidate, value)) return candidate;
+      if (const Json* candidate = resolved(&alternative, tree); typeMatches(candidate, value)) return candidate;
   return node;
 }
 
@@ -64,24 +97,25 @@ struct Place {
   const Json* value;
   const Json* node;
   std::string pointer;
+  const Json* tree;  // the whole schema
 };
 
 /// One step of a path as valijson writes it: "[name]" or "[2]".
 bool step(Place& place, const std::string& context) {
   const std::string token = context.substr(1, context.size() - 2);
-  const Json* node = alternativeFor(place.node, *place.value);
+  const Json* node = alternativeFor(place.node, *place.value, *place.tree);
   if (place.value->is_object()) {
     const auto member = place.value->find(token);
     if (member == place.value->end()) return false;
     const Json* known = memberOf(memberOf(node, "properties"), token.c_str());
     place = {&*member, known != nullptr ? known : memberOf(node, "additionalProperties"),
-             pointerTo(place.pointer, token)};
+             pointerTo(place.pointer, token), place.tree};
     return true;
   }
   if (!place.value->is_array()) return false;
   const auto index = static_cast<std::size_t>(std::stoul(token));
   if (index >= place.value->size()) return false;
-  place = {&(*place.value)[index], memberOf(node, "items"), pointerTo(place.pointer, index)};
+  place = {&(*place.value)[index], memberOf(node, "items"), pointerTo(place.pointer, index), place.tree};
   return true;
 }
 
@@ -92,13 +126,6 @@ std::vector<std::string> keysOf(const Json* object) {
   return keys;
 }
 
-bool lists(const Json* words, const std::string& word) {
-  if (words != nullptr)
-    for (const Json& listed : *words)
-      if (listed == word) return true;
-  return false;
-}
-
 [[noreturn]] void failUnknown(const Place& place, const std::string& member, const Json* node) {
   const std::vector<std::string> known = keysOf(memberOf(node, "properties"));
   const std::string nearest = nearestWord(member, known);
@@ -107,33 +134,29 @@ bool lists(const Json* words, const std::string& word) {
 }
 
 /// What `value` must be, in the words of the schema.
-std::string expected(const Json* node, const Json& value) {
-  const Json* named = resolved(node);
+std::string expected(const Json* node, const Json& value, const Json& tree) {
+  const Json* named = resolved(node, tree);
   const Json* title = memberOf(named, "title");
   if (title == nullptr) {
-    named = alternativeFor(node, value);
+    named = alternativeFor(node, value, tree);
     title = memberOf(named, "title");
   }
-  const std::string text = title != nullptr ? title->get<std::string>() : "what scene.schema.json says";
+  const std::string text = title != nullptr ? title->get<std::string>() : "what the schema says";
   constexpr double kLargest = 1e9;
   const bool large = value.is_number() && !(std::abs(value.get<double>()) <= kLargest);
   return large ? text + " of magnitude at most 1e9" : text;
 }
 
+[[noreturn]] void failMissing(const Place& place, const Json& name, const std::string& beside, const Json* properties) {
+  fail(place.pointer, "no member " + name.dump() + beside,
+       name.dump() + ": " + expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json(), *place.tree));
+}
+
 /// Throws what is wrong at a place that the schema refuses.
 [[noreturn]] void explain(const Place& place) {
   const Json& value = *place.value;
-  const Json* node = alternativeFor(place.node, value);
+  const Json* node = alternativeFor(place.node, value, *place.tree);
   if (value.is_object()) {
-    const Json* later = memberOf(node, "x-later");
-    for (const auto& member : value.items())
-      if (lists(later, member.key())) {
-        const bool range = memberOf(node, "properties") == nullptr;
-        const std::string what = range ? "a range {\"min\", \"max\"}" : member.key();
-        fail(range ? place.pointer : pointerTo(place.pointer, member.key()),
-             what + ", which is part of the format but not supported by this version",
-             range ? expected(place.node, value) : "one of " + listed(keysOf(memberOf(node, "properties"))));
-      }
     const Json* properties = memberOf(node, "properties");
     const Json* others = memberOf(node, "additionalProperties");
     if (others != nullptr && others->is_boolean())
@@ -141,20 +164,24 @@ std::string expected(const Json* node, const Json& value) {
         if (memberOf(properties, member.key().c_str()) == nullptr) failUnknown(place, member.key(), node);
     if (const Json* required = memberOf(node, "required"))
       for (const Json& name : *required)
-        if (!value.contains(name.get<std::string>()))
-          fail(place.pointer, "no member " + name.dump(),
-               name.dump() + ": " + expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json()));
+        if (!value.contains(name.get<std::string>())) failMissing(place, name, "", properties);
+    if (const Json* dependencies = memberOf(node, "dependencies"))
+      for (const auto& given : dependencies->items())
+        for (const Json& name : given.value())
+          if (value.contains(given.key()) && !value.contains(name.get<std::string>()))
+            failMissing(place, name, " beside \"" + given.key() + "\"", properties);
   }
-  fail(place.pointer, describe(value), expected(place.node, value));
+  fail(place.pointer, describe(value), expected(place.node, value, *place.tree));
 }
 
 }  // namespace
 
-void requireSchema(const Json& document) {
+void requireSchema(const Json& document, DocumentKind kind) {
+  const Schema& schema = schemaOf(kind);
   const nlohmann::json plain = document;
   valijson::Validator validator;
   valijson::ValidationResults results;
-  if (validator.validate(sceneSchema().checker, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
+  if (validator.validate(schema.checker, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
 
   // Causes are reported before what follows from them, and outer alternatives before inner ones: so the first error
   // counts, unless a later one lies deeper inside the same place.
@@ -166,7 +193,7 @@ void requireSchema(const Json& document) {
     if (first || inside) deepest = path;
     first = false;
   }
-  Place place{&document, &sceneSchema().tree, ""};
+  Place place{&document, &schema.tree, "", &schema.tree};
   for (std::size_t i = 1; i < deepest.size(); ++i)  // the first is the document itself
     if (!step(place, deepest[i])) break;
   explain(place);

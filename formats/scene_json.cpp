@@ -23,12 +23,6 @@ void requireVersion(const Json& document) {
     detail::fail("/carom", detail::describe(*version), "1, the version of the format that this program reads");
 }
 
-/// The folder of a file, never empty.
-std::string folderOf(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
-
 void rebaseFiles(Shape& shape, const std::string& from, const std::string& to) {
   if (auto* hull = std::get_if<Hull>(&shape); hull != nullptr && !hull->file.empty())
     hull->file = detail::rebased(hull->file, from, to);
@@ -40,6 +34,28 @@ void rebaseFiles(Shape& shape, const std::string& from, const std::string& to) {
 
 }  // namespace
 
+std::string detail::folderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+void detail::moveTo(const std::string& folder, Document& document) {
+  for (Body& body : document.scene.bodies) rebaseFiles(body.shape, document.folder, folder);
+  document.folder = folder;
+}
+
+Document detail::readDocument(const Json& json, const std::string& folder) {
+  Document document;
+  document.folder = folder;
+  SurfaceFiles files(folder);
+  document.scene = readScene(json, files);
+  validate(document.scene);
+  if (const auto duration = json.find("duration"); duration != json.end()) document.duration = duration->get<double>();
+  document.controls = readControls(json, document.scene);
+  document.constraints = readConstraints(json, document.scene, document.duration);
+  return document;
+}
+
 Document parseDocument(std::string_view text, const std::string& name, const std::string& folder) try {
   if (text.size() > kLargestDocument)
     throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
@@ -47,27 +63,18 @@ Document parseDocument(std::string_view text, const std::string& name, const std
   const Json json = detail::parseJson(text);
   requireVersion(json);
   detail::requireSchema(json);
-  Document document;
-  document.folder = folder;
-  detail::SurfaceFiles files(folder);
-  document.scene = detail::readScene(json, files);
-  validate(document.scene);
-  if (const auto duration = json.find("duration"); duration != json.end()) document.duration = duration->get<double>();
-  document.controls = detail::readControls(json, document.scene);
-  document.constraints = detail::readConstraints(json, document.scene, document.duration);
-  return document;
+  return detail::readDocument(json, folder);
 } catch (const InputError& error) {
   throw FormatError(name, error.where(), error.message());
 }
 
 Document readDocument(const std::string& path) {
-  return parseDocument(readFile(path, "a scene document", kLargestDocument), path, folderOf(path));
+  return parseDocument(readFile(path, "a scene document", kLargestDocument), path, detail::folderOf(path));
 }
 
 void saveDocument(const std::string& path, const Document& document) try {
   Document moved = document;
-  moved.folder = folderOf(path);
-  for (Body& body : moved.scene.bodies) rebaseFiles(body.shape, document.folder, moved.folder);
+  detail::moveTo(detail::folderOf(path), moved);
   const std::string text = writeDocument(moved);
   parseDocument(text, path, moved.folder);
   writeFile(path, text);

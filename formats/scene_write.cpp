@@ -113,48 +113,6 @@ void writeControl(JsonWriter& out, const Control& control) {
   out.endObject();
 }
 
-void writeWhen(JsonWriter& out, const When& at) {
-  out.key("at");
-  if (at.impact == 0) {
-    out.number(at.time);
-    return;
-  }
-  out.beginObject().key("impact").integer(at.impact);
-  if (!at.with.empty()) out.key("with").text(at.with);
-  out.endObject();
-}
-
-void writeTarget(JsonWriter& out, const Target& target) {
-  out.key(target.quantity);
-  if (target.quantity == "time") {
-    out.number(target.value.at(0));
-  } else if (target.quantity == "point") {
-    out.beginObject().key("body_point").vector(target.body_point).key("world").numbers(target.value).endObject();
-  } else {
-    out.numbers(target.value);
-  }
-}
-
-/// Members of an object differ, so that targets of one kind need objects of their own.
-void writeConstraint(JsonWriter& out, const Constraint& constraint) {
-  std::vector<const Target*> left;
-  for (const Target& target : constraint.targets) left.push_back(&target);
-  while (!left.empty()) {
-    out.beginObject(Layout::line);
-    out.key("body").text(constraint.body);
-    writeWhen(out, constraint.at);
-    std::vector<const Target*> written, next;
-    for (const Target* target : left) {
-      const bool again =
-          std::any_of(written.begin(), written.end(), [&](auto* w) { return w->quantity == target->quantity; });
-      if (!again) writeTarget(out, *target);
-      (again ? next : written).push_back(target);
-    }
-    out.endObject();
-    left = std::move(next);
-  }
-}
-
 template <class Items, class Write>
 void writeList(JsonWriter& out, const char* member, const Items& items, Write write) {
   if (items.empty()) return;
@@ -163,41 +121,29 @@ void writeList(JsonWriter& out, const char* member, const Items& items, Write wr
   out.endArray();
 }
 
-void requireFinite(const std::string& where, double value) {
-  if (!std::isfinite(value)) throw InputError(where, "found a number that is not finite, expected a number");
-}
-
 /// What `validate` does not see. The components that a constraint leaves free are the only numbers that may be NaN.
 void requireWritable(const Document& document) {
   validate(document.scene);
   for (std::size_t i = 0; i < document.scene.bodies.size(); ++i)
     detail::requireFiles(document.scene.bodies[i].shape, "/bodies/" + std::to_string(i) + "/shape");
-  requireFinite("/duration", document.duration);
+  detail::requireFinite("/duration", document.duration);
   for (std::size_t i = 0; i < document.controls.size(); ++i) {
     const Control& control = document.controls[i];
     const std::string where = "/controls/" + std::to_string(i);
-    for (const double bound : control.min) requireFinite(where + "/min", bound);
-    for (const double bound : control.max) requireFinite(where + "/max", bound);
-    requireFinite(where + "/weight", control.weight);
+    for (const double bound : control.min) detail::requireFinite(where + "/min", bound);
+    for (const double bound : control.max) detail::requireFinite(where + "/max", bound);
+    detail::requireFinite(where + "/weight", control.weight);
   }
-  for (std::size_t i = 0; i < document.constraints.size(); ++i) {
-    const std::string where = "/constraints/" + std::to_string(i);
-    requireFinite(where + "/at", document.constraints[i].at.time);
-    for (const Target& target : document.constraints[i].targets) {
-      if (target.quantity == "time" && target.value.size() != 1)
-        throw InputError(where + "/time", "found " + std::to_string(target.value.size()) + " numbers, expected 1");
-      for (const double value : target.value)
-        if (std::isinf(value)) requireFinite(where + "/" + target.quantity, value);
-      for (const double value : target.body_point) requireFinite(where + "/" + target.quantity + "/body_point", value);
-    }
-  }
+  for (std::size_t i = 0; i < document.constraints.size(); ++i)
+    detail::requireWritable(document.constraints[i], "/constraints/" + std::to_string(i));
 }
 
 }  // namespace
 
-std::string writeDocument(const Document& document) {
+void detail::writeControl(JsonWriter& out, const Control& control) { carom::writeControl(out, control); }
+
+void detail::writeDocument(JsonWriter& out, const Document& document) {
   requireWritable(document);
-  JsonWriter out;
   out.beginObject();
   out.key("carom").integer(1);
   out.key("gravity").vector(document.scene.gravity);
@@ -210,8 +156,13 @@ std::string writeDocument(const Document& document) {
   writeList(out, "bodies", document.scene.bodies, writeBody);
   writeList(out, "tilts", document.scene.tilts, writeTilt);
   writeList(out, "controls", document.controls, writeControl);
-  writeList(out, "constraints", document.constraints, writeConstraint);
+  writeList(out, "constraints", document.constraints, detail::writeConstraint);
   out.endObject();
+}
+
+std::string writeDocument(const Document& document) {
+  JsonWriter out;
+  detail::writeDocument(out, document);
   return out.take();
 }
 

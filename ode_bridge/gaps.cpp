@@ -1,8 +1,9 @@
 #include "ode_bridge/gaps.h"
 
+#include <algorithm>
 #include <array>
 
-#include "ode_bridge/gaps/rows.h"
+#include "ode_bridge/gaps/rows.hpp"
 
 namespace carom {
 namespace {
@@ -15,23 +16,24 @@ struct GapRow {
   int branches;
   ContactPoint (*contact)(const WorldFeature&, const WorldFeature&, int sign);
   FeatureJacobian (*jacobian)(const WorldFeature&, const WorldFeature&, int sign);
+  JacobianOf<Rate4> (*jacobian_rates)(const FeatureOf<Rate4>&, const FeatureOf<Rate4>&, int sign);
 };
 
 // In the order of GapKind.
 constexpr std::array<GapRow, kGapKinds> kGaps{{
-    {Family::vertex, Family::face, false, 1, pointPlane, pointPlaneJacobian},
-    {Family::face, Family::vertex, true, 1, pointPlane, pointPlaneJacobian},
-    {Family::vertex, Family::vertex, false, 1, pointPoint, pointPointJacobian},
-    {Family::vertex, Family::edge, false, 1, pointEdge, pointEdgeJacobian},
-    {Family::edge, Family::vertex, true, 1, pointEdge, pointEdgeJacobian},
-    {Family::edge, Family::edge, false, 1, edgeEdge, edgeEdgeJacobian},
-    {Family::rim, Family::face, false, 1, rimPlane, rimPlaneJacobian},
-    {Family::face, Family::rim, true, 1, rimPlane, rimPlaneJacobian},
-    {Family::rim, Family::vertex, false, 1, rimPoint, rimPointJacobian},
-    {Family::vertex, Family::rim, true, 1, rimPoint, rimPointJacobian},
-    {Family::rim, Family::edge, false, 2, rimEdge, rimEdgeJacobian},
-    {Family::edge, Family::rim, true, 2, rimEdge, rimEdgeJacobian},
-    {Family::rim, Family::rim, false, 2, rimRim, rimRimJacobian},
+    {Family::vertex, Family::face, false, 1, pointPlane, pointPlaneJacobian<double>, pointPlaneJacobian<Rate4>},
+    {Family::face, Family::vertex, true, 1, pointPlane, pointPlaneJacobian<double>, pointPlaneJacobian<Rate4>},
+    {Family::vertex, Family::vertex, false, 1, pointPoint, pointPointJacobian<double>, pointPointJacobian<Rate4>},
+    {Family::vertex, Family::edge, false, 1, pointEdge, pointEdgeJacobian<double>, pointEdgeJacobian<Rate4>},
+    {Family::edge, Family::vertex, true, 1, pointEdge, pointEdgeJacobian<double>, pointEdgeJacobian<Rate4>},
+    {Family::edge, Family::edge, false, 1, edgeEdge, edgeEdgeJacobian<double>, edgeEdgeJacobian<Rate4>},
+    {Family::rim, Family::face, false, 1, rimPlane, rimPlaneJacobian<double>, rimPlaneJacobian<Rate4>},
+    {Family::face, Family::rim, true, 1, rimPlane, rimPlaneJacobian<double>, rimPlaneJacobian<Rate4>},
+    {Family::rim, Family::vertex, false, 1, rimPoint, rimPointJacobian<double>, rimPointJacobian<Rate4>},
+    {Family::vertex, Family::rim, true, 1, rimPoint, rimPointJacobian<double>, rimPointJacobian<Rate4>},
+    {Family::rim, Family::edge, false, 2, rimEdge, rimEdgeJacobian<double>, rimEdgeJacobian<Rate4>},
+    {Family::edge, Family::rim, true, 2, rimEdge, rimEdgeJacobian<double>, rimEdgeJacobian<Rate4>},
+    {Family::rim, Family::rim, false, 2, rimRim, rimRimJacobian<double>, rimRimJacobian<Rate4>},
 }};
 
 constexpr std::size_t at(Family f) { return static_cast<std::size_t>(f); }
@@ -46,14 +48,69 @@ constexpr std::array<std::array<std::int16_t, 4>, 4> kKinds = [] {
 
 const GapRow& rowOf(std::int16_t kind) { return kGaps[static_cast<std::size_t>(kind)]; }
 
+// A feature about its body's centre in world axes, and how it changes with the dimensions.
+template <class S>
+struct Turned {
+  V3<S> arm, direction;
+  Eigen::Matrix<S, 3, Eigen::Dynamic> point_rates;
+  Eigen::RowVectorXd radius_rates, rim_rates;
+};
+
 // d(feature in the world) by (x, theta) and by the dimensions, folded into the columns of one side.
-void fold(const FeatureJacobian& J, int column, const Solid& solid, const Feature& f, const Pose& pose,
-          Eigen::Ref<Eigen::Matrix<double, 7, 6>> by_pose, Eigen::Matrix<double, 7, Eigen::Dynamic>& by_size) {
-  const auto JP = J.middleCols<3>(column), JD = J.middleCols<3>(column + 3);
-  by_pose.leftCols<3>() = JP;
-  by_pose.rightCols<3>() = -JP * skew(pose.R * f.point) - JD * skew(pose.R * f.direction);
-  const FeatureRates rates = ratesOf(solid, f);
-  by_size = JP * (pose.R * rates.point) + J.col(column + 6) * rates.radius + J.col(column + 7) * rates.rim;
+template <class S>
+void fold(const JacobianOf<S>& J, int column, const Turned<S>& f, Eigen::Ref<Eigen::Matrix<S, 7, 6>> by_pose,
+          Eigen::Matrix<S, 7, Eigen::Dynamic>& by_size) {
+  const auto JP = J.template middleCols<3>(column), JD = J.template middleCols<3>(column + 3);
+  by_pose.template leftCols<3>() = JP;
+  by_pose.template rightCols<3>() = -JP * skewOf<S>(f.arm) - JD * skewOf<S>(f.direction);
+  by_size = JP * f.point_rates + J.col(column + 6) * f.radius_rates + J.col(column + 7) * f.rim_rates;
+}
+
+Turned<double> turnedFeature(const Solid& solid, const Feature& f, const Pose& pose) {
+  FeatureRates rates = ratesOf(solid, f);
+  return {pose.R * f.point, pose.R * f.direction, pose.R * rates.point, std::move(rates.radius), std::move(rates.rim)};
+}
+
+// Up to four directions, of one of the two bodies.
+struct SideRates {
+  std::span<const PairTangent> directions;
+  int first;  // of (x, theta) in PairTangent::pose
+  Eigen::VectorXd PairTangent::*size;
+};
+
+struct PlacedRates {
+  FeatureOf<Rate4> feature;
+  Turned<Rate4> turned;
+};
+
+PlacedRates place(const Solid& solid, const Feature& f, const Pose& pose, const SideRates& side) {
+  const WorldFeature at = placeFeature(f, pose);
+  const Turned<double> turned = turnedFeature(solid, f, pose);
+  PlacedRates out;
+  out.feature = {at.point.cast<Rate4>(), at.direction.cast<Rate4>(), at.radius, at.rim};
+  out.turned = {turned.arm.cast<Rate4>(), turned.direction.cast<Rate4>(), turned.point_rates.cast<Rate4>(),
+                turned.radius_rates, turned.rim_rates};
+  for (std::size_t i = 0; i < side.directions.size(); ++i) {
+    const Vec3 dx = side.directions[i].pose.segment<3>(side.first);
+    const Vec3 theta = side.directions[i].pose.segment<3>(side.first + 3);
+    const Eigen::VectorXd& size = side.directions[i].*side.size;
+    Vec3 darm = theta.cross(turned.arm);
+    if (size.size() > 0) {
+      darm += turned.point_rates * size;
+      out.feature.radius.rate[i] = turned.radius_rates.dot(size);
+      out.feature.rim.rate[i] = turned.rim_rates.dot(size);
+    }
+    const Vec3 ddirection = theta.cross(turned.direction);
+    detail::setRates(out.feature.point, Vec3(dx + darm), i);
+    detail::setRates(out.feature.direction, ddirection, i);
+    detail::setRates(out.turned.arm, darm, i);
+    detail::setRates(out.turned.direction, ddirection, i);
+    Eigen::Matrix3Xd rates = skew(theta) * turned.point_rates;
+    const Eigen::Matrix3Xd uneven = pointRatesRate(solid, size);
+    if (uneven.cols() > 0) rates += pose.R * uneven;
+    detail::setRates(out.turned.point_rates, rates, i);
+  }
+  return out;
 }
 
 }  // namespace
@@ -85,8 +142,32 @@ ContactJacobian FeatureGeometry::jacobian(int a, int b, const FeaturePair& f, co
   FeatureJacobian J = row.swapped ? row.jacobian(wb, wa, f.sign) : row.jacobian(wa, wb, f.sign);
   if (row.swapped) J.middleRows<3>(1) *= -1;
   ContactJacobian out;
-  fold(J, row.swapped ? kP2 : kP1, solid(a), fa, A, out.pose.leftCols<6>(), out.size_a);
-  fold(J, row.swapped ? kP1 : kP2, solid(b), fb, B, out.pose.rightCols<6>(), out.size_b);
+  fold<double>(J, row.swapped ? kP2 : kP1, turnedFeature(solid(a), fa, A), out.pose.leftCols<6>(), out.size_a);
+  fold<double>(J, row.swapped ? kP1 : kP2, turnedFeature(solid(b), fb, B), out.pose.rightCols<6>(), out.size_b);
+  return out;
+}
+
+std::vector<ContactJacobian> FeatureGeometry::jacobianRates(int a, int b, const FeaturePair& f, const Pose& A,
+                                                            const Pose& B,
+                                                            std::span<const PairTangent> directions) const {
+  const GapRow& row = rowOf(f.kind);
+  const Feature &fa = solid(a).feature(row.a, f.a), &fb = solid(b).feature(row.b, f.b);
+  std::vector<ContactJacobian> out(directions.size());
+  constexpr std::size_t kLanes = Rate4::kDirections;
+  for (std::size_t first = 0; first < directions.size(); first += kLanes) {
+    const auto lanes = directions.subspan(first, std::min(kLanes, directions.size() - first));
+    const PlacedRates pa = place(solid(a), fa, A, {lanes, 0, &PairTangent::size_a});
+    const PlacedRates pb = place(solid(b), fb, B, {lanes, 6, &PairTangent::size_b});
+    JacobianOf<Rate4> J = row.swapped ? row.jacobian_rates(pb.feature, pa.feature, f.sign)
+                                      : row.jacobian_rates(pa.feature, pb.feature, f.sign);
+    if (row.swapped) J.middleRows<3>(1) *= Rate4(-1);
+    Eigen::Matrix<Rate4, 7, 12> pose;
+    Eigen::Matrix<Rate4, 7, Eigen::Dynamic> size_a, size_b;
+    fold<Rate4>(J, row.swapped ? kP2 : kP1, pa.turned, pose.leftCols<6>(), size_a);
+    fold<Rate4>(J, row.swapped ? kP1 : kP2, pb.turned, pose.rightCols<6>(), size_b);
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+      out[first + i] = {detail::ratesOf(pose, i), detail::ratesOf(size_a, i), detail::ratesOf(size_b, i)};
+  }
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "adjoint/contact_source.h"
+#include "adjoint/body_geometry.h"
 #include "ode_bridge/solids/solid.h"
 
 namespace carom {
@@ -68,13 +68,19 @@ int branches(GapKind kind);
 ContactPoint contactOf(GapKind kind, const WorldFeature& of_a, const WorldFeature& of_b, int sign);
 
 /// The gaps above, for the solids of a scene. Where contactOf returns NaN so does the Jacobian.
-class FeatureGeometry final : public ContactGeometry {
+class FeatureGeometry final : public ContactGeometry, public BodyGeometry {
  public:
   explicit FeatureGeometry(std::vector<Solid> solids) : solids_(std::move(solids)) {}
 
   ContactPoint contact(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;
   ContactJacobian jacobian(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;
+  std::vector<ContactJacobian> jacobianRates(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
+                                             std::span<const PairTangent> directions) const override;
   std::string describe(int a, int b, const FeaturePair& f) const override;
+
+  double boundingRadius(int body) const override { return solid(body).bound(); }
+  double overlap(int a, int b, const Pose& A, const Pose& B) const override;
+  std::vector<FeatureLimit> limits(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;
 
   const Solid& solid(int body) const { return solids_[static_cast<std::size_t>(body)]; }
   const std::vector<Solid>& solids() const { return solids_; }

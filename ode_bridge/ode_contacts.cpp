@@ -69,7 +69,9 @@ struct OdeContacts::State {
   void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
 };
 
-OdeContacts::OdeContacts(const Scene& scene) : state_(std::make_unique<State>()) { begin(scene); }
+OdeContacts::OdeContacts() : state_(std::make_unique<State>()) {}
+
+OdeContacts::OdeContacts(const Scene& scene) : OdeContacts() { begin(scene); }
 
 OdeContacts::~OdeContacts() = default;
 
@@ -197,5 +199,7 @@ std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, c
 }
 
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }
+
+std::unique_ptr<ContactSource> OdeContacts::another() const { return std::unique_ptr<ContactSource>(new OdeContacts()); }
 
 }  // namespace carom

@@ -24,8 +24,10 @@ class OdeContacts final : public ContactSource {
   std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
   std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t, double reach) override;
   std::shared_ptr<const ContactGeometry> geometry() const override;
+  std::unique_ptr<ContactSource> another() const override;
 
  private:
+  OdeContacts();
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -11,6 +11,9 @@ Placed::Placed(const Solid& s, const Arc& arc, double t)
       spin(s.ball ? 0 : arc.spinBound()),
       spin_rate(s.ball ? 0 : arc.spinRateBound()) {}
 
+Placed::Placed(const Solid& s, const Vec3& x, const Mat3& R)
+    : solid(&s), k{x, R, Vec3::Zero(), Vec3::Zero()}, acceleration(Vec3::Zero()), spin(0), spin_rate(0) {}
+
 namespace {
 
 Support furthestPoint(const Solid& solid, const Piece& piece, const Vec3& direction) {

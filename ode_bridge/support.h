@@ -8,6 +8,8 @@ namespace carom {
 /// A solid in motion at one instant, with bounds on how its rotation can go on.
 struct Placed {
   Placed(const Solid& solid, const Arc& arc, double t);
+  /// At rest.
+  Placed(const Solid& solid, const Vec3& x, const Mat3& R);
 
   Vec3 world(const Vec3& p) const { return k.x + k.R * p; }
 

@@ -17,6 +17,17 @@ SolidProperties properties(const Shape& s) {
   return p;
 }
 
+SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  const double x = size(s).x(), y = size(s).y(), z = size(s).z(), dx = d[0], dy = d[1], dz = d[2];
+  SolidProperties p;
+  p.volume = dx * y * z + x * dy * z + x * y * dz;
+  p.unit_inertia = diagonal((y * dy + z * dz) / 6, (x * dx + z * dz) / 6, (x * dx + y * dy) / 6);
+  p.rates = {{dy * z + y * dz, Vec3::Zero(), diagonal(0, dx / 6, dx / 6)},
+             {dx * z + x * dz, Vec3::Zero(), diagonal(dy / 6, 0, dy / 6)},
+             {dx * y + x * dy, Vec3::Zero(), diagonal(dz / 6, dz / 6, 0)}};
+  return p;
+}
+
 }  // namespace
 
 ShapeKind boxKind() {
@@ -28,6 +39,7 @@ ShapeKind boxKind() {
           [](Shape& s, const Eigen::VectorXd& d) { std::get<Box>(s).size = d.head<3>(); },
           alwaysSolid,
           properties,
+          propertiesRate,
           [](const Shape& s) { return 0.5 * size(s).norm(); }};
 }
 

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "adjoint/detail/dual.hpp"
 #include "adjoint/shapes/kinds.h"
 
 namespace carom::shapes {
@@ -11,22 +12,45 @@ const Capsule& get(const Shape& s) { return std::get<Capsule>(s); }
 //   V   = pi r^2 w
 //   I_z = (h r^2/2 + 8 r^3/15) / w
 //   I_x = I_y = (h^3/12 + h^2 r/3 + 3 h r^2/4 + 8 r^3/15) / w
-SolidProperties properties(const Shape& s) {
-  constexpr double pi = std::numbers::pi;
-  const double r = get(s).radius, h = get(s).height, w = h + 4 * r / 3;
-  const double z = r * r * (h / 2 + 8 * r / 15) / w;
-  const double x = (h * h * (h / 12 + r / 3) + r * r * (3 * h / 4 + 8 * r / 15)) / w;
-  SolidProperties p;
-  p.volume = pi * r * r * w;
-  p.unit_inertia = diagonal(x, x, z);
+template <class S>
+struct Numbers {
+  S volume, x, z;
+  S volume_r, x_r, z_r, volume_h, x_h, z_h;  // rates by radius and height
 
-  // (numerator / w)' = (numerator' - quotient w') / w
-  const double z_r = (r * (h + 8 * r / 5) - z * 4 / 3) / w, z_h = (r * r / 2 - z) / w;
-  const double x_r = (h * h / 3 + r * (3 * h / 2 + 8 * r / 5) - x * 4 / 3) / w;
-  const double x_h = (h * h / 4 + 2 * h * r / 3 + 3 * r * r / 4 - x) / w;
-  p.rates = {{2 * pi * r * (h + 2 * r), Vec3::Zero(), diagonal(x_r, x_r, z_r)},
-             {pi * r * r, Vec3::Zero(), diagonal(x_h, x_h, z_h)}};
+  Numbers(const S& r, const S& h) {
+    constexpr double pi = std::numbers::pi;
+    const S w = h + 4 * r / 3;
+    z = r * r * (h / 2 + 8 * r / 15) / w;
+    x = (h * h * (h / 12 + r / 3) + r * r * (3 * h / 4 + 8 * r / 15)) / w;
+    volume = pi * r * r * w;
+    // (numerator / w)' = (numerator' - quotient w') / w
+    z_r = (r * (h + 8 * r / 5) - z * 4 / 3) / w, z_h = (r * r / 2 - z) / w;
+    x_r = (h * h / 3 + r * (3 * h / 2 + 8 * r / 5) - x * 4 / 3) / w;
+    x_h = (h * h / 4 + 2 * h * r / 3 + 3 * r * r / 4 - x) / w;
+    volume_r = 2 * pi * r * (h + 2 * r), volume_h = pi * r * r;
+  }
+};
+
+// `number` picks what is wanted of each.
+template <class S, class Pick>
+SolidProperties solidOf(const Numbers<S>& n, const Pick& number) {
+  SolidProperties p;
+  p.volume = number(n.volume);
+  p.unit_inertia = diagonal(number(n.x), number(n.x), number(n.z));
+  p.rates = {{number(n.volume_r), Vec3::Zero(), diagonal(number(n.x_r), number(n.x_r), number(n.z_r))},
+             {number(n.volume_h), Vec3::Zero(), diagonal(number(n.x_h), number(n.x_h), number(n.z_h))}};
   return p;
+}
+
+SolidProperties properties(const Shape& s) {
+  return solidOf(Numbers<double>(get(s).radius, get(s).height), [](double x) { return x; });
+}
+
+SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  using Number = detail::Dual<1>;
+  Number r = get(s).radius, h = get(s).height;
+  r.rate[0] = d[0], h.rate[0] = d[1];
+  return solidOf(Numbers<Number>(r, h), [](const Number& x) { return x.rate[0]; });
 }
 
 }  // namespace
@@ -45,6 +69,7 @@ ShapeKind capsuleKind() {
           },
           alwaysSolid,
           properties,
+          propertiesRate,
           [](const Shape& s) { return get(s).radius + get(s).height / 2; }};
 }
 

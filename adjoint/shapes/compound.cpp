@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "adjoint/detail/dual.hpp"
 #include "adjoint/errors.h"
 #include "adjoint/shapes/kinds.h"
 
@@ -42,57 +43,135 @@ bool solid(const Shape& s) {
                                           [](const CompoundPart& p) { return kindOf(p.shape).solid(p.shape); });
 }
 
+template <class S>
+using Numbers3 = detail::V3<S>;
+template <class S>
+using Matrix3 = detail::M3<S>;
+
 // R I R^T. What is the same about every axis (a ball) or about the axis of the turn stays so exactly.
-Mat3 turned(const Mat3& R, const Mat3& I) {
+template <class S>
+Matrix3<S> turned(const Mat3& R, const Matrix3<S>& I) {
   if (R.isIdentity(0)) return I;
-  const Mat3 same = I(0, 0) * Mat3::Identity();
-  const Mat3 rest = R * (I - same) * R.transpose();
+  const Matrix3<S> same = I(0, 0) * Matrix3<S>::Identity();
+  const Matrix3<S> rest = R * (I - same) * R.transpose();
   return same + 0.5 * (rest + rest.transpose());
 }
 
 // Parallel axes: |d|^2 1 - d d^T, and its rate by d along e.
-Mat3 shifted(const Vec3& d) { return d.squaredNorm() * Mat3::Identity() - d * d.transpose(); }
-Mat3 shiftedRate(const Vec3& d, const Vec3& e) {
-  return 2 * d.dot(e) * Mat3::Identity() - d * e.transpose() - e * d.transpose();
+template <class S>
+Matrix3<S> shifted(const Numbers3<S>& d) {
+  return d.squaredNorm() * Matrix3<S>::Identity() - d * d.transpose();
 }
+template <class S>
+Matrix3<S> shiftedRate(const Numbers3<S>& d, const Numbers3<S>& e) {
+  return 2 * d.dot(e) * Matrix3<S>::Identity() - d * e.transpose() - e * d.transpose();
+}
+
+// SolidProperties of another kind of number.
+template <class S>
+struct RateOf {
+  S volume;
+  Numbers3<S> center;
+  Matrix3<S> unit_inertia;
+};
+template <class S>
+struct SolidOf {
+  S volume = 0;
+  Numbers3<S> center = Numbers3<S>::Zero();
+  Matrix3<S> unit_inertia = Matrix3<S>::Zero();
+  std::vector<RateOf<S>> rates;
+};
 
 // V = sum V_i, c = sum w_i c_i, I = sum w_i (R_i I_i R_i^T + S(c_i - c)), with shares w_i = V_i/V and S(d) = |d|^2 1 -
 // d d^T. By a dimension of part i (the parts' shares change and so does c, but sum w_j (c_j - c) = 0):
 //   dc = dV_i/V (c_i - c) + w_i R_i dc_i
 //   dI = dV_i/V (R_i I_i R_i^T + S(c_i - c) - I) + w_i (R_i dI_i R_i^T + dS(c_i - c; R_i dc_i))
-SolidProperties properties(const Shape& s) {
+template <class S, class OfPart>
+SolidOf<S> combined(const Shape& s, const OfPart& of_part) {
   struct Part {
-    SolidProperties solid;
+    SolidOf<S> solid;
     Mat3 R;
-    Vec3 center;
-    Mat3 inertia;  // of the part about the compound's centre, per unit mass of the part
+    Numbers3<S> center;
+    Matrix3<S> inertia;  // of the part about the compound's centre, per unit mass of the part
   };
   if (parts(s).empty())
     throw InputError("found the mass properties of a compound without parts asked for, expected parts");
   std::vector<Part> all;
-  SolidProperties p;
+  SolidOf<S> p;
   for (const CompoundPart& part : parts(s)) {
     Part& a = all.emplace_back();
-    a.solid = kindOf(part.shape).properties(part.shape);
+    a.solid = of_part(part.shape);
     a.R = part.orientation.normalized().toRotationMatrix();
     a.center = part.position + a.R * a.solid.center;
     p.volume += a.solid.volume;
   }
   for (const Part& a : all) p.center += a.solid.volume / p.volume * a.center;
   for (Part& a : all) {
-    a.inertia = turned(a.R, a.solid.unit_inertia) + shifted(a.center - p.center);
+    a.inertia = turned<S>(a.R, a.solid.unit_inertia) + shifted<S>(a.center - p.center);
     p.unit_inertia += a.solid.volume / p.volume * a.inertia;
   }
   for (const Part& a : all) {
-    const double share = a.solid.volume / p.volume;
-    for (const SolidRate& rate : a.solid.rates) {
-      const double dshare = rate.volume / p.volume;
-      const Vec3 d = a.center - p.center, dcenter = a.R * rate.center;
-      p.rates.push_back(
-          {rate.volume, dshare * d + share * dcenter,
-           dshare * (a.inertia - p.unit_inertia) + share * (turned(a.R, rate.unit_inertia) + shiftedRate(d, dcenter))});
+    const S share = a.solid.volume / p.volume;
+    for (const RateOf<S>& rate : a.solid.rates) {
+      const S dshare = rate.volume / p.volume;
+      const Numbers3<S> d = a.center - p.center, dcenter = a.R * rate.center;
+      p.rates.push_back({rate.volume, dshare * d + share * dcenter,
+                         dshare * (a.inertia - p.unit_inertia) +
+                             share * (turned<S>(a.R, rate.unit_inertia) + shiftedRate<S>(d, dcenter))});
     }
   }
+  return p;
+}
+
+SolidProperties properties(const Shape& s) {
+  const SolidOf<double> sum = combined<double>(s, [](const Shape& part) {
+    const SolidProperties solid = kindOf(part).properties(part);
+    SolidOf<double> out{solid.volume, solid.center, solid.unit_inertia, {}};
+    for (const SolidRate& r : solid.rates) out.rates.push_back({r.volume, r.center, r.unit_inertia});
+    return out;
+  });
+  SolidProperties p{sum.volume, sum.center, sum.unit_inertia, {}};
+  for (const RateOf<double>& r : sum.rates) p.rates.push_back({r.volume, r.center, r.unit_inertia});
+  return p;
+}
+
+using Number = detail::Dual<1>;
+
+template <class To, class From>
+To withRates(const From& values, const From& rates) {
+  To out = values.template cast<Number>();
+  detail::setRates(out, rates, 0);
+  return out;
+}
+Number withRate(double value, double rate) {
+  Number n = value;
+  n.rate[0] = rate;
+  return n;
+}
+
+SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& dimension_rates) {
+  Eigen::Index first = 0;
+  const SolidOf<Number> sum = combined<Number>(s, [&](const Shape& part) {
+    const SolidProperties a = kindOf(part).properties(part);
+    const Eigen::Index count = kindOf(part).dimensions(part).size();
+    const SolidProperties da = kindOf(part).propertiesRate(part, dimension_rates.segment(first, count));
+    first += count;
+    using V = Numbers3<Number>;
+    using M = Matrix3<Number>;
+    SolidOf<Number> out{withRate(a.volume, da.volume),
+                        withRates<V>(a.center, da.center),
+                        withRates<M>(a.unit_inertia, da.unit_inertia),
+                        {}};
+    for (std::size_t i = 0; i < a.rates.size(); ++i) {
+      const SolidRate &r = a.rates[i], &dr = da.rates[i];
+      out.rates.push_back({withRate(r.volume, dr.volume), withRates<V>(r.center, dr.center),
+                           withRates<M>(r.unit_inertia, dr.unit_inertia)});
+    }
+    return out;
+  });
+  const auto rate = [](const auto& m) { return detail::ratesOf(m, 0); };
+  SolidProperties p{sum.volume.rate[0], rate(sum.center), rate(sum.unit_inertia), {}};
+  for (const RateOf<Number>& r : sum.rates) p.rates.push_back({r.volume.rate[0], rate(r.center), rate(r.unit_inertia)});
   return p;
 }
 
@@ -105,6 +184,8 @@ double boundingRadius(const Shape& s) {
 
 }  // namespace
 
-ShapeKind compoundKind() { return {"compound", names, dimensions, setDimensions, solid, properties, boundingRadius}; }
+ShapeKind compoundKind() {
+  return {"compound", names, dimensions, setDimensions, solid, properties, propertiesRate, boundingRadius};
+}
 
 }  // namespace carom::shapes

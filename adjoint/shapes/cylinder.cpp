@@ -20,6 +20,17 @@ SolidProperties properties(const Shape& s) {
   return p;
 }
 
+SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  constexpr double pi = std::numbers::pi;
+  const double r = get(s).radius, h = get(s).height, dr = d[0], dh = d[1], dx = r * dr / 2 + h * dh / 6;
+  SolidProperties p;
+  p.volume = pi * r * (2 * dr * h + r * dh);
+  p.unit_inertia = diagonal(dx, dx, r * dr);
+  p.rates = {{2 * pi * (dr * h + r * dh), Vec3::Zero(), diagonal(dr / 2, dr / 2, dr)},
+             {2 * pi * r * dr, Vec3::Zero(), diagonal(dh / 6, dh / 6, 0)}};
+  return p;
+}
+
 }  // namespace
 
 ShapeKind cylinderKind() {
@@ -36,6 +47,7 @@ ShapeKind cylinderKind() {
           },
           alwaysSolid,
           properties,
+          propertiesRate,
           [](const Shape& s) { return std::hypot(get(s).radius, get(s).height / 2); }};
 }
 

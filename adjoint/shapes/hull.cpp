@@ -15,6 +15,9 @@ ShapeKind hullKind() {
           [](Shape& s, const Eigen::VectorXd& d) { std::get<Hull>(s).scale = d[0]; },
           [](const Shape& s) { return get(s).surface && get(s).surface->closed; },
           [](const Shape& s) { return scaledProperties(get(s).surface.get(), get(s).scale, "hull"); },
+          [](const Shape& s, const Eigen::VectorXd& rates) {
+            return scaledPropertiesRate(get(s).surface.get(), get(s).scale, rates[0], "hull");
+          },
           [](const Shape& s) { return scaledRadius(get(s).surface.get(), get(s).scale); }};
 }
 

@@ -15,6 +15,9 @@ ShapeKind meshKind() {
           [](Shape& s, const Eigen::VectorXd& d) { std::get<Mesh>(s).scale = d[0]; },
           [](const Shape& s) { return get(s).surface && get(s).surface->closed; },
           [](const Shape& s) { return scaledProperties(get(s).surface.get(), get(s).scale, "mesh"); },
+          [](const Shape& s, const Eigen::VectorXd& rates) {
+            return scaledPropertiesRate(get(s).surface.get(), get(s).scale, rates[0], "mesh");
+          },
           [](const Shape& s) { return scaledRadius(get(s).surface.get(), get(s).scale); }};
 }
 

@@ -14,6 +14,9 @@ ShapeKind planeKind() {
           [](const Shape&) -> SolidProperties {
             throw InputError("found the mass properties of a plane asked for, expected a shape with a volume");
           },
+          [](const Shape&, const Eigen::VectorXd&) -> SolidProperties {
+            throw InputError("found the mass properties of a plane asked for, expected a shape with a volume");
+          },
           [](const Shape&) { return std::numeric_limits<double>::infinity(); }};
 }
 

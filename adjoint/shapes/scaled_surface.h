@@ -8,6 +8,9 @@ namespace carom::shapes {
 /// Throws InputError, naming `kind`, when the surface is missing or open.
 SolidProperties scaledProperties(const Surface* surface, double scale, const char* kind);
 
+/// Rates of all of these as the scale changes at `rate`.
+SolidProperties scaledPropertiesRate(const Surface* surface, double scale, double rate, const char* kind);
+
 /// Largest distance of a vertex from the origin, times s.
 double scaledRadius(const Surface* surface, double scale);
 

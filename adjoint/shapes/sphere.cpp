@@ -17,6 +17,15 @@ SolidProperties properties(const Shape& s) {
   return p;
 }
 
+SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  const double r = get(s).radius, dr = d[0];
+  SolidProperties p;
+  p.volume = 4 * std::numbers::pi * r * r * dr;
+  p.unit_inertia = 0.8 * r * dr * Mat3::Identity();
+  p.rates = {{8 * std::numbers::pi * r * dr, Vec3::Zero(), 0.8 * dr * Mat3::Identity()}};
+  return p;
+}
+
 }  // namespace
 
 ShapeKind sphereKind() {
@@ -26,6 +35,7 @@ ShapeKind sphereKind() {
           [](Shape& s, const Eigen::VectorXd& d) { std::get<Sphere>(s).radius = d[0]; },
           alwaysSolid,
           properties,
+          propertiesRate,
           [](const Shape& s) { return get(s).radius; }};
 }
 

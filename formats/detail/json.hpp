@@ -15,8 +15,9 @@ inline constexpr std::size_t kMostValues = 400'000;  ///< keeps the memory of a 
 /// line and column), numbers too large for a double, and members given twice (where = JSON pointer).
 Json parseJson(std::string_view text, std::size_t most_values = kMostValues);
 
-/// Throws InputError at the deepest place where the document breaks formats/scene.schema.json.
-void requireSchema(const Json& document);
+enum class DocumentKind { scene, journal };
+/// Throws InputError at the deepest place where the document breaks formats/scene.schema.json or journal.schema.json.
+void requireSchema(const Json& document, DocumentKind kind = DocumentKind::scene);
 
 /// One step deeper, escaped as RFC 6901 asks, and control characters as in a JSON text; members of more than 400 bytes
 /// are cut, as pointers are for messages.

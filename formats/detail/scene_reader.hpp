@@ -9,9 +9,15 @@ namespace carom::detail {
 class SurfaceFiles;
 
 // From a document that follows the schema. Throw InputError for what the schema cannot say.
+Document readDocument(const Json& document, const std::string& folder);
 Scene readScene(const Json& document, SurfaceFiles& files);
 std::vector<Control> readControls(const Json& document, const Scene& scene);
 std::vector<Constraint> readConstraints(const Json& document, const Scene& scene, double duration);
+
+/// The folder of a file, never empty.
+std::string folderOf(const std::string& path);
+/// File names of hulls and meshes become relative to another folder.
+void moveTo(const std::string& folder, Document& document);
 
 /// The shape that an object has as one of its members.
 Shape readShape(const Json& value, const std::string& where, SurfaceFiles& files);

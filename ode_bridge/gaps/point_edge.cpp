@@ -1,4 +1,4 @@
-#include "ode_bridge/gaps/rows.h"
+#include "ode_bridge/gaps/rows.hpp"
 
 // phi = |w| - r_1 - r_2, w = (1 - d d^T)(P - Q), n = w/|w|, p = P - r_1 n.
 namespace carom::gaps {
@@ -11,27 +11,29 @@ ContactPoint pointEdge(const WorldFeature& f, const WorldFeature& g, int) {
   return {l > 0 ? l - f.radius - g.radius : n.x(), n, f.point - f.radius * n};
 }
 
-FeatureJacobian pointEdgeJacobian(const WorldFeature& f, const WorldFeature& g, int) {
-  FeatureJacobian J = FeatureJacobian::Zero();
-  const Vec3 &d = g.direction, to = f.point - g.point;
-  const double t = d.dot(to);
-  const Vec3 w = to - t * d;
-  const double l = w.norm();
-  const Vec3 n = w / l;
-  const Mat3 across = (Mat3::Identity() - n * n.transpose()) / l;
-  const Mat3 dw_dP = Mat3::Identity() - d * d.transpose();
-  const Mat3 dw_dd = -t * Mat3::Identity() - d * to.transpose();
-  J.block<1, 3>(0, kP1) = n.transpose();
-  J.block<1, 3>(0, kP2) = -n.transpose();
-  J.block<1, 3>(0, kD2) = -t * n.transpose();
+template <class S>
+JacobianOf<S> pointEdgeJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int) {
+  JacobianOf<S> J = JacobianOf<S>::Zero();
+  const V3<S>&d = g.direction, to = f.point - g.point;
+  const S t = d.dot(to);
+  const V3<S> w = to - t * d;
+  const S l = w.norm();
+  const V3<S> n = w / l;
+  const M3<S> across = (M3<S>::Identity() - n * n.transpose()) / l;
+  const M3<S> dw_dP = M3<S>::Identity() - d * d.transpose();
+  const M3<S> dw_dd = -t * M3<S>::Identity() - d * to.transpose();
+  J.template block<1, 3>(0, kP1) = n.transpose();
+  J.template block<1, 3>(0, kP2) = -n.transpose();
+  J.template block<1, 3>(0, kD2) = -t * n.transpose();
   J(0, kR1) = J(0, kR2) = -1;
-  J.block<3, 3>(1, kP1) = across * dw_dP;
-  J.block<3, 3>(1, kP2) = -across * dw_dP;
-  J.block<3, 3>(1, kD2) = across * dw_dd;
-  J.middleRows<3>(4) = -f.radius * J.middleRows<3>(1);
-  J.block<3, 3>(4, kP1) += Mat3::Identity();
-  J.block<3, 1>(4, kR1) -= n;
+  J.template block<3, 3>(1, kP1) = across * dw_dP;
+  J.template block<3, 3>(1, kP2) = -across * dw_dP;
+  J.template block<3, 3>(1, kD2) = across * dw_dd;
+  J.template middleRows<3>(4) = -f.radius * J.template middleRows<3>(1);
+  J.template block<3, 3>(4, kP1) += M3<S>::Identity();
+  J.template block<3, 1>(4, kR1) -= n;
   return J;
 }
+CAROM_GAP_JACOBIAN(pointEdgeJacobian);
 
 }  // namespace carom::gaps

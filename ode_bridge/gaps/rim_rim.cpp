@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "ode_bridge/gaps/crossing.h"
+#include "ode_bridge/gaps/crossing.hpp"
 
 // In the frame p = d_1 x d_2/|..| along the line of both planes, v = d x p in each plane: the points of the smaller rim
 // ("moving", radius r) are C_m + r (p cos(theta) + v_m sin(theta)); the distance of one from the larger rim (radius R)
@@ -15,92 +15,102 @@
 namespace carom::gaps {
 namespace {
 
+template <class S>
 struct Turn {
-  double c, s;  // cos and sin of theta
-  explicit Turn(double theta) : c(std::cos(theta)), s(std::sin(theta)) {}
+  S c, s;  // cos and sin of theta
+  explicit Turn(const S& theta) {
+    using std::cos, std::sin;
+    c = cos(theta), s = sin(theta);
+  }
   Turn() = default;
 };
 
+double hypotenuse(double x, double y) { return std::hypot(x, y); }
+Rate4 hypotenuse(const Rate4& x, const Rate4& y) { return sqrt(x * x + y * y); }
+
+template <class S>
 struct Slope {
-  double G, second;  // G and dG/dtheta
+  S G, second;  // G and dG/dtheta
 };
 
+template <class S>
 struct RimBeforeRim {
-  const WorldFeature &moving, &still;
-  Vec3 p, v_moving, v_still;
-  double r, R, cosine;
-  double c_p, c_v;  // C_m - C_s in the moving rim's plane
-  double a_p, a_v;  // the same in the still rim's plane
+  const FeatureOf<S>&moving, &still;
+  V3<S> p, v_moving, v_still;
+  S r, R, cosine;
+  S c_p, c_v;  // C_m - C_s in the moving rim's plane
+  S a_p, a_v;  // the same in the still rim's plane
 
-  RimBeforeRim(const WorldFeature& m, const WorldFeature& s, const Vec3& along)
+  RimBeforeRim(const FeatureOf<S>& m, const FeatureOf<S>& s, const V3<S>& along)
       : moving(m), still(s), p(along), v_moving(m.direction.cross(p)), v_still(s.direction.cross(p)) {
     r = m.rim, R = s.rim, cosine = m.direction.dot(s.direction);
-    const Vec3 c = m.point - s.point;
+    const V3<S> c = m.point - s.point;
     c_p = a_p = c.dot(p);
     c_v = c.dot(v_moving);
     a_v = c.dot(v_still);
   }
 
-  Slope slope(const Turn& t) const {
-    const double x = a_p + r * t.c, y = a_v + r * cosine * t.s;  // a
-    const double dx = -t.s, dy = cosine * t.c;                   // a'/r
-    const double a2 = x * x + y * y, over = 1 / std::sqrt(a2);
-    const double radial = (x * dx + y * dy) * over;  // |a|'/r
-    const double bend = (r * (dx * dx + dy * dy) - x * t.c - y * cosine * t.s) * over - r * radial * radial * over;
+  Slope<S> slope(const Turn<double>& t) const {
+    using std::sqrt;
+    const S x = a_p + r * t.c, y = a_v + r * cosine * t.s;  // a
+    const S dx = -t.s, dy = cosine * t.c;                   // a'/r
+    const S a2 = x * x + y * y, over = 1 / sqrt(a2);
+    const S radial = (x * dx + y * dy) * over;  // |a|'/r
+    const S bend = (r * (dx * dx + dy * dy) - x * t.c - y * cosine * t.s) * over - r * radial * radial * over;
     return {c_v * t.c - c_p * t.s - R * radial, -c_v * t.s - c_p * t.c - R * bend};
   }
 
   // The points at theta, and how far they are along p.
   struct Place {
-    CurvePoint of_moving, of_still;
-    double along;
+    CurvePoint<S> of_moving, of_still;
+    S along;
   };
-  Place place(double theta) const {
-    const Turn t(theta);
-    const Vec3 u_moving = t.c * p + t.s * v_moving;
-    const double x = a_p + r * t.c, y = a_v + r * cosine * t.s;
-    const Vec3 u_still = (x * p + y * v_still) / std::hypot(x, y);
-    Place at{CurvePoint::onRim(moving, u_moving), CurvePoint::onRim(still, u_still), 0};
+  Place place(const S& theta) const {
+    const Turn<S> t(theta);
+    const V3<S> u_moving = t.c * p + t.s * v_moving;
+    const S x = a_p + r * t.c, y = a_v + r * cosine * t.s;
+    const V3<S> u_still = (x * p + y * v_still) / hypotenuse(x, y);
+    Place at{CurvePoint<S>::onRim(moving, u_moving), CurvePoint<S>::onRim(still, u_still), 0};
     at.along = p.dot(at.of_moving.point + at.of_still.point);
     return at;
   }
-
-  // The zero of G in (low, high), G(low) < 0 < G(high).
-  double zero(double low, double high) const {
-    double theta = 0.5 * (low + high);
-    for (int i = 0; i < 100; ++i) {
-      const Slope at = slope(Turn(theta));
-      if (at.G == 0) break;
-      (at.G < 0 ? low : high) = theta;
-      double next = theta - at.G / at.second;
-      if (!(next > low && next < high)) next = 0.5 * (low + high);
-      if (std::abs(next - theta) <= 1e-16 * std::max(1.0, std::abs(theta))) break;
-      theta = next;
-    }
-    return theta;
-  }
-
-  // Where between low and high, at both of which G has one sign, G is extreme; `end` is that of G' at low. Stops early
-  // where G has the other sign.
-  double extreme(double low, double high, double sign, double end) const {
-    for (int i = 0; i < 24; ++i) {
-      const double theta = 0.5 * (low + high);
-      const Slope at = slope(Turn(theta));
-      if (!(at.G * sign > 0)) return theta;
-      (at.second * end > 0 ? low : high) = theta;
-    }
-    return 0.5 * (low + high);
-  }
 };
+
+// The zero of G in (low, high), G(low) < 0 < G(high).
+double zero(const RimBeforeRim<double>& rims, double low, double high) {
+  double theta = 0.5 * (low + high);
+  for (int i = 0; i < 100; ++i) {
+    const Slope<double> at = rims.slope(Turn<double>(theta));
+    if (at.G == 0) break;
+    (at.G < 0 ? low : high) = theta;
+    double next = theta - at.G / at.second;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - theta) <= 1e-16 * std::max(1.0, std::abs(theta))) break;
+    theta = next;
+  }
+  return theta;
+}
+
+// Where between low and high, at both of which G has one sign, G is extreme; `end` is that of G' at low. Stops early
+// where G has the other sign.
+double extreme(const RimBeforeRim<double>& rims, double low, double high, double sign, double end) {
+  for (int i = 0; i < 24; ++i) {
+    const double theta = 0.5 * (low + high);
+    const Slope<double> at = rims.slope(Turn<double>(theta));
+    if (!(at.G * sign > 0)) return theta;
+    (at.second * end > 0 ? low : high) = theta;
+  }
+  return 0.5 * (low + high);
+}
 
 constexpr int kSamples = 32;
 
 double angle(int i) { return 2 * std::numbers::pi / kSamples * i; }
 
-const std::array<Turn, kSamples>& turns() {
-  static const std::array<Turn, kSamples> all = [] {
-    std::array<Turn, kSamples> made;
-    for (int i = 0; i < kSamples; ++i) made[static_cast<std::size_t>(i)] = Turn(angle(i));
+const std::array<Turn<double>, kSamples>& turns() {
+  static const std::array<Turn<double>, kSamples> all = [] {
+    std::array<Turn<double>, kSamples> made;
+    for (int i = 0; i < kSamples; ++i) made[static_cast<std::size_t>(i)] = Turn<double>(angle(i));
     return made;
   }();
   return all;
@@ -114,43 +124,57 @@ struct Minima {
   }
 };
 
-Minima minimaOf(const RimBeforeRim& rims) {
+Minima minimaOf(const RimBeforeRim<double>& rims) {
   const auto& sample = turns();
   Minima found;
-  const Slope start = rims.slope(sample[0]);
-  Slope left = start;
+  const Slope<double> start = rims.slope(sample[0]);
+  Slope<double> left = start;
   for (int i = 0; i < kSamples; ++i) {
-    const Slope right = i + 1 < kSamples ? rims.slope(sample[static_cast<std::size_t>(i + 1)]) : start;
+    const Slope<double> right = i + 1 < kSamples ? rims.slope(sample[static_cast<std::size_t>(i + 1)]) : start;
     const double low = angle(i), high = angle(i + 1);
     if (left.G < 0 && right.G >= 0) {
-      found.add(right.G > 0 ? rims.zero(low, high) : high);
+      found.add(right.G > 0 ? zero(rims, low, high) : high);
     } else if (left.G > 0 && right.G > 0 && left.second < 0 && right.second > 0) {
-      const double dip = rims.extreme(low, high, 1, -1);
-      if (rims.slope(Turn(dip)).G < 0) found.add(rims.zero(dip, high));
+      const double dip = extreme(rims, low, high, 1, -1);
+      if (rims.slope(Turn<double>(dip)).G < 0) found.add(zero(rims, dip, high));
     } else if (left.G < 0 && right.G < 0 && left.second > 0 && right.second < 0) {
-      const double bump = rims.extreme(low, high, -1, 1);
-      if (rims.slope(Turn(bump)).G > 0) found.add(rims.zero(low, bump));
+      const double bump = extreme(rims, low, high, -1, 1);
+      if (rims.slope(Turn<double>(bump)).G > 0) found.add(zero(rims, low, bump));
     }
     left = right;
   }
   return found;
 }
 
+template <class S>
+V3<S> alongBoth(const FeatureOf<S>& f, const FeatureOf<S>& g) {
+  const V3<S> c = f.direction.cross(g.direction);
+  return c / c.norm();
+}
+
+// theta of the place that `sign` picks.
+double chosenTheta(const RimBeforeRim<double>& rims, int sign) {
+  const Minima minima = minimaOf(rims);
+  if (minima.count < 2) return minima.theta[0];
+  const bool second_is_further = rims.place(minima.theta[1]).along > rims.place(minima.theta[0]).along;
+  return (std::abs(sign) == 2) == second_is_further ? minima.theta[1] : minima.theta[0];
+}
+
+template <class S>
 struct Crossing {
-  CurvePoint of_first, of_second;
+  CurvePoint<S> of_first, of_second;
 };
 
-Crossing nearest(const WorldFeature& f, const WorldFeature& g, int sign) {
-  const Vec3 c = f.direction.cross(g.direction);
-  const Vec3 along = c / c.norm();
+template <class S>
+Crossing<S> nearest(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
   const bool first_moves = f.rim < g.rim;
-  const RimBeforeRim rims(first_moves ? f : g, first_moves ? g : f, along);
-  const Minima minima = minimaOf(rims);
-  RimBeforeRim::Place at = rims.place(minima.theta[0]);
-  if (minima.count == 2) {
-    const RimBeforeRim::Place other = rims.place(minima.theta[1]);
-    if ((std::abs(sign) == 2) == (other.along > at.along)) at = other;
-  }
+  const FeatureOf<S>&moving = first_moves ? f : g, &still = first_moves ? g : f;
+  const RimBeforeRim<S> rims(moving, still, alongBoth<S>(f, g));
+  const WorldFeature &moving_now = valueOf(moving), &still_now = valueOf(still);
+  const Vec3 along_now = alongBoth<double>(valueOf(f), valueOf(g));
+  const double theta = chosenTheta(RimBeforeRim<double>(moving_now, still_now, along_now), sign);
+  const Slope<S> slope = rims.slope(Turn<double>(theta));
+  const auto at = rims.place(followed(theta, slope.G, slope.second));
   if (first_moves) return {at.of_moving, at.of_still};
   return {at.of_still, at.of_moving};
 }
@@ -158,13 +182,15 @@ Crossing nearest(const WorldFeature& f, const WorldFeature& g, int sign) {
 }  // namespace
 
 ContactPoint rimRim(const WorldFeature& f, const WorldFeature& g, int sign) {
-  const Crossing c = nearest(f, g, sign);
+  const Crossing<double> c = nearest<double>(f, g, sign);
   return sharpCrossing(c.of_first, c.of_second, sign);
 }
 
-FeatureJacobian rimRimJacobian(const WorldFeature& f, const WorldFeature& g, int sign) {
-  const Crossing c = nearest(f, g, sign);
+template <class S>
+JacobianOf<S> rimRimJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
+  const Crossing<S> c = nearest<S>(f, g, sign);
   return sharpCrossingJacobian(c.of_first, c.of_second, sign);
 }
+CAROM_GAP_JACOBIAN(rimRimJacobian);
 
 }  // namespace carom::gaps

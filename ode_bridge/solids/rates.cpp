@@ -20,4 +20,14 @@ FeatureRates ratesOf(const Solid& solid, const Feature& feature) {
   return rates;
 }
 
+Eigen::Matrix3Xd pointRatesRate(const Solid& solid, const Eigen::VectorXd& dimension_rates) {
+  Eigen::Matrix3Xd rates(3, 0);
+  if (!solid.uneven || dimension_rates.size() == 0 || dimension_rates.isZero(0)) return rates;
+  const SolidProperties change = kindOf(*solid.uneven).propertiesRate(*solid.uneven, dimension_rates);
+  rates.resize(3, solid.center_rates.cols());
+  for (std::size_t d = 0; d < change.rates.size(); ++d)
+    rates.col(static_cast<Eigen::Index>(d)) = -change.rates[d].center;
+  return rates;
+}
+
 }  // namespace carom

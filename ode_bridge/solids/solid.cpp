@@ -24,6 +24,8 @@ Solid solidOf(const Body& body) {
   Solid solid;
   const Vec3 center = centerOfMass(body);
   solid.center_rates = centerOfMassRates(body);
+  const bool uneven = std::holds_alternative<Compound>(body.shape) && !body.fixed && !body.center_of_mass;
+  if (uneven) solid.uneven = std::make_shared<const Shape>(body.shape);
   solids::addShape(solid, body.shape, {Mat3::Identity(), Vec3::Zero() - center, 0, ""});
   const bool centred = center.isZero(0);
   solid.ball = centred && std::holds_alternative<Sphere>(body.shape);

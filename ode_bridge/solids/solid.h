@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -109,12 +110,13 @@ struct Solid {
   std::vector<int> piece_features;  ///< indices of the pieces' features
   std::vector<Node> nodes;          ///< nodes[0] is the root; its centre is the solid's origin
   std::vector<Part> parts;
-  Eigen::Matrix3Xd center_rates;  ///< rate of the centre of mass in the shape by the dimensions (3 x dimensions)
-  Vec3 half = Vec3::Zero();       ///< box: half the size
-  bool ball = false;              ///< a single ball about the origin, which looks the same from all sides
-  bool box = false;               ///< a single box about the origin
-  bool plane = false;             ///< a half space
-  bool closed_mesh = false;       ///< has parts that are closed meshes: what is inside without touching overlaps
+  Eigen::Matrix3Xd center_rates;        ///< rate of the centre of mass in the shape by the dimensions (3 x dimensions)
+  std::shared_ptr<const Shape> uneven;  ///< the shape, where these rates depend on the dimensions themselves; else null
+  Vec3 half = Vec3::Zero();             ///< box: half the size
+  bool ball = false;                    ///< a single ball about the origin, which looks the same from all sides
+  bool box = false;                     ///< a single box about the origin
+  bool plane = false;                   ///< a half space
+  bool closed_mesh = false;             ///< has parts that are closed meshes: what is inside without touching overlaps
 
   const Feature& feature(Family family, int index) const;
   /// Radius about the origin that holds all of it; infinite for a half space.
@@ -125,6 +127,9 @@ struct Solid {
 Solid solidOf(const Body& body);
 
 FeatureRates ratesOf(const Solid& solid, const Feature& feature);
+/// Rate of FeatureRates::point, which is the same for all features, as the dimensions change; features themselves
+/// follow the dimensions linearly. Empty: 0.
+Eigen::Matrix3Xd pointRatesRate(const Solid& solid, const Eigen::VectorXd& dimension_rates);
 
 /// Such as "vertex +x-y+z", "edge 12", "face +z of part 2", "side", "rim +z"; "ball" and "plane" for the whole.
 std::string nameOf(const Solid& solid, Family family, int index);

@@ -39,6 +39,17 @@ class FloorGeometry final : public ContactGeometry {
     jacobian.size_a.col(0).tail<3>() = -Vec3::UnitZ();
     return jacobian;
   }
+  std::vector<ContactJacobian> jacobianRates(int a, int, const FeaturePair&, const Pose&, const Pose&,
+                                             std::span<const PairTangent> directions) const override {
+    std::vector<ContactJacobian> rates(directions.size());
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      const PairTangent& d = directions[i];
+      const Vec3 turn = d.pose.segment<3>(9), z = Vec3::UnitZ(), n = turn.cross(z), dx = d.pose.head<3>() - d.pose.segment<3>(6);
+      const double r = radii_[static_cast<std::size_t>(a)], dr = d.size_a.size() > 0 ? d.size_a[0] : 0;
+      (void)dx, (void)r, (void)dr, (void)n;
+    }
+    return rates;
+  }
   std::string describe(int, int, const FeaturePair&) const override { return "ball on floor"; }
 
  private:

@@ -119,9 +119,10 @@ TEST_P(OnScene, EditMeetsEveryConstraintAndWritesTheScene) {
   const std::string before = readText(path()), edited = temporaryPath(GetParam() + ".json");
   const json answer = runJson({"edit", path(), "-o", edited});
   EXPECT_EQ(readText(path()), before);
-  EXPECT_EQ(membersOf(answer), (Names{"changed", "iterations", "message", "milliseconds", "objective", "output",
-                                      "reliable", "residual", "residuals", "scaled_residual", "sequence_after",
-                                      "sequence_before", "signature_changed", "status"}));
+  EXPECT_EQ(membersOf(answer),
+            (Names{"alternatives", "changed", "iterations", "message", "milliseconds", "objective", "output",
+                   "reliable", "residual", "residuals", "scaled_residual", "sequence_after", "sequence_before",
+                   "sequence_changes", "signature_changed", "status"}));
   EXPECT_EQ(answer["output"], edited);
   for (const json& held : answer["residuals"]) {
     EXPECT_TRUE(std::abs(held["error"].get<double>()) <= 1e-8) << held;

@@ -79,7 +79,7 @@ TEST(ConstraintSet, WhatTheMotionDoesNotHaveIsSaid) {
   EXPECT_NE(late.message.find("'box' at 0.4 s lies after the end of the motion at 0.3 s"), std::string::npos)
       << late.message;
   EXPECT_TRUE(std::isnan(late.residuals[0]));
-  EXPECT_EQ(late.seeds[0].body, -1);
+  EXPECT_TRUE(late.seeds[0].empty());
   const RowValues never = ConstraintSet(scene, {{"box", nthImpact(9, "floor"), {{"time", {1}}}}}).evaluate(motion);
   EXPECT_FALSE(never.available);
   EXPECT_NE(never.message.find("Impact 9 with 'floor' of 'box' does not come within 0.3 s"), std::string::npos)

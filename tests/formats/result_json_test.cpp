@@ -15,6 +15,10 @@ class NoGeometry : public ContactGeometry {
  public:
   ContactPoint contact(int, int, const FeaturePair&, const Pose&, const Pose&) const override { return {}; }
   ContactJacobian jacobian(int, int, const FeaturePair&, const Pose&, const Pose&) const override { return {}; }
+  std::vector<ContactJacobian> jacobianRates(int, int, const FeaturePair&, const Pose&, const Pose&,
+                                             std::span<const PairTangent> directions) const override {
+    return std::vector<ContactJacobian>(directions.size());
+  }
   std::string describe(int, int, const FeaturePair&) const override { return {}; }
 };
 

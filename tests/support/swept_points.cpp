@@ -117,6 +117,12 @@ class Geometry final : public ContactGeometry {
     return J;
   }
 
+  std::vector<ContactJacobian> jacobianRates(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
+                                             std::span<const PairTangent> directions) const override {
+    (void)a, (void)b, (void)f, (void)A, (void)B;
+    return std::vector<ContactJacobian>(directions.size());
+  }
+
   std::string describe(int, int, const FeaturePair& f) const override { return "point " + std::to_string(f.a); }
 
  private:

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <set>
-#include <utility>
 
 #include "editing/control_kinds.h"
 #include "formats/detail/json.hpp"
@@ -9,8 +7,6 @@
 
 namespace carom::detail {
 namespace {
-
-// ---- controls ----
 
 /// Which members beside vary, components, min, max and weight a control of this owner has.
 struct OwnerMembers {
@@ -117,73 +113,6 @@ Control readControl(const Json& value, const Scene& scene, const std::string& wh
   return control;
 }
 
-// ---- constraints ----
-
-When readWhen(const Json& value, const Json& body, const Scene& scene, double duration, const std::string& where) {
-  if (value.is_number()) {
-    const auto time = value.get<double>();
-    if (!(time <= duration))
-      fail(where, numberText(time), "a time in [0, " + numberText(duration) + "], the duration of the scene");
-    return When(time);
-  }
-  std::string with;
-  if (value.contains("with")) {
-    readBodyName(value["with"], where + "/with", scene);
-    with = value["with"].get<std::string>();
-    if (value["with"] == body) fail(where + "/with", quotedText(with), "another body than the constrained one");
-  }
-  return nthImpact(value["impact"].get<int>(), with);
-}
-
-std::vector<double> readTargetVector(const Json& value, const std::string& where) {
-  std::vector<double> numbers;
-  for (const Json& item : value) numbers.push_back(item.is_null() ? any : item.get<double>());
-  if (std::all_of(value.begin(), value.end(), [](const Json& item) { return item.is_null(); }))
-    fail(where, "only null", "a number for at least one component");
-  return numbers;
-}
-
-Target readTarget(const std::string& quantity, const Json& value, const std::string& where) {
-  Target target;
-  target.quantity = quantity;
-  if (quantity == "orientation") {
-    const Quat q = readQuaternion(value, where);
-    target.value = {q.w(), q.x(), q.y(), q.z()};
-  } else if (quantity == "time") {
-    target.value = {value.get<double>()};
-  } else if (quantity == "point") {
-    target.value = readTargetVector(value["world"], where + "/world");
-    target.body_point = readVector(value["body_point"]);
-  } else {
-    target.value = readTargetVector(value, where);
-  }
-  return target;
-}
-
-void requireTime(const Json& value, bool at_impact, double duration, const std::string& where) {
-  if (!at_impact) fail(where, "a target \"time\" at a given time", "\"at\": {\"impact\": n} beside it");
-  if (!(value.get<double>() <= duration))
-    fail(where, describe(value), "a time in [0, " + numberText(duration) + "], the duration of the scene");
-}
-
-Constraint readConstraint(const Json& value, const Scene& scene, double duration, const std::string& where) {
-  const int body = readBodyName(value["body"], where + "/body", scene);
-  const auto& name = scene.bodies[static_cast<std::size_t>(body)].name;
-  if (scene.bodies[static_cast<std::size_t>(body)].fixed)
-    fail(where + "/body", "the fixed body " + quotedText(name), "a moving body");
-  Constraint constraint{name, readWhen(value["at"], value["body"], scene, duration, where + "/at"), {}};
-  for (const auto& member : value.items()) {
-    if (member.key() == "body" || member.key() == "at") continue;
-    const std::string place = pointerTo(where, member.key());
-    if (member.key() == "time") requireTime(member.value(), constraint.at.impact > 0, duration, place);
-    constraint.targets.push_back(readTarget(member.key(), member.value(), place));
-  }
-  if (constraint.targets.empty())
-    fail(where, "a constraint without a target",
-         "one of position, orientation, velocity, angular_velocity, time, point");
-  return constraint;
-}
-
 }  // namespace
 
 std::vector<Control> readControls(const Json& document, const Scene& scene) {
@@ -192,14 +121,6 @@ std::vector<Control> readControls(const Json& document, const Scene& scene) {
   for (std::size_t i = 0; list != document.end() && i < list->size(); ++i)
     controls.push_back(readControl((*list)[i], scene, pointerTo("/controls", i)));
   return controls;
-}
-
-std::vector<Constraint> readConstraints(const Json& document, const Scene& scene, double duration) {
-  std::vector<Constraint> constraints;
-  const auto list = document.find("constraints");
-  for (std::size_t i = 0; list != document.end() && i < list->size(); ++i)
-    constraints.push_back(readConstraint((*list)[i], scene, duration, pointerTo("/constraints", i)));
-  return constraints;
 }
 
 }  // namespace carom::detail

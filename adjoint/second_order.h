@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "adjoint/tangent.h"
+
+namespace carom {
+
+/// A direction in which the inputs of readings change: the scene, and the times of the seeds that are read at a given
+/// time (one number a seed, 0 for those at events; empty: all stay).
+struct ReadingDirection {
+  SceneTangent scene;
+  Eigen::VectorXd time;
+};
+
+/// How the weights of the seeds change when the states that they are read from change at `rates`, one a seed, in which
+/// the instants have moved along; what is returned holds one seed a seed, of which only the weights are read. Empty
+/// where the weights are constant.
+using SeedRates = std::function<std::vector<StateSeed>(std::span<const BodyStateRate> rates)>;
+
+/// Derivatives, along each direction, of the gradient of the sum of the seeds.
+struct SecondOrder {
+  std::vector<SceneGradient> gradient_rates;  ///< of adjoint(tape, seeds)
+  std::vector<Eigen::VectorXd> time_rates;    ///< of timeDerivative of each seed; 0 for those at events
+};
+
+/// Exact second derivatives: the reverse pass with dual numbers, whose other half is the tangent along the directions.
+/// Section 9 of docs/equations.md. Its cost is a few reverse passes a direction, whatever the number of seeds. The
+/// matrix over all scene numbers and reading times is symmetric, but for orientations: world rotation vectors applied
+/// one after another do not commute, D_a (df.b) - D_b (df.a) = df.(a x b).
+/// Throws InputError like `adjoint`.
+SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
+                        std::span<const ReadingDirection> directions);
+
+}  // namespace carom

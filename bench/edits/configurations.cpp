@@ -1,0 +1,22 @@
+#include "bench/edits/configurations.h"
+
+namespace carom::bench {
+namespace {
+
+EditOptions staying() {
+  EditOptions options;
+  options.sequence = SequencePolicy::stay;
+  return options;
+}
+
+}  // namespace
+
+const std::vector<Configuration>& configurations() {
+  static const std::vector<Configuration> rows = {
+      {"search", "with search", EditOptions{}},
+      {"no_search", "Ipopt alone", staying()},
+  };
+  return rows;
+}
+
+}  // namespace carom::bench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "bench/edits/configurations.h"
+#include "bench/edits/tasks.h"
+
+namespace carom::bench {
+
+/// Of every row, dimensionless, after fresh simulation.
+inline constexpr double kLargestResidual = 1e-8;
+
+/// What one configuration made of one task. Residual, objective and bounds are computed here from the numbers of the
+/// answer, put into the scene as written and simulated afresh: nothing of the solver's own account is used.
+struct Outcome {
+  bool met = false;      ///< residual and bounds; whatever the status says
+  bool claimed = false;  ///< the status says solved
+  EditStatus status = EditStatus::not_converged;
+  std::string message;
+  double residual = 0, objective = 0;
+  int iterations = 0;
+  double milliseconds = 0;  ///< of Edit::solve, from outside
+  bool sequence_changed = false;
+};
+
+Outcome solve(const Task& task, const Configuration& configuration, double budget_seconds);
+
+}  // namespace carom::bench

@@ -1,0 +1,142 @@
+#include "bench/edits/report.h"
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+namespace carom::bench {
+namespace {
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+File openForWriting(const std::string& name) {
+  File file(std::fopen(name.c_str(), "w"));
+  if (!file) throw std::runtime_error(name + ": cannot be written");
+  return file;
+}
+
+void printTable(const std::vector<Task>& tasks, const char* title, const char* (*row)(const Task&),
+                int (*column)(const Task&), int columns, const char* (*heading)(int)) {
+  std::map<std::string, std::vector<int>> counts;
+  for (const Task& task : tasks) {
+    std::vector<int>& line = counts[row(task)];
+    line.resize(static_cast<std::size_t>(columns));
+    ++line[static_cast<std::size_t>(column(task))];
+  }
+  std::printf("%-14s", title);
+  for (int c = 0; c < columns; ++c) std::printf(" %12s", heading(c));
+  std::printf("\n");
+  for (const auto& [name, line] : counts) {
+    std::printf("%-14s", name.c_str());
+    for (int count : line) std::printf(" %12d", count);
+    std::printf("\n");
+  }
+  std::printf("\n");
+}
+
+const char* familyOf(const Task& task) { return nameOf(task.wanted.family); }
+
+const char* impactsHeading(int column) {
+  constexpr const char* kNames[kMostImpacts] = {"1 impact", "2", "3", "4", "5", "6", "7", "8"};
+  return kNames[column];
+}
+
+}  // namespace
+
+void printList(const std::vector<Task>& tasks) {
+  printTable(
+      tasks, "goals", familyOf, [](const Task& t) { return static_cast<int>(t.wanted.goal); }, kGoals,
+      [](int g) { return nameOf(static_cast<Goal>(g)); });
+  printTable(
+      tasks, "impacts", familyOf, [](const Task& t) { return t.wanted.impacts - 1; }, kMostImpacts, impactsHeading);
+  printTable(
+      tasks, "sequence", familyOf, [](const Task& t) { return t.wanted.other_sequence ? 1 : 0; }, 2,
+      [](int other) { return other ? "another" : "the same"; });
+  std::map<std::string, int> kinds;
+  int bounded = 0, weighted = 0, partial = 0, fewest = 1000, most = 0;
+  for (const Task& task : tasks) {
+    fewest = std::min(fewest, task.numbers), most = std::max(most, task.numbers);
+    for (const Control& c : task.controls) {
+      ++kinds[c.vary];
+      bounded += !c.min.empty(), weighted += c.weight != 1, partial += !c.components.empty();
+    }
+  }
+  std::printf("controls of %zu tasks (%d to %d numbers each):", tasks.size(), fewest, most);
+  for (const auto& [kind, count] : kinds) std::printf(" %s %d,", kind.c_str(), count);
+  std::printf("\nof these with bounds %d, weighted %d, with some of their components %d\n", bounded, weighted, partial);
+}
+
+void printSummary(const std::vector<Task>& tasks, const std::vector<Run>& runs, const BestKnown& best) {
+  std::printf("%-16s %5s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %8s %8s %5s %7s %7s %8s %5s\n", "configuration",
+              "tasks", "met %", "ball", "box", "hull", "meet", "time", "impact", "pose", "two", "same", "other",
+              "med ms", "it", "ratio", "p95 r", "worst r", "p95ms");
+  for (const Run& run : runs) {
+    const Summary s = summarise(tasks, run, best);
+    std::printf("%-16s %5zu %6.1f", run.configuration->name, tasks.size(), s.met);
+    for (double percent : s.by_family) std::printf(" %6.1f", percent);
+    for (double percent : s.by_goal) std::printf(" %6.1f", percent);
+    std::printf(" %6.1f %6.1f %8.2f %5.0f %7.3f %7.3f %8.3g %8.1f\n", s.same, s.other, s.median_ms, s.median_iterations,
+                s.median_ratio, s.p95_ratio, s.worst_ratio, s.p95_ms);
+    if (s.claimed_not_met + s.met_not_claimed > 0)
+      std::printf("  claimed but not met: %d; met but not claimed: %d\n", s.claimed_not_met, s.met_not_claimed);
+  }
+}
+
+void printFailures(const std::vector<Task>& tasks, const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      const Outcome& o = run.outcomes[i];
+      if (o.met) continue;
+      const Task& t = tasks[i];
+      std::printf(
+          "%s: task %d (%s, %s, %d impacts, %s sequence, %d rows, %d numbers, hidden at %.3f, growth %.2g): "
+          "%s after %d iterations, %.0f ms, residual %.3g. %s\n",
+          run.configuration->name, t.index, nameOf(t.wanted.family), nameOf(t.wanted.goal), t.wanted.impacts,
+          t.wanted.other_sequence ? "another" : "the same", t.rows, t.numbers, t.hidden_distance, t.growth,
+          nameOf(o.status), o.iterations, o.milliseconds, o.residual, o.message.c_str());
+    }
+  }
+}
+
+void writeOutcomes(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
+                   const BestKnown& best) {
+  const File out = openForWriting(file);
+  std::fprintf(out.get(),
+               "task,family,goal,impacts,other_sequence,rows,numbers,hidden_distance,growth,configuration,met,"
+               "status,residual,objective,best_known,iterations,ms,sequence_changed\n");
+  for (const Run& run : runs) {
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      const Task& t = tasks[i];
+      const Outcome& o = run.outcomes[i];
+      std::fprintf(out.get(), "%d,%s,%s,%d,%d,%d,%d,%.4g,%.3g,%s,%d,%s,%.3g,%.9g,%.9g,%d,%.3f,%d\n", t.index,
+                   nameOf(t.wanted.family), nameOf(t.wanted.goal), t.wanted.impacts, t.wanted.other_sequence ? 1 : 0,
+                   t.rows, t.numbers, t.hidden_distance, t.growth, run.configuration->name, o.met ? 1 : 0,
+                   nameOf(o.status), o.residual, o.objective, best.of(t), o.iterations, o.milliseconds,
+                   o.sequence_changed ? 1 : 0);
+    }
+  }
+}
+
+void writeSummary(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
+                  const BestKnown& best) {
+  const File out = openForWriting(file);
+  std::fprintf(out.get(),
+               "configuration,label,tasks,met,ball,box,hull,meeting,at_a_time,at_an_impact,pose,two_nails,"
+               "same_sequence,other_sequence,median_ms,p95_ms,median_iterations,median_ratio,p95_ratio,"
+               "worst_ratio\n");
+  for (const Run& run : runs) {
+    const Summary s = summarise(tasks, run, best);
+    std::fprintf(out.get(), "%s,\"%s\",%zu,%.1f", run.configuration->name, run.configuration->label, tasks.size(),
+                 s.met);
+    for (double percent : s.by_family) std::fprintf(out.get(), ",%.1f", percent);
+    for (double percent : s.by_goal) std::fprintf(out.get(), ",%.1f", percent);
+    std::fprintf(out.get(), ",%.1f,%.1f,%.2f,%.1f,%.0f,%.3f,%.3f,%.3g\n", s.same, s.other, s.median_ms, s.p95_ms,
+                 s.median_iterations, s.median_ratio, s.p95_ratio, s.worst_ratio);
+  }
+}
+
+}  // namespace carom::bench

@@ -1,0 +1,96 @@
+#include "editing/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/adjoint.h"
+#include "editing/event_margins.h"
+#include "editing/jacobian.h"
+#include "editing/motion_checks.h"
+#include "editing/text.h"
+
+namespace carom {
+namespace {
+
+/// Largest magnitude; NaN if any entry is.
+double largest(const Eigen::VectorXd& values) {
+  double most = 0;
+  for (double value : values) most = std::isnan(value) ? value : std::max(most, std::abs(value));
+  return values.hasNaN() ? std::numeric_limits<double>::quiet_NaN() : most;
+}
+
+/// Of the derivatives of all rows, the worst.
+Reliability reliabilityOf(DerivativeTape& tape, const RowValues& rows) {
+  Reliability worst;
+  for (const std::vector<StateSeed>& seeds : rows.seeds) {
+    if (seeds.empty()) continue;
+    Reliability one;
+    adjoint(tape, seeds, &one);
+    worst.events = std::max(worst.events, one.events);
+    worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
+    if (worst.reliable && !one.reliable) worst.message = one.message;
+    worst.reliable = worst.reliable && one.reliable;
+  }
+  return worst;
+}
+
+/// The instants at which targets are read, and the last one of all, up to which every impact counts. What a region
+/// keeps clear of is read where it is nearest, and does not jump.
+std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues& rows, double last) {
+  std::vector<ReadInstant> instants;
+  const auto add = [&](int body, double time) {
+    const auto known = std::find_if(instants.begin(), instants.end(),
+                                    [&](const ReadInstant& i) { return i.body == body && i.time == time; });
+    if (known == instants.end()) instants.push_back({body, time});
+  };
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    if (problem.constraints.rows()[static_cast<std::size_t>(i)].region >= 0) continue;
+    for (const StateSeed& seed : rows.seeds[static_cast<std::size_t>(i)]) {
+      if (seed.at.event >= 0) continue;
+      add(seed.at.time == last ? -1 : seed.body, seed.at.time);
+    }
+  }
+  return instants;
+}
+
+void predictSignature(const EditProblem& problem, const Eigen::VectorXd& unknowns, DerivativeTape& tape,
+                      const RowValues& rows, Certificate& certificate) {
+  const Eigen::VectorXd changes = unknowns.head(problem.controls.size());
+  const Eigen::VectorXd values = problem.controls.valuesOf(changes), rates = problem.controls.valueRates(changes);
+  const auto byChanges = [&](const SceneGradient& gradient) {
+    return Eigen::VectorXd(problem.controls.gather(gradient, values).cwiseProduct(rates));
+  };
+  const ConstraintSet::Extent extent = problem.constraints.extentIn(tape.motion(), rows.times);
+  const std::vector<EventMargin> margins =
+      eventMargins(tape, std::min(extent.events, kMarginEvents), instantsOf(problem, rows, extent.time), byChanges);
+  const EventMargin* nearest = nullptr;
+  for (const EventMargin& margin : margins) {
+    if (!(margin.distance() < certificate.signature_radius)) continue;
+    certificate.signature_radius = margin.distance();
+    nearest = &margin;
+  }
+  if (!nearest) return;
+  certificate.signature_step = -nearest->value / nearest->gradient.squaredNorm() * nearest->gradient;
+  std::string text = nearest->what;
+  text[0] = 'T';
+  certificate.signature_event = text + " at a change of " + number(certificate.signature_radius) + ".";
+}
+
+}  // namespace
+
+Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
+                    const RowValues& rows) {
+  Certificate certificate;
+  certificate.taken = true;
+  certificate.residual = largest(rows.residuals);
+  certificate.scaled_residual = largest(rows.scaled);
+  certificate.energy_drift = energyDrift(motion, kEnergySamples);
+  certificate.energy_gain = energyGain(motion);
+  certificate.deepest_penetration = deepestPenetration(motion, kOverlapSamples);
+  DerivativeTape tape(motion);
+  certificate.reliability = reliabilityOf(tape, rows);
+  predictSignature(problem, unknowns, tape, rows, certificate);
+  return certificate;
+}
+
+}  // namespace carom

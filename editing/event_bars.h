@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "adjoint/derivative_tape.h"
+
+/// Gradients of numbers that are read at an impact. Internal to editing/.
+namespace carom {
+
+/// d of a number by what is known just before an event: poses, velocities and spins of its bodies, contact geometry,
+/// mass properties and coefficients. `gradient` turns it into the derivative by every number of the scene.
+class EventBars {
+ public:
+  /// `motion` must outlive it.
+  EventBars(const Motion& motion, int event);
+
+  /// By (gap, normal, point) of a contact, at the moved poses of its bodies.
+  void addContact(int contact, const Eigen::Matrix<double, 7, 1>& bar);
+  /// By the relative velocity u = v_a + omega_a x r_a - v_b - omega_b x r_b of a contact.
+  void addVelocity(int contact, const Vec3& u_bar);
+  /// By the matrix K of a contact (docs/equations.md section 4), and by the normal of the impulse and the coefficients.
+  void addLaw(int contact, const Mat3& K_bar, const Vec3& impulse_normal_bar, const PairCoefficients& pair_bar);
+  /// By the rotation (world vector) and the centre of mass of a body; of a fixed body its written pose.
+  void addPose(int body, const Vec3& x_bar, const Vec3& theta_bar);
+  void addSize(int body, const Eigen::VectorXd& size_bar);
+  /// By the time of the event.
+  void addTime(double time_bar);
+
+  /// Relative velocity, K and the problem's other numbers at a contact.
+  Vec3 velocityAt(int contact) const;
+  Mat3 matrixAt(int contact) const;
+  Pose poseOf(int body) const;
+
+  /// One reverse pass.
+  SceneGradient gradient(DerivativeTape& tape) const;
+
+ private:
+  struct Moving {
+    const BodyModel* model;
+    Mat3 R, A;  ///< principal axes to world; world inverse inertia
+    Vec3 omega;
+  };
+  /// Calls visit(participant, sign, arm) for the moving bodies of a contact.
+  template <class Visit>
+  void eachArm(int contact, const Visit& visit) const;
+  void addPoint(int contact, const Vec3& point_bar);
+
+  const Motion& motion_;
+  const Event& event_;
+  std::vector<Moving> moving_;    // of the participants
+  std::vector<StateSeed> seeds_;  // of the participants
+  std::vector<BodyModelDerivative> models_;
+  SceneGradient direct_;
+};
+
+}  // namespace carom

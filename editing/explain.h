@@ -1,0 +1,14 @@
+#pragma once
+
+#include "editing/edit_solution.h"
+#include "editing/why_not.h"
+
+/// Internal to editing/.
+namespace carom {
+
+/// Why a search ended without meeting all constraints. Solves the edit anew with each of the kTries most helpful
+/// controls added, in at most kTryIterations steps within the impact sequence of the start.
+WhyNot explain(const Scene& written, EditSearch& search, const EditSolution& solution);
+inline constexpr int kTries = 3, kTryIterations = 60;
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+
+#include "editing/constraint.h"
+#include "editing/wanted.h"
+
+namespace carom {
+
+class Edit;
+
+/// A handle to one constraint of an Edit, which holds until Edit::unnail. Each function nails one more quantity down
+/// (again: replaces its target). A component `any` stays free, and one may be held within a range instead:
+///   edit.nail("ball", between(1, 2)).position(within(0.1, 0.3), any, 2.0);
+/// Valid as long as its Edit.
+class Nail {
+ public:
+  Nail& position(const Vec3& p_W);  ///< m
+  Nail& position(Wanted x, Wanted y, Wanted z);
+  Nail& orientation(const Quat& q);  ///< shape to world, unit
+  Nail& velocity(const Vec3& v_W);   ///< m/s
+  Nail& velocity(Wanted x, Wanted y, Wanted z);
+  Nail& angularVelocity(const Vec3& w_W);  ///< rad/s, world axes
+  Nail& angularVelocity(Wanted x, Wanted y, Wanted z);
+  Nail& time(Wanted t);                                    ///< s, of the impact; only for nails at an impact
+  Nail& point(const Vec3& body_point, const Vec3& world);  ///< a point in shape axes comes to a place in the world
+  Nail& point(const Vec3& body_point, Wanted x, Wanted y, Wanted z);
+
+  /// All quantities are those of the body as seen from another one, in the axes of its shape (see `seenFrom` in
+  /// editing/relative.h). "" takes it back.
+  Nail& relativeTo(const std::string& body);
+
+  /// One more region that the body stays out of, or within, over the region's own time, whatever that of the nail.
+  Nail& avoid(Region region);
+  Nail& inside(Region region);
+
+ private:
+  friend class Edit;
+  Nail(Edit* edit, int id) : edit_(edit), id_(id) {}
+  Constraint& constraint();
+  Nail& set(Target target);
+  Nail& set(const char* quantity, const Wanted (&wanted)[3], const Vec3& body_point = Vec3::Zero());
+
+  Edit* edit_;
+  int id_;
+};
+
+}  // namespace carom

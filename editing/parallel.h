@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "adjoint/contact_source.h"
+
+/// Work on several cores, with answers that do not depend on how many. Internal to editing/.
+namespace carom {
+
+/// Calls work(0) to work(count - 1), in any order, on up to `threads` cores (0: all there are). Returns when all are
+/// done; an exception of one of them comes out here.
+void inParallel(int threads, std::size_t count, const std::function<void(std::size_t)>& work);
+
+/// Collision detection for whoever simulates at the moment: sources are independent of each other, and which one a
+/// simulation gets makes no difference to it.
+class ContactPool {
+ public:
+  /// `first` is kept by reference, and lent like the others.
+  explicit ContactPool(ContactSource& first) : first_(first), free_{&first} {}
+
+  /// False where only one simulation can run at a time.
+  bool isShareable() const { return first_.another() != nullptr; }
+
+  /// Held for the time of some simulations.
+  class Loan {
+   public:
+    explicit Loan(ContactPool& pool) : pool_(pool), source_(pool.take()) {}
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    ~Loan() { pool_.give(source_); }
+    ContactSource& source() const { return *source_; }
+
+   private:
+    ContactPool& pool_;
+    ContactSource* source_;
+  };
+
+ private:
+  ContactSource* take();
+  void give(ContactSource* source);
+
+  std::mutex mutex_;
+  ContactSource& first_;
+  std::vector<std::unique_ptr<ContactSource>> made_;
+  std::vector<ContactSource*> free_;
+};
+
+}  // namespace carom

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+/// Points spread evenly, the same ones every time. Internal to editing/.
+namespace carom {
+
+/// A sequence of low discrepancy: point k has the coordinates frac(1/2 + (k + 1) / g^j), where g^(m+1) = g + 1 (the
+/// R_m sequence; for m = 1 g is the golden ratio), m = 2 d: onSphere needs as many. Every beginning of it covers the
+/// unit cube evenly.
+class EvenPoints {
+ public:
+  explicit EvenPoints(Eigen::Index dimensions);
+  /// In [0, 1)^d.
+  Eigen::VectorXd inCube(int k) const;
+  /// Of length 1, in directions that are spread evenly: normal numbers of the points of a sequence, by Box and Muller.
+  Eigen::VectorXd onSphere(int k) const;
+
+ private:
+  Eigen::VectorXd steps_;  // 1 / g^j, m of them
+  Eigen::Index dimensions_;
+};
+
+/// What is known around a point: Gauss-Newton's step there, and an orthonormal basis of the directions that change no
+/// row to first order (columns; may have none).
+struct Surroundings {
+  Eigen::VectorXd at, step;
+  Eigen::MatrixXd free;
+};
+
+/// A part of `count` of one endless sequence of samples, from number `first` on, all within the bounds. They take
+/// turns: points of boxes around `centre` with half widths from 0.03 to 3 (natural scales, times the weights); single
+/// numbers changed; and from each of `around` on, a share of the step and something along the free directions.
+std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
+                                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count);
+
+}  // namespace carom

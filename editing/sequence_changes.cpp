@@ -1,0 +1,186 @@
+#include "editing/sequence_changes.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "editing/text.h"
+
+namespace carom {
+namespace {
+
+using Kind = SequenceChange::Kind;
+using Bodies = std::vector<int>;
+
+/// What it costs to take one impact for another. Two that differ in their features are still rather the same impact
+/// than one that went and one that came.
+constexpr int kOtherMode = 1;
+constexpr int kOtherFeatures = 2;
+constexpr int kAlone = 2;
+
+/// The impacts of one motion that count, as indices, by the bodies that meet.
+struct Sequence {
+  const Motion& motion;
+  std::map<Bodies, std::vector<int>> of;
+};
+
+Bodies bodiesOf(const Event& event) {
+  Bodies bodies;
+  for (const Contact& c : event.contacts) bodies.push_back(c.a), bodies.push_back(c.b);
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
+Sequence sequenceOf(const Motion& motion, std::size_t count) {
+  Sequence sequence{motion, {}};
+  for (std::size_t e = 0; e < std::min(count, motion.events.size()); ++e) {
+    sequence.of[bodiesOf(motion.events[e])].push_back(static_cast<int>(e));
+  }
+  return sequence;
+}
+
+const Event& eventOf(const Motion& motion, int index) { return motion.events[static_cast<std::size_t>(index)]; }
+
+bool sameFeatures(const Event& a, const Event& b) {
+  return std::equal(
+      a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
+      [](const Contact& c, const Contact& d) { return c.a == d.a && c.b == d.b && c.features == d.features; });
+}
+
+int differenceOf(const Event& a, const Event& b) {
+  return (sameFeatures(a, b) ? 0 : kOtherFeatures) + (a.mode == b.mode ? 0 : kOtherMode);
+}
+
+/// Places in two lists that belong together; -1 where an impact stands alone.
+using Matches = std::vector<std::pair<int, int>>;
+
+/// The cheapest alignment of two lists, by dynamic programming over their beginnings.
+Matches align(const Sequence& before, const std::vector<int>& a, const Sequence& after, const std::vector<int>& b) {
+  const std::size_t n = a.size(), m = b.size();
+  std::vector<std::vector<int>> cost(n + 1, std::vector<int>(m + 1, 0));
+  const auto together = [&](std::size_t i, std::size_t j) {
+    return cost[i - 1][j - 1] + differenceOf(eventOf(before.motion, a[i - 1]), eventOf(after.motion, b[j - 1]));
+  };
+  for (std::size_t i = 0; i <= n; ++i) {
+    for (std::size_t j = 0; j <= m; ++j) {
+      if (i == 0 || j == 0) {
+        cost[i][j] = kAlone * static_cast<int>(i + j);
+        continue;
+      }
+      cost[i][j] = std::min({together(i, j), cost[i - 1][j] + kAlone, cost[i][j - 1] + kAlone});
+    }
+  }
+  Matches matches;
+  for (std::size_t i = n, j = m; i > 0 || j > 0;) {
+    if (i > 0 && j > 0 && cost[i][j] == together(i, j)) {
+      matches.push_back({static_cast<int>(--i), static_cast<int>(--j)});
+    } else if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
+      matches.push_back({static_cast<int>(--i), -1});
+    } else {
+      matches.push_back({-1, static_cast<int>(--j)});
+    }
+  }
+  std::reverse(matches.begin(), matches.end());
+  return matches;
+}
+
+std::string ordinal(int n) {
+  const bool teen = n % 100 >= 11 && n % 100 <= 13;
+  const char* ending = teen ? "th" : n % 10 == 1 ? "st" : n % 10 == 2 ? "nd" : n % 10 == 3 ? "rd" : "th";
+  return std::to_string(n) + ending;
+}
+
+std::string namesOf(const Motion& motion, const Bodies& bodies) {
+  std::vector<std::string> names;
+  for (int b : bodies) names.push_back("'" + motion.scene->bodies[static_cast<std::size_t>(b)].name + "'");
+  return listOf(names);
+}
+
+std::string featuresOf(const Motion& motion, int index) {
+  std::vector<std::string> features;
+  for (const Contact& c : eventOf(motion, index).contacts) {
+    features.push_back(motion.geometry->describe(c.a, c.b, c.features));
+  }
+  return listOf(features);
+}
+
+std::string timeOf(const Motion& motion, int index) { return number(eventOf(motion, index).time) + " s"; }
+
+/// Of one pair of matched impacts; nothing where they are alike.
+void compare(const Sequence& before, int e, const Sequence& after, int f, const std::string& impact,
+             std::vector<SequenceChange>& changes) {
+  const Event &a = eventOf(before.motion, e), &b = eventOf(after.motion, f);
+  if (!sameFeatures(a, b)) {
+    changes.push_back(
+        {Kind::moved, e, f,
+         "The " + impact + " moved from " + featuresOf(before.motion, e) + " to " + featuresOf(after.motion, f) + "."});
+  } else if (a.mode != b.mode) {
+    changes.push_back(
+        {Kind::mode, e, f, "The " + impact + " changed from " + nameOf(a.mode) + " to " + nameOf(b.mode) + "."});
+  }
+}
+
+void compareBodies(const Sequence& before, const Sequence& after, const Bodies& bodies,
+                   std::vector<SequenceChange>& changes) {
+  const auto listFor = [&](const Sequence& s) {
+    const auto at = s.of.find(bodies);
+    return at == s.of.end() ? std::vector<int>{} : at->second;
+  };
+  const std::vector<int> a = listFor(before), b = listFor(after);
+  const std::string names = namesOf(before.motion, bodies);
+  for (const auto& [i, j] : align(before, a, after, b)) {
+    const std::string impact = ordinal((i >= 0 ? i : j) + 1) + " impact of " + names;
+    if (j < 0) {
+      const int e = a[static_cast<std::size_t>(i)];
+      changes.push_back(
+          {Kind::went, e, -1, "The " + impact + ", which was at " + timeOf(before.motion, e) + ", no longer happens."});
+    } else if (i < 0) {
+      const int f = b[static_cast<std::size_t>(j)];
+      changes.push_back({Kind::came, -1, f, "The " + impact + ", at " + timeOf(after.motion, f) + ", came anew."});
+    } else {
+      compare(before, a[static_cast<std::size_t>(i)], after, b[static_cast<std::size_t>(j)], impact, changes);
+    }
+  }
+}
+
+/// The first place at which the same impacts come in another order.
+SequenceChange otherOrder(const Motion& before, const Motion& after, std::size_t count) {
+  std::size_t e = 0;
+  while (e + 1 < count && bodiesOf(before.events[e]) == bodiesOf(after.events[e])) ++e;
+  const auto names = [&](const Motion& motion) { return namesOf(motion, bodiesOf(motion.events[e])); };
+  const int index = static_cast<int>(e);
+  return {Kind::order, index, index,
+          "The impacts come in another order: that of " + names(after) + " is the " + ordinal(index + 1) +
+              " one, where that of " + names(before) + " was."};
+}
+
+}  // namespace
+
+const char* nameOf(SequenceChange::Kind kind) {
+  constexpr const char* kNames[] = {"went", "came", "moved", "mode", "order"};
+  return kNames[static_cast<int>(kind)];
+}
+
+std::vector<SequenceChange> sequenceChanges(const Motion& before, std::size_t count_before, const Motion& after,
+                                            std::size_t count_after) {
+  std::vector<SequenceChange> changes;
+  if (before.signature(count_before) == after.signature(count_after)) return changes;
+  const Sequence a = sequenceOf(before, count_before), b = sequenceOf(after, count_after);
+  std::map<Bodies, int> all;
+  for (const Sequence* s : {&a, &b}) {
+    for (const auto& [bodies, events] : s->of) all[bodies];
+  }
+  for (const auto& [bodies, unused] : all) compareBodies(a, b, bodies, changes);
+  if (changes.empty()) {
+    changes.push_back(otherOrder(before, after, std::min(count_before, before.events.size())));
+  }
+  const auto timeAt = [&](const SequenceChange& c) {
+    return c.before >= 0 ? eventOf(before, c.before).time : eventOf(after, c.after).time;
+  };
+  std::stable_sort(changes.begin(), changes.end(),
+                   [&](const SequenceChange& x, const SequenceChange& y) { return timeAt(x) < timeAt(y); });
+  return changes;
+}
+
+}  // namespace carom

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "editing/session.h"
+
+namespace carom {
+
+/// What became of one gesture when it was played again.
+struct ReplayedGesture {
+  SessionUpdate update;                  ///< at its end
+  int updates = 0;                       ///< calls of dragTo
+  double slowest_milliseconds = 0;       ///< of them
+  std::vector<std::string> differences;  ///< from what the journal says came of it; empty: the same bits
+};
+
+/// Plays a journal again, gesture by gesture, with the work limits of the journal and without a clock: updates that the
+/// clock cut end where it cut them. The same journal gives the same bits.
+class SessionReplay {
+ public:
+  /// Keeps the journal and `contacts` by reference. Throws InputError for a journal that makes no sense.
+  SessionReplay(const SessionJournal& journal, ContactSource& contacts);
+
+  bool done() const { return next_ == journal_.gestures.size(); }
+  /// Throws InputError naming "/gestures/<i>" for a gesture that cannot be done.
+  ReplayedGesture next();
+
+  const EditSession& session() const { return session_; }
+
+ private:
+  void play(const SessionGesture& gesture, ReplayedGesture& out);
+  void compare(const SessionGesture& gesture, ReplayedGesture& out) const;
+
+  const SessionJournal& journal_;
+  EditSession session_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace carom

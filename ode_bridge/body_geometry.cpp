@@ -1,0 +1,23 @@
+#include "adjoint/body_geometry.h"
+
+#include "ode_bridge/feature_limits.h"
+#include "ode_bridge/gaps.h"
+#include "ode_bridge/overlap.h"
+
+namespace carom {
+
+double FeatureGeometry::overlap(int a, int b, const Pose& A, const Pose& B) const {
+  return overlapOf(Placed(solid(a), A.x, A.R), Placed(solid(b), B.x, B.R), 0).value_or(0);
+}
+
+std::vector<FeatureLimit> FeatureGeometry::limits(int a, int b, const FeaturePair& f, const Pose& A,
+                                                  const Pose& B) const {
+  std::vector<FeatureLimit> limits;
+  const Vec3 point = contact(a, b, f, A, B).point;
+  const auto kind = static_cast<GapKind>(f.kind);
+  addFeatureLimits(solid(a), familyOfFirst(kind), f.a, A.R.transpose() * (point - A.x), -1, a, limits);
+  addFeatureLimits(solid(b), familyOfSecond(kind), f.b, B.R.transpose() * (point - B.x), 1, b, limits);
+  return limits;
+}
+
+}  // namespace carom
