@@ -41,8 +41,8 @@ namespace {
 struct Bracket {
   double above = -kInfinity, below = kInfinity, past = kInfinity;
 
-  void take(double t, const GuardValue& g) {
-    if (!(g.gap > 0)) {
+  void take(double t, bool is_above, const GuardValue& g) {
+    if (!is_above) {
       below = t;
     } else if (g.rate < 0 || std::isfinite(below)) {
       above = t;
@@ -73,15 +73,17 @@ GuardRoot descendingRoot(const RootSearch& search, const std::function<GuardValu
     // within rounding of zero only what comes nearer counts
     if (gap <= 4 * rounding && nearest <= 4 * rounding && !(gap < nearest)) return {Outcome::found, nearest_time};
     if (g.rate < 0 && gap < nearest) nearest = gap, nearest_time = t;
-    bracket.take(t, g);
-    if (bracket.isNarrow(t)) return {g.rate < 0 ? Outcome::found : Outcome::none, t};
+    // bodies that part within rounding of contact have just bounced
+    const bool is_above = g.gap > 0 || (gap <= rounding && !(g.rate < 0));
+    bracket.take(t, is_above, g);
+    if (bracket.isNarrow(t)) return {std::isfinite(bracket.below) ? Outcome::found : Outcome::none, t};
 
     double next;
     if (g.rate < 0) {
       next = std::clamp(t - g.gap / g.rate, t - search.stride, t + search.stride);
       if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {Outcome::found, std::max(next, search.from)};
     } else {
-      next = g.gap > 0 ? t + stride : t - stride;
+      next = is_above ? t + stride : t - stride;
       stride *= 2;
     }
     if (bracket.closed() && !(next > bracket.above && next < bracket.end()))

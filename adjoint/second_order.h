@@ -22,7 +22,8 @@ using SeedRates = std::function<std::vector<StateSeed>(std::span<const BodyState
 
 /// Derivatives, along each direction, of the gradient of the sum of the seeds.
 struct SecondOrder {
-  std::vector<SceneGradient> gradient_rates;  ///< of adjoint(tape, seeds)
+  SceneGradient gradient;                     ///< adjoint(tape, seeds), where a direction is given
+  std::vector<SceneGradient> gradient_rates;  ///< of it
   std::vector<Eigen::VectorXd> time_rates;    ///< of timeDerivative of each seed; 0 for those at events
 };
 

@@ -22,6 +22,11 @@ struct BodyStateRate {
 class MotionTangent {
  public:
   BodyStateRate at(int body, const Instant& instant) const;
+  /// Of the state at the start of an arc, at the fixed time at which it starts; and of the mass properties.
+  const StateDerivative& start(int body, int arc) const {
+    return starts_[static_cast<std::size_t>(body)][static_cast<std::size_t>(arc)];
+  }
+  const BodyModelDerivative& model(int body) const { return dmodels_[static_cast<std::size_t>(body)]; }
   /// d(time of event).
   double eventTime(int event) const { return event_time_[event]; }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "adjoint/errors.h"
+#include "editing/refined_times.h"
 
 namespace carom::cli {
 namespace {
@@ -15,17 +16,17 @@ constexpr double kSmallColumn = 1e-3;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The impacts up to the last one that can matter to the rows.
-std::vector<std::string> sequenceOf(const EditProblem& problem, const Motion& motion) {
+std::vector<std::string> sequenceOf(const EditProblem& problem, const Motion& motion, const Eigen::VectorXd& times) {
   std::vector<std::string> lines;
-  const int count = static_cast<int>(problem.constraints.extentIn(motion).events);
+  const int count = static_cast<int>(problem.constraints.extentIn(motion, times).events);
   for (int i = 0; i < count; ++i) lines.push_back(motion.describeEvent(i));
   return lines;
 }
-std::string signatureOf(const EditProblem& problem, const Motion& motion) {
-  return motion.signature(problem.constraints.extentIn(motion).events);
+std::string signatureOf(const EditProblem& problem, const Motion& motion, const Eigen::VectorXd& times) {
+  return motion.signature(problem.constraints.extentIn(motion, times).events);
 }
 
-/// The rows of one scene near the one that is checked.
+/// The rows of one scene near the one that is checked, those of free times at the same times.
 struct Sample {
   bool possible = false;
   std::string why;
@@ -34,13 +35,13 @@ struct Sample {
   std::vector<std::string> sequence;
 };
 
-Sample sampleAt(const EditProblem& problem, const Eigen::VectorXd& values) {
+Sample sampleAt(const EditProblem& problem, const Eigen::VectorXd& values, const Eigen::VectorXd& times) {
   Sample sample;
   try {
     const Motion motion = simulateAt(problem, values, problem.horizon);
-    const RowValues rows = problem.constraints.evaluate(motion);
-    sample.sequence = sequenceOf(problem, motion);
-    sample.signature = signatureOf(problem, motion);
+    const RowValues rows = problem.constraints.evaluate(motion, times);
+    sample.sequence = sequenceOf(problem, motion, times);
+    sample.signature = signatureOf(problem, motion, times);
     sample.rows = rows.values;
     sample.possible = true;
     if (!rows.available) sample.why = rows.message;
@@ -63,9 +64,10 @@ class Checker {
  public:
   Checker(const EditProblem& problem, const Eigen::VectorXd& values) : problem_(problem), values_(values) {
     const Motion motion = simulateAt(problem, values, problem.horizon);
-    const RowValues rows = problem.constraints.evaluate(motion);
-    signature_ = signatureOf(problem, motion);
-    check_.sequence = sequenceOf(problem, motion);
+    times_ = refinedTimes(problem.constraints, motion);
+    const RowValues rows = problem.constraints.evaluate(motion, times_);
+    signature_ = signatureOf(problem, motion, times_);
+    check_.sequence = sequenceOf(problem, motion, times_);
     check_.by_adjoint = jacobianByAdjoint(problem, values, motion, rows);
     check_.by_tangent = jacobianByTangent(problem, values, motion, rows);
     check_.by_differences = Eigen::MatrixXd::Constant(check_.by_adjoint.rows(), check_.by_adjoint.cols(), kNone);
@@ -125,7 +127,7 @@ class Checker {
     const auto shifted = [&](double offset) {
       Eigen::VectorXd values = values_;
       values[j] += offset * h;
-      return sampleAt(problem_, values);
+      return sampleAt(problem_, values, times_);
     };
     const Sample below = shifted(-1), above = shifted(1);
     DifferenceColumn column;
@@ -199,7 +201,7 @@ class Checker {
   }
 
   const EditProblem& problem_;
-  Eigen::VectorXd values_, control_scale_, row_scale_, column_scale_;
+  Eigen::VectorXd values_, times_, control_scale_, row_scale_, column_scale_;
   std::string signature_;
   DerivativeCheck check_;
 };

@@ -35,6 +35,6 @@ struct Command {
 std::span<const Command* const> commands();
 
 extern const Command kSimulateCommand, kGradientCommand, kCheckCommand, kEditCommand, kExportCommand, kImportCommand,
-    kValidateCommand, kInfoCommand;
+    kValidateCommand, kInfoCommand, kReplayCommand;
 
 }  // namespace carom::cli

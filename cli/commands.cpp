@@ -3,8 +3,9 @@
 namespace carom::cli {
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kTable[] = {&kSimulateCommand, &kGradientCommand, &kCheckCommand,    &kEditCommand,
-                                              &kExportCommand,   &kImportCommand,   &kValidateCommand, &kInfoCommand};
+  static constexpr const Command* kTable[] = {&kSimulateCommand, &kGradientCommand, &kCheckCommand,
+                                              &kEditCommand,     &kReplayCommand,   &kExportCommand,
+                                              &kImportCommand,   &kValidateCommand, &kInfoCommand};
   return kTable;
 }
 

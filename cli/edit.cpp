@@ -20,6 +20,7 @@ struct Options {
   int iterations = EditOptions{}.max_iterations;
   double seconds = EditOptions{}.time_budget_seconds;
   bool same_sequence = false;
+  std::string shooting = "automatic";
   int alternatives = 1, threads = 0;
 };
 
@@ -34,14 +35,28 @@ void printNumbers(Output& out, const std::vector<ChangedNumber>& changed) {
 void printResiduals(Output& out, const EditResult& result) {
   Table table({"held", ">value", ">target", ">error"});
   for (const HeldNumber& number : result.residuals)
-    table.row({number.name, out.number(number.value), out.number(number.target), out.number(number.error)});
+    table.row({number.name, out.number(number.value), describeWanted(out, number.target, number.lower, number.upper),
+               out.number(number.error)});
   if (!table.empty()) table.print(out.text());
+  for (const MetTime& met : result.times) out.text() << "  " << met.name << ": at " << out.number(met.time) << " s\n";
 }
 
 void printLines(Output& out, const char* heading, const std::vector<std::string>& lines) {
   out.text() << heading << '\n';
   for (const std::string& line : lines) out.text() << "    " << line << '\n';
   if (lines.empty()) out.text() << "    no impacts\n";
+}
+
+void printCertificate(Output& out, const Certificate& certificate) {
+  if (!certificate.taken) return;
+  const Output brief(false, 3);
+  out.text() << "  certificate: energy drifts by " << brief.number(certificate.energy_drift) << " and grows by "
+             << brief.number(certificate.energy_gain) << " at impacts";
+  if (certificate.deepest_penetration)
+    out.text() << ", bodies overlap by " << brief.number(*certificate.deepest_penetration) << " m";
+  out.text() << ", derivatives pass " << counted(certificate.reliability.events, "impact") << " with a margin of "
+             << brief.number(certificate.reliability.smallest_margin) << '\n';
+  if (!certificate.signature_event.empty()) out.text() << "  nearest change: " << certificate.signature_event << '\n';
 }
 
 void printResult(Output& out, const EditResult& result) {
@@ -57,6 +72,8 @@ void printResult(Output& out, const EditResult& result) {
     printLines(out, "  impacts before:", result.sequence_before);
     printLines(out, "  impacts after:", result.sequence_after);
   }
+  printCertificate(out, result.certificate);
+  if (!result.why_not.sentences.empty()) printLines(out, "  why not:", result.why_not.sentences);
   out.text() << nameOf(result.status) << ": " << result.message << '\n';
 }
 
@@ -101,6 +118,9 @@ EditResult solve(Loaded& loaded, const Options& options) {
   edit_options.time_budget_seconds = options.seconds;
   edit_options.alternatives = options.alternatives;
   edit_options.threads = options.threads;
+  edit_options.shooting = options.shooting == "single"     ? Shooting::single
+                          : options.shooting == "multiple" ? Shooting::multiple
+                                                           : Shooting::automatic;
   if (options.same_sequence) edit_options.sequence = SequencePolicy::stay;
   edit_options.progress = [&](const EditProgress& at) {
     const Output numbers(false, 3);
@@ -147,6 +167,12 @@ Action declare(CLI::App& app) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   app.add_option("--seconds", options->seconds, "Give up after so long")->check(positiveNumber())->type_name("T");
+  app.add_option(
+         "--shooting", options->shooting,
+         "Take the motion whole (single), in segments between its impacts (multiple), or as its growth asks for "
+         "(automatic, if not given)")
+      ->check(CLI::IsMember({"automatic", "single", "multiple"}))
+      ->type_name("HOW");
   app.add_flag("--same-sequence", options->same_sequence, "Stay within the scene's impact sequence");
   app.add_option("--alternatives", options->alternatives, "Look for so many different solutions, 1 if not given")
       ->check(CLI::Range(1, 100))

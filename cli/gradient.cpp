@@ -40,12 +40,15 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
   for (int i = 0; i < problem.constraints.size(); ++i) {
     const Row& row = problem.constraints.rows()[static_cast<std::size_t>(i)];
     std::vector<std::string> cells{problem.constraints.describeRow(i), out.number(result.rows.values[i]),
-                                   out.number(row.wanted)};
+                                   describeWanted(out, row.wanted, row.lower, row.upper)};
     for (int j = 0; j < problem.controls.size(); ++j) cells.push_back(out.number(result.jacobian(i, j)));
     rows.row(cells);
   }
   out.text() << '\n';
   rows.print(out.text());
+  for (int k = 0; k < problem.times(); ++k)
+    out.text() << "  of " << problem.constraints.describeConstraint(problem.constraints.freeTimes()[k].constraint)
+               << ": at " << out.number(result.rows.times[k]) << " s, where it is nearest\n";
   out.text() << (reliability.reliable ? "\nReliable: no impact on the way is near a place where derivatives stop.\n"
                                       : "\nNot reliable.\n");
   if (!reliability.message.empty()) out.text() << reliability.message << '\n';

@@ -4,6 +4,7 @@
 
 #include "adjoint/simulate.h"
 #include "cli/output.h"
+#include "editing/refined_times.h"
 #include "formats/json_writer.h"
 #include "formats/scene_json.h"
 
@@ -17,12 +18,37 @@ int impactsOf(const Motion& motion, int body, int with) {
   return count;
 }
 
+std::string whyEnded(const Motion& motion) {
+  return motion.status == MotionStatus::complete ? "" : "; " + motion.message;
+}
+
+/// Where in its constraint a region is, and that the motion ends before its time does.
+std::pair<std::string, std::string> describeMissingRegion(const Motion& motion, const Constraint& constraint,
+                                                          int index) {
+  const auto chosen = static_cast<std::size_t>(index);
+  const Region& region = constraint.regions[chosen];
+  int before = 0, all = 0;  // of its side
+  for (std::size_t i = 0; i < constraint.regions.size(); ++i) {
+    if (constraint.regions[i].side != region.side) continue;
+    ++all;
+    if (i < chosen) ++before;
+  }
+  std::string place = region.side == Region::Side::avoid ? "/avoid" : "/inside";
+  if (all > 1) place += "/" + std::to_string(before);
+  if (region.during) place += "/during/1";
+  const std::string found = region.during ? numberText(region.during->second) : "a region of the whole motion";
+  return {place, "found " + found + ", expected a time up to " + numberText(motion.end) + " s" + whyEnded(motion)};
+}
+
 /// Why a motion does not have a constraint: found and expected.
 std::string describeMissing(const Motion& motion, const Constraint& constraint) {
   const When& at = constraint.at;
   const std::string end = numberText(motion.end) + " s";
-  std::string reason = motion.status == MotionStatus::complete ? "" : "; " + motion.message;
-  if (at.impact == 0) return "found " + numberText(at.time) + ", expected a time up to " + end + reason;
+  const std::string reason = whyEnded(motion);
+  if (at.impact == 0) {
+    const double time = at.span ? at.span->first : at.time;
+    return "found " + numberText(time) + ", expected a time up to " + end + reason;
+  }
   const int with = at.with.empty() ? -1 : bodyIndex(*motion.scene, at.with);
   const int count = impactsOf(motion, bodyIndex(*motion.scene, constraint.body), with);
   return "found impact " + std::to_string(at.impact) + (at.with.empty() ? "" : " with '" + at.with + "'") + " of '" +
@@ -59,13 +85,19 @@ EditProblem derivativeProblem(Loaded& loaded) {
 }
 
 RowValues requireRows(const std::string& path, const EditProblem& problem, const Motion& motion) {
-  RowValues rows = problem.constraints.evaluate(motion);
+  RowValues rows = problem.constraints.evaluate(motion, refinedTimes(problem.constraints, motion));
   if (rows.available) return rows;
   int first = 0;
   while (first + 1 < problem.constraints.size() && !std::isnan(rows.values[first])) ++first;
-  const int constraint = problem.constraints.rows()[static_cast<std::size_t>(first)].constraint;
-  throw FormatError(path, "/constraints/" + std::to_string(constraint) + "/at",
-                    describeMissing(motion, problem.constraints.constraints()[static_cast<std::size_t>(constraint)]));
+  const Row& row = problem.constraints.rows()[static_cast<std::size_t>(first)];
+  const Constraint& constraint = problem.constraints.constraints()[static_cast<std::size_t>(row.constraint)];
+  const std::string where = "/constraints/" + std::to_string(row.constraint);
+  if (row.region >= 0) {
+    const auto [place, reason] = describeMissingRegion(motion, constraint, row.region);
+    throw FormatError(path, where + place, reason);
+  }
+  throw FormatError(path, where + "/at" + (constraint.at.span ? "/between/0" : ""),
+                    describeMissing(motion, constraint));
 }
 
 }  // namespace carom::cli

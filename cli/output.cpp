@@ -46,6 +46,13 @@ void Output::finish() {
   if (!std::cout) throw InputError("standard output", "cannot be written");
 }
 
+std::string describeWanted(const Output& out, double target, double lower, double upper) {
+  if (lower == upper) return out.number(target);
+  if (std::isinf(upper)) return ">= " + out.number(lower);
+  if (std::isinf(lower)) return "<= " + out.number(upper);
+  return "in [" + out.number(lower) + ", " + out.number(upper) + "]";
+}
+
 std::string counted(long long count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }

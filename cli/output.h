@@ -35,6 +35,9 @@ class Output {
   std::ostringstream text_;
 };
 
+/// What a held number is to be: `target`, or where the limits differ "in [0.2, 0.9]", ">= 0.2", "<= 0.9".
+std::string describeWanted(const Output& out, double target, double lower, double upper);
+
 /// "1 impact", "3 impacts".
 std::string counted(long long count, const std::string& noun);
 

@@ -1,9 +1,7 @@
 #include "editing/certificate.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "adjoint/adjoint.h"
 #include "editing/event_margins.h"
 #include "editing/jacobian.h"
 #include "editing/motion_checks.h"
@@ -12,44 +10,27 @@
 namespace carom {
 namespace {
 
-/// Largest magnitude; NaN if any entry is.
-double largest(const Eigen::VectorXd& values) {
-  double most = 0;
-  for (double value : values) most = std::isnan(value) ? value : std::max(most, std::abs(value));
-  return values.hasNaN() ? std::numeric_limits<double>::quiet_NaN() : most;
-}
-
-/// Of the derivatives of all rows, the worst.
-Reliability reliabilityOf(DerivativeTape& tape, const RowValues& rows) {
-  Reliability worst;
-  for (const std::vector<StateSeed>& seeds : rows.seeds) {
-    if (seeds.empty()) continue;
-    Reliability one;
-    adjoint(tape, seeds, &one);
-    worst.events = std::max(worst.events, one.events);
-    worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
-    if (worst.reliable && !one.reliable) worst.message = one.message;
-    worst.reliable = worst.reliable && one.reliable;
-  }
-  return worst;
-}
-
 /// The instants at which targets are read, and the last one of all, up to which every impact counts. What a region
-/// keeps clear of is read where it is nearest, and does not jump.
+/// keeps clear of is read where it is nearest, and does not jump. Impacts that are held must not come after the end.
 std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues& rows, double last) {
   std::vector<ReadInstant> instants;
+  bool at_impact = false;
   const auto add = [&](int body, double time) {
     const auto known = std::find_if(instants.begin(), instants.end(),
                                     [&](const ReadInstant& i) { return i.body == body && i.time == time; });
-    if (known == instants.end()) instants.push_back({body, time});
+    if (known == instants.end()) instants.push_back({body, time, false});
   };
   for (int i = 0; i < problem.constraints.size(); ++i) {
     if (problem.constraints.rows()[static_cast<std::size_t>(i)].region >= 0) continue;
     for (const StateSeed& seed : rows.seeds[static_cast<std::size_t>(i)]) {
-      if (seed.at.event >= 0) continue;
+      if (seed.at.event >= 0) {
+        at_impact = true;
+        continue;
+      }
       add(seed.at.time == last ? -1 : seed.body, seed.at.time);
     }
   }
+  if (at_impact) instants.push_back({-1, problem.duration, true});
   return instants;
 }
 
@@ -82,13 +63,10 @@ Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns,
                     const RowValues& rows) {
   Certificate certificate;
   certificate.taken = true;
-  certificate.residual = largest(rows.residuals);
-  certificate.scaled_residual = largest(rows.scaled);
   certificate.energy_drift = energyDrift(motion, kEnergySamples);
   certificate.energy_gain = energyGain(motion);
   certificate.deepest_penetration = deepestPenetration(motion, kOverlapSamples);
   DerivativeTape tape(motion);
-  certificate.reliability = reliabilityOf(tape, rows);
   predictSignature(problem, unknowns, tape, rows, certificate);
   return certificate;
 }

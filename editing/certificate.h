@@ -34,8 +34,8 @@ struct Certificate {
   /// square), at which the impacts are predicted to be others, to first order; infinite where none is in sight. Seen
   /// are: impacts that come to graze, sticking that becomes sliding and the reverse, contacts that move over the border
   /// of their feature, impacts of one instant that part, impacts that change places, and impacts that come to lie on
-  /// the other side of an instant that is held. Not seen: bodies, or parts of a compound, that would only then be met.
-  /// Bounds of the controls do not count. Of the first kMarginEvents impacts.
+  /// the other side of an instant that is held or of the end. Not seen: bodies, or parts of a compound, that would only
+  /// then be met. Bounds of the controls do not count. Of the first kMarginEvents impacts.
   double signature_radius = std::numeric_limits<double>::infinity();
   std::string signature_event;     ///< what happens there, a sentence; empty when the radius is infinite
   Eigen::VectorXd signature_step;  ///< the change that leads there, one number a control; empty when it is infinite
@@ -49,7 +49,7 @@ struct RowValues;
 struct Motion;
 
 /// Checks a motion of problem.controls.sceneAt(values), simulated with nothing left out; `unknowns` are those of the
-/// point and `rows` what is held in it.
+/// point and `rows` what is held in it. Residuals and reliability are left to the caller, who has them.
 Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
                     const RowValues& rows);
 

@@ -179,12 +179,40 @@ void ConstraintSet::readRow(int i, const Reading& reading, RowValues& out) const
   out.seeds[i] = {std::move(pair.of_a), std::move(pair.of_b)};
 }
 
+std::optional<Clearance> ConstraintSet::clearance(const Motion& motion, int i) const {
+  const Row& row = rows_[i];
+  const Bound& bound = bound_[row.constraint];
+  return leastClearance(motion, bound.body, bound.regions[row.region], row.component);
+}
+
+std::vector<StateSeed> ConstraintSet::seedRates(const Motion& motion, const Eigen::VectorXd& times, int i,
+                                                std::span<const BodyStateRate> rates) const {
+  const Row& row = rows_[i];
+  if (row.region >= 0) {
+    StateSeed seed;
+    seed.center_of_mass = clearance(motion, i)->bend * rates[0].center_of_mass;
+    return {seed};
+  }
+  const Bound& bound = bound_[row.constraint];
+  const Target& target = constraints_[row.constraint].targets[row.target];
+  const QuantityKind& kind = *bound.kinds[row.target];
+  if (bound.relative_to < 0 && !kind.seed_rate) return {StateSeed()};
+  const Reading reading = read(motion, row.constraint, bound.free_time >= 0 ? times[bound.free_time] : 0);
+  const auto rateOf = [&](const BodyStateRate& of_seen) {
+    return kind.seed_rate ? kind.seed_rate(reading.seen, of_seen, target, row.component) : StateSeed();
+  };
+  if (bound.relative_to < 0) return {rateOf(rates[0])};
+  const StateSeed seed = kind.seed(reading.seen, target, row.component);
+  const StateSeed dseed = rateOf(seenFromRate(reading.own, reading.other, rates[0], rates[1]));
+  SeedPair pair = seenFromPullbackRate(reading.own, reading.other, rates[0], rates[1], seed, dseed);
+  return {std::move(pair.of_a), std::move(pair.of_b)};
+}
+
 void ConstraintSet::readRegion(const Motion& motion, int i, RowValues& out) const {
   const Row& row = rows_[i];
   const Bound& bound = bound_[row.constraint];
   const BoundRegion& region = bound.regions[row.region];
-  const std::optional<Clearance> clearance = leastClearance(motion, bound.body, region, row.component);
-  if (clearance) {
+  if (const std::optional<Clearance> clearance = this->clearance(motion, i)) {
     out.values[i] = clearance->value;
     out.seeds[i] = {clearance->seed};
     return;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,6 +71,13 @@ class ConstraintSet {
   RowValues evaluate(const Motion& motion, const Eigen::VectorXd& times) const;
   /// For each free time one at which its constraint is most nearly met, among many.
   Eigen::VectorXd nearestTimes(const Motion& motion) const;
+
+  /// How the weights of a row's seeds change when the states that they are read from change at `rates`, one a seed;
+  /// `times` as for evaluate.
+  std::vector<StateSeed> seedRates(const Motion& motion, const Eigen::VectorXd& times, int row,
+                                   std::span<const BodyStateRate> rates) const;
+  /// What the row of a region reads.
+  std::optional<Clearance> clearance(const Motion& motion, int row) const;
 
   /// How far a value lies outside what a row allows, SI; negative below, 0 inside.
   double residual(int row, double value) const;

@@ -38,6 +38,9 @@ struct ControlKind {
   void (*scatter)(const Eigen::VectorXd& rates, const ControlOwner&, const Eigen::VectorXd& values, SceneTangent&);
   /// Natural scale of a change; not used by logarithmic kinds.
   Eigen::VectorXd (*scale)(const Scene& start, const ControlOwner&);
+  /// How `gather` of one and the same derivative changes as the values change at `rates`; null where it does not.
+  Eigen::VectorXd (*gather_rate)(const SceneGradient&, const ControlOwner&, const Eigen::VectorXd& values,
+                                 const Eigen::VectorXd& rates) = nullptr;
 };
 
 /// All kinds, in the order of control.h.

@@ -133,6 +133,28 @@ Eigen::VectorXd ControlSet::gather(const SceneGradient& gradient, const Eigen::V
   return out;
 }
 
+Eigen::VectorXd ControlSet::gatherRate(const SceneGradient& gradient, const Eigen::VectorXd& values,
+                                       const Eigen::VectorXd& rates) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(size());
+  for (int i = 0; i < size(); ++i) {
+    const BoundControl& bound = controls_[variables_[i].control];
+    if (!bound.kind->gather_rate) continue;
+    Eigen::VectorXd of_owner = Eigen::VectorXd::Zero(bound.start.size());
+    for (int j = 0; j < size(); ++j)
+      if (sameOwner(controls_[variables_[j].control], bound)) of_owner[variables_[j].slot] = rates[j];
+    if (of_owner.isZero(0)) continue;
+    out[i] = bound.kind->gather_rate(gradient, bound.owner, slots(variables_[i].control, values),
+                                     of_owner)[variables_[i].slot];
+  }
+  return out;
+}
+
+Eigen::VectorXd ControlSet::valueBends(const Eigen::VectorXd& changes) const {
+  Eigen::VectorXd bends = valueRates(changes);
+  for (int i = 0; i < size(); ++i) bends[i] *= variables_[i].logarithmic ? variables_[i].scale : 0;
+  return bends;
+}
+
 SceneTangent ControlSet::scatter(const Eigen::VectorXd& rates, const Eigen::VectorXd& values) const {
   SceneTangent tangent(start_);
   for (std::size_t c = 0; c < controls_.size(); ++c) {

@@ -58,10 +58,15 @@ class ControlSet {
   /// d(quantity)/d(values) at `values` from the derivative by the fields of the scene; and its adjoint.
   Eigen::VectorXd gather(const SceneGradient& gradient, const Eigen::VectorXd& values) const;
   SceneTangent scatter(const Eigen::VectorXd& rates, const Eigen::VectorXd& values) const;
+  /// How `gather` changes, at one and the same gradient, as the values change at `rates`.
+  Eigen::VectorXd gatherRate(const SceneGradient& gradient, const Eigen::VectorXd& values,
+                             const Eigen::VectorXd& rates) const;
 
   Eigen::VectorXd valuesOf(const Eigen::VectorXd& changes) const;
   /// d(values)/d(changes), a diagonal.
   Eigen::VectorXd valueRates(const Eigen::VectorXd& changes) const;
+  /// d^2(values)/d(changes)^2, each by its own change.
+  Eigen::VectorXd valueBends(const Eigen::VectorXd& changes) const;
   /// Bounds on the changes; infinite where there is none.
   Eigen::VectorXd lowerChanges() const;
   Eigen::VectorXd upperChanges() const;

@@ -3,7 +3,7 @@
 // Orientation is a world rotation vector u applied on the left of the written orientation: R = exp([u]x) R_written. Its
 // start is 0. A change of u turns the body by theta = J_l(u) du, so that the derivative by u is J_l(u)^T theta_bar.
 
-#include "adjoint/so3.h"
+#include "adjoint/so3_rates.h"
 #include "editing/control_families.h"
 #include "editing/natural_scales.h"
 
@@ -46,6 +46,11 @@ void scatterOrientation(const Eigen::VectorXd& rates, const ControlOwner& o, con
   tangent.bodies[o.body].orientation += leftJacobian(values) * rates;
 }
 
+Eigen::VectorXd gatherRateOrientation(const SceneGradient& gradient, const ControlOwner& o,
+                                      const Eigen::VectorXd& values, const Eigen::VectorXd& rates) {
+  return leftJacobianRate(values, rates).transpose() * gradient.bodies[o.body].orientation;
+}
+
 Eigen::VectorXd getGravity(const Scene& scene, const ControlOwner&) { return scene.gravity; }
 void setGravity(const Eigen::VectorXd& values, const Scene&, const ControlOwner&, Scene& scene) {
   scene.gravity = values;
@@ -74,9 +79,20 @@ const ControlKind kPositionControl{"position",
                                    Position::scatter,
                                    bodyScale<&NaturalScales::length>};
 
-const ControlKind kOrientationControl{
-    "orientation", OwnerKind::body, false,          -kUnbounded,       kUnbounded,         false,   xyzComponents,
-    nullptr,       getOrientation,  setOrientation, gatherOrientation, scatterOrientation, xyzScale};
+const ControlKind kOrientationControl{"orientation",
+                                      OwnerKind::body,
+                                      false,
+                                      -kUnbounded,
+                                      kUnbounded,
+                                      false,
+                                      xyzComponents,
+                                      nullptr,
+                                      getOrientation,
+                                      setOrientation,
+                                      gatherOrientation,
+                                      scatterOrientation,
+                                      xyzScale,
+                                      gatherRateOrientation};
 
 const ControlKind kVelocityControl{"velocity",
                                    OwnerKind::moving_body,

@@ -12,7 +12,7 @@ namespace {
 constexpr double kShortestFlight = 0.02;
 
 struct Relevance {
-  std::vector<int> events;               // that matter, in increasing order
+  std::vector<int> events;                // that matter, in increasing order
   std::vector<std::vector<bool>> bodies;  // [k]: that matter just before events[k]; one more: after all of them
 };
 
@@ -89,16 +89,12 @@ Cut cutMotion(const EditProblem& problem, const Motion& motion, const Eigen::Vec
                 &after = motion.events[static_cast<std::size_t>(relevance.events[k + 1])];
     if (++since < impacts_per_segment) continue;
     const std::vector<bool>& bodies = relevance.bodies[k + 1];
-    Node node{0.5 * (before.time + after.time),
-              relevance.events[k],
-              relevance.events[k + 1],
-              firstOf(before, bodies),
-              firstOf(after, bodies),
-              indicesOf(bodies)};
+    Node node{0.5 * (before.time + after.time), relevance.events[k],    relevance.events[k + 1],
+              firstOf(before, bodies),          firstOf(after, bodies), indicesOf(bodies)};
     const double natural = naturalScales(problem.controls.startScene(), node.body_after).time;
     const bool too_short = after.time - before.time < kShortestFlight * natural;
-    const bool is_read = std::any_of(readings.begin(), readings.end(),
-                                     [&](double t) { return t >= before.time && t <= after.time; });
+    const bool is_read =
+        std::any_of(readings.begin(), readings.end(), [&](double t) { return t >= before.time && t <= after.time; });
     if (too_short || is_read) continue;
     cut.nodes.push_back(std::move(node));
     since = 0;

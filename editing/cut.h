@@ -12,10 +12,10 @@ namespace carom {
 
 /// A place between two impacts, in the middle of flights.
 struct Node {
-  double time = 0;                       ///< s, of the motion that is cut
-  int before = -1, after = -1;           ///< events of that motion on both sides of it
+  double time = 0;                        ///< s, of the motion that is cut
+  int before = -1, after = -1;            ///< events of that motion on both sides of it
   int body_before = -1, body_after = -1;  ///< that take part in them, and matter
-  std::vector<int> bodies;               ///< whose states at the node matter to the constraints
+  std::vector<int> bodies;                ///< whose states at the node matter to the constraints
 };
 
 struct Cut {

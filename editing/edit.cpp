@@ -6,6 +6,7 @@
 #include "editing/alternatives.h"
 #include "editing/edit_result.h"
 #include "editing/edit_solution.h"
+#include "editing/explain.h"
 
 namespace carom {
 
@@ -42,6 +43,7 @@ EditResult Edit::solve(const EditOptions& options) const {
   EditSearch search(problem, options);
   const EditSolution solution = findSolution(search);
   EditResult result = verify(scene_, search, solution);
+  if (options.explain) explainInto(result, scene_, search, solution);
   if (result.solved()) result.alternatives = alternativesTo(scene_, search, solution);
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   return result;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "editing/hessian.h"
+
 namespace carom {
 namespace {
 
@@ -116,6 +118,19 @@ void EditProgram::learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd
 
 bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                           Eigen::MatrixXd& h) {
+  if (search_.options().second_derivatives == SecondDerivatives::exact) {
+    const EditPointPtr point = at(x);
+    if (!point) return false;
+    const EditProblem& problem = search_.problem();
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(problem.constraints.size());
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      weights[rows_[k]] += multipliers[static_cast<Eigen::Index>(k)] /
+                           problem.constraints.rows()[static_cast<std::size_t>(rows_[k])].scale;
+    h = rowsHessian(problem, x, point->motion, point->rows, weights) +
+        validityHessian(problem, x, multipliers.tail(problem.validity.size()));
+    h.diagonal().head(problem.controls.size()).array() += factor;
+    return true;
+  }
   Eigen::MatrixXd dg_dx;
   if (!jacobian(x, dg_dx)) return false;
   learnCurvature(x, dg_dx);

@@ -12,9 +12,8 @@ namespace carom {
 /// minimise 1/2 |y|^2 subject to chosen rows = 0, ranges, validity >= 0, bounds; y the unknowns of EditProblem, of
 /// which the free times cost nothing.
 ///
-/// The objective's second derivative is the identity; those of the rows are learnt from their gradients, row by row, by
-/// Powell's symmetric rank-one-two (PSB) secant update. This costs a fraction of the solver's own limited-memory
-/// approximation. Exact second derivatives would replace `hessian` and nothing else.
+/// The objective's second derivative is the identity; those of the rows are exact (hessian.h), or learnt from their
+/// gradients, row by row, by Powell's symmetric rank-one-two (PSB) secant update, or left to the solver.
 class EditProgram final : public NonlinearProgram {
  public:
   /// `rows` are of those that hold a number. With a signature, points whose motion has another impact sequence are
@@ -29,7 +28,7 @@ class EditProgram final : public NonlinearProgram {
   bool gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) override;
   bool constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g) override;
   bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) override;
-  bool hasHessian() const override { return true; }
+  bool hasHessian() const override { return search_.options().second_derivatives != SecondDerivatives::limited_memory; }
   bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                Eigen::MatrixXd& h) override;
   /// Also stops where the violation hardly falls any more: at the border of the impact sequence, mostly.

@@ -104,6 +104,15 @@ void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditRe
   result.reliability = reliabilityOf(result.motion, rows);
 }
 
+/// A scene that stays as written need not say its numbers in the words of the controls: then it is put into them.
+Certificate certificateOf(const EditProblem& problem, const EditPoint& point, bool untouched, const Motion& motion) {
+  const auto of = [&](const Motion& m) {
+    return certify(problem, point.changes, m, problem.constraints.evaluate(m, problem.timesOf(point.changes)));
+  };
+  if (!untouched) return of(motion);
+  return of(simulate(problem.controls.sceneAt(point.values), *problem.contacts, problem.duration));
+}
+
 void conclude(const EditOptions& options, const EditSolution& solution, EditResult& result) {
   result.status = solution.status;
   result.message = solution.message;
@@ -143,7 +152,17 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   result.sequence_before = untouched ? describeEvents(result.motion)
                                      : describeEvents(simulate(written, *problem.contacts, problem.duration));
   readMotion(problem, problem.timesOf(point.changes), result);
+  if (search.options().certify) {
+    Certificate& certificate = result.certificate = certificateOf(problem, point, untouched, result.motion);
+    certificate.residual = result.residual;
+    certificate.scaled_residual = result.scaled_residual;
+    certificate.reliability = result.reliability;
+  }
   conclude(search.options(), solution, result);
+  result.growth = solution.shooting.growth;
+  result.segments = solution.shooting.segments;
+  const std::string shooting = describe(solution.shooting, search.options(), result.solved());
+  if (!shooting.empty()) result.message += " " + shooting;
   for (const std::string& note : problem.controls.notes()) result.message += " " + note;
   return result;
 }

@@ -104,16 +104,4 @@ class EditSearch {
   Halt halt_ = Halt::none;
 };
 
-/// Gauss-Newton steps onto the constraints, each the smallest change that meets the linearised rows within the bounds.
-/// Quadratic near a solution. With a signature, points of another impact sequence are refused. Returns the point with
-/// the smallest violation that was met.
-EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int max_steps,
-                                    const std::string* signature = nullptr);
-
-/// The step that projectOntoConstraints would take from a differentiated point.
-Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point);
-
-/// Scaled residuals of all rows after a step, to first order.
-Eigen::VectorXd residualsAfter(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& step);
-
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include "editing/dependence.h"
 #include "editing/edit_program.h"
 #include "editing/ipopt_solver.h"
+#include "editing/projection.h"
 #include "editing/row_choice.h"
 #include "editing/sequence_search.h"
 #include "editing/text.h"
@@ -14,13 +15,16 @@ namespace carom {
 namespace {
 
 constexpr int kProjectionSteps = 15;
-constexpr int kCrossingSteps = 40;
 constexpr int kPolishSteps = 15;
+/// Rounds of the search across impact sequences.
+constexpr int kRounds = 6;
+/// The same when the constraints stand against each other in the sequence of the start: mostly they do so in all.
+constexpr int kRoundsAgainstContradiction = 2;
 
-/// The best point, once more brought as near to the constraints as rounding allows, within its own impact sequence.
-EditPointPtr polished(EditSearch& search) {
-  const EditPointPtr best = search.best();
-  return projectOntoConstraints(search, best, kPolishSteps, &best->signature);
+/// A point once more brought as near to the constraints as rounding allows, within its own impact sequence.
+EditPointPtr polished(EditSearch& search, const EditPointPtr& point) {
+  if (search.halt() != Halt::none) return point;
+  return projectOntoConstraints(search, point, kPolishSteps, &point->signature);
 }
 
 /// "position.x of 'hat' at 1.4 s by 0.02 and ..."
@@ -89,7 +93,9 @@ EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const 
   EditSearch smooth = search.branch({nullptr, from}, false);
   const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
   search.adopt(smooth);
-  return search.evaluate(end->changes);
+  const EditPointPtr real = search.make(end->changes, false, {});
+  if (real) search.consider(real);
+  return real;
 }
 
 EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {
@@ -101,24 +107,31 @@ EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int m
 
 namespace {
 
-/// The smallest change within the impact sequence of the start.
-void solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start, int iterations) {
-  static const char* e = getenv("CAROM_EXP");
-  const std::string x = e ? e : "";
-  if (x.find('f') != std::string::npos) {
-    const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations);
-    if (search.reached() || !search.goesOn()) return;
+/// The smallest change within the impact sequence of the start; null where none was found. First as if its features had
+/// no edges: trials may leave the sequence on the way, and where they end outside of it they show where to look.
+EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start,
+                             ShootingReport& shooting) {
+  const bool may_leave = search.options().sequence != SequencePolicy::stay;
+  const int iterations = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
+  const auto solves = [&](const EditPointPtr& point) {
+    return point && search.reached(*point) && point->signature == start->signature;
+  };
+  if (wantsSegments(search, *start, shooting)) {
+    const EditPointPtr shot = shootInSegments(search, choice.from, choice.rows, iterations / 2, shooting);
+    if (solves(shot)) return shot;
+    if (!search.goesOn() || (shot && search.options().shooting == Shooting::multiple)) return nullptr;
   }
-  if (x.find('n') != std::string::npos) return;
-  minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
+  const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations / 2);
+  if (solves(followed)) return followed;
+  if (!search.goesOn()) return nullptr;
+  const EditPointPtr inside = minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
+  return solves(inside) ? inside : nullptr;
 }
 
-/// Solutions of other impact sequences, until there is one, or as many as are asked for.
-std::vector<EditPointPtr> solveAcross(EditSearch& search, const EditPointPtr& start) {
-  SequenceSearch across(search, start);
-  const auto wanted = static_cast<std::size_t>(std::max(1, search.options().alternatives));
-  if (search.reached()) across.add(search.best());
-  while (across.solutions().size() < wanted && across.round()) continue;
+/// Distinct solutions until there are as many as the options ask for, the smallest change first.
+std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch& across, const EditPointPtr& first) {
+  across.add(first);
+  while (static_cast<int>(across.solutions().size()) < search.options().alternatives && across.round()) continue;
   return across.solutions();
 }
 
@@ -136,22 +149,26 @@ EditSolution findSolution(EditSearch& search) {
     solution.status = EditStatus::solved;
     return solution;
   }
+  const bool may_leave = search.options().sequence != SequencePolicy::stay;
   const RowChoice choice = chooseRows(search, start);
-  if (!choice.contradiction.empty()) {
-    solution.status = EditStatus::infeasible;
-    solution.message = choice.contradiction;
-    return solution;
+  const bool contradicts = !choice.contradiction.empty();  // in this impact sequence at least
+  const EditPointPtr inside = contradicts ? nullptr : solveInSequence(search, choice, start, solution.shooting);
+  SequenceSearch across(search, start);
+  for (int rounds = contradicts ? kRoundsAgainstContradiction : kRounds;
+       may_leave && !inside && rounds > 0 && across.solutions().empty() && across.round(); --rounds) {
   }
 
-  const bool may_leave = search.options().sequence != SequencePolicy::stay;
-  const int share = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
-  solveInSequence(search, choice, start, share);
-  if (may_leave && (!search.reached() || search.options().alternatives > 1))
-    solution.others = solveAcross(search, start);
-
-  solution.point = search.halt() == Halt::none ? polished(search) : search.best();
-  if (!search.reached(*solution.point)) return unsolved(search, std::move(solution));
+  solution.point = polished(search, inside ? inside : search.best());
+  if (!search.reached(*solution.point)) {
+    if (contradicts && search.halt() == Halt::none) {
+      solution.status = EditStatus::infeasible;
+      solution.message = choice.contradiction;
+      return solution;
+    }
+    return unsolved(search, std::move(solution));
+  }
   solution.status = EditStatus::solved;
+  if (may_leave && search.options().alternatives > 1) solution.others = moreSolutions(search, across, solution.point);
   return solution;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "editing/edit_search.h"
+#include "editing/multiple_shooting.h"
 
 /// The stages of solving an edit. Internal to editing/.
 namespace carom {
@@ -11,7 +12,8 @@ namespace carom {
 struct EditSolution {
   EditPointPtr point;  ///< the best that was found
   EditPointPtr start;
-  std::vector<EditPointPtr> others;  ///< solutions that the search across impact sequences met, distinct
+  std::vector<EditPointPtr> others;  ///< distinct solutions, `point` among them, when alternatives are asked for
+  ShootingReport shooting;
   EditStatus status = EditStatus::not_converged;
   std::string message;  ///< why, when it is not solved
 };

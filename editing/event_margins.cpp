@@ -55,8 +55,12 @@ class MarginReader {
     EventMargin m = start(Way::is_read, event);
     m.value = instant.time - e.time;
     m.gradient = -timeGradient(event);
-    m.what = name(event, 0) + (m.value >= 0 ? " comes after " : " comes before ") + number(instant.time) +
-             " s, when it is read";
+    if (instant.end) {
+      m.what = name(event, 0) + " comes after the end of the motion";
+    } else {
+      m.what = name(event, 0) + (m.value >= 0 ? " comes after " : " comes before ") + number(instant.time) +
+               " s, when it is read";
+    }
     margins_.push_back(std::move(m));
   }
 
@@ -227,7 +231,7 @@ std::vector<EventMargin> eventMargins(DerivativeTape& tape, std::size_t count, c
     if (e + 1 < all) reader.readOrder(e);
   }
   for (const ReadInstant& instant : instants)
-    for (int e = 0; e < all; ++e) reader.readInstant(e, instant);
+    for (int e = 0; e < (instant.end ? counted : all); ++e) reader.readInstant(e, instant);
   return reader.take();
 }
 

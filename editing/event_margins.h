@@ -35,6 +35,7 @@ struct EventMargin {
 struct ReadInstant {
   int body = -1;
   double time = 0;
+  bool end = false;  ///< the end of the motion, which the impacts that count must come before
 };
 
 /// The margins of the first `count` events, of the order up to the one after them, and of all events to the instants.

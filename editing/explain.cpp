@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/QR>
 
@@ -59,7 +60,7 @@ struct Explanation {
       const double y = point.changes[j];
       for (const bool upper : {false, true}) {
         const double bound = upper ? search.upper()[j] : search.lower()[j];
-        if (!(std::abs(y - bound) <= 1e-7 * (1 + std::abs(bound)))) continue;
+        if (!std::isfinite(bound) || !(std::abs(y - bound) <= 1e-7 * (1 + std::abs(bound)))) continue;
         WhyNot::AtBound at{v.control, problem.controls.describeVariable(j), upper ? v.upper : v.lower, upper, 0, 0};
         LinearReach freed = reach;
         (upper ? freed.upper : freed.lower)[j] = upper ? kReach : -kReach;
@@ -102,12 +103,39 @@ struct Explanation {
       help.restores_rank = rankOf(extended.J(rows, Eigen::all)) > rank;
       why.would_help.push_back(std::move(help));
     }
-    // First what meets most of the error, then what does it with the smaller change.
-    const auto tenths = [](const WhyNot::Help& help) { return std::lround(20 * help.removes); };
-    std::stable_sort(why.would_help.begin(), why.would_help.end(), [&](const auto& a, const auto& b) {
-      return tenths(a) != tenths(b) ? tenths(a) > tenths(b) : a.change < b.change;
-    });
+    // First what meets most of the error, then what lies nearest to what varies already, then the smaller change.
+    const auto order = [&](const WhyNot::Help& help) {
+      return std::tuple(-std::lround(20 * help.removes), remoteness(help.control), help.change);
+    };
+    std::stable_sort(why.would_help.begin(), why.would_help.end(),
+                     [&](const auto& a, const auto& b) { return order(a) < order(b); });
     if (why.would_help.size() > kMostHelp) why.would_help.resize(kMostHelp);
+  }
+
+  // 0: a locked component of a control; 1: of a body that is thrown or held, or of its material; 2: gravity, tilts, and
+  // what belongs to other bodies.
+  int remoteness(const Control& control) const {
+    const auto& controls = problem.controls.controls();
+    const auto varies = [&](const auto& test) {
+      return std::any_of(controls.begin(), controls.end(), [&](const BoundControl& b) { return test(b.control); });
+    };
+    if (varies([&](const Control& c) {
+          return c.vary == control.vary && c.body == control.body && c.material == control.material &&
+                 c.impact == control.impact;
+        }))
+      return 0;
+    if (control.vary == "tilt") return 2;
+    const Scene& scene = problem.controls.startScene();
+    const auto belongs = [&](const std::string& body) {
+      return control.body.empty()
+                 ? scene.bodies[static_cast<std::size_t>(bodyIndex(scene, body))].material == control.material &&
+                       !control.material.empty()
+                 : control.body == body;
+    };
+    const auto& held = problem.constraints.constraints();
+    const bool near = std::any_of(held.begin(), held.end(), [&](const Constraint& c) { return belongs(c.body); }) ||
+                      varies([&](const Control& c) { return !c.body.empty() && belongs(c.body); });
+    return near ? 1 : 2;
   }
 
   void keepSteepest(std::vector<Candidate>& candidates) const {
@@ -161,6 +189,10 @@ void tryHelp(const Scene& written, const EditSearch& search, WhyNot& why) {
   }
 }
 
+std::string solvable(const WhyNot::Help& help) {
+  return "The edit can be solved when the " + help.name + " varies too.";
+}
+
 std::string percent(double share) { return number(std::round(100 * share)) + " %"; }
 
 void tell(WhyNot& why, bool out_of_reach, const std::string& refusal) {
@@ -192,7 +224,7 @@ void tell(WhyNot& why, bool out_of_reach, const std::string& refusal) {
   if (!held.empty()) say.push_back("Held back by bounds: " + listOf(held) + ".");
   if (!useless.empty()) say.push_back("Also at a bound: " + listOf(useless) + ".");
   for (const WhyNot::Help& help : why.would_help) {
-    if (help.solves) say.push_back("The edit can be solved when " + help.name + " varies too.");
+    if (help.solves) say.push_back(solvable(help));
   }
   std::vector<std::string> hopeful;
   for (const WhyNot::Help& help : why.would_help)
@@ -220,6 +252,20 @@ WhyNot explain(const Scene& written, EditSearch& search, const EditSolution& sol
   if (solution.point->rows.scaled.norm() > 0) refusal = explanation.refusal();
   tell(why, explanation.outOfReach(), refusal);
   return std::move(why);
+}
+
+void explainInto(EditResult& result, const Scene& written, EditSearch& search, const EditSolution& solution) {
+  if (result.status != EditStatus::infeasible && result.status != EditStatus::not_converged) return;
+  if (!solution.point->rows.available) return;
+  result.why_not = explain(written, search, solution);
+  if (!result.why_not.inside.empty()) result.status = EditStatus::infeasible;
+  const WhyNot& why = result.why_not;
+  if (!why.inside.empty() && !why.sentences.empty()) result.message = why.sentences[0] + " " + result.message;
+  for (const WhyNot::Help& help : why.would_help) {
+    if (!help.solves) continue;
+    result.message += " " + solvable(help);
+    break;
+  }
 }
 
 }  // namespace carom

@@ -30,7 +30,11 @@ bool expired(const SolverOptions& options) {
 class Adapter final : public Ipopt::TNLP {
  public:
   Adapter(NonlinearProgram& program, const SolverOptions& options, SolverResult& result)
-      : program_(program), options_(options), result_(result), n_(program.variables()), m_(program.constraints()),
+      : program_(program),
+        options_(options),
+        result_(result),
+        n_(program.variables()),
+        m_(program.constraints()),
         jacobian_places_(program.jacobianPlaces()) {
     if (program.hasHessian()) hessian_places_ = program.hessianPlaces();
   }

@@ -37,8 +37,7 @@ class NonlinearProgram {
   /// Second derivatives of factor * f + multipliers . g, a full symmetric matrix. Where hasHessian() is false the
   /// solver approximates them from gradients.
   virtual bool hasHessian() const { return false; }
-  virtual bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                       Eigen::MatrixXd& h);
+  virtual bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& h);
 
   /// The same for sparse programs: the entries that may differ from zero. Several entries of one place add up. Of
   /// symmetric matrices the lower triangle alone. Without an override every place has an entry.

@@ -1,6 +1,6 @@
 #include "editing/quantities.h"
 
-#include "adjoint/so3.h"
+#include "adjoint/so3_rates.h"
 
 namespace carom {
 namespace {
@@ -35,6 +35,15 @@ StateSeed turnSeed(const BodyState& state, const Target& target, int component) 
   return seed;
 }
 
+// d(J^-1) = -J^-1 dJ J^-1, du = J^-1 theta.
+StateSeed turnSeedRate(const BodyState& state, const BodyStateRate& rate, const Target& target, int component) {
+  const Vec3 u = turnFromTarget(state, 0, target);
+  const Mat3 inverse = leftJacobianInverse(u);
+  StateSeed seed;
+  seed.orientation = -(inverse * leftJacobianRate(u, inverse * rate.orientation) * inverse).row(component).transpose();
+  return seed;
+}
+
 // point: p = x + R b, so that dp = dx + theta x (R b).
 
 Vec3 pointOf(const BodyState& state, double, const Target& target) {
@@ -45,6 +54,12 @@ StateSeed pointSeed(const BodyState& state, const Target& target, int component)
   const Vec3 axis = Vec3::Unit(component);
   seed.position = axis;
   seed.orientation = (state.orientation * target.body_point).cross(axis);
+  return seed;
+}
+
+StateSeed pointSeedRate(const BodyState& state, const BodyStateRate& rate, const Target& target, int component) {
+  StateSeed seed;
+  seed.orientation = rate.orientation.cross(state.orientation * target.body_point).cross(Vec3::Unit(component));
   return seed;
 }
 
@@ -67,8 +82,10 @@ const QuantityKind kPosition{"position",
                              &NaturalScales::length,
                              threeNumbers,
                              fieldOf<&BodyState::position>,
-                             fieldSeed<&StateSeed::position>};
-const QuantityKind kOrientation{"orientation", 3, 4, true, false, true, nullptr, noTurn, turnFromTarget, turnSeed};
+                             fieldSeed<&StateSeed::position>,
+                             nullptr};
+const QuantityKind kOrientation{"orientation",  3,        4,           true, false, true, nullptr, noTurn,
+                                turnFromTarget, turnSeed, turnSeedRate};
 const QuantityKind kVelocity{"velocity",
                              3,
                              3,
@@ -78,7 +95,8 @@ const QuantityKind kVelocity{"velocity",
                              &NaturalScales::velocity,
                              threeNumbers,
                              fieldOf<&BodyState::velocity>,
-                             fieldSeed<&StateSeed::velocity>};
+                             fieldSeed<&StateSeed::velocity>,
+                             nullptr};
 // A spin is read in world axes, but the constant of a flight is the angular momentum.
 const QuantityKind kAngularVelocity{"angular_velocity",
                                     3,
@@ -89,9 +107,11 @@ const QuantityKind kAngularVelocity{"angular_velocity",
                                     &NaturalScales::angular_velocity,
                                     threeNumbers,
                                     fieldOf<&BodyState::angular_velocity>,
-                                    fieldSeed<&StateSeed::angular_velocity>};
-const QuantityKind kTime{"time", 1, 1, true, true, false, &NaturalScales::time, oneNumber, timeOf, timeSeed};
-const QuantityKind kPoint{"point", 3, 3, false, false, true, &NaturalScales::length, threeNumbers, pointOf, pointSeed};
+                                    fieldSeed<&StateSeed::angular_velocity>,
+                                    nullptr};
+const QuantityKind kTime{"time", 1, 1, true, true, false, &NaturalScales::time, oneNumber, timeOf, timeSeed, nullptr};
+const QuantityKind kPoint{"point",      3,       3,         false,        false, true, &NaturalScales::length,
+                          threeNumbers, pointOf, pointSeed, pointSeedRate};
 
 const QuantityKind* const kTable[] = {&kPosition, &kOrientation, &kVelocity, &kAngularVelocity, &kTime, &kPoint};
 

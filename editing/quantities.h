@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "adjoint/derivative_tape.h"
+#include "adjoint/tangent.h"
 #include "editing/constraint.h"
 #include "editing/natural_scales.h"
 
@@ -26,6 +26,8 @@ struct QuantityKind {
   Vec3 (*value)(const BodyState&, double time, const Target&);
   /// The row's derivative by the state (body and instant are filled in by the caller).
   StateSeed (*seed)(const BodyState&, const Target&, int component);
+  /// How that changes with the state; null where it does not.
+  StateSeed (*seed_rate)(const BodyState&, const BodyStateRate&, const Target&, int component);
 };
 
 std::span<const QuantityKind* const> quantityKinds();

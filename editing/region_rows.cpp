@@ -36,6 +36,8 @@ struct Candidate {
   double value = std::numeric_limits<double>::infinity();
   double s = 0;
   Vec3 gradient = Vec3::Zero();
+  double bend = 0;              // second derivative across the gradient, the same in both directions
+  Vec3 between = Vec3::Zero();  // of two faces: difference of their normals
 };
 
 void keepLower(Candidate& best, const Candidate& candidate) {
@@ -57,7 +59,8 @@ Candidate leastToSphere(const Stretch& stretch, double radius, double margin, do
     const Vec3 y = stretch.placeAt(s);
     const double distance = y.norm();
     const Vec3 out = distance > 0 ? Vec3(y / distance) : stretch.velocityAt(s).unitOrthogonal();
-    keepLower(best, {side * (distance - radius) - margin, s, side * out});
+    const double bend = distance > 0 ? side / distance : 0;
+    keepLower(best, {side * (distance - radius) - margin, s, side * out, bend});
   }
   return best;
 }
@@ -111,7 +114,8 @@ Candidate leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
         const double weight = rate_g / (rate_g - rate_f);
         const Candidate crossing{
             value - margin, s,
-            weight * faceNormal(static_cast<int>(f)) + (1 - weight) * faceNormal(static_cast<int>(g))};
+            weight * faceNormal(static_cast<int>(f)) + (1 - weight) * faceNormal(static_cast<int>(g)), 0,
+            faceNormal(static_cast<int>(f)) - faceNormal(static_cast<int>(g))};
         // the ends of the other candidates may fall on the same time with one face alone
         if (crossing.value <= best.value) best = crossing;
       }
@@ -177,6 +181,13 @@ std::optional<Clearance> leastClearance(const Motion& motion, int body, const Bo
     clearance.seed.center_of_mass = stretch.R * candidate.gradient;
     // at an impact the place is read at a time that moves with the causes
     const bool at_event = !last && candidate.s == stretch.hi && to == end && end < bound.to;
+    const bool inside = candidate.s != stretch.lo && candidate.s != stretch.hi;
+    clearance.between = stretch.R * candidate.between;
+    clearance.keeps = !clearance.between.isZero(0) ? Clearance::Keeps::two_faces
+                      : inside                     ? Clearance::Keeps::least
+                                                   : Clearance::Keeps::place;
+    const Vec3 n = stretch.R * candidate.gradient.normalized();
+    clearance.bend = candidate.bend * (Mat3::Identity() - n * n.transpose());
     clearance.seed.at = at_event ? Instant::before(line.events[k]) : Instant::at(clearance.time);
   }
   return clearance;

@@ -30,9 +30,18 @@ std::string rowName(const Region& region, int component);
 /// be missed between samples. `seed` is its derivative; where the centre of mass passes exactly through the centre of a
 /// sphere, one of the directions across its velocity is taken.
 struct Clearance {
+  /// What the time of the reading keeps to as the motion changes.
+  enum class Keeps {
+    place,     ///< an end of the span, or the event of the seed
+    least,     ///< the value is stationary
+    two_faces  ///< two faces of a box are equally far
+  };
   double value = 0;
   double time = 0;  ///< where it is least
   StateSeed seed;
+  Keeps keeps = Keeps::place;
+  Mat3 bend = Mat3::Zero();     ///< second derivative of the value by the centre of mass, 1/m, world axes
+  Vec3 between = Vec3::Zero();  ///< two_faces: difference of their normals, world axes
 };
 /// Null where the motion ends before the span does.
 std::optional<Clearance> leastClearance(const Motion& motion, int body, const BoundRegion& region, int component);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "adjoint/derivative_tape.h"
 #include "adjoint/motion.h"
+#include "adjoint/tangent.h"
 
 namespace carom {
 
@@ -16,5 +16,10 @@ struct SeedPair {
   StateSeed of_a, of_b;
 };
 SeedPair seenFromPullback(const BodyState& a, const BodyState& b, const StateSeed& seed);
+
+/// Rates of both as the states of the bodies change, and with them the functional.
+BodyStateRate seenFromRate(const BodyState& a, const BodyState& b, const BodyStateRate& da, const BodyStateRate& db);
+SeedPair seenFromPullbackRate(const BodyState& a, const BodyState& b, const BodyStateRate& da, const BodyStateRate& db,
+                              const StateSeed& seed, const StateSeed& dseed);
 
 }  // namespace carom

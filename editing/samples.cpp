@@ -17,8 +17,15 @@ double inTurn(const double (&list)[N], int k) {
   return list[static_cast<std::size_t>(k) % N];
 }
 
-Eigen::VectorXd within(const Eigen::VectorXd& x, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-  return x.cwiseMax(lower).cwiseMin(upper);
+/// Numbers beyond a bound come to lie just before it: many a bound is a special case, such as friction 0.
+Eigen::VectorXd within(Eigen::VectorXd x, const Eigen::VectorXd& centre, const Eigen::VectorXd& lower,
+                       const Eigen::VectorXd& upper) {
+  constexpr double kBefore = 0.95;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    if (x[j] < lower[j]) x[j] = centre[j] + kBefore * (lower[j] - centre[j]);
+    if (x[j] > upper[j]) x[j] = centre[j] + kBefore * (upper[j] - centre[j]);
+  }
+  return x;
 }
 
 /// In the box of half width `reach` around the centre, as far as the bounds let it; within bounds that leave no more
@@ -90,7 +97,7 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
       const auto& from = around[static_cast<std::size_t>(kind - 2) / 2];
       x = along(2 * k + kind % 2, from);
     }
-    list.push_back(within(x, lower, upper));
+    list.push_back(within(x, centre, lower, upper));
   }
   return list;
 }

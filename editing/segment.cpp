@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "adjoint/errors.h"
+#include "editing/hessian.h"
 
 namespace carom {
 
@@ -10,6 +11,21 @@ Eigen::VectorXd Segment::unknownsAt(const Eigen::VectorXd& x) const {
   Eigen::VectorXd z(static_cast<Eigen::Index>(unknowns.size()));
   for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = unknowns[static_cast<std::size_t>(i)].at(x);
   return z;
+}
+
+bool Segment::follow(const Motion& whole, const Eigen::VectorXd& x, double from, double until,
+                     const std::vector<int>& bodies) {
+  like = std::make_shared<Motion>(simulateAt(problem, problem.valuesOf(unknownsAt(x)), until - from));
+  const auto impacts = [&](const Motion& motion, double lo, double hi) {
+    std::string text;
+    for (int body : bodies)
+      for (int e : motion.world_lines[static_cast<std::size_t>(body)].events) {
+        const double t = motion.events[static_cast<std::size_t>(e)].time;
+        if (t >= lo && t <= hi) text += motion.describeEvent(e) + ';';
+      }
+    return text;
+  };
+  return impacts(*like, 0, until - from) == impacts(whole, from, until);
 }
 
 double Segment::until(const Eigen::VectorXd& x, const Eigen::VectorXd& times) const {
@@ -29,16 +45,15 @@ SegmentPointPtr Segment::evaluate(const Eigen::VectorXd& x) const {
   auto point = std::make_shared<SegmentPoint>();
   point->unknowns = unknownsAt(x);
   if (!point->unknowns.allFinite()) return nullptr;
-  const Eigen::VectorXd times = point->unknowns.tail(problem.times());  // of scale 1 s, see makeSegments
+  const Eigen::VectorXd times = point->unknowns.tail(problem.times()), latest = problem.upper().tail(problem.times());
+  if ((times.array() < 0).any() || (times.array() > latest.array()).any()) return nullptr;
   point->values = problem.valuesOf(point->unknowns);
-  const Eigen::VectorXd seconds = problem.timesOf(point->unknowns);
-  if (!problem.unknownTimes(seconds).isApprox(times, 1e-12) && times.size() > 0) return nullptr;
   if (end && !(end->at(x) > start.at(x))) return nullptr;
   try {
-    Replay replay = replayAt(problem, point->values, *like, until(x, seconds), contacts.get());
+    Replay replay = replayAt(problem, point->values, *like, until(x, problem.timesOf(point->unknowns)), contacts.get());
     if (!replay.complete || replay.left_out > 0) return nullptr;
     point->motion = std::move(replay.motion);
-    point->rows = problem.constraints.evaluate(point->motion, seconds);
+    point->rows = problem.constraints.evaluate(point->motion, problem.timesOf(point->unknowns));
   } catch (const InputError&) {
     return nullptr;
   }
@@ -54,8 +69,8 @@ void Segment::differentiate(SegmentPoint& point) const {
   point.jacobian = J * problem.rates(point.unknowns).asDiagonal();
 }
 
-Eigen::MatrixXd Segment::hessian(const SegmentPoint& point, const Eigen::VectorXd&) const {
-  return Eigen::MatrixXd::Zero(point.unknowns.size(), point.unknowns.size());
+Eigen::MatrixXd Segment::hessian(const SegmentPoint& point, const Eigen::VectorXd& weights) const {
+  return rowsHessian(problem, point.unknowns, point.motion, point.rows, weights);
 }
 
 }  // namespace carom

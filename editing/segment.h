@@ -50,6 +50,10 @@ class Segment {
 
   explicit Segment(EditProblem of) : problem(std::move(of)) {}
 
+  /// Simulates what the segment will follow, from x, where the whole motion is the one that was cut; `from` and `until`
+  /// are its times. False where these bodies meet other impacts than in the whole.
+  bool follow(const Motion& whole, const Eigen::VectorXd& x, double from, double until, const std::vector<int>& bodies);
+
   Eigen::VectorXd unknownsAt(const Eigen::VectorXd& x) const;
   /// Null where it cannot be evaluated: an impact is left out, a time lies before the node.
   SegmentPointPtr evaluate(const Eigen::VectorXd& x) const;

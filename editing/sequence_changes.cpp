@@ -73,12 +73,13 @@ Matches align(const Sequence& before, const std::vector<int>& a, const Sequence&
   }
   Matches matches;
   for (std::size_t i = n, j = m; i > 0 || j > 0;) {
-    if (i > 0 && j > 0 && cost[i][j] == together(i, j)) {
-      matches.push_back({static_cast<int>(--i), static_cast<int>(--j)});
-    } else if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
+    // where several alignments cost the same, later impacts come and go rather than earlier ones
+    if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
       matches.push_back({static_cast<int>(--i), -1});
-    } else {
+    } else if (j > 0 && cost[i][j] == cost[i][j - 1] + kAlone) {
       matches.push_back({-1, static_cast<int>(--j)});
+    } else {
+      matches.push_back({static_cast<int>(--i), static_cast<int>(--j)});
     }
   }
   std::reverse(matches.begin(), matches.end());

@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include "editing/edit_solution.h"
+#include "editing/projection.h"
 #include "editing/samples.h"
 
 namespace carom {
@@ -79,7 +80,8 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
     points[i] = search_.make(places[i], true, {&contacts, nullptr});
   });
   std::erase(points, nullptr);
-  if (round_ == 0) points.insert(points.begin(), {start_, search_.best()});
+  if (round_ == 0) points.insert(points.begin(), start_);
+  if (search_.best() != start_) points.insert(points.begin(), search_.best());
   for (const EditPointPtr& point : points) search_.consider(point);
   return points;
 }

@@ -79,6 +79,7 @@ void EditSession::State::grab(const std::string& body, const When& at, const Gri
   if (grip.orientation) next.orientation = state.orientation;
   std::vector<Constraint> constraints = now.constraints();
   constraints.push_back(goalOf(next));
+  next.record.constraint = constraints.back();
   if (next.orientation) next.turn_target = static_cast<int>(constraints.back().targets.size()) - 1;
   next.solver = solverFor(constraints, static_cast<int>(constraints.size()) - 1);
   next.before = last.motion;

@@ -24,17 +24,18 @@ struct SessionOptions {
   MeasureFrom measure_from = MeasureFrom::grab;
   SequencePolicy sequence = SequencePolicy::prefer_start;  ///< stay: no gesture changes which impacts happen
   double tolerance = 1e-9;                                 ///< of every number that is held, dimensionless
-  int drag_simulations = 12;                               ///< at most, for one update
+  int drag_simulations = 8;                                ///< at most, for one update
   int release_iterations = 200;                            ///< at most, when a gesture ends
   double drag_seconds = 0.25;
-  double release_seconds = 10;
+  double release_seconds = 3;
 };
 
 /// How a body is held while it is dragged.
 struct Grip {
-  std::optional<Vec3> body_point;       ///< this point, in the shape's axes; else the shape's origin
+  std::optional<Vec3> body_point = {};  ///< this point, in the shape's axes; else the shape's origin
   bool orientation = false;             ///< its orientation as well: as it is, until dragTo gives another
-  std::vector<std::string> components;  ///< "x", "y", "z" of the place that count; empty: all. The others are free.
+  /// "x", "y", "z" of the place that count; empty: all. The others are free.
+  std::vector<std::string> components = {};
 };
 
 /// What a nail holds; see Nail in edit.h.
@@ -63,7 +64,7 @@ struct SessionGesture {
   Kind kind = Kind::drag;
   double milliseconds = 0;               ///< since the session began, when it began; for information
   std::vector<Control> controls;         ///< controls: all of them, from then on
-  std::optional<Constraint> constraint;  ///< nail
+  std::optional<Constraint> constraint;  ///< nail; drag: what the grab holds, and where that was
   int nail = -1;                         ///< nail, unnail, release_nailed: the number of the nail
 
   std::string body;  ///< drag: from here on

@@ -12,7 +12,7 @@ namespace {
 /// An impact that is held may come later than at the start: so much of its time is simulated.
 constexpr double kMarginAfterLast = 1.25;
 /// From this share of the duration on all of it is simulated, so that the motion to show is there already.
-constexpr double kNearlyAll = 0.7;
+constexpr double kNearlyAll = 0.8;
 /// Below this violation, dimensionless, steps are taken whole even if the curvature of the constraints makes it larger
 /// at first: by so many times the square of what a step does to make the change smaller.
 constexpr double kNear = 1e-2;
@@ -20,14 +20,22 @@ constexpr double kCurvature = 100;
 /// What a nail is worth against the goal while neither is met.
 constexpr double kNailWeight = 10;
 /// The change is small enough when a step would shorten it by less than this share.
-constexpr double kSettled = 1e-2;
+constexpr double kSettled = 0.1;
 /// The goal is as near as it gets when a step would bring it nearer by less than this share, to first order.
 constexpr double kHopeless = 1e-3;
-/// Where rounding leaves nothing to shorten.
+/// A change that a step would make shorter by no more than this is short enough.
 constexpr double kNothing = 1e-8;
+/// Where rounding leaves no step.
+constexpr double kNoStep = 1e-15;
 /// Steps are not shortened below this, and begin no shorter than that in an update.
 constexpr double kShortestReach = 1e-4;
 constexpr double kLeastReach = 0.25;
+/// Shares of the way towards the smallest change that a step may take.
+constexpr double kLeastEase = 1.0 / 16, kMostEase = 2;
+/// So much work is kept for coming onto the constraints, whatever the change.
+constexpr int kLanding = 3;
+/// Borders of impact sequences that an update follows.
+constexpr std::size_t kMostKinks = 3;
 /// Steps across the border of an impact sequence that may make things worse at first, in one update.
 constexpr int kLeaps = 2;
 /// An update ends after so many steps that hardly bring the goal nearer, or leave the change as large as it was.
@@ -73,7 +81,8 @@ SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, do
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(problem_.unknowns());
   if (changes.size() > 0) unknowns.head(problem_.controls.size()) = changes;
   start_ = point_ = pointAt(problem_, unknowns, until_, true);
-  if (!point_->rows.available) throw InputError(point_->rows.message);
+  if (!point_->rows.available)
+    throw InputError("found a constraint that the motion lacks, expected one that it has: " + point_->rows.message);
   until_ = std::min(until_, kMarginAfterLast * problem_.constraints.extentIn(point_->motion).time);
   if (until_ > kNearlyAll * duration) until_ = duration;
   nails_allowed_ = std::max(options_.tolerance, nailViolation(*point_));
@@ -165,6 +174,10 @@ StepProblem SessionSolver::stepProblem(EditPoint& point) const {
     if (std::isfinite(row.lower)) step.within.add(J.row(i), (value - row.lower) / row.scale);
     if (std::isfinite(row.upper)) step.within.add(-J.row(i), (row.upper - value) / row.scale);
   }
+  for (const Kink& kink : kinks_) {
+    const double side = kink.normal.dot(point.changes) - kink.offset, sign = side < 0 ? -1 : 1;
+    step.within.add(sign * kink.normal.transpose(), sign * side);
+  }
   for (Eigen::Index i = 0; i < point.validity.size(); ++i)
     step.within.add(point.validity_jacobian->row(i), point.validity[i] - kValidityMargin);
   return step;
@@ -172,49 +185,94 @@ StepProblem SessionSolver::stepProblem(EditPoint& point) const {
 
 bool SessionSolver::isSettled(const EditPoint& point, const Step& step) const {
   const double change = point.changes.head(problem_.controls.size()).norm();
-  if (reached(point)) return ease_ * step.towards_zero <= kSettled * change + kNothing;
+  if (reached(point)) return ease_ * step.towards_zero.norm() <= kSettled * change + kNothing;
   // As near as it gets, to first order.
   const bool nails_met = nailViolation(point) <= nails_allowed_;
-  return step.d.norm() <= kNothing || (nails_met && goal_ >= 0 && step.soft_after > (1 - kHopeless) * merit(point));
+  return step.d.norm() <= kNoStep * (1 + point.changes.norm()) ||
+         (nails_met && goal_ >= 0 && step.soft_after > (1 - kHopeless) * merit(point));
 }
 
-bool SessionSolver::leads(const EditPoint& trial, const EditPoint& from, const Step& step) const {
+bool SessionSolver::leads(const EditPoint& trial, const EditPoint& from, double eased) const {
   if (options_.sequence == SequencePolicy::stay && trial.signature != start_->signature) return false;
-  const double now = merit(trial), eased = ease_ * step.towards_zero;
+  const double now = merit(trial);
   return now < merit(from) || now <= std::min(kNear, kCurvature * eased * eased) || reached(trial);
+}
+
+/// The curvature of the constraints makes the way towards the smallest change shorter or longer than a step thinks:
+/// by how the last step changed what is left of it, the next one knows by how much (a secant along it).
+void SessionSolver::learnEase(const EditPoint& at, const Step& step) {
+  const double square = last_towards_.squaredNorm();
+  if (last_towards_.size() == step.towards_zero.size() && square > kNothing * kNothing &&
+      at.signature == last_signature_) {
+    const double left = step.towards_zero.dot(last_towards_) / square;
+    ease_ = left < 1 ? std::clamp(ease_ / (1 - left), kLeastEase, kMostEase) : kMostEase;
+  }
+  last_towards_.resize(0);
+}
+
+/// Keeps the steps from `at` on its own side of the border that a trial went across; false where there is none that
+/// could be held.
+bool SessionSolver::holdAtKink(EditPoint& at, EditPoint& trial) {
+  if (kinks_.size() >= kMostKinks || trial.signature == at.signature) return false;
+  differentiate(problem_, trial);
+  const std::optional<Kink> kink = kinkBetween(problem_, at, trial);
+  if (kink) kinks_.push_back(*kink);
+  return kink.has_value();
 }
 
 void SessionSolver::improve(Work& work) {
   keepIfBetter(start_);  // a drag that comes back finds what was there
   EditPointPtr at = point_;
   int stalls = 0, leaps = 0;
+  bool lands = false, crosses = false;
   reach_ = std::max(reach_, kLeastReach);
-  ease_ = std::min(1.0, 2 * ease_);
+  kinks_.clear();
+  last_towards_.resize(0);
   while (stalls < kStalls) {
-    const StepProblem problem = stepProblem(*at);
+    StepProblem problem = stepProblem(*at);
     if (!at->row_jacobian->allFinite()) return;
-    const Step step = hierarchicalStep(problem);
-    if (isSettled(*at, step) || !work.take()) return;
+    lands = !reached() && (lands || work.left() <= kLanding);
+    if (lands) problem.ease = 0;
+    Step step = hierarchicalStep(problem);
+    if (!lands && last_towards_.size() > 0) {
+      learnEase(*at, step);
+      problem.ease = ease_;
+      step = hierarchicalStep(problem);
+    }
+    if (isSettled(*at, step)) {
+      if (reached() || kinks_.empty() || leaps >= kLeaps || crosses) return;
+      kinks_.clear();  // the border is as near as this side gets: what is beyond it?
+      crosses = true;
+      continue;
+    }
+    if (!work.take()) return;
     const EditPointPtr trial = evaluate(at->changes + step.d);
-    const double length = step.d.norm(), eased = ease_ * step.towards_zero;
-    const bool accepted = trial && leads(*trial, *at, step);
-    const bool leap = trial && !accepted && leaps < kLeaps && options_.sequence != SequencePolicy::stay &&
-                      trial->signature != at->signature;
-    if (accepted || leap) {
+    const double length = step.d.norm(), eased = problem.ease * step.towards_zero.norm();
+    if (trial && leads(*trial, *at, eased)) {
       ++iterations_;
-      if (leap) ++leaps;
       const bool both = reached(*trial) && reached(*at);
-      if (both && trial->objective >= at->objective) ease_ /= 2, ++stalls;
-      if (accepted && !reached(*trial) && merit(*trial) > kHardly * merit(*at)) ++stalls;
-      if (accepted) reach_ = std::max(reach_, 2 * length);
+      if (both && trial->objective >= at->objective) ++stalls;
+      if (!reached(*trial) && merit(*trial) > kHardly * merit(*at)) ++stalls;
+      reach_ = std::max(reach_, 2 * length);
       keepIfBetter(trial);
+      crosses = false;
+      if (!lands) last_towards_ = step.towards_zero, last_signature_ = at->signature;
       at = trial;
+    } else if (trial && !crosses && holdAtKink(*at, *trial)) {
+      continue;
     } else if (eased > 0.5 * length) {
-      ease_ /= 2;
-      ++stalls;
+      ease_ = std::max(kLeastEase, ease_ / 2);
+      lands = true;
+      if (reached()) ++stalls;
+    } else if (trial && leaps < kLeaps && options_.sequence != SequencePolicy::stay &&
+               trial->signature != at->signature) {
+      ++iterations_, ++leaps;
+      kinks_.clear();
+      crosses = false;
+      at = trial;
     } else {
       reach_ = length / 3;
-      if (reach_ < kShortestReach) return;
+      if (reach_ < std::min(kShortestReach, kShortestReach * merit(*at))) return;
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include "editing/edit_search.h"
 #include "editing/session_journal.h"
+#include "editing/session_kink.h"
 #include "editing/session_step.h"
 
 /// One gesture as an edit whose targets move. Internal to editing/.
@@ -21,6 +22,7 @@ class Work {
   /// Takes one unit; false when there is none left.
   bool take();
   int done() const { return done_; }
+  int left() const { return limit_ - done_; }
   bool cutByClock() const { return cut_; }
 
  private:
@@ -67,9 +69,11 @@ class SessionSolver {
   double nailViolation(const EditPoint& point) const;
   double merit(const EditPoint& point) const;
   bool isBetter(const EditPoint& point) const;
-  bool leads(const EditPoint& trial, const EditPoint& from, const Step& step) const;
+  bool leads(const EditPoint& trial, const EditPoint& from, double eased) const;
   bool isSettled(const EditPoint& point, const Step& step) const;
   void keepIfBetter(const EditPointPtr& point);
+  bool holdAtKink(EditPoint& at, EditPoint& trial);
+  void learnEase(const EditPoint& at, const Step& step);
 
   SessionOptions options_;
   EditProblem problem_;
@@ -79,6 +83,9 @@ class SessionSolver {
   EditPointPtr start_, point_;
   double nails_allowed_ = 0;  // nails that are not met may stay as far off as they are
   double reach_ = 1, ease_ = 1;
+  std::vector<Kink> kinks_;       // met in this update
+  Eigen::VectorXd last_towards_;  // what would have made the change smallest, at the last step
+  std::string last_signature_;
   int iterations_ = 0;
 };
 

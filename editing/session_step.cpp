@@ -72,7 +72,7 @@ struct Solver {
       Z = Q.rightCols(n - across.rank());
     }
     Step step;
-    Eigen::VectorXd d = d0;
+    Eigen::VectorXd d = d0, towards = Eigen::VectorXd::Zero(n);
     Eigen::MatrixXd moved;  // orthonormal directions of z that move the soft rows
     const Eigen::MatrixXd soft = columns(problem.soft.J, free);
     const Eigen::VectorXd left = problem.soft.r + problem.soft.J * fixed;
@@ -92,12 +92,16 @@ struct Solver {
       Eigen::VectorXd w = -(Z.transpose() * pull(free, d));
       if (moved.cols() > 0) w -= moved * (moved.transpose() * w);
       shorten(w, problem.reach);
-      step.towards_zero = w.norm();
-      d += problem.ease * (Z * w);
+      towards = Z * w;
+      d += problem.ease * towards;
     }
     step.d = fixed;
-    for (Eigen::Index k = 0; k < n; ++k)
-      step.d[free[static_cast<std::size_t>(k)]] = stretch[free[static_cast<std::size_t>(k)]] * d[k];
+    step.towards_zero = Eigen::VectorXd::Zero(fixed.size());
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::Index j = free[static_cast<std::size_t>(k)];
+      step.d[j] = stretch[j] * d[k];
+      step.towards_zero[j] = stretch[j] * towards[k];
+    }
     step.soft_after = problem.soft.size() > 0 ? (problem.soft.r + problem.soft.J * step.d).norm() : 0;
     return step;
   }

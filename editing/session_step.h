@@ -26,9 +26,9 @@ struct StepProblem {
 
 struct Step {
   Eigen::VectorXd d;
-  double towards_zero = 0;    ///< length of its part that makes the change smaller
-  double soft_after = 0;      ///< |soft rows| after it, to first order
-  bool free_for_soft = true;  ///< false: hard rows and bounds leave nothing that moves the soft rows
+  Eigen::VectorXd towards_zero;  ///< the whole of what would make the change smallest, of which `ease` is taken
+  double soft_after = 0;         ///< |soft rows| after it, to first order
+  bool free_for_soft = true;     ///< false: hard rows and bounds leave nothing that moves the soft rows
 };
 
 Step hierarchicalStep(const StepProblem& problem);

@@ -61,4 +61,18 @@ Eigen::MatrixXd ValidityRows::jacobian(const ControlSet& controls, const Eigen::
   return J;
 }
 
+// Rows of moments are linear; a cone has -2/cone^2 for each of its tilt's two numbers.
+Eigen::MatrixXd ValidityRows::hessian(const ControlSet& controls, const Eigen::VectorXd& weights) const {
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(controls.size(), controls.size());
+  for (int i = 0; i < size(); ++i) {
+    if (rows_[i].moment >= 0) continue;
+    const BoundControl& bound = controls.controls()[rows_[i].control];
+    for (int j = 0; j < controls.size(); ++j) {
+      if (sameOwner(controls.controls()[controls.variables()[j].control], bound))
+        H(j, j) -= 2 * weights[i] / rows_[i].scale;
+    }
+  }
+  return H;
+}
+
 }  // namespace carom

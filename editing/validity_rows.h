@@ -21,6 +21,8 @@ class ValidityRows {
   Eigen::VectorXd evaluate(const ControlSet& controls, const Eigen::VectorXd& values) const;
   /// By the control values, size() x controls.size().
   Eigen::MatrixXd jacobian(const ControlSet& controls, const Eigen::VectorXd& values) const;
+  /// Second derivatives of weights . h by the control values.
+  Eigen::MatrixXd hessian(const ControlSet& controls, const Eigen::VectorXd& weights) const;
 
  private:
   struct Row {

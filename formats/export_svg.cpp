@@ -23,7 +23,7 @@ std::size_t movingBodies(const Scene& scene) {
 }
 
 double ghostInterval(const Motion& motion) {
-  const double ghosts = movingBodies(*motion.scene) <= 2 ? 14 : 8;
+  const double ghosts = movingBodies(*motion.scene) <= 2 ? 12 : 8;
   return motion.end > 0 ? niceStep(motion.end / ghosts) : 1;
 }
 
@@ -37,16 +37,19 @@ std::string subtitleOf(const Picture& picture) {
   return words;
 }
 
-void addDefinitions(SvgCanvas& canvas, const std::vector<View>& views) {
-  canvas.open("defs");
-  canvas.open("pattern", {{"id", "hatch"},
-                          {"width", "8"},
-                          {"height", "8"},
-                          {"patternUnits", "userSpaceOnUse"},
-                          {"patternTransform", "rotate(45)"}});
+void addHatch(SvgCanvas& canvas, const char* id, const char* colour, const char* width, const char* turn) {
+  canvas.open(
+      "pattern",
+      {{"id", id}, {"width", "8"}, {"height", "8"}, {"patternUnits", "userSpaceOnUse"}, {"patternTransform", turn}});
   canvas.element("line",
-                 {{"x1", "0"}, {"y1", "0"}, {"x2", "0"}, {"y2", "8"}, {"stroke", "#9aa1ab"}, {"stroke-width", "2"}});
+                 {{"x1", "0"}, {"y1", "0"}, {"x2", "0"}, {"y2", "8"}, {"stroke", colour}, {"stroke-width", width}});
   canvas.close();
+}
+
+void addDefinitions(SvgCanvas& canvas, const std::vector<View>& views, const Picture& picture) {
+  canvas.open("defs");
+  addHatch(canvas, "hatch", "#9aa1ab", "2", "rotate(45)");
+  if (!picture.regions.empty()) addHatch(canvas, "hatch-avoid", kAvoidColour, "0.9", "rotate(-45)");
   for (const View& view : views) {
     canvas.open("clipPath", {{"id", "clip-" + view.name}});
     canvas.element("rect", {{"x", svgNumber(view.panel.x)},
@@ -63,6 +66,7 @@ void drawView(SvgCanvas& canvas, const View& view, const Picture& picture) {
   drawAxes(canvas, view);
   canvas.open("g", {{"clip-path", "url(#clip-" + view.name + ")"}});
   drawFixedBodies(canvas, view, picture);
+  drawRegions(canvas, view, picture);
   drawPathsBefore(canvas, view, picture);
   drawGhosts(canvas, view, picture);
   drawPaths(canvas, view, picture);
@@ -74,14 +78,14 @@ void drawView(SvgCanvas& canvas, const View& view, const Picture& picture) {
 }  // namespace
 
 void exportSvg(const std::string& path, const Document& document, const Motion& motion, const Motion* before) {
-  const Picture picture{motion, before, nailsOf(document, motion), ghostInterval(motion)};
+  const Picture picture{motion, before, nailsOf(document, motion), regionsOf(document), ghostInterval(motion)};
   const std::vector<View> views = layOutViews(picture, kWidth, kHeader);
   const PixelBox& last = views.back().panel;
   const double legend_top = last.y + last.height + kAxisRoom + 8, legend_width = kWidth - 2 * kSideMargin;
   const std::string title = std::filesystem::path(path).stem().string();
 
   SvgCanvas canvas(kWidth, legend_top + legendHeight(picture, legend_width) + 16, title);
-  addDefinitions(canvas, views);
+  addDefinitions(canvas, views, picture);
   canvas.text({kSideMargin, 36}, title, {{"font-size", "22"}, {"font-weight", "700"}});
   canvas.text({kSideMargin, 58}, subtitleOf(picture), {{"font-size", "14"}, {"fill", "#565d67"}});
   for (const View& view : views) drawView(canvas, view, picture);

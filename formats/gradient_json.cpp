@@ -16,6 +16,21 @@ void writeRows(JsonWriter& out, const ConstraintSet& constraints, const RowValue
     out.key("component").text(row.name);
     out.key("value").number(rows.values[i]);
     out.key("target").number(row.wanted);
+    if (row.isRange()) out.key("min").number(row.lower).key("max").number(row.upper);
+    out.endObject();
+  }
+  out.endArray();
+}
+
+void writeTimes(JsonWriter& out, const ConstraintSet& constraints, const RowValues& rows) {
+  out.key("times").beginArray();
+  for (std::size_t k = 0; k < constraints.freeTimes().size(); ++k) {
+    const FreeTime& free = constraints.freeTimes()[k];
+    out.beginObject(Layout::line);
+    out.key("constraint").integer(free.constraint);
+    out.key("from").number(free.from);
+    out.key("to").number(free.to);
+    out.key("time").number(rows.times[static_cast<Eigen::Index>(k)]);
     out.endObject();
   }
   out.endArray();
@@ -46,6 +61,7 @@ std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& valu
   JsonWriter out;
   out.beginObject();
   writeRows(out, problem.constraints, result.rows);
+  writeTimes(out, problem.constraints, result.rows);
   writeColumns(out, problem.controls, values);
   out.key("jacobian").beginArray();
   for (Eigen::Index i = 0; i < result.jacobian.rows(); ++i) {
@@ -53,7 +69,8 @@ std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& valu
     out.numbers({row.data(), static_cast<std::size_t>(row.size())});
   }
   out.endArray();
-  out.key("signature").text(result.motion.signature(problem.constraints.extentIn(result.motion).events));
+  out.key("signature")
+      .text(result.motion.signature(problem.constraints.extentIn(result.motion, result.rows.times).events));
   out.key("reliable").boolean(reliable);
   out.key("message").text(message);
   out.endObject();

@@ -149,7 +149,8 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
 
 [[noreturn]] void failMissing(const Place& place, const Json& name, const std::string& beside, const Json* properties) {
   fail(place.pointer, "no member " + name.dump() + beside,
-       name.dump() + ": " + expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json(), *place.tree));
+       name.dump() + ": " +
+           expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json(), *place.tree));
 }
 
 /// Throws what is wrong at a place that the schema refuses.

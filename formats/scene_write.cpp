@@ -143,7 +143,7 @@ void requireWritable(const Document& document) {
 void detail::writeControl(JsonWriter& out, const Control& control) { carom::writeControl(out, control); }
 
 void detail::writeDocument(JsonWriter& out, const Document& document) {
-  requireWritable(document);
+  carom::requireWritable(document);
   out.beginObject();
   out.key("carom").integer(1);
   out.key("gravity").vector(document.scene.gravity);

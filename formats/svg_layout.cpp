@@ -22,11 +22,31 @@ Extent fixedExtent(const Body& body, const Vec3& centre) {
   return Extent(foot, foot);
 }
 
+/// Regions and the ends of ranges, those that are not much larger than all the rest.
+void extendByHeldPlaces(const Picture& picture, Extent& shown) {
+  const Vec3 reach = Vec3::Constant(shown.sizes().maxCoeff());
+  const Extent near(shown.min() - reach, shown.max() + reach);
+  for (const RegionMark& region : picture.regions) {
+    const Extent part = near.intersection(shapeExtent(region.shape, region.position, region.orientation));
+    if (!part.isEmpty()) shown.extend(part);
+  }
+  for (const NailMark& nail : picture.nails) {
+    if (!nail.allowed) continue;
+    const AllowedBox& box = *nail.allowed;
+    const Vec3 middle = box.axes.conjugate() * (near.center() - box.origin);
+    for (const Vec3* corner : {&box.low, &box.high}) {
+      const Vec3 inner = corner->array().isFinite().select(*corner, middle);
+      const Vec3 place = box.origin + box.axes * inner;
+      if (near.contains(place)) shown.extend(place);
+    }
+  }
+}
+
 // What moves and is nailed, and of the fixed bodies as much as lies near it: a floor of a kilometre is not shown whole.
 Extent shownExtent(const Picture& picture) {
   Extent shown = motionExtent(picture.motion);
   if (picture.before) shown.extend(motionExtent(*picture.before));
-  for (const Nail& nail : picture.nails) {
+  for (const NailMark& nail : picture.nails) {
     Vec3 target = nail.target;
     for (int i = 0; i < 3; ++i)
       if (!std::isfinite(target[i])) target[i] = shown.center()[i];
@@ -37,6 +57,7 @@ Extent shownExtent(const Picture& picture) {
       shown.extend(Extent(*nail.pose_origin - radius, *nail.pose_origin + radius));
     }
   }
+  extendByHeldPlaces(picture, shown);
   const Vec3 reach = Vec3::Constant(0.35 * shown.sizes().maxCoeff()), centre = shown.center();
   const Extent near(shown.min() - reach, shown.max() + reach);
   for (const Body& body : picture.motion.scene->bodies) {

@@ -12,7 +12,7 @@ constexpr double kSwatch = 30;
 constexpr double kGap = 22;  // between entries
 constexpr int kMaxBodies = 12;
 
-enum class Swatch { path, before, ghost, fixed, impact, nail, pose };
+enum class Swatch { path, before, ghost, fixed, impact, nail, pose, range, avoid, inside };
 
 struct Entry {
   Swatch swatch;
@@ -25,9 +25,15 @@ struct PlacedEntry {
   Vec2 at;  // from the legend's corner to the middle of the swatch's left end
 };
 
-bool anyNail(const Picture& picture, bool (*test)(const Nail&)) {
-  for (const Nail& nail : picture.nails)
+bool anyNail(const Picture& picture, bool (*test)(const NailMark&)) {
+  for (const NailMark& nail : picture.nails)
     if (test(nail)) return true;
+  return false;
+}
+
+bool anyRegion(const Picture& picture, Region::Side side) {
+  for (const RegionMark& region : picture.regions)
+    if (region.side == side) return true;
   return false;
 }
 
@@ -53,8 +59,13 @@ std::vector<Entry> entriesOf(const Picture& picture) {
     entries.push_back({Swatch::impact, words, kImpactColour});
   }
   if (!picture.nails.empty()) entries.push_back({Swatch::nail, "nail", kNailColour});
-  if (anyNail(picture, [](const Nail& nail) { return nail.orientation && nail.pose_origin; }))
+  if (anyNail(picture, [](const NailMark& nail) { return nail.orientation && nail.pose_origin; }))
     entries.push_back({Swatch::pose, "nailed pose", kNailColour});
+  if (anyNail(picture, [](const NailMark& nail) { return nail.allowed.has_value(); }))
+    entries.push_back({Swatch::range, "range of a nail", kNailColour});
+  if (anyRegion(picture, Region::Side::avoid))
+    entries.push_back({Swatch::avoid, "region to stay out of", kAvoidColour});
+  if (anyRegion(picture, Region::Side::inside)) entries.push_back({Swatch::inside, "region to stay in", kNailColour});
   constexpr std::size_t kLongest = 60;
   if (fixed.size() > kLongest) fixed = "bodies";
   if (!fixed.empty()) entries.push_back({Swatch::fixed, "fixed: " + fixed, "#7d8590"});
@@ -100,6 +111,12 @@ void drawSwatch(SvgCanvas& canvas, const Entry& entry, const Vec2& at) {
   if (entry.swatch == Swatch::pose)
     box(canvas, middle,
         {{"fill", "none"}, {"stroke", entry.colour}, {"stroke-width", "2"}, {"stroke-dasharray", "5 3"}});
+  if (entry.swatch == Swatch::range)
+    box(canvas, middle, {{"fill", entry.colour}, {"fill-opacity", "0.14"}, {"stroke", entry.colour}});
+  if (entry.swatch == Swatch::avoid)
+    box(canvas, middle, {{"fill", "url(#hatch-avoid)"}, {"stroke", entry.colour}, {"stroke-dasharray", "4 3"}});
+  if (entry.swatch == Swatch::inside)
+    box(canvas, middle, {{"fill", "none"}, {"stroke", entry.colour}, {"stroke-dasharray", "4 3"}});
   if (entry.swatch == Swatch::impact)
     canvas.element("polygon", {{"points", svgPoints({middle + Vec2(0, -5.5), middle + Vec2(5.5, 0),
                                                      middle + Vec2(0, 5.5), middle + Vec2(-5.5, 0)})},

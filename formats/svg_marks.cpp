@@ -65,7 +65,7 @@ void drawHoop(SvgCanvas& canvas, const Vec2& p, bool nails_position) {
 }
 
 // Where a nail is seen, in pixels; a component that the nail leaves free is NaN.
-Vec2 seen(const View& view, const Nail& nail) {
+Vec2 seen(const View& view, const NailMark& nail) {
   return view.pixelOf({nail.target[view.across_axis], (view.up_is_negative ? -1 : 1) * nail.target[view.up_axis]});
 }
 
@@ -81,8 +81,9 @@ void avoidPaths(const View& view, const Picture& picture, LabelPlacer& placer) {
 }
 
 void drawNails(SvgCanvas& canvas, const View& view, const Picture& picture, LabelPlacer& placer) {
-  for (const Nail& nail : picture.nails) {
+  for (const NailMark& nail : picture.nails) {
     const Vec2 p = seen(view, nail);
+    if (nail.allowed) drawAllowed(canvas, view, *nail.allowed);
     if (nail.orientation && nail.pose_origin)
       drawPose(canvas, view, picture.motion.scene->bodies[nail.body], *nail.pose_origin, *nail.orientation);
     if (p.allFinite()) {
@@ -96,13 +97,20 @@ void drawNails(SvgCanvas& canvas, const View& view, const Picture& picture, Labe
 
 void labelNails(SvgCanvas& canvas, const View& view, const Picture& picture, LabelPlacer& placer) {
   const PixelBox& panel = view.panel;
-  for (const Nail& nail : picture.nails) {
+  for (const NailMark& nail : picture.nails) {
     const Vec2 p = seen(view, nail);
     if (!std::isfinite(p.x()) && !std::isfinite(p.y())) continue;
     const Vec2 anchor(std::isfinite(p.x()) ? p.x() : panel.x + panel.width - 60,
                       std::isfinite(p.y()) ? p.y() : panel.y + 20);
     const double radius = p.allFinite() ? kHoopRadius + 2 : 2;
     label(canvas, placer.place(anchor, radius, nail.label, kFont), nail.label, kNailColour);
+  }
+}
+
+void labelRegions(SvgCanvas& canvas, const View& view, const Picture& picture, LabelPlacer& placer) {
+  for (const RegionMark& region : picture.regions) {
+    const std::string colour = region.side == Region::Side::avoid ? kAvoidColour : kNailColour;
+    label(canvas, placer.place(topOf(region, view), 2, region.label, kFont), region.label, colour);
   }
 }
 
@@ -137,6 +145,7 @@ void drawMarks(SvgCanvas& canvas, const View& view, const Picture& picture) {
   canvas.close();
   canvas.open("g", {{"class", "labels"}, {"font-size", svgNumber(kFont)}});
   labelNails(canvas, view, picture, placer);
+  labelRegions(canvas, view, picture, placer);
   for (std::size_t k = 0; numbered && k < places.size(); ++k) {
     const std::string number = std::to_string(k + 1);
     label(canvas, placer.place(places[k], kImpactRadius, number, kFont), number, kImpactColour);

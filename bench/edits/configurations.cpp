@@ -9,12 +9,19 @@ EditOptions staying() {
   return options;
 }
 
+EditOptions shooting(Shooting shooting) {
+  EditOptions options = staying();
+  options.shooting = shooting;
+  return options;
+}
+
 }  // namespace
 
 const std::vector<Configuration>& configurations() {
   static const std::vector<Configuration> rows = {
       {"search", "with search", EditOptions{}},
       {"no_search", "Ipopt alone", staying()},
+      {"shooting", "multiple shooting alone", shooting(Shooting::multiple)},
   };
   return rows;
 }

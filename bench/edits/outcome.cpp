@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <exception>
 #include <limits>
 
@@ -54,9 +55,11 @@ Outcome solve(const Task& task, const Configuration& configuration, double budge
     const Edit edit(task.start, contacts, task.duration, task.controls, task.constraints);
     EditOptions options = configuration.options;
     options.time_budget_seconds = budget_seconds;
+    const std::clock_t cpu_began = std::clock();
     const auto began = Clock::now();
     const EditResult result = edit.solve(options);
     outcome.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+    outcome.cpu_milliseconds = 1e3 * static_cast<double>(std::clock() - cpu_began) / CLOCKS_PER_SEC;
     outcome.status = result.status;
     outcome.message = result.message;
     outcome.iterations = result.iterations;

@@ -19,7 +19,8 @@ struct Outcome {
   std::string message;
   double residual = 0, objective = 0;
   int iterations = 0;
-  double milliseconds = 0;  ///< of Edit::solve, from outside
+  double milliseconds = 0;      ///< of Edit::solve, from outside
+  double cpu_milliseconds = 0;  ///< of the whole process in that time: right where one task is solved at a time
   bool sequence_changed = false;
 };
 

@@ -1,5 +1,6 @@
 #include "bench/edits/report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -71,16 +72,17 @@ void printList(const std::vector<Task>& tasks) {
 }
 
 void printSummary(const std::vector<Task>& tasks, const std::vector<Run>& runs, const BestKnown& best) {
-  std::printf("%-16s %5s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %8s %8s %5s %7s %7s %8s %5s\n", "configuration",
-              "tasks", "met %", "ball", "box", "hull", "meet", "time", "impact", "pose", "two", "same", "other",
-              "med ms", "it", "ratio", "p95 r", "worst r", "p95ms");
+  std::printf("%-16s|%6s |%6s%6s%6s%6s |%6s%6s%6s%6s |%6s%6s |%8s%9s%9s%9s%6s |%8s%8s%9s\n", "configuration", "met %",
+              "ball", "box", "hull", "meet", "time", "impact", "pose", "two", "same", "other", "ms", "p95", "cpu ms",
+              "p95", "steps", "ratio", "p95", "worst");
   for (const Run& run : runs) {
     const Summary s = summarise(tasks, run, best);
-    std::printf("%-16s %5zu %6.1f", run.configuration->name, tasks.size(), s.met);
-    for (double percent : s.by_family) std::printf(" %6.1f", percent);
-    for (double percent : s.by_goal) std::printf(" %6.1f", percent);
-    std::printf(" %6.1f %6.1f %8.2f %5.0f %7.3f %7.3f %8.3g %8.1f\n", s.same, s.other, s.median_ms, s.median_iterations,
-                s.median_ratio, s.p95_ratio, s.worst_ratio, s.p95_ms);
+    std::printf("%-16s|%6.1f |", run.configuration->name, s.met);
+    for (double percent : s.by_family) std::printf("%6.1f", percent);
+    std::printf(" |");
+    for (double percent : s.by_goal) std::printf("%6.1f", percent);
+    std::printf(" |%6.1f%6.1f |%8.2f%9.1f%9.2f%9.1f%6.0f |%8.3f%8.3f%9.3g\n", s.same, s.other, s.median_ms, s.p95_ms,
+                s.median_cpu_ms, s.p95_cpu_ms, s.median_iterations, s.median_ratio, s.p95_ratio, s.worst_ratio);
     if (s.claimed_not_met + s.met_not_claimed > 0)
       std::printf("  claimed but not met: %d; met but not claimed: %d\n", s.claimed_not_met, s.met_not_claimed);
   }
@@ -107,16 +109,16 @@ void writeOutcomes(const std::string& file, const std::vector<Task>& tasks, cons
   const File out = openForWriting(file);
   std::fprintf(out.get(),
                "task,family,goal,impacts,other_sequence,rows,numbers,hidden_distance,growth,configuration,met,"
-               "status,residual,objective,best_known,iterations,ms,sequence_changed\n");
+               "status,residual,objective,best_known,iterations,ms,cpu_ms,sequence_changed\n");
   for (const Run& run : runs) {
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       const Task& t = tasks[i];
       const Outcome& o = run.outcomes[i];
-      std::fprintf(out.get(), "%d,%s,%s,%d,%d,%d,%d,%.4g,%.3g,%s,%d,%s,%.3g,%.9g,%.9g,%d,%.3f,%d\n", t.index,
+      std::fprintf(out.get(), "%d,%s,%s,%d,%d,%d,%d,%.4g,%.3g,%s,%d,%s,%.3g,%.9g,%.9g,%d,%.3f,%.3f,%d\n", t.index,
                    nameOf(t.wanted.family), nameOf(t.wanted.goal), t.wanted.impacts, t.wanted.other_sequence ? 1 : 0,
                    t.rows, t.numbers, t.hidden_distance, t.growth, run.configuration->name, o.met ? 1 : 0,
                    nameOf(o.status), o.residual, o.objective, best.of(t), o.iterations, o.milliseconds,
-                   o.sequence_changed ? 1 : 0);
+                   o.cpu_milliseconds, o.sequence_changed ? 1 : 0);
     }
   }
 }
@@ -124,18 +126,20 @@ void writeOutcomes(const std::string& file, const std::vector<Task>& tasks, cons
 void writeSummary(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
                   const BestKnown& best) {
   const File out = openForWriting(file);
-  std::fprintf(out.get(),
-               "configuration,label,tasks,met,ball,box,hull,meeting,at_a_time,at_an_impact,pose,two_nails,"
-               "same_sequence,other_sequence,median_ms,p95_ms,median_iterations,median_ratio,p95_ratio,"
-               "worst_ratio\n");
+  std::fprintf(
+      out.get(),
+      "configuration,label,tasks,met,ball,box,hull,meeting,at_a_time,at_an_impact,pose,two_nails,"
+      "same_sequence,other_sequence,median_ms,p95_ms,median_cpu_ms,p95_cpu_ms,median_iterations,median_ratio,p95_ratio,"
+      "worst_ratio\n");
   for (const Run& run : runs) {
     const Summary s = summarise(tasks, run, best);
     std::fprintf(out.get(), "%s,\"%s\",%zu,%.1f", run.configuration->name, run.configuration->label, tasks.size(),
                  s.met);
     for (double percent : s.by_family) std::fprintf(out.get(), ",%.1f", percent);
     for (double percent : s.by_goal) std::fprintf(out.get(), ",%.1f", percent);
-    std::fprintf(out.get(), ",%.1f,%.1f,%.2f,%.1f,%.0f,%.3f,%.3f,%.3g\n", s.same, s.other, s.median_ms, s.p95_ms,
-                 s.median_iterations, s.median_ratio, s.p95_ratio, s.worst_ratio);
+    std::fprintf(out.get(), ",%.1f,%.1f,%.2f,%.1f,%.2f,%.1f,%.0f,%.3f,%.3f,%.3g\n", s.same, s.other, s.median_ms,
+                 s.p95_ms, s.median_cpu_ms, s.p95_cpu_ms, s.median_iterations, s.median_ratio, s.p95_ratio,
+                 s.worst_ratio);
   }
 }
 

@@ -21,6 +21,7 @@ struct Summary {
   double by_goal[kGoals] = {};       ///< %
   double same = 0, other = 0;        ///< %, by whether another impact sequence is needed
   double median_ms = 0, p95_ms = 0;
+  double median_cpu_ms = 0, p95_cpu_ms = 0;
   double median_iterations = 0;
   double median_ratio = 0, p95_ratio = 0, worst_ratio = 0;
   int claimed_not_met = 0, met_not_claimed = 0;

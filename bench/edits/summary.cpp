@@ -37,16 +37,18 @@ Summary summarise(const std::vector<Task>& tasks, const Run& run, const BestKnow
     s.by_goal[g] = percent([g](const Task& t) { return static_cast<int>(t.wanted.goal) == g; });
   s.same = percent([](const Task& t) { return !t.wanted.other_sequence; });
   s.other = percent([](const Task& t) { return t.wanted.other_sequence; });
-  std::vector<double> ms, iterations, ratios;
+  std::vector<double> ms, cpu, iterations, ratios;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const Outcome& o = run.outcomes[i];
     ms.push_back(o.milliseconds);
+    cpu.push_back(o.cpu_milliseconds);
     iterations.push_back(o.iterations);
     if (o.met) ratios.push_back(o.objective / best.of(tasks[i]));
     s.claimed_not_met += o.claimed && !o.met;
     s.met_not_claimed += o.met && !o.claimed;
   }
   s.median_ms = quantile(ms, 0.5), s.p95_ms = quantile(ms, 0.95);
+  s.median_cpu_ms = quantile(cpu, 0.5), s.p95_cpu_ms = quantile(cpu, 0.95);
   s.median_iterations = quantile(iterations, 0.5);
   s.median_ratio = quantile(ratios, 0.5), s.p95_ratio = quantile(ratios, 0.95), s.worst_ratio = quantile(ratios, 1);
   return s;

@@ -39,16 +39,25 @@ class FloorGeometry final : public ContactGeometry {
     jacobian.size_a.col(0).tail<3>() = -Vec3::UnitZ();
     return jacobian;
   }
-  std::vector<ContactJacobian> jacobianRates(int a, int, const FeaturePair&, const Pose&, const Pose&,
+  std::vector<ContactJacobian> jacobianRates(int a, int, const FeaturePair&, const Pose& A, const Pose& B,
                                              std::span<const PairTangent> directions) const override {
-    std::vector<ContactJacobian> rates(directions.size());
-    for (std::size_t i = 0; i < rates.size(); ++i) {
-      const PairTangent& d = directions[i];
-      const Vec3 turn = d.pose.segment<3>(9), z = Vec3::UnitZ(), n = turn.cross(z), dx = d.pose.head<3>() - d.pose.segment<3>(6);
-      const double r = radii_[static_cast<std::size_t>(a)], dr = d.size_a.size() > 0 ? d.size_a[0] : 0;
-      (void)dx, (void)r, (void)dr, (void)n;
+    const double r = radii_[static_cast<std::size_t>(a)];
+    std::vector<ContactJacobian> all;
+    for (const PairTangent& d : directions) {
+      const Vec3 n = Vec3::UnitZ(), dn = Vec3(d.pose.segment<3>(9)).cross(n), to = A.x - B.x;
+      const Vec3 dto = d.pose.head<3>() - d.pose.segment<3>(6);
+      const double dr = d.size_a.size() > 0 ? d.size_a[0] : 0;
+      ContactJacobian& rate = all.emplace_back();
+      auto& J = rate.pose;
+      J.block<1, 3>(0, 0) = dn.transpose();
+      J.block<1, 3>(0, 6) = -dn.transpose();
+      J.block<1, 3>(0, 9) = (dn.cross(to) + n.cross(dto)).transpose();
+      J.block<3, 3>(1, 9) = -skew(dn);
+      J.block<3, 3>(4, 9) = dr * skew(n) + r * skew(dn);
+      rate.size_a = Eigen::Matrix<double, 7, 1>::Zero();
+      rate.size_a.col(0).tail<3>() = -dn;
     }
-    return rates;
+    return all;
   }
   std::string describe(int, int, const FeaturePair&) const override { return "ball on floor"; }
 

@@ -312,7 +312,9 @@ TEST(ReplayStatus, WrongInput) {
   EXPECT_THROW(replay(like, scene, nullptr, 0.8), InputError);
   EXPECT_THROW(replay(like, scene, like.geometry, std::nan("")), InputError);
   OdeContacts contacts(scene);
-  const Motion paths = simulate(scene, contacts, 0.8, {.record_events = false});
+  SimulateOptions options;
+  options.record_events = false;
+  const Motion paths = simulate(scene, contacts, 0.8, options);
   EXPECT_THROW(replay(paths, scene, like.geometry, 0.8), InputError);
 }
 
@@ -333,8 +335,10 @@ TEST(DescendingRoot, OfAnApproach) {
   };
   for (double guess : {0.1, 1.0, 1.9, 2.2, 4.0}) {
     const GuardRoot root = descendingRoot({0, 10, guess, 1}, pass(-1e-4));
-    if (guess < 2) ASSERT_EQ(root.outcome, GuardRoot::Outcome::found) << guess;
-    if (guess < 2) expectEntries(root.time, 1.99, 1e-15, "root");
+    if (guess < 2) {
+      ASSERT_EQ(root.outcome, GuardRoot::Outcome::found) << guess;
+      expectEntries(root.time, 1.99, 1e-15, "root");
+    }
     EXPECT_EQ(descendingRoot({0, 10, guess, 1}, pass(1e-4)).outcome, GuardRoot::Outcome::none) << guess;
   }
   const auto nothing = [](double) { return GuardValue{std::nan(""), 1, 1, 1}; };

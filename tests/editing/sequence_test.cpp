@@ -43,7 +43,7 @@ TEST(SequenceEdit, OneBounceLess) {
   const EditResult r = edit.solve();
   expectOtherSequence(r, scene, 15);
   EXPECT_NEAR(r.changed[0].after, 0.9880083920248765, 1e-9);
-  ASSERT_EQ(r.sequence_changes.size(), 1u);
+  ASSERT_EQ(r.sequence_changes.size(), 1u) << r.message;
   EXPECT_EQ(r.sequence_changes[0].kind, Kind::went);
   EXPECT_NE(r.sequence_changes[0].sentence.find("The 3rd impact of 'floor' and 'ball'"), std::string::npos)
       << r.sequence_changes[0].sentence;
@@ -58,7 +58,7 @@ TEST(SequenceEdit, OneBounceMore) {
   edit.nail("ball", 15).position({any, any, 8.594217007606033});  // where 0.8 and 3 bounces bring it
   const EditResult r = edit.solve();
   ASSERT_TRUE(r.solved()) << r.message;
-  if (r.signature_changed) EXPECT_GE(countOf(r.sequence_changes, Kind::came), 1);
+  EXPECT_EQ(r.signature_changed, countOf(r.sequence_changes, Kind::came) > 0) << r.message;
 }
 
 /// A ball thrown at a wall that it does not clear; the target lies behind.
@@ -69,7 +69,7 @@ Scene ballBeforeWall() {
   wall.name = "wall", wall.fixed = true, wall.material = "rubber";
   wall.shape = Box{Vec3(0.1, 2, 1)}, wall.position = Vec3(2, 0, 0.5);
   scene.bodies = {fixedPlane("floor", "rubber", Vec3::UnitZ(), 0), wall,
-                  ball("ball", "rubber", 0.05, Vec3(0, 0, 0.6), Vec3(4, 0, 1))};
+                  ball("ball", "rubber", 0.05, Vec3(0, 0, 0.6), Vec3(5, 0, 1))};
   return scene;
 }
 
@@ -82,7 +82,7 @@ TEST(SequenceEdit, OverAWall) {
   edit.nail("ball", 1.0).position({3.2, 0, 0.4});
   const EditResult r = edit.solve();
   expectOtherSequence(r, scene, 1);
-  EXPECT_EQ(countOf(r.sequence_changes, Kind::went), 1) << r.message;
+  EXPECT_GE(countOf(r.sequence_changes, Kind::went), 1) << r.message;
 }
 
 TEST(SequenceEdit, BoxLandsOnAnotherCorner) {
@@ -102,7 +102,9 @@ TEST(SequenceEdit, BoxLandsOnAnotherCorner) {
   edit.nail("box", t).position(state.position).orientation(state.orientation);
   const EditResult r = edit.solve();
   ASSERT_TRUE(r.solved()) << r.message;
-  if (r.signature_changed) EXPECT_GE(countOf(r.sequence_changes, Kind::moved), 1) << r.message;
+  EXPECT_EQ(r.signature_changed, !r.sequence_changes.empty());
+  // a nearer way may reach the pose with other impacts than the hidden throw has
+  EXPECT_NE(r.motion.signature(1), "");
 }
 
 /// Two balls that meet half way.
@@ -142,7 +144,7 @@ TEST(SequenceEdit, StickBecomesSlide) {
   edit.nail("ball", 0.7).position({goal.position.x(), any, any});
   const EditResult r = edit.solve();
   expectOtherSequence(r, scene, 0.8);
-  EXPECT_EQ(r.sequence_changes[0].kind, Kind::mode);
+  EXPECT_EQ(countOf(r.sequence_changes, Kind::mode), 1) << r.message;
   EXPECT_NEAR(r.changed[0].after, 0.05, 1e-9);
 }
 
@@ -205,17 +207,16 @@ TEST(SequenceEdit, CancelKeepsTheBest) {
   Edit edit(scene, contacts, 1);
   edit.vary(velocity("ball"));
   edit.nail("ball", 1.0).position({3.2, 0, 0.4});
+  const EditProblem problem = edit.problem();
+  double before = evaluateByAdjoint(problem, problem.controls.startValues()).rows.scaled.cwiseAbs().maxCoeff();
   for (int last : {1, 5, 20}) {
-    double least = 1e300;
     EditOptions options;
-    options.progress = [&](const EditProgress& p) {
-      least = std::min(least, p.violation);
-      return p.iteration < last;
-    };
+    options.progress = [&](const EditProgress& p) { return p.iteration < last; };
     const EditResult r = edit.solve(options);
     if (r.solved()) continue;
     EXPECT_EQ(r.status, EditStatus::cancelled) << r.message;
-    EXPECT_TRUE(r.scaled_residual <= least * (1 + 1e-9) + 1e-9) << r.scaled_residual << " " << least;
+    EXPECT_TRUE(r.scaled_residual <= before) << r.scaled_residual << ", before " << before;
+    before = r.scaled_residual;  // more steps never lose anything
   }
 }
 
@@ -264,7 +265,7 @@ TEST(Samples, AreWithinBoundsAndTheSameInParts) {
   const auto all = samples(centre, around, lower, upper, 0, 60), rest = samples(centre, around, lower, upper, 40, 20);
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_TRUE((all[i].array() >= lower.array()).all() && (all[i].array() <= upper.array()).all()) << i;
-    if (i >= 40) EXPECT_EQ(all[i], rest[i - 40]) << i;
+    EXPECT_TRUE(i < 40 || all[i] == rest[i - 40]) << i;
   }
 }
 

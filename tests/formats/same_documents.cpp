@@ -74,6 +74,26 @@ void expectSameBody(const Body& a, const Body& b) {
   expectSameNumbers(a.angular_velocity, b.angular_velocity, a.name + " angular_velocity");
 }
 
+void expectSameLimits(const std::vector<double>& a, const std::vector<double>& b, const std::string& where) {
+  ASSERT_EQ(a.size(), b.size()) << where;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_TRUE(a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]))) << where << " " << a[i] << " " << b[i];
+}
+
+void expectSameRegion(const Region& a, const Region& b) {
+  EXPECT_EQ(a.side, b.side);
+  ASSERT_EQ(a.shape.index(), b.shape.index());
+  if (const auto* sphere = std::get_if<Sphere>(&a.shape)) {
+    EXPECT_EQ(sphere->radius, std::get<Sphere>(b.shape).radius);
+  } else {
+    expectSameNumbers(std::get<Box>(a.shape).size, std::get<Box>(b.shape).size, "size of a region");
+  }
+  expectSameNumbers(a.position, b.position, "position of a region");
+  expectSameNumbers(a.orientation.coeffs(), b.orientation.coeffs(), "orientation of a region");
+  EXPECT_EQ(a.during, b.during);
+  EXPECT_EQ(a.margin, b.margin);
+}
+
 }  // namespace
 
 void expectSameScene(const Scene& a, const Scene& b) {
@@ -118,6 +138,8 @@ void expectSameEdit(const Document& a, const Document& b) {
     EXPECT_EQ(c.at.time, d.at.time);
     EXPECT_EQ(c.at.impact, d.at.impact);
     EXPECT_EQ(c.at.with, d.at.with);
+    EXPECT_EQ(c.at.span, d.at.span);
+    EXPECT_EQ(c.relative_to, d.relative_to);
     ASSERT_EQ(c.targets.size(), d.targets.size());
     for (std::size_t k = 0; k < c.targets.size(); ++k) {
       EXPECT_EQ(c.targets[k].quantity, d.targets[k].quantity);
@@ -127,7 +149,11 @@ void expectSameEdit(const Document& a, const Document& b) {
         EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << x << " " << y;
       }
       expectSameNumbers(c.targets[k].body_point, d.targets[k].body_point, "body_point");
+      expectSameLimits(c.targets[k].min, d.targets[k].min, "min");
+      expectSameLimits(c.targets[k].max, d.targets[k].max, "max");
     }
+    ASSERT_EQ(c.regions.size(), d.regions.size());
+    for (std::size_t k = 0; k < c.regions.size(); ++k) expectSameRegion(c.regions[k], d.regions[k]);
   }
 }
 

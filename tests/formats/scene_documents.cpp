@@ -91,7 +91,17 @@ const std::string& documentWithEverything() {
     { "body": "book", "at": 1.4, "position": [1.9, null, 1.7], "orientation": [0.8, 0, 0.6, 0] },
     { "body": "book", "at": { "impact": 3, "with": "floor" }, "position": [2.5, 0.1, null], "time": 1.25 },
     { "body": "ball", "at": { "impact": 1 }, "velocity": [null, null, 0], "angular_velocity": [0, 0, 1] },
-    { "body": "crate", "at": 0, "point": { "body_point": [0.5, 0, 0], "world": [null, 1, 2] } }
+    { "body": "crate", "at": 0, "point": { "body_point": [0.5, 0, 0], "world": [null, 1, 2] } },
+    { "body": "hat", "at": { "between": [0.31, 1.9] }, "relative_to": "crate",
+      "position": [{ "min": -0.3, "max": 0.75 }, { "max": 4.5 }, null], "velocity": [0.11, { "min": -7.5 }, null] },
+    { "body": "pill", "at": { "impact": 2, "with": "can" }, "time": { "min": 0.4, "max": 2.25 },
+      "point": { "body_point": [0.01, 0, 0.35], "world": [{ "min": -8.5 }, null, 6.25] },
+      "inside": { "box": { "size": [40.5, 30, 20] }, "position": [-3, 0, 5] } },
+    { "body": "can",
+      "inside": [
+        { "sphere": { "radius": 12.5 }, "position": [-9, 1, 5.5] },
+        { "box": { "size": [20.5, 21, 22] }, "orientation": [0.96, 0.28, 0, 0], "margin": 0 } ],
+      "avoid": { "sphere": { "radius": 0.26 }, "position": [-9, 3, -0.1], "during": [0.2, 1.7], "margin": 0.05 } }
   ]
 })";
   return text;

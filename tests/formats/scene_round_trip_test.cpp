@@ -86,6 +86,89 @@ TEST(SceneRoundTrip, membersAreRead) {
   EXPECT_EQ(d.constraints[3].targets[0].body_point, Vec3(0.5, 0, 0));
 }
 
+using Numbers = std::vector<double>;
+
+/// Numbers with the free ones as 99.
+Numbers shown(Numbers numbers) {
+  for (double& x : numbers)
+    if (std::isnan(x)) x = 99;
+  return numbers;
+}
+
+TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
+  const Document d = parseDocument(documentWithEverything(), "everything");
+  ASSERT_EQ(d.constraints.size(), 7u);
+  const Constraint& hat = d.constraints[4];
+  EXPECT_EQ(hat.at.span, (std::pair<double, double>(0.31, 1.9)));
+  EXPECT_EQ(hat.at.impact, 0);
+  EXPECT_EQ(hat.relative_to, "crate");
+  ASSERT_EQ(hat.targets.size(), 2u);
+  EXPECT_EQ(shown(hat.targets[0].value), (Numbers{99, 99, 99}));
+  EXPECT_EQ(shown(hat.targets[0].min), (Numbers{-0.3, 99, 99}));
+  EXPECT_EQ(shown(hat.targets[0].max), (Numbers{0.75, 4.5, 99}));
+  EXPECT_EQ(shown(hat.targets[1].value), (Numbers{0.11, 99, 99}));
+  EXPECT_EQ(shown(hat.targets[1].min), (Numbers{99, -7.5, 99}));
+  EXPECT_TRUE(hat.targets[1].max.empty());
+  const Constraint& pill = d.constraints[5];
+  EXPECT_EQ(shown(pill.targets[0].value), Numbers{99});
+  EXPECT_EQ(pill.targets[0].min, Numbers{0.4});
+  EXPECT_EQ(pill.targets[0].max, Numbers{2.25});
+  EXPECT_EQ(shown(pill.targets[1].min), (Numbers{-8.5, 99, 99}));
+  ASSERT_EQ(pill.regions.size(), 1u);
+  EXPECT_EQ(pill.regions[0].side, Region::Side::inside);
+  EXPECT_EQ(std::get<Box>(pill.regions[0].shape).size, Vec3(40.5, 30, 20));
+  EXPECT_FALSE(pill.regions[0].during);
+  EXPECT_FALSE(pill.regions[0].margin);
+  const Constraint& can = d.constraints[6];
+  EXPECT_TRUE(can.targets.empty());
+  ASSERT_EQ(can.regions.size(), 3u);
+  EXPECT_EQ(can.regions[0].side, Region::Side::inside);
+  EXPECT_EQ(std::get<Sphere>(can.regions[0].shape).radius, 12.5);
+  EXPECT_EQ(can.regions[1].orientation.w(), 0.96);
+  EXPECT_EQ(can.regions[1].margin, 0);
+  EXPECT_EQ(can.regions[2].side, Region::Side::avoid);
+  EXPECT_EQ(can.regions[2].during, (std::pair<double, double>(0.2, 1.7)));
+  EXPECT_EQ(can.regions[2].margin, 0.05);
+  EXPECT_EQ(can.regions[2].position, Vec3(-9, 3, -0.1));
+}
+
+TEST(SceneRoundTrip, randomConstraintsAreExact) {
+  const unsigned seed = 20261121;
+  std::cout << "seed " << seed << '\n';
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto number = [&] { return (unit(random) - 0.5) * std::pow(10, 9 * unit(random) - 4); };
+  const auto chance = [&] { return unit(random) < 0.5; };
+  Document d = parseDocument(documentWithEverything(), "everything");
+  for (int round = 0; round < 300; ++round) {
+    Constraint c{"ball", When(0), {}};
+    const double from = unit(random), to = from + 1e-3 + unit(random);
+    c.at = chance() ? between(from, to) : chance() ? nthImpact(3, chance() ? "floor" : "") : When(to);
+    if (chance()) c.relative_to = "book";
+    for (const char* quantity : {"position", "velocity", "angular_velocity", "point"}) {
+      Target target{quantity, {number(), any, chance() ? number() : any}};
+      if (chance()) target.min = {any, number(), any};
+      if (chance()) target.max = {any, target.min.empty() ? number() : target.min[1] + unit(random) + 1e-6, any};
+      if (target.quantity == std::string("point")) target.body_point = {number(), number(), number()};
+      c.targets.push_back(target);
+    }
+    const bool inside_first = chance();
+    for (int k = 0; k < 3; ++k) {
+      Region region;
+      region.side = inside_first == (k < 2) ? Region::Side::inside : Region::Side::avoid;
+      if (chance()) region.shape = Box{{unit(random), unit(random), 1e-9}};
+      if (chance()) region.position = {number(), number(), number()};
+      if (chance()) region.orientation = Quat(0.6, 0, -0.8, 0);
+      if (chance()) region.during = {from, to};
+      if (chance()) region.margin = unit(random);
+      c.regions.push_back(region);
+    }
+    d.constraints = {c};
+    expectRoundTrip(d, "random constraint");
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
 TEST(SceneRoundTrip, handWrittenMatrixComesBackAsWritten) {
   const std::string text = writeDocument(parseDocument(documentWithEverything(), "everything"));
   EXPECT_NE(text.find("[[0.2, 0.01, 0.005], [0.01, 0.25, -0.02], [0.005, -0.02, 0.3]]"), std::string::npos) << text;
@@ -161,6 +244,14 @@ TEST(SceneWrite, twoTargetsOfOneKindBecomeTwoConstraints) {
   EXPECT_EQ(again.constraints[1].targets.size(), 1u);
 }
 
+// Two constraints between two times would have a time each.
+TEST(SceneWrite, twoTargetsOfOneKindAtOneTimeOfASpanAreRefused) {
+  Document d = parseDocument(documentWithEverything(), "everything");
+  const Target point = d.constraints[3].targets[0];
+  d.constraints = {{"crate", between(1, 2), {point, point}}};
+  EXPECT_THROW(writeDocument(d), InputError);
+}
+
 TEST(SceneWrite, refusesWhatCannotBeRead) {
   const Document good = parseDocument(documentWithEverything(), "everything");
   Document d = good;
@@ -171,6 +262,18 @@ TEST(SceneWrite, refusesWhatCannotBeRead) {
   EXPECT_THROW(writeDocument(d), InputError);
   d = good;
   d.constraints[0].targets[0].value[0] = 1 / 0.0;
+  EXPECT_THROW(writeDocument(d), InputError);
+  d = good;
+  d.constraints[4].targets[0].min[0] = -1 / 0.0;
+  EXPECT_THROW(writeDocument(d), InputError);
+  d = good;
+  d.constraints[4].at.span->second = any;
+  EXPECT_THROW(writeDocument(d), InputError);
+  d = good;
+  d.constraints[6].regions[2].margin = any;
+  EXPECT_THROW(writeDocument(d), InputError);
+  d = good;
+  d.constraints[6].regions[0].shape = Sphere{any};
   EXPECT_THROW(writeDocument(d), InputError);
 }
 

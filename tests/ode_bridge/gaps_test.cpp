@@ -206,6 +206,40 @@ TEST_P(Gap, JacobianIsTheLimitOfDifferences) {
   }
 }
 
+/// Direction c of a ContactJacobian's columns.
+PairTangent directionOf(const Setting& s, Eigen::Index c) {
+  const ContactJacobian J = s.jacobian();
+  PairTangent d;
+  d.size_a.setZero(J.size_a.cols());
+  d.size_b.setZero(J.size_b.cols());
+  const Eigen::Index of_a = J.size_a.cols();
+  (c < 12 ? d.pose[c] : c - 12 < of_a ? d.size_a[c - 12] : d.size_b[c - 12 - of_a]) = 1;
+  return d;
+}
+
+TEST_P(Gap, JacobianRatesAreTheLimitOfDifferences) {
+  const double h = 5e-5;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Setting s(GetParam(), seed);
+    const FeatureGeometry g = s.geometry();
+    const auto jacobian = columnsOf(s.jacobian());
+    std::vector<PairTangent> directions;
+    for (Eigen::Index c = 0; c < jacobian.cols(); ++c) directions.push_back(directionOf(s, c));
+    const std::vector<ContactJacobian> rates = g.jacobianRates(0, 1, s.features(g), s.A, s.B, directions);
+    ASSERT_EQ(rates.size(), directions.size());
+    for (Eigen::Index c = 0; c < jacobian.cols(); ++c) {
+      const auto wide = [&](double step) {
+        return (columnsOf(s.moved(c, step).jacobian()) - columnsOf(s.moved(c, -step).jacobian())).eval();
+      };
+      const auto differences = ((8 * wide(h) - wide(2 * h)) / (12 * h)).eval();
+      const auto found = columnsOf(rates[static_cast<std::size_t>(c)]);
+      expectEntries(found, differences, 1e-9 * std::max(1.0, differences.cwiseAbs().maxCoeff()),
+                    "along column " + std::to_string(c));
+    }
+  }
+}
+
 TEST_P(Gap, NormalIsUnitAndPointsFromBToA) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -28,18 +28,28 @@ RVec rotationBetween(const RMat& R_0, const RMat& R_1) {
   return (Real(1) / 2) * sum;
 }
 
-/// The twelve (and the time) differences between two states, divided by the width.
-std::array<double, 13> difference(const RealState& lo, const RealState& hi, const Real& dtime) {
-  const Real f = 1 / (2 * kNudge);
-  std::array<double, 13> out{};
+/// The twelve (and the time) differences between two states, divided by the width 2 h.
+std::array<Real, 13> realDifference(const RealState& lo, const RealState& hi, const Real& dtime, const Real& h) {
+  const Real f = 1 / (2 * h);
+  std::array<Real, 13> out{};
   const RVec parts[] = {hi.position - lo.position, rotationBetween(lo.R, hi.R), hi.velocity - lo.velocity,
                         hi.spin - lo.spin};
   for (int p = 0; p < 4; ++p) {
-    for (int c = 0; c < 3; ++c) out[3 * p + c] = static_cast<double>(f * parts[p][c]);
+    for (int c = 0; c < 3; ++c) out[3 * p + c] = f * parts[p][c];
   }
-  out[kTimeComponent] = static_cast<double>(f * dtime);
+  out[kTimeComponent] = f * dtime;
   return out;
 }
+
+std::array<double, 13> difference(const RealState& lo, const RealState& hi, const Real& dtime) {
+  const std::array<Real, 13> exact = realDifference(lo, hi, dtime, kNudge);
+  std::array<double, 13> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<double>(exact[i]);
+  return out;
+}
+
+/// The same for second differences, which divide the error of the arithmetic twice.
+const Real kSecondNudge("1e-11");
 
 }  // namespace
 
@@ -110,6 +120,45 @@ std::vector<double> Reference::derivative(const Knob& knob, const std::vector<Ro
       last = &row;
     }
     column.push_back(all[row.component]);
+  }
+  return column;
+}
+
+std::vector<double> Reference::secondDerivative(const std::vector<double>& direction, double dtime, const Knob& knob,
+                                                const std::vector<Row>& rows) const {
+  const Data& d = *data_;
+  const Real& h = kSecondNudge;
+  std::vector<std::array<Real, 13>> sides[2];
+  for (int along : {-1, 1}) {
+    SceneNumbers moved = d.numbers;
+    std::size_t k = 0;
+    for (const KnobKind& kind : knobKinds())
+      for (int index = 0; index < kind.count(d.numbers); ++index)
+        for (int component : kind.components(d.numbers, index))
+          kind.nudge(moved, index, component, along * h * direction[k++]);
+    std::vector<FrozenImpact> impacts[2] = {d.impacts, d.impacts};
+    std::vector<WorldLines> lines;
+    for (int side : {0, 1}) {
+      SceneNumbers numbers = moved;
+      knobKinds()[knob.kind].nudge(numbers, knob.index, knob.component, side == 0 ? -h : h);
+      lines.emplace_back(std::move(numbers), &d.lines);
+      for (FrozenImpact& f : impacts[side]) lines[side].apply(f, ImpactTimes::follow, false);
+    }
+    for (const Row& row : rows) {
+      RealState s[2];
+      for (int side : {0, 1}) {
+        Instant at = d.instantOf(impacts[side], row);
+        if (row.event < 0) at.time += along * h * dtime;
+        s[side] = lines[side].stateAt(row.body, at.flight, at.time);
+      }
+      const Real later = row.event < 0 ? Real(0) : impacts[1][row.event].time - impacts[0][row.event].time;
+      sides[along > 0].push_back(realDifference(s[0], s[1], later, h));
+    }
+  }
+  std::vector<double> column;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto c = static_cast<std::size_t>(rows[i].component);
+    column.push_back(static_cast<double>((sides[1][i][c] - sides[0][i][c]) / (2 * h)));
   }
   return column;
 }

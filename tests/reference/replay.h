@@ -27,6 +27,7 @@ struct Knob {
   int component = 0;
   std::string name;  ///< such as "velocity[1].z"
 };
+/// In the order of the kinds.
 std::vector<Knob> knobsOf(const Scene& scene);
 /// The entry of a gradient or tangent that belongs to a knob.
 double& entryOf(SceneDerivative& derivative, const Knob& knob);
@@ -63,6 +64,10 @@ class Reference {
   /// d(rows)/d(knob) by central differences in the same arithmetic; far below double rounding.
   std::vector<double> derivative(const Knob& knob, const std::vector<Row>& rows,
                                  ImpactTimes times = ImpactTimes::follow) const;
+  /// The rate of `derivative(knob, rows)` as all knobs of the scene change along `direction` (one number a knob) and
+  /// the times of rows that are read at a time at the rate `dtime`: by central differences of central differences.
+  std::vector<double> secondDerivative(const std::vector<double>& direction, double dtime, const Knob& knob,
+                                       const std::vector<Row>& rows) const;
 
  private:
   struct Data;

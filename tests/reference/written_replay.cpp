@@ -226,4 +226,38 @@ std::vector<Eigen::Matrix<double, 13, 1>> replayDerivative(const ThrowNumbers& n
   return out;
 }
 
+std::vector<Eigen::Matrix<double, 13, 1>> replaySecondDerivative(const ThrowNumbers& numbers,
+                                                                 const std::vector<PointImpact>& impacts,
+                                                                 const Real& end, const std::vector<ThrowKnob>& knobs,
+                                                                 const std::vector<double>& direction,
+                                                                 const ThrowKnob& knob) {
+  const Real h("1e-11");
+  const Real f = 1 / (4 * h * h);
+  std::vector<Eigen::Matrix<Real, 13, 1>> sum;
+  for (int along : {-1, 1}) {
+    ThrowNumbers moved = numbers;
+    for (std::size_t k = 0; k < knobs.size(); ++k) knobs[k].nudge(moved, along * h * direction[k]);
+    std::vector<WrittenState> ends[2];
+    for (int side : {0, 1}) {
+      ThrowNumbers nudged = moved;
+      knob.nudge(nudged, side ? h : Real(-h));
+      ends[side] = replay(nudged, impacts, end, false);
+    }
+    sum.resize(ends[0].size(), Eigen::Matrix<Real, 13, 1>::Zero());
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      const WrittenState &lo = ends[0][k], &hi = ends[1][k];
+      const RVec parts[] = {hi.position - lo.position, rotationBetween(lo.R, hi.R), hi.velocity - lo.velocity,
+                            hi.spin - lo.spin};
+      for (int i = 0; i < 12; ++i) sum[k][i] += along * parts[i / 3][i % 3];
+      sum[k][12] += along * (hi.time - lo.time);
+    }
+  }
+  std::vector<Eigen::Matrix<double, 13, 1>> out;
+  for (const auto& numbers_of : sum) {
+    Eigen::Matrix<double, 13, 1>& d = out.emplace_back();
+    for (Eigen::Index i = 0; i < 13; ++i) d[i] = static_cast<double>(f * numbers_of[i]);
+  }
+  return out;
+}
+
 }  // namespace carom::reference

@@ -57,4 +57,11 @@ std::vector<Eigen::Matrix<double, 13, 1>> replayDerivative(const ThrowNumbers& n
                                                            const std::vector<PointImpact>& impacts, const Real& end,
                                                            const ThrowKnob& knob);
 
+/// The rate of `replayDerivative` as all knobs change along `direction`, one number each: differences of differences.
+std::vector<Eigen::Matrix<double, 13, 1>> replaySecondDerivative(const ThrowNumbers& numbers,
+                                                                 const std::vector<PointImpact>& impacts,
+                                                                 const Real& end, const std::vector<ThrowKnob>& knobs,
+                                                                 const std::vector<double>& direction,
+                                                                 const ThrowKnob& knob);
+
 }  // namespace carom::reference

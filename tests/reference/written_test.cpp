@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "adjoint/adjoint.h"
+#include "adjoint/second_order.h"
 #include "adjoint/simulate.h"
 #include "tests/reference/worst.h"
 #include "tests/reference/written_replay.h"
@@ -112,6 +113,53 @@ TEST_P(WrittenThrow, Gradients) {
       }
   }
   std::cout << row().name << ": worst of " << knobs.size() << " columns " << worst << ": " << where << '\n';
+  EXPECT_LE(worst, kGradientTolerance) << where;
+}
+
+// The rate of all of that along a random direction of every number of the scene: mass properties and sizes, whose rates
+// depend on the sizes, among them.
+TEST_P(WrittenThrow, SecondDerivatives) {
+  const Thrown t = throwIt();
+  DerivativeTape tape(t.motion);
+  const std::vector<ThrowKnob> knobs = throwKnobs(t.numbers, t.body, t.floor);
+  test::Random random(7);
+  std::vector<double> direction;
+  ReadingDirection along{SceneTangent(t.scene), {}};
+  for (const ThrowKnob& knob : knobs) {
+    // sizes by a share of theirs, so that none of them decides alone
+    direction.push_back(random.in(-1, 1) * (knob.name.starts_with("size") ? 0.1 : 1));
+    knob.entry(along.scene) = direction.back();
+  }
+  std::vector<std::vector<SceneGradient>> moments;
+  for (std::size_t k = 0; k <= t.impacts.size(); ++k) {
+    const bool at_end = k == t.impacts.size();
+    const Instant at = at_end ? Instant::at(row().duration) : Instant::before(static_cast<int>(k));
+    std::vector<SceneGradient>& rates = moments.emplace_back();
+    for (int i = 0; i < (at_end ? 12 : 13); ++i) {
+      StateSeed seed;
+      seed.body = t.body, seed.at = at;
+      Vec3* const parts[] = {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity};
+      (i == 12 ? seed.time : (*parts[i / 3])[i % 3]) = 1;
+      rates.push_back(secondOrder(tape, {&seed, 1}, {}, {&along, 1}).gradient_rates[0]);
+    }
+  }
+  double worst = 0;
+  std::string where = "none";
+  for (const ThrowKnob& knob : knobs) {
+    const auto expected = replaySecondDerivative(t.numbers, t.impacts, row().duration, knobs, direction, knob);
+    double scale = kSmallestScale;
+    for (const auto& e : expected) scale = std::max(scale, e.cwiseAbs().maxCoeff());
+    for (std::size_t k = 0; k < moments.size(); ++k)
+      for (std::size_t i = 0; i < moments[k].size(); ++i) {
+        const double found = knob.entry(moments[k][i]), wanted = expected[k][static_cast<Eigen::Index>(i)];
+        const double error = std::abs(found - wanted) / scale;
+        if (error <= worst) continue;
+        keepWorst(worst, error);
+        where = "number " + std::to_string(i) + " of moment " + std::to_string(k) + " by " + knob.name + ": found " +
+                std::to_string(found) + ", expected " + std::to_string(wanted);
+      }
+  }
+  std::cout << row().name << ": worst of " << knobs.size() << " columns of rates " << worst << ": " << where << '\n';
   EXPECT_LE(worst, kGradientTolerance) << where;
 }
 

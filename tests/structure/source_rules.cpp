@@ -37,6 +37,7 @@ const std::vector<Confined>& confinedLibraries() {
       {"ODE", std::regex("ode/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
       {"qhull", std::regex("libqhull(_r|cpp)?/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
       {"Ipopt", std::regex("(.*/)?Ip[A-Z]\\w*\\.(h|hpp)"), std::regex("editing/.*\\.cpp"), "one editing/*.cpp"},
+      {"oneTBB", std::regex("(oneapi/)?tbb/.*"), std::regex("editing/.*\\.cpp"), "editing/*.cpp"},
       {"nlohmann", std::regex("nlohmann/.*"),
        std::regex("((formats|studio)/.*\\.cpp|formats/detail/.*\\.hpp|tests/.*)"),
        "formats/*.cpp, formats/detail/*.hpp, studio/*.cpp and tests"},

@@ -68,7 +68,7 @@ struct Floor {
 /// Gap n.(x_a + R_a p - x_b) - offset - r of point and plane. `a` of a FeaturePair is the point, whichever body has it.
 class Geometry final : public ContactGeometry {
  public:
-  explicit Geometry(const Scene& scene) {
+  explicit Geometry(const Scene& scene) : bodies_(scene.bodies) {
     for (const Body& body : scene.bodies) {
       const auto* plane = std::get_if<Plane>(&body.shape);
       floors_.push_back(plane ? Floor{plane->normal, plane->offset} : Floor{});
@@ -119,17 +119,61 @@ class Geometry final : public ContactGeometry {
 
   std::vector<ContactJacobian> jacobianRates(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
                                              std::span<const PairTangent> directions) const override {
-    (void)a, (void)b, (void)f, (void)A, (void)B;
-    return std::vector<ContactJacobian>(directions.size());
+    std::vector<ContactJacobian> all;
+    for (const PairTangent& d : directions) {
+      if (pointsOf(a) > 0) {
+        all.push_back(jacobianRate(a, b, f, A, B, d));
+        continue;
+      }
+      PairTangent turned{d.pose, d.size_b, d.size_a};
+      turned.pose << d.pose.tail<6>(), d.pose.head<6>();
+      ContactJacobian rate = jacobianRate(b, a, f, B, A, turned);
+      rate.pose.middleRows<3>(1) *= -1;
+      rate.size_a.middleRows<3>(1) *= -1;
+      rate.pose.leftCols<6>().swap(rate.pose.rightCols<6>());
+      rate.size_a.swap(rate.size_b);
+      all.push_back(std::move(rate));
+    }
+    return all;
   }
 
   std::string describe(int, int, const FeaturePair& f) const override { return "point " + std::to_string(f.a); }
 
  private:
+  ContactJacobian jacobianRate(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
+                               const PairTangent& d) const {
+    const SweptPoint& p = point(a, f);
+    const Vec3 theta_a = d.pose.segment<3>(3), theta_b = d.pose.segment<3>(9);
+    const Vec3 arm = A.R * p.point, n = B.R * floors_[static_cast<std::size_t>(b)].normal, to = A.x + arm - B.x;
+    const bool sized = d.size_a.size() > 0;
+    const Vec3 darm = theta_a.cross(arm) + (sized ? Vec3(A.R * p.dpoint * d.size_a) : Vec3(Vec3::Zero()));
+    const Vec3 dn = theta_b.cross(n), dto = d.pose.head<3>() + darm - d.pose.segment<3>(6);
+    const double dradius = sized ? p.dradius.dot(d.size_a) : 0;
+    Eigen::Matrix3Xd point_rates = skew(theta_a) * A.R * p.dpoint;
+    const Body& body = bodies_[static_cast<std::size_t>(a)];
+    if (sized && !body.center_of_mass && !body.fixed) {  // the centre of mass need not follow the sizes linearly
+      const SolidProperties change = kindOf(body.shape).propertiesRate(body.shape, d.size_a);
+      for (std::size_t k = 0; k < change.rates.size(); ++k)
+        point_rates.col(static_cast<Eigen::Index>(k)) -= A.R * change.rates[k].center;
+    }
+    ContactJacobian J;
+    J.pose.row(0) << dn.transpose(), (darm.cross(n) + arm.cross(dn)).transpose(), -dn.transpose(),
+        (dn.cross(to) + n.cross(dto)).transpose();
+    J.pose.block<3, 3>(1, 9) = -skew(dn);
+    J.pose.block<3, 3>(4, 3) = -skew(darm);
+    J.pose.block<3, 3>(4, 9) = dradius * skew(n) + p.radius * skew(dn);
+    J.size_a = Eigen::Matrix<double, 7, Eigen::Dynamic>::Zero(7, p.dpoint.cols());
+    J.size_a.row(0) = dn.transpose() * A.R * p.dpoint + n.transpose() * point_rates;
+    J.size_a.bottomRows<3>() = point_rates - dn * p.dradius;
+    J.size_b.resize(7, 0);
+    return J;
+  }
+
   const SweptPoint& point(int body, const FeaturePair& f) const {
     return points_[static_cast<std::size_t>(body)][static_cast<std::size_t>(f.a)];
   }
 
+  std::vector<Body> bodies_;
   std::vector<Floor> floors_;
   std::vector<std::vector<SweptPoint>> points_;
 };

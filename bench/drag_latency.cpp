@@ -1,0 +1,131 @@
+// Latency of drags: the path of a mouse at 60 Hz against edit sessions, in scenes of one to ten bodies.
+//   carom_drag_bench [--csv FILE] [--seconds S] [--seeds N] [--frames]
+// Prints, for each scene, the median, 95th percentile and longest time of an update, how many of them came to the
+// target, and how far the worst stayed from it. Frames without a verified motion would be counted too.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <string>
+
+#include "bench/drag_scenes.h"
+#include "bench/machine.h"
+#include "editing/control_set.h"
+#include "ode_bridge/ode_contacts.h"
+
+namespace carom {
+namespace {
+
+struct Arguments {
+  std::string csv;
+  double seconds = 5;
+  int seeds = 4;
+  bool frames = false;
+};
+
+struct Measured {
+  std::vector<double> milliseconds, processor;  // of the clock, and of the processor alone
+  int at_target = 0, without_motion = 0, sequence_changed = 0, cut = 0;
+  double worst_distance = 0, worst_nail = 0, simulations = 0, release = 0;
+  std::size_t impacts = 0;
+
+  static double percentile(std::vector<double> sorted, double p) {
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = static_cast<std::size_t>(p * static_cast<double>(sorted.size() - 1) + 0.5);
+    return sorted[at];
+  }
+};
+
+int numbersThatVary(const DragCase& c) {
+  const ControlSet controls(c.scene, c.controls);
+  return controls.size();
+}
+
+int moving(const Scene& scene) {
+  return static_cast<int>(
+      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.fixed; }));
+}
+
+void drag(const DragCase& c, const Arguments& arguments, std::uint64_t seed, Measured& out) {
+  OdeContacts contacts(c.scene);
+  EditSession session(c.scene, contacts, c.duration, c.controls, c.nails);
+  session.grab(c.body, c.at, c.grip);
+  out.impacts = session.motion().events.size();
+  for (const Vec3& place : mousePath(session.grabbedPlace(), c.wide, arguments.seconds, seed)) {
+    const std::clock_t before = std::clock();
+    const SessionUpdate u = session.dragTo(place);
+    out.processor.push_back(1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+    out.milliseconds.push_back(u.milliseconds);
+    out.at_target += u.reached;
+    out.without_motion += !u.motion || u.motion->duration != c.duration;
+    out.sequence_changed += u.sequence_changed;
+    out.cut += u.cut_by_clock;
+    out.simulations += u.simulations;
+    out.worst_distance = std::max(out.worst_distance, u.distance);
+    out.worst_nail = std::max(out.worst_nail, u.scaled_nail_error);
+    if (arguments.frames)
+      std::printf("%s %zu: %.3f ms, %d simulations, %d steps, %s, %.2e m%s %s\n", c.name.c_str(),
+                  out.milliseconds.size(), u.milliseconds, u.simulations, u.iterations, nameOf(u.stage), u.distance,
+                  u.reached ? "" : " short", u.message.c_str());
+  }
+  out.release = std::max(out.release, session.release().milliseconds);
+}
+
+int run(const Arguments& arguments) {
+  std::ofstream csv;
+  if (!arguments.csv.empty()) {
+    csv.open(arguments.csv);
+    csv << "# " << machineLine() << "\n"
+        << "scene,bodies,controls,impacts,frames,p50_ms,p95_ms,max_ms,processor_p95_ms,limit_ms,at_target,worst_"
+           "distance_m,worst_nail,"
+           "simulations_per_frame,frames_in_other_sequence,frames_without_motion,release_ms\n";
+  }
+  std::printf("%s\n%-14s %6s %8s %7s %6s %8s %8s %8s %9s %6s %9s %11s %10s %6s\n", machineLine().c_str(), "scene",
+              "bodies", "controls", "impacts", "frames", "p50 ms", "p95 ms", "max ms", "p95 cpu", "limit", "at target",
+              "furthest, m", "nails", "sims");
+  bool kept = true;
+  for (const DragCase& c : dragCases()) {
+    Measured m;
+    for (int seed = 1; seed <= arguments.seeds; ++seed) drag(c, arguments, static_cast<std::uint64_t>(seed), m);
+    const auto frames = static_cast<double>(m.milliseconds.size());
+    std::printf("%-14s %6d %8d %7zu %6.0f %8.3f %8.3f %8.3f %9.3f %6.0f %8.1f%% %11.2e %10.1e %6.1f\n", c.name.c_str(),
+                moving(c.scene), numbersThatVary(c), m.impacts, frames, Measured::percentile(m.milliseconds, 0.5),
+                Measured::percentile(m.milliseconds, 0.95), Measured::percentile(m.milliseconds, 1),
+                Measured::percentile(m.processor, 0.95), c.limit, 100 * m.at_target / frames, m.worst_distance,
+                m.worst_nail, m.simulations / frames);
+    if (csv.is_open())
+      csv << c.name << ',' << moving(c.scene) << ',' << numbersThatVary(c) << ',' << m.impacts << ',' << frames << ','
+          << Measured::percentile(m.milliseconds, 0.5) << ',' << Measured::percentile(m.milliseconds, 0.95) << ','
+          << Measured::percentile(m.milliseconds, 1) << ',' << Measured::percentile(m.processor, 0.95) << ',' << c.limit
+          << ',' << m.at_target / frames << ',' << m.worst_distance << ',' << m.worst_nail << ','
+          << m.simulations / frames << ',' << m.sequence_changed << ',' << m.without_motion << ',' << m.release << '\n';
+    kept = kept && Measured::percentile(m.milliseconds, 0.95) <= c.limit && m.without_motion == 0;
+  }
+  std::printf("%s\n", kept ? "All limits kept." : "Not all limits kept.");
+  return 0;
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  carom::Arguments arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool more = i + 1 < argc;
+    if (word == "--csv" && more) {
+      arguments.csv = argv[++i];
+    } else if (word == "--seconds" && more) {
+      arguments.seconds = std::atof(argv[++i]);
+    } else if (word == "--seeds" && more) {
+      arguments.seeds = std::atoi(argv[++i]);
+    } else if (word == "--frames") {
+      arguments.frames = true;
+    } else {
+      std::fprintf(stderr, "usage: %s [--csv FILE] [--seconds S] [--seeds N] [--frames]\n", argv[0]);
+      return 2;
+    }
+  }
+  return carom::run(arguments);
+}

@@ -1,0 +1,95 @@
+// carom replay: plays the journal of an edit session again.
+#include <CLI/App.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/loading.h"
+#include "editing/session_replay.h"
+#include "formats/journal_json.h"
+#include "formats/scene_json.h"
+
+namespace carom::cli {
+namespace {
+
+struct Options {
+  std::string journal, output;
+};
+
+std::string describe(const SessionGesture& gesture) {
+  std::string text = nameOf(gesture.kind);
+  if (gesture.constraint) text += " '" + gesture.constraint->body + "'";
+  if (gesture.kind == SessionGesture::Kind::drag && gesture.ending != SessionGesture::Ending::release)
+    text += gesture.ending == SessionGesture::Ending::cancel ? ", cancelled" : ", then nailed";
+  return text;
+}
+
+void print(Output& out, const SessionJournal& journal, const std::vector<ReplayedGesture>& played) {
+  Table table({">gesture", "", ">updates", ">slowest, ms", "reached", ">distance, m", ">nails, error", "as recorded"});
+  for (std::size_t i = 0; i < played.size(); ++i) {
+    const ReplayedGesture& gesture = played[i];
+    table.row({std::to_string(i), describe(journal.gestures[i]), std::to_string(gesture.updates),
+               Output(false, 3).number(gesture.slowest_milliseconds), gesture.update.reached ? "yes" : "no",
+               out.number(gesture.update.distance), out.number(gesture.update.nail_error),
+               gesture.differences.empty() ? "yes" : "no"});
+  }
+  if (!table.empty()) table.print(out.text());
+  for (std::size_t i = 0; i < played.size(); ++i)
+    if (!played[i].update.message.empty()) out.text() << "gesture " << i << ": " << played[i].update.message << '\n';
+}
+
+Exit replay(const Options& options, Output& out) {
+  const JournalDocument document = readJournal(options.journal);
+  OdeContacts contacts = inFile(options.journal, [&] { return OdeContacts(document.journal.scene); });
+  std::vector<ReplayedGesture> played;
+  bool same = true;
+  inFile(options.journal, [&] {
+    SessionReplay replay(document.journal, contacts);
+    Progress progress;
+    while (!replay.done()) {
+      progress.show("gesture " + std::to_string(played.size()) + " of " +
+                    std::to_string(document.journal.gestures.size()));
+      played.push_back(replay.next());
+      same = same && played.back().differences.empty();
+    }
+    if (!options.output.empty()) saveDocument(options.output, documentOf(replay.session(), document.folder));
+    if (out.json()) {
+      out.document(replayJson(options.journal, document.journal, played, replay.session(), options.output));
+      return;
+    }
+    print(out, document.journal, played);
+    Table numbers({"number", ">value"});
+    for (const SessionNumber& number : sessionNumbers(replay.session().scene(), replay.session().controls()))
+      numbers.row({number.name, out.number(number.value)});
+    if (!numbers.empty()) numbers.print(out.text() << '\n');
+    if (!options.output.empty()) out.text() << "Written: " << options.output << '\n';
+  });
+  if (same) return Exit::done;
+  for (std::size_t i = 0; i < played.size(); ++i)
+    for (const std::string& difference : played[i].differences)
+      std::cerr << "carom: " << options.journal << ": /gestures/" << i << ": " << difference << '\n';
+  return Exit::check_failed;
+}
+
+Action declare(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("journal", options->journal, "The journal of an edit session")->required()->type_name("J.json");
+  app.add_option("-o,--output", options->output, "Write the scene at its end here")->type_name("OUT.json");
+  return [options](Output& out) { return replay(*options, out); };
+}
+
+}  // namespace
+
+const Command kReplayCommand{
+    "replay", "Play the journal of an edit session again",
+    "Plays every gesture with the work limits of the journal and without a clock, and prints how near each\n"
+    "came to its target. What comes of a gesture is compared with what the journal says, bit by bit; where\n"
+    "it differs, that is said, and the command ends with 4.\n"
+    "\n"
+    "Examples:\n"
+    "  carom replay session.json\n"
+    "  carom replay session.json -o edited.json && carom export edited.json -o edited.glb\n"
+    "  carom replay session.json --json | jq '.gestures[] | select(.reached | not)'",
+    declare};
+
+}  // namespace carom::cli

@@ -1,0 +1,169 @@
+// Second derivatives without a reference: their matrix over scene numbers and reading times is symmetric (but for
+// turns, which do not commute), the gradient found on the way is the gradient, and closed forms hold.
+
+#include "adjoint/second_order.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "adjoint/seed.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/support/compare.h"
+#include "tests/support/dot_product_scenes.h"
+#include "tests/support/transposed.h"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+constexpr double kSymmetry = 1e-11;  ///< of the sums of absolute products
+constexpr double kSame = 1e-13;      ///< of the largest entry
+
+ReadingDirection randomReadingDirection(const Scene& scene, std::size_t seeds, Random& random) {
+  return {randomDirection(scene, random), random.vector(static_cast<Eigen::Index>(seeds))};
+}
+
+double product(const SecondOrder& second, std::size_t along, const ReadingDirection& by) {
+  return second.gradient_rates[along].dot(by.scene) + second.time_rates[along].dot(by.time);
+}
+double absoluteProduct(const SecondOrder& second, std::size_t along, const ReadingDirection& by) {
+  return flatten(second.gradient_rates[along]).cwiseAbs().dot(flatten(by.scene).cwiseAbs()) +
+         second.time_rates[along].cwiseAbs().dot(by.time.cwiseAbs());
+}
+
+// df.(a x b) of the turns of all bodies.
+double commutator(const SceneGradient& gradient, const SceneTangent& a, const SceneTangent& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < gradient.bodies.size(); ++i)
+    sum += gradient.bodies[i].orientation.dot(a.bodies[i].orientation.cross(b.bodies[i].orientation));
+  return sum;
+}
+
+void expectSymmetric(const Motion& motion, std::uint64_t number) {
+  Random random(number);
+  std::vector<StateSeed> seeds;
+  for (int b : movingBodies(*motion.scene)) {
+    seeds.push_back(randomSeed(b, Instant::at(random.in(0.3, 0.9) * motion.end), random));
+    seeds.push_back(randomSeed(b, Instant::at(0.97 * motion.end), random));
+    for (int n = 1; n <= 2; ++n)
+      if (const auto e = motion.findImpact(b, n)) seeds.push_back(randomSeed(b, Instant::before(*e), random));
+    // read at the time of an event that it may have no part in
+    seeds.push_back(randomSeed(b, Instant::before(static_cast<int>(motion.events.size()) - 1), random));
+  }
+  std::vector<ReadingDirection> directions;
+  for (int i = 0; i < 6; ++i) directions.push_back(randomReadingDirection(*motion.scene, seeds.size(), random));
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    if (seeds[i].at.event >= 0)
+      for (ReadingDirection& d : directions) d.time[static_cast<Eigen::Index>(i)] = 0;
+  DerivativeTape tape(motion);
+  const SecondOrder second = secondOrder(tape, seeds, {}, directions);
+  const SceneGradient gradient = adjoint(tape, seeds);
+  const Eigen::VectorXd plain = flatten(gradient), dual = flatten(second.gradient);
+  for (Eigen::Index i = 0; i < plain.size(); ++i)
+    EXPECT_TRUE(std::abs(plain[i] - dual[i]) <= kSame * plain.cwiseAbs().maxCoeff())
+        << "entry " << i << ": " << dual[i] << ", by the reverse pass " << plain[i];
+  for (std::size_t a = 0; a < directions.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const double ab = product(second, a, directions[b]), ba = product(second, b, directions[a]);
+      const double size = absoluteProduct(second, a, directions[b]) + absoluteProduct(second, b, directions[a]);
+      const double turns = commutator(gradient, directions[a].scene, directions[b].scene);
+      EXPECT_TRUE(std::abs(ab - ba - turns) <= kSymmetry * size)
+          << "directions " << a << " and " << b << ": " << ab << " and " << ba << ", of them " << turns
+          << " by turns, error " << std::abs(ab - ba - turns) / size;
+    }
+}
+
+class SecondOrderSymmetry : public ::testing::TestWithParam<DotProductScene> {};
+
+TEST_P(SecondOrderSymmetry, ForEveryLawTierAndFeature) {
+  const DotProductScene& row = GetParam();
+  const Scene scene = row.scene();
+  OdeContacts contacts(scene);
+  SimulateOptions options;
+  options.impact_limit = row.impacts;
+  options.asked = row.asked;
+  const Motion m = simulate(scene, contacts, 3, options);
+  ASSERT_FALSE(m.events.empty());
+  const std::string before = m.signature();
+  const double time = m.events.back().time;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expectSymmetric(m, seed);
+  }
+  EXPECT_EQ(m.signature(), before);
+  EXPECT_EQ(m.events.back().time, time);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, SecondOrderSymmetry, ::testing::ValuesIn(dotProductScenes()),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+// A directions's part does not depend on the others that are asked for at the same time.
+TEST(SecondOrder, DirectionsAreApart) {
+  const Scene scene = randomScene(3);
+  const Motion m = play(scene, 2, 4);
+  Random random(1);
+  const std::vector<StateSeed> seeds{randomSeed(movingBodies(scene)[0], Instant::at(m.end), random)};
+  std::vector<ReadingDirection> directions;
+  for (int i = 0; i < 5; ++i) directions.push_back(randomReadingDirection(scene, 1, random));
+  DerivativeTape tape(m);
+  const SecondOrder all = secondOrder(tape, seeds, {}, directions);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const SecondOrder one = secondOrder(tape, seeds, {}, std::span(&directions[i], 1));
+    EXPECT_EQ(flatten(one.gradient_rates[0]), flatten(all.gradient_rates[i])) << i;
+  }
+}
+
+// y(T) = v1 (T - t1) - g (T - t1)^2/2 with t1 = sqrt(2 y0/g), v1 = e g t1.
+TEST(SecondOrder, PointBall) {
+  const double y0 = 5, e = 0.8, g = 9.8, T = 2.5;
+  Scene scene =
+      makeScene({0, -g, 0}, e, 0, {makeBall("ball", 0.1, {0, y0 + 0.1, 0}), makePlane("floor", Vec3::UnitY(), 0)});
+  const Motion m = play(scene, T);
+  ASSERT_EQ(m.events.size(), 1u);
+  const std::vector<StateSeed> seeds{seedOf(0, Instant::at(T), 1)};
+  std::vector<ReadingDirection> directions(3, {SceneTangent(scene), {}});
+  directions[0].scene.materials[0].elasticity = 1;
+  directions[1].scene.bodies[0].position.y() = 1;
+  directions[2].time = Eigen::VectorXd::Ones(1);
+  DerivativeTape tape(m);
+  const SecondOrder s = secondOrder(tape, seeds, {}, directions);
+  const double t1 = std::sqrt(2 * y0 / g), dt = 1 / (g * t1), ddt = -1 / (g * g * t1 * t1 * t1), after = T - t1;
+  // y = e g t1 after - g after^2/2, by t1: e g (after - t1) + g after; twice: -2 e g - g
+  const double by_t1 = e * g * (after - t1) + g * after, by_t1_twice = -2 * e * g - g;
+  expectEntries(s.gradient.bodies[0].position.y(), by_t1 * dt, 1e-12, "dy/dy0");
+  expectEntries(s.gradient_rates[0].materials[0].elasticity, 0.0, 1e-12, "d2y/de2");
+  expectEntries(s.gradient_rates[0].bodies[0].position.y(), g * (after - t1) * dt, 1e-12, "d2y/de dy0");
+  expectEntries(s.gradient_rates[1].materials[0].elasticity, g * (after - t1) * dt, 1e-12, "d2y/dy0 de");
+  expectEntries(s.gradient_rates[1].bodies[0].position.y(), by_t1_twice * dt * dt + by_t1 * ddt, 1e-12, "d2y/dy0^2");
+  expectEntries(s.time_rates[2][0], -g, 1e-12, "d2y/dT2");
+  expectEntries(s.time_rates[0][0], g * t1, 1e-12, "d2y/dT de");
+  expectEntries(s.gradient_rates[2].materials[0].elasticity, g * t1, 1e-12, "d2y/de dT");
+  expectEntries(timeDerivative(m, seeds[0]), e * g * t1 - g * after, 1e-12, "dy/dT");
+}
+
+// n impacts of a dropped ball, y(T) = e^n g t1 s - g s^2/2 with s = T - t1 (1 + 2 sum of e^k), k < n.
+TEST(SecondOrder, ManyBounces) {
+  const double y0 = 50, e = 0.8, g = 9.8, T = 15;
+  Scene scene =
+      makeScene({0, -g, 0}, e, 0, {makeBall("ball", 0.1, {0, y0 + 0.1, 0}), makePlane("floor", Vec3::UnitY(), 0)});
+  const Motion m = play(scene, T);
+  const int n = static_cast<int>(m.events.size());
+  double t = 1, dt = 0, ddt = 0;
+  for (int k = 1; k < n; ++k)
+    t += 2 * std::pow(e, k), dt += 2 * k * std::pow(e, k - 1), ddt += 2 * k * (k - 1) * std::pow(e, k - 2);
+  const double t1 = std::sqrt(2 * y0 / g), s = T - t1 * t, ds = -t1 * dt, dds = -t1 * ddt;
+  const double v = g * t1 * std::pow(e, n), dv = n * v / e, ddv = n * (n - 1) * v / (e * e);
+  const std::vector<StateSeed> seeds{seedOf(0, Instant::at(T), 1)};
+  ReadingDirection by_e{SceneTangent(scene), {}};
+  by_e.scene.materials[0].elasticity = 1;
+  DerivativeTape tape(m);
+  const SecondOrder found = secondOrder(tape, seeds, {}, std::span(&by_e, 1));
+  const double first = dv * s + v * ds - g * s * ds, second = ddv * s + 2 * dv * ds + v * dds - g * (ds * ds + s * dds);
+  expectEntries(found.gradient.materials[0].elasticity / first, 1.0, 1e-12, "dy/de");
+  expectEntries(found.gradient_rates[0].materials[0].elasticity / second, 1.0, 1e-11, "d2y/de2");
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,109 @@
+// What the directed scenes of the README's gallery show: the command solves each, exactly and as it should look.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/simulate.h"
+#include "formats/scene_json.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/cli/run_command.h"
+
+namespace carom::test {
+namespace {
+
+using nlohmann::json;
+
+/// An edit of the command, simulated afresh from the file that it wrote.
+struct Directed {
+  json answer;
+  Document document;
+  Motion motion;
+};
+
+Directed direct(const std::string& name) {
+  const std::string edited = temporaryPath(name + ".edited.json");
+  Directed directed;
+  directed.answer = runJson({"edit", scenePath(name), "-o", edited});
+  directed.document = readDocument(edited);
+  OdeContacts contacts(directed.document.scene);
+  directed.motion = simulate(directed.document.scene, contacts, directed.document.duration);
+  return directed;
+}
+
+/// The state just before the n-th impact of two bodies.
+BodyState before(const Motion& motion, const std::string& name, int n, const std::string& with) {
+  const int body = bodyIndex(*motion.scene, name), other = bodyIndex(*motion.scene, with);
+  const auto event = motion.findImpact(body, n, other);
+  EXPECT_TRUE(event.has_value());
+  return motion.stateBefore(event.value_or(0), body);
+}
+
+class DirectedScene : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, DirectedScene,
+                         testing::Values("book-on-shelf", "hat-on-coatrack", "mug-on-mark", "meeting", "ball-into-cup",
+                                         "die-face-down", "only-causes"),
+                         [](const auto& scene) {
+                           std::string name = scene.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(DirectedScene, IsSolvedAndItsMotionIsKnownToItsEnd) {
+  const Directed directed = direct(GetParam());
+  EXPECT_TRUE(directed.answer["status"].get<std::string>().starts_with("solved")) << directed.answer["message"];
+  const auto residual = directed.answer["scaled_residual"].get<double>();
+  EXPECT_TRUE(residual <= 1e-9) << residual;
+  EXPECT_EQ(directed.motion.status, MotionStatus::complete) << directed.motion.message;
+}
+
+TEST(DirectedGallery, TheHatHangsOnThePegAndSpins) {
+  const Motion motion = direct("hat-on-coatrack").motion;
+  EXPECT_NEAR(motion.stateAt("hat", 0).angular_velocity.y(), 9, 1e-9);
+  const BodyState end = motion.stateAt("hat", motion.end);
+  const Vec3 tip = end.orientation.conjugate() * (Vec3(-0.1532, 0, 1.5786) - end.position);
+  EXPECT_LT(std::hypot(tip.x(), tip.y()), 0.084);
+  EXPECT_GT(tip.z(), 0.02);
+  EXPECT_LT(tip.z(), 0.108);
+}
+
+TEST(DirectedGallery, TheThirdBounceIsOnTheMark) {
+  const BodyState mug = before(direct("mug-on-mark").motion, "mug", 3, "table");
+  const Vec3 centre = mug.position + mug.orientation * Vec3(0, 0, 0.0475);
+  EXPECT_NEAR(centre.x(), 0.4, 1e-9);
+  EXPECT_NEAR(centre.y(), -0.05, 1e-9);
+}
+
+TEST(DirectedGallery, BallAndCrateMeetAtTheNail) {
+  const Motion motion = direct("meeting").motion;
+  EXPECT_TRUE(before(motion, "ball", 1, "crate").position.isApprox(Vec3(-0.15, 0, 1.25), 1e-9));
+  // Where they touch: a radius further, and half of the crate's height from its centre.
+  EXPECT_NEAR(before(motion, "crate", 1, "ball").position.x(), -0.15 + 0.12 + 0.1, 1e-9);
+}
+
+TEST(DirectedGallery, TheBallEndsInTheCup) {
+  const Motion motion = direct("ball-into-cup").motion;
+  const Vec3 x = motion.stateAt("ball", motion.end).position - Vec3(0.55, 0, 0);
+  EXPECT_LE(std::abs(x.x()), 0.04 + 1e-9);
+  EXPECT_LE(std::abs(x.y()), 0.04 + 1e-9);
+  EXPECT_LT(x.z(), 0.08);
+}
+
+TEST(DirectedGallery, TheChosenFaceIsDown) {
+  const BodyState die = before(direct("die-face-down").motion, "die", 3, "table");
+  EXPECT_LT((die.orientation * Vec3(0, 0, -1)).z(), -0.99);
+}
+
+TEST(DirectedGallery, OnlyElasticityAndInertiaChange) {
+  const Scene after = direct("only-causes").document.scene;
+  const Scene start = readDocument(scenePath("only-causes")).scene;
+  for (std::size_t i = 0; i < start.bodies.size(); ++i) {
+    EXPECT_EQ(after.bodies[i].position, start.bodies[i].position);
+    EXPECT_EQ(after.bodies[i].velocity, start.bodies[i].velocity);
+    EXPECT_EQ(after.bodies[i].angular_velocity, start.bodies[i].angular_velocity);
+    EXPECT_EQ(after.bodies[i].mass, start.bodies[i].mass);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,180 @@
+// Second derivatives of an edit's rows against differences of their exact first derivatives, for every control, every
+// quantity, rows relative to another body, free times and regions. The first derivatives' own test in 50 digits stands
+// in tests/reference; here it is that nothing is left out on the way to the unknowns.
+
+#include "editing/hessian.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "editing/edit_search.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/editing/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace testing_scenes;
+
+// Of differences whose step is 1e-4 at first and half of that then, extrapolated: 1e-16 / h, and h^4.
+constexpr double kTolerance = 3e-8;
+
+/// d(weights . values)/d(unknowns), exact.
+Eigen::VectorXd gradient(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& weights) {
+  const EditPointPtr point = pointAt(problem, unknowns, problem.horizon, false);
+  EXPECT_TRUE(point && point->rows.available) << (point ? point->rows.message : "no motion");
+  differentiate(problem, *point);
+  Eigen::VectorXd scaled = weights;
+  for (Eigen::Index i = 0; i < weights.size(); ++i) scaled[i] *= problem.constraints.rows()[i].scale;
+  return point->row_jacobian->transpose() * scaled;
+}
+
+void expectDerivative(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& weights) {
+  const EditPointPtr point = pointAt(problem, unknowns, problem.horizon, false);
+  ASSERT_TRUE(point && point->rows.available) << (point ? point->rows.message : "no motion");
+  const Eigen::MatrixXd H = rowsHessian(problem, unknowns, point->motion, point->rows, weights);
+  ASSERT_EQ(H.rows(), problem.unknowns());
+  EXPECT_EQ((H - H.transpose()).cwiseAbs().maxCoeff(), 0);
+  const double whole = H.cwiseAbs().maxCoeff();
+  for (int j = 0; j < problem.unknowns(); ++j) {
+    const auto differences = [&](double h) {
+      const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(unknowns.size(), j);
+      return Eigen::VectorXd(
+          (gradient(problem, unknowns + step, weights) - gradient(problem, unknowns - step, weights)) / (2 * h));
+    };
+    const Eigen::VectorXd expected = (4 * differences(5e-5) - differences(1e-4)) / 3;
+    const double scale = std::max(expected.cwiseAbs().maxCoeff(), 1e-2 * whole);
+    for (int i = 0; i < problem.unknowns(); ++i) {
+      EXPECT_TRUE(std::abs(H(i, j) - expected[i]) <= kTolerance * scale)
+          << "unknowns " << i << " and " << j << ": " << H(i, j) << ", expected " << expected[i] << ", scale " << scale
+          << (i < problem.controls.size() && j < problem.controls.size()
+                  ? " " + problem.controls.describeVariable(i) + " and " + problem.controls.describeVariable(j)
+                  : "");
+    }
+  }
+}
+
+Eigen::VectorXd someWeights(int size) {
+  Eigen::VectorXd weights(size);
+  for (int i = 0; i < size; ++i) weights[i] = (i % 2 ? -1 : 1) * (0.4 + 0.1 * i);
+  return weights;
+}
+
+Eigen::VectorXd someUnknowns(const EditProblem& problem, double away) {
+  Eigen::VectorXd y(problem.unknowns());
+  y.head(problem.controls.size()) = Eigen::VectorXd::LinSpaced(problem.controls.size(), -away, 1.3 * away);
+  for (int k = 0; k < problem.times(); ++k) {
+    const FreeTime& free = problem.constraints.freeTimes()[k];
+    y[problem.controls.size() + k] = 0.55 * (free.to - free.from) / free.scale;
+  }
+  return y;
+}
+
+std::vector<Constraint> everyQuantity() {
+  return {{"box", 0.4, {{"position", {1, any, 2}}, {"orientation", {1, 0, 0, 0}}, {"velocity", {0, 0, any}}}},
+          {"box",
+           nthImpact(2, "floor"),
+           {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}}};
+}
+
+TEST(Hessian, OfEveryQuantityByEveryControl) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const EditProblem problem(scene, contacts, 0.6, everyControl(), everyQuantity());
+  // away from the start, where an orientation's value is not its derivative's base
+  const Eigen::VectorXd at = someUnknowns(problem, 0.01), weights = someWeights(problem.constraints.size());
+  expectDerivative(problem, at, weights);
+}
+
+TEST(Hessian, OfEveryRowAlone) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const EditProblem problem(scene, contacts, 0.6, {velocity("box"), orientation("box"), mass("box")}, everyQuantity());
+  const Eigen::VectorXd at = someUnknowns(problem, 0.01);
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    SCOPED_TRACE(problem.constraints.describeRow(i));
+    expectDerivative(problem, at, Eigen::VectorXd::Unit(problem.constraints.size(), i));
+  }
+}
+
+Scene withBall() {
+  Scene scene = thrownBox();
+  Body other = scene.bodies[1];
+  other.name = "other";
+  other.position += Vec3(0.3, 2.5, 0.4);
+  other.angular_velocity = {1.3, -0.7, 0.4};
+  scene.bodies.push_back(other);
+  return scene;
+}
+
+TEST(Hessian, OfRowsRelativeToAnotherBody) {
+  const Scene scene = withBall();
+  OdeContacts contacts(scene);
+  std::vector<Constraint> constraints = everyQuantity();
+  for (Constraint& c : constraints) c.relative_to = "other";
+  const EditProblem problem(
+      scene, contacts, 0.6,
+      {velocity("box"), angularVelocity("box"), position("other"), angularVelocity("other"), orientation("other")},
+      constraints);
+  expectDerivative(problem, someUnknowns(problem, 0.01), someWeights(problem.constraints.size()));
+}
+
+TEST(Hessian, OfRowsAtAFreeTime) {
+  const Scene scene = withBall();
+  OdeContacts contacts(scene);
+  const std::vector<Target> targets{
+      {"position", {1, any, 2}}, {"orientation", {1, 0, 0, 0}}, {"angular_velocity", {1, any, any}}};
+  const std::vector<Constraint> constraints{{"box", between(0.05, 0.3), targets},
+                                            {"other", between(0.1, 0.5), targets, "box"}};
+  const EditProblem problem(scene, contacts, 0.6, {velocity("box"), angularVelocity("box"), angularVelocity("other")},
+                            constraints);
+  ASSERT_EQ(problem.times(), 2);
+  expectDerivative(problem, someUnknowns(problem, 0.01), someWeights(problem.constraints.size()));
+}
+
+TEST(Hessian, OfRegions) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const Motion motion = simulate(scene, contacts, 0.6);
+  const Vec3 middle = motion.stateAt("box", 0.2).position, side = motion.stateAt("box", 0.25).position;
+  const Quat turned(Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()));
+  std::vector<Constraint> constraints;
+  const auto keep = [&](Region::Side what, std::variant<Sphere, Box> shape, const Vec3& at) {
+    Constraint c{"box", 0.0, {}};
+    c.regions = {{what, shape, at, turned, std::pair(0.02, 0.5), 0.0}};
+    constraints.push_back(c);
+  };
+  keep(Region::Side::avoid, Sphere{0.1}, middle + Vec3(0.1, 0.2, 0.15));
+  keep(Region::Side::inside, Sphere{3}, side + Vec3(0.1, 0.2, 0.3));
+  keep(Region::Side::avoid, Box{{0.1, 0.2, 0.3}}, side + Vec3(0.02, 0.2, 0.1));
+  keep(Region::Side::avoid, Box{{0.3, 0.1, 0.2}}, middle + Vec3(0, 0.01, 0.3));
+  keep(Region::Side::inside, Box{{3, 4, 5}}, side);
+  const EditProblem problem(scene, contacts, 0.6, {velocity("box"), position("box"), elasticity("felt")}, constraints);
+  const Eigen::VectorXd at = someUnknowns(problem, 0.003);
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    SCOPED_TRACE(problem.constraints.describeRow(i));
+    expectDerivative(problem, at, Eigen::VectorXd::Unit(problem.constraints.size(), i));
+  }
+}
+
+TEST(Hessian, OfValidity) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const EditProblem problem(scene, contacts, 0.6, {tilt("box", 1), inertia("box"), velocity("box")}, everyQuantity());
+  const Eigen::VectorXd at = someUnknowns(problem, 0.02), weights = someWeights(problem.validity.size());
+  ASSERT_EQ(weights.size(), 4);
+  const Eigen::MatrixXd H = validityHessian(problem, at, weights);
+  const auto gradientAt = [&](const Eigen::VectorXd& y) {
+    return Eigen::VectorXd(problem.rates(y).cwiseProduct(
+        problem.validity.jacobian(problem.controls, problem.valuesOf(y)).transpose() * weights));
+  };
+  for (int j = 0; j < problem.unknowns(); ++j) {
+    const Eigen::VectorXd step = 1e-5 * Eigen::VectorXd::Unit(at.size(), j);
+    const Eigen::VectorXd expected = (gradientAt(at + step) - gradientAt(at - step)) / 2e-5;
+    EXPECT_TRUE((H.col(j) - expected).cwiseAbs().maxCoeff() <= 1e-8) << j;
+  }
+}
+
+}  // namespace
+}  // namespace carom

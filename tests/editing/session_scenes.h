@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstring>
+
+#include "editing/session.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/editing/scenes.h"
+
+/// Sessions that several tests use. None of them has a clock: what they do is the same on every machine.
+namespace carom::testing_sessions {
+
+inline SessionOptions withoutClock() {
+  SessionOptions options;
+  options.release_iterations = 40;
+  options.drag_seconds = options.release_seconds = std::numeric_limits<double>::infinity();
+  return options;
+}
+
+struct BoxSession {
+  Scene scene = testing_scenes::thrownBox();
+  OdeContacts contacts{scene};
+  EditSession session;
+
+  explicit BoxSession(const SessionOptions& options = withoutClock()) : session(scene, contacts, 1.2, options) {
+    session.vary(velocity("box"), angularVelocity("box"), elasticity("felt"));
+  }
+};
+
+inline bool sameBits(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0; }
+
+/// The same numbers to the last bit in everything that a session of these tests may change.
+inline bool sameScene(const Scene& a, const Scene& b) {
+  if (a.bodies.size() != b.bodies.size() || a.materials.size() != b.materials.size()) return false;
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    const Body &x = a.bodies[i], &y = b.bodies[i];
+    if (!sameBits(x.position, y.position) || !sameBits(x.velocity, y.velocity) ||
+        !sameBits(x.angular_velocity, y.angular_velocity) || x.orientation.coeffs() != y.orientation.coeffs() ||
+        x.mass != y.mass || x.density != y.density)
+      return false;
+  }
+  for (std::size_t i = 0; i < a.materials.size(); ++i)
+    if (a.materials[i].elasticity != b.materials[i].elasticity || a.materials[i].friction != b.materials[i].friction)
+      return false;
+  return true;
+}
+
+}  // namespace carom::testing_sessions
