@@ -36,10 +36,11 @@ struct RotationPlan {
 // The reverse pass of adjoint.cpp in dual numbers.
 class DualPass {
  public:
-  DualPass(const Lanes& lanes, Responses& responses)
+  DualPass(const Lanes& lanes, Responses& responses, const std::vector<bool>& inertia_varies)
       : lanes_(lanes),
         motion_(lanes.motion()),
         responses_(responses),
+        inertia_varies_(inertia_varies),
         scene_bar_(*motion_.scene),
         start_bar_(motion_.world_lines.size()),
         model_bar_(motion_.world_lines.size()) {
@@ -141,7 +142,7 @@ class DualPass {
     if (plan.tier == Tier::none) return {};
     if (plan.tier == Tier::spherical) return sphericalSensitivity(stretch);
     if (plan.tier == Tier::symmetric) return symmetricSensitivity(stretch, symmetryAxis(arc.model().inertia));
-    ResponseWanted wanted{3, plan.products};
+    ResponseWanted wanted{3, inertia_varies_[b], inertia_varies_[b] && plan.products};
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
       const Mat3 dJ = ratesOf(model.J, lane);
       if (!dJ.isZero(0)) wanted.lanes = std::max(wanted.lanes, plan.products && !dJ.isDiagonal(0) ? 9 : 6);
@@ -223,6 +224,7 @@ class DualPass {
   const Lanes& lanes_;
   const Motion& motion_;
   Responses& responses_;
+  const std::vector<bool>& inertia_varies_;
   std::vector<RotationPlan> plans_;
   SceneBar scene_bar_;
   std::vector<StateBar> start_bar_;
@@ -277,14 +279,21 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 }  // namespace
 
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
-                        std::span<const ReadingDirection> directions) {
+                        std::span<const ReadingDirection> directions, RatesWanted wanted) {
   SecondOrder out;
   Responses responses;
   const Motion& motion = tape.motion();
+  std::vector<bool> inertia_varies(motion.world_lines.size(), wanted == RatesWanted::all);
+  for (const ReadingDirection& d : directions) {
+    for (std::size_t b = 0; b < inertia_varies.size(); ++b) {
+      const BodyDerivative& of = d.scene.bodies[b];
+      if (of.mass != 0 || of.density != 0 || !of.inertia.isZero(0) || !of.size.isZero(0)) inertia_varies[b] = true;
+    }
+  }
   for (std::size_t first = 0; first < directions.size(); first += kLanes) {
     const Lanes lanes(tape, directions.subspan(first, std::min(kLanes, directions.size() - first)));
     const std::vector<DualSeed> weights = dualSeeds(seeds, seed_rates, lanes);
-    DualPass pass(lanes, responses);
+    DualPass pass(lanes, responses, inertia_varies);
     std::vector<Eigen::VectorXd> time_rates(lanes.size(),
                                             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(seeds.size())));
     for (std::size_t i = 0; i < seeds.size(); ++i) {

@@ -27,12 +27,16 @@ struct SecondOrder {
   std::vector<Eigen::VectorXd> time_rates;    ///< of timeDerivative of each seed; 0 for those at events
 };
 
+/// Which rates are wanted: of the gradient by every number of the scene; or by those only that some direction varies,
+/// which is cheaper. Those not wanted may be missing parts, and are good for nothing.
+enum class RatesWanted { all, varied };
+
 /// Exact second derivatives: the reverse pass with dual numbers, whose other half is the tangent along the directions.
 /// Section 9 of docs/equations.md. Its cost is a few reverse passes a direction, whatever the number of seeds. The
 /// matrix over all scene numbers and reading times is symmetric, but for orientations: world rotation vectors applied
 /// one after another do not commute, D_a (df.b) - D_b (df.a) = df.(a x b).
 /// Throws InputError like `adjoint`.
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
-                        std::span<const ReadingDirection> directions);
+                        std::span<const ReadingDirection> directions, RatesWanted wanted = RatesWanted::all);
 
 }  // namespace carom

@@ -66,6 +66,11 @@ Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns,
   certificate.energy_drift = energyDrift(motion, kEnergySamples);
   certificate.energy_gain = energyGain(motion);
   certificate.deepest_penetration = deepestPenetration(motion, kOverlapSamples);
+  if (motion.world_lines.size() > kMarginBodies) {
+    certificate.signature_radius = std::numeric_limits<double>::quiet_NaN();
+    certificate.signature_event = "Not predicted: there are more than " + std::to_string(kMarginBodies) + " bodies.";
+    return certificate;
+  }
   DerivativeTape tape(motion);
   predictSignature(problem, unknowns, tape, rows, certificate);
   return certificate;

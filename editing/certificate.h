@@ -36,13 +36,14 @@ struct Certificate {
   /// of their feature, impacts of one instant that part, impacts that change places, and impacts that come to lie on
   /// the other side of an instant that is held or of the end. Not seen: bodies, or parts of a compound, that would only
   /// then be met. Bounds of the controls do not count. Of the first kMarginEvents impacts.
+  /// NaN, with a sentence below, where there are more than kMarginBodies bodies.
   double signature_radius = std::numeric_limits<double>::infinity();
   std::string signature_event;     ///< what happens there, a sentence; empty when the radius is infinite
   Eigen::VectorXd signature_step;  ///< the change that leads there, one number a control; empty when it is infinite
 };
 
 inline constexpr int kEnergySamples = 16, kOverlapSamples = 16;
-inline constexpr std::size_t kMarginEvents = 300;
+inline constexpr std::size_t kMarginEvents = 60, kMarginBodies = 100;
 
 struct EditProblem;
 struct RowValues;

@@ -12,9 +12,9 @@
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/jacobian.h"
-#include "editing/why_not.h"
 #include "editing/nail.h"
 #include "editing/sequence_changes.h"
+#include "editing/why_not.h"
 
 namespace carom {
 
@@ -124,13 +124,13 @@ struct EditResult {
   /// Solutions besides this one, where EditOptions::alternatives asks for several: each of another impact sequence, or
   /// else clearly of other numbers; the smallest change first.
   std::vector<EditAlternative> alternatives;
-  Reliability reliability;         ///< of the derivatives at the result, worst row
+  Reliability reliability;  ///< of the derivatives at the result, worst row
   /// How much further the held numbers move with a small change of the start's states than in a free flight as long,
   /// at the start of the edit; 0 where it was not measured (Shooting::single, or nothing to solve).
   double growth = 0;
-  int segments = 0;                ///< that the motion was cut into (multiple shooting); 0: it was taken whole
-  Certificate certificate;         ///< of that motion
-  WhyNot why_not;                  ///< where the edit is infeasible or did not converge
+  int segments = 0;         ///< that the motion was cut into (multiple shooting); 0: it was taken whole
+  Certificate certificate;  ///< of that motion
+  WhyNot why_not;           ///< where the edit is infeasible or did not converge
 
   bool solved() const { return status == EditStatus::solved || status == EditStatus::solved_sequence_changed; }
 };

@@ -104,7 +104,7 @@ Eigen::MatrixXd assemble(const EditProblem& problem, const Eigen::VectorXd& valu
       if (readings.free_time[s] >= 0) H(a, n + readings.free_time[s]) += rate;
     }
   }
-  return 0.5 * (H + H.transpose());
+  return H;
 }
 
 }  // namespace
@@ -130,13 +130,13 @@ Eigen::MatrixXd rowsHessian(const EditProblem& problem, const Eigen::VectorXd& u
       if (a >= n && readings.free_time[ss] == a - n) time[s] = 1;
     }
   }
-  const SecondOrder second =
-      secondOrder(tape, readings.seeds, seedRatesOf(problem, motion, rows, weights, readings), directions);
+  const SecondOrder second = secondOrder(tape, readings.seeds, seedRatesOf(problem, motion, rows, weights, readings),
+                                         directions, RatesWanted::varied);
   const Eigen::VectorXd rates = problem.rates(unknowns);
   Eigen::MatrixXd H = rates.asDiagonal() * assemble(problem, values, readings, second) * rates.asDiagonal();
   H.diagonal().head(n) +=
       problem.controls.gather(second.gradient, values).cwiseProduct(problem.controls.valueBends(unknowns.head(n)));
-  return H;
+  return 0.5 * (H + H.transpose());  // symmetric to rounding already
 }
 
 Eigen::MatrixXd validityHessian(const EditProblem& problem, const Eigen::VectorXd& unknowns,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "editing/edit_solution.h"
 #include "editing/growth.h"
 #include "editing/ipopt_solver.h"
 #include "editing/projection.h"
@@ -25,6 +26,21 @@ int impactsOfSegment(int impacts, double growth) {
   const double of_one = std::log(std::max(growth, 1.0)) / std::max(impacts, 1);
   const double enough = of_one > 0 ? std::log(kGrowthOfSegment) / of_one : impacts;
   return std::max(1, static_cast<int>(std::min(enough, 0.5 * impacts)));
+}
+
+SolverResult solveProgram(EditSearch& search, ShootingProgram& program, int max_iterations) {
+  SolverOptions options;
+  options.max_iterations = max_iterations;
+  options.tolerance = 1e-8;
+  options.constraint_tolerance = kNodeTolerance;
+  options.deadline = search.deadline();
+  return solveWithIpopt(program, options);
+}
+
+/// The motion that the controls of a solution really have, brought onto the constraints.
+EditPointPtr wholeMotion(EditSearch& search, const EditPoint& from, const SolverResult& result) {
+  const EditPointPtr point = search.evaluate(result.x.head(search.problem().unknowns()));
+  return point ? projectOntoConstraints(search, point, kPolishSteps, &from.signature) : nullptr;
 }
 
 }  // namespace
@@ -52,15 +68,12 @@ EditPointPtr shootInSegments(EditSearch& search, const EditPointPtr& from, const
   }
   report.segments = static_cast<int>(segments.segments.size());
   ShootingProgram program(search, *from, segments, rows);
-  SolverOptions options;
-  options.max_iterations = max_iterations;
-  options.tolerance = 1e-8;
-  options.constraint_tolerance = kNodeTolerance;
-  options.deadline = search.deadline();
-  const SolverResult result = solveWithIpopt(program, options);
-  EditPointPtr point = search.evaluate(result.x.head(problem.unknowns()));
-  if (point) point = projectOntoConstraints(search, point, kPolishSteps, &from->signature);
+  const SolverResult result = solveProgram(search, program, max_iterations);
+  EditPointPtr point = wholeMotion(search, *from, result);
   report.solved = point && search.reached(*point);
+  // Where an impact stands against a node at a fixed time the change may not be the smallest yet.
+  if (report.solved && result.status != SolverStatus::converged)
+    point = minimiseWithin(search, point, search.iterationsLeft());
   return point;
 }
 

@@ -55,6 +55,7 @@ void SequenceSearch::forAll(std::size_t count, const Work& work) {
 }
 
 bool SequenceSearch::round() {
+  if (search_.problem().unknowns() == 0) return false;  // nowhere to go
   if (round_ == kRounds || !search_.goesOn()) return false;
   const std::vector<EditPointPtr> points = sample();
   if (!reportBatch()) return false;

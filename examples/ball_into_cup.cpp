@@ -1,4 +1,5 @@
 // A ball bounces on the table and misses a cup made of five boxes. Two nails without a given time bring it in.
+#include <cmath>
 #include <cstdio>
 
 #include "editing/edit.h"
@@ -33,6 +34,8 @@ Scene ballAndCup() {
   return scene;
 }
 
+double tidy(double x) { return std::abs(x) < 1e-6 ? 0 : x; }  // prints no "-0.000"
+
 }  // namespace
 
 int main() {
@@ -51,9 +54,9 @@ int main() {
   const EditResult result = edit.solve();
   std::printf("%s\n", nameOf(result.status));
   for (const ChangedNumber& number : result.changed)
-    std::printf("  %-28s %8.3f -> %8.3f\n", number.name.c_str(), number.before, number.after);
+    std::printf("  %-28s %8.3f -> %8.3f\n", number.name.c_str(), number.before, tidy(number.after));
   for (const HeldNumber& number : result.residuals)
-    std::printf("  %-50s %8.4f (%.4f to %.4f)\n", number.name.c_str(), number.value, number.lower, number.upper);
+    std::printf("  %-50s %8.4f (%.4f to %.4f)\n", number.name.c_str(), tidy(number.value), number.lower, number.upper);
   for (const MetTime& met : result.times) std::printf("  %s: at %.3f s\n", met.name.c_str(), met.time);
   std::printf("largest error below 1e-9: %s\n", result.residual < 1e-9 ? "yes" : "no");
 }

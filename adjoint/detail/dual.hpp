@@ -42,8 +42,18 @@ struct Dual {
     return r;
   }
 
-  friend Dual operator+(Dual a, const Dual& b) { return a += b; }
-  friend Dual operator-(Dual a, const Dual& b) { return a -= b; }
+  friend Dual operator+(const Dual& a, const Dual& b) {
+    Dual r;
+    r.value = a.value + b.value;
+    for (std::size_t i = 0; i < N; ++i) r.rate[i] = a.rate[i] + b.rate[i];
+    return r;
+  }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    Dual r;
+    r.value = a.value - b.value;
+    for (std::size_t i = 0; i < N; ++i) r.rate[i] = a.rate[i] - b.rate[i];
+    return r;
+  }
   friend Dual operator*(const Dual& a, const Dual& b) {
     Dual r;
     r.value = a.value * b.value;

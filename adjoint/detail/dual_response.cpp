@@ -23,7 +23,11 @@ struct Steps {
   using Mat = M3<Number>;
   using Columns = Eigen::Matrix<Number, 3, Eigen::Dynamic, 0, 3, kMostColumns>;
 
-  Steps(const Arc& the_arc, bool products) : arc(the_arc), columns(products ? 9 : 6) {
+  Steps(const Arc& the_arc, const ResponseWanted& wanted)
+      : arc(the_arc),
+        columns(wanted.products  ? 9
+                : wanted.inertia ? 6
+                                 : 3) {
     const BodyModel& model = arc.model();
     A = Mat3(model.inverse_inertia.asDiagonal()).template cast<Number>();
     largest_D = model.inverse_inertia.maxCoeff();
@@ -43,27 +47,77 @@ struct Steps {
   // Coefficients of one step from M.
   void expand(const Vec& M0) {
     M[0] = M0;
-    for (std::size_t c = 0; c < columns; ++c)
+    for (std::size_t c = 0; c < columns; ++c) {
       dM[c][0] = c < 3 ? Vec(Vec3::Unit(static_cast<int>(c)).template cast<Number>()) : Vec::Zero();
-    for (std::size_t c = 0; c < columns; ++c) along[c][0] = 0;
+      along[c][0] = 0;
+    }
     for (std::size_t k = 0; k < kOrder; ++k) {
       w[k] = A * M[k];
-      Vec sum = Vec::Zero();
-      for (std::size_t j = 0; j <= k; ++j) sum += M[j].cross(w[k - j]);
-      const double f = 1.0 / static_cast<double>(k + 1);
-      M[k + 1] = f * sum;
       for (std::size_t c = 0; c < columns; ++c) {
         BM[c][k] = c < 3 ? Vec::Zero() : Vec(B[c - 3] * M[k]);
         dw[c][k] = A * dM[c][k] + BM[c][k];
-        Vec rate = Vec::Zero();
-        Number energy = 0;
-        for (std::size_t j = 0; j <= k; ++j) {
-          rate += dM[c][k - j].cross(w[j]) + M[j].cross(dw[c][k - j]);
-          energy += w[j].dot(dM[c][k - j]);
-          if (c >= 3) energy += M[j].dot(BM[c][k - j]);
+      }
+      if constexpr (K == 3)
+        nextOfConstantMoments(k);
+      else
+        next(k);
+    }
+  }
+
+  void next(std::size_t k) {
+    const double f = 1.0 / static_cast<double>(k + 1);
+    Vec sum = Vec::Zero();
+    for (std::size_t j = 0; j <= k; ++j) sum += M[j].cross(w[k - j]);
+    M[k + 1] = f * sum;
+    for (std::size_t c = 0; c < columns; ++c) {
+      Vec rate = Vec::Zero();
+      Number energy = 0;
+      for (std::size_t j = 0; j <= k; ++j) {
+        rate += dM[c][k - j].cross(w[j]) + M[j].cross(dw[c][k - j]);
+        energy += w[j].dot(dM[c][k - j]);
+        if (c >= 3) energy += M[j].dot(BM[c][k - j]);
+      }
+      dM[c][k + 1] = f * rate;
+      along[c][k + 1] = f * energy;
+    }
+  }
+
+  // The same with A constant and diagonal, which leaves half of the products.
+  void nextOfConstantMoments(std::size_t k) {
+    const double f = 1.0 / static_cast<double>(k + 1);
+    const Vec3& D = arc.model().inverse_inertia;
+    const double d32 = f * (D[2] - D[1]), d13 = f * (D[0] - D[2]), d21 = f * (D[1] - D[0]);
+    Number m23 = 0, m31 = 0, m12 = 0;
+    for (std::size_t j = 0; j <= k; ++j) {
+      const Vec &m = M[j], &n = M[k - j];
+      m23 += m[1] * n[2], m31 += m[2] * n[0], m12 += m[0] * n[1];
+    }
+    M[k + 1] = Vec(d32 * m23, d13 * m31, d21 * m12);
+    for (std::size_t c = 0; c < columns; ++c) {
+      Number p23 = 0, p31 = 0, p12 = 0, energy = 0;
+      for (std::size_t j = 0; j <= k; ++j) {
+        const Vec &m = M[j], &v = w[j], &d = dM[c][k - j];
+        p23 += m[1] * d[2] + m[2] * d[1];
+        p31 += m[2] * d[0] + m[0] * d[2];
+        p12 += m[0] * d[1] + m[1] * d[0];
+        energy += v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
+      }
+      dM[c][k + 1] = Vec(d32 * p23, d13 * p31, d21 * p12);
+      along[c][k + 1] = f * energy;
+    }
+    if (columns == 3) return;
+    Mat squares;  // sum of M_i M_j
+    squares << Number(0), m12, m31, m12, Number(0), m23, m31, m23, Number(0);
+    for (std::size_t j = 0; j <= k; ++j)
+      for (Eigen::Index i = 0; i < 3; ++i) squares(i, i) += M[j][i] * M[k - j][i];
+    for (std::size_t c = 3; c < columns; ++c) {
+      const Mat3 b = f * valuesOf(B[c - 3]);
+      for (Eigen::Index i = 0; i < 3; ++i) {  // M x (B M) and M.(B M)
+        const Eigen::Index j = (i + 1) % 3, l = (i + 2) % 3;
+        for (Eigen::Index n = 0; n < 3; ++n) {
+          dM[c][k + 1][i] += b(l, n) * squares(j, n) - b(j, n) * squares(l, n);
+          along[c][k + 1] += b(i, n) * squares(i, n);
         }
-        dM[c][k + 1] = f * rate;
-        along[c][k + 1] = f * energy;
       }
     }
   }
@@ -133,12 +187,12 @@ struct Steps {
 };
 
 template <int K>
-BodyResponse respond(const Arc& arc, double elapsed, bool products) {
+BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wanted) {
   using S = Steps<K>;
   using Vec = typename S::Vec;
   using Mat = typename S::Mat;
   using Columns = typename S::Columns;
-  const auto steps_owner = std::make_unique<S>(arc, products);
+  const auto steps_owner = std::make_unique<S>(arc, wanted);
   S& steps = *steps_owner;
   const auto count = static_cast<Eigen::Index>(steps.columns);
   const Vec3 L = arc.startState().L;
@@ -197,10 +251,10 @@ BodyResponse respond(const Arc& arc, double elapsed, bool products) {
     done = last ? elapsed : done + h;
   }
   BodyResponse out;
-  out.products = products;
+  out.products = wanted.products;
   const auto block = [&](Eigen::Index first) { return Mat(eta.template middleCols<3>(first)); };
-  const Mat G = block(0), H = block(3);
-  const Mat P = products ? block(6) : Mat(Mat::Zero());
+  const Mat G = block(0), H = wanted.inertia ? block(3) : Mat(Mat::Zero());
+  const Mat P = wanted.products ? block(6) : Mat(Mat::Zero());
   out.G = valuesOf(G), out.H = valuesOf(H), out.P = valuesOf(P);
   for (std::size_t i = 0; i < K; ++i) {
     out.dG.push_back(ratesOf(G, i));
@@ -213,9 +267,9 @@ BodyResponse respond(const Arc& arc, double elapsed, bool products) {
 }  // namespace
 
 BodyResponse bodyResponse(const Arc& arc, double elapsed, const ResponseWanted& wanted) {
-  if (wanted.lanes == 9) return respond<9>(arc, elapsed, wanted.products);
-  if (wanted.lanes == 6) return respond<6>(arc, elapsed, wanted.products);
-  return respond<3>(arc, elapsed, wanted.products);
+  if (wanted.lanes == 9) return respond<9>(arc, elapsed, wanted);
+  if (wanted.lanes == 6) return respond<6>(arc, elapsed, wanted);
+  return respond<3>(arc, elapsed, wanted);
 }
 
 }  // namespace carom::detail

@@ -24,7 +24,8 @@ struct BodyResponse {
 /// How much of a BodyResponse is wanted.
 struct ResponseWanted {
   int lanes = 3;          ///< 3, 6 or 9
-  bool products = false;  ///< P as well as G and H
+  bool inertia = true;    ///< H as well as G; must be where there are more lanes than 3
+  bool products = false;  ///< P as well
 };
 
 /// Of free rotation over [0, elapsed] of an arc, by Taylor series of the variational equations (2.1) in dual numbers.

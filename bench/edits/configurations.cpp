@@ -9,6 +9,12 @@ EditOptions staying() {
   return options;
 }
 
+EditOptions derivatives(SecondDerivatives source) {
+  EditOptions options = staying();
+  options.second_derivatives = source;
+  return options;
+}
+
 EditOptions shooting(Shooting shooting) {
   EditOptions options = staying();
   options.shooting = shooting;
@@ -21,6 +27,8 @@ const std::vector<Configuration>& configurations() {
   static const std::vector<Configuration> rows = {
       {"search", "with search", EditOptions{}},
       {"no_search", "Ipopt alone", staying()},
+      {"secant", "Ipopt alone, secant update", derivatives(SecondDerivatives::secant)},
+      {"limited_memory", "Ipopt alone, limited memory", derivatives(SecondDerivatives::limited_memory)},
       {"shooting", "multiple shooting alone", shooting(Shooting::multiple)},
   };
   return rows;

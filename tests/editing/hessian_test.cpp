@@ -152,6 +152,17 @@ TEST(Hessian, OfRegions) {
   keep(Region::Side::inside, Box{{3, 4, 5}}, side);
   const EditProblem problem(scene, contacts, 0.6, {velocity("box"), position("box"), elasticity("felt")}, constraints);
   const Eigen::VectorXd at = someUnknowns(problem, 0.003);
+  const EditPointPtr point = pointAt(problem, at, problem.horizon, false);
+  int least = 0, two_faces = 0, place = 0;
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    const Clearance::Keeps keeps = problem.constraints.clearance(point->motion, i)->keeps;
+    least += keeps == Clearance::Keeps::least;
+    two_faces += keeps == Clearance::Keeps::two_faces;
+    place += keeps == Clearance::Keeps::place;
+  }
+  EXPECT_GE(least, 1);
+  EXPECT_GE(two_faces, 1);
+  EXPECT_GE(place, 1);
   for (int i = 0; i < problem.constraints.size(); ++i) {
     SCOPED_TRACE(problem.constraints.describeRow(i));
     expectDerivative(problem, at, Eigen::VectorXd::Unit(problem.constraints.size(), i));
