@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 constexpr int kPolishSteps = 15;
-/// From this growth on single shooting begins to fail where multiple shooting does not (docs/editing.md).
+/// From about this growth on segments were seen to solve more places than the whole motion (docs/editing.md).
 constexpr double kLongMotion = 100;
 /// Segments are made so long that small changes grow by about this factor over each.
 constexpr double kGrowthOfSegment = 10;

@@ -35,7 +35,9 @@ int main() {
   // The landing fixes how far the hat turns, so the spin and the time of flight cannot both be chosen.
   edit.nail("hat", 0.0).angularVelocity({any, 9, any});
   edit.nail("hat", nthImpact(1, "coatrack")).time(0.6);
-  const EditResult result = edit.solve({.sequence = SequencePolicy::stay});  // no other impacts are looked for
+  EditOptions options;
+  options.sequence = SequencePolicy::stay;  // no other impacts are looked for
+  const EditResult result = edit.solve(options);
   std::printf("spin 9.0 and 0.6 s: %s\n", result.solved() ? "solved" : "not solved");
   for (const WhyNot::Conflict& conflict : result.why_not.conflicts)
     for (const std::string& name : conflict.names) std::printf("  stands in the way: %s\n", name.c_str());

@@ -251,7 +251,9 @@ TEST(ConstraintKinds, AtSomeTimeOfASpan) {
   for (double t : {0.3, 0.35, 0.4, 0.45, 0.5}) {
     Edit fixed(scene, contacts, 1.2, {velocity("ball")}, {{"ball", t, {{"position", {0.9, 0.1, 1.05}}}}});
     const EditResult other = fixed.solve();
-    if (other.solved()) EXPECT_LE(result.objective, other.objective * (1 + 1e-7)) << t;
+    if (other.solved()) {
+      EXPECT_LE(result.objective, other.objective * (1 + 1e-7)) << t;
+    }
   }
 }
 
