@@ -34,7 +34,7 @@ enum class RatesWanted { all, varied };
 /// Exact second derivatives: the reverse pass with dual numbers, whose other half is the tangent along the directions.
 /// Section 9 of docs/equations.md. Its cost is a few reverse passes a direction, whatever the number of seeds. The
 /// matrix over all scene numbers and reading times is symmetric, but for orientations: world rotation vectors applied
-/// one after another do not commute, D_a (df.b) - D_b (df.a) = df.(a x b).
+/// one after another do not commute (equation 9.5), D_a (df.b) - D_b (df.a) = df.(b x a).
 /// Throws InputError like `adjoint`.
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
                         std::span<const ReadingDirection> directions, RatesWanted wanted = RatesWanted::all);

@@ -118,7 +118,8 @@ struct WrittenNumbers {
   std::vector<PartNumbers> parts;
   bool has_density = false, inertia_derived = true;
   Real mass_or_density;
-  RVec moments;  ///< unless derived, with their axes in the shape
+  RVec moments;             ///< unless derived, with their axes in the shape
+  Real inertia_factor = 1;  ///< of a derived inertia
   RMat axes = RMat::identity();
   std::optional<RVec> center;
   RVec position, velocity, spin;
@@ -154,7 +155,7 @@ inline RealModel modelOf(const WrittenNumbers& n) {
   RealModel m;
   m.mass = n.has_density ? n.mass_or_density * solid.volume : n.mass_or_density;
   m.center = n.center ? *n.center : solid.center;
-  m.principal = n.inertia_derived ? principalOf((m.mass / solid.volume) * solid.J) : Principal{n.moments, n.axes};
+  m.principal = n.inertia_derived ? principalOf((n.inertia_factor * m.mass / solid.volume) * solid.J) : Principal{n.moments, n.axes};
   return m;
 }
 

@@ -204,6 +204,11 @@ std::vector<ThrowKnob> throwKnobs(const ThrowNumbers& numbers, int body, int flo
   return knobs;
 }
 
+ThrowKnob inertiaOfMass() {
+  return {"inertia of mass", [](ThrowNumbers& n, const Real& h) { n.body.inertia_factor += h / n.body.mass_or_density; },
+          [](SceneDerivative&) -> double& { throw std::logic_error("no number of a scene"); }};
+}
+
 std::vector<Eigen::Matrix<double, 13, 1>> replayDerivative(const ThrowNumbers& numbers,
                                                            const std::vector<PointImpact>& impacts, const Real& end,
                                                            const ThrowKnob& knob) {

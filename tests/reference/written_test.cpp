@@ -146,9 +146,16 @@ TEST_P(WrittenThrow, SecondDerivatives) {
   double worst = 0;
   std::string where = "none";
   for (const ThrowKnob& knob : knobs) {
-    const auto expected = replaySecondDerivative(t.numbers, t.impacts, row().duration, knobs, direction, knob);
+    const auto rates = [&](const ThrowKnob& k) {
+      return replaySecondDerivative(t.numbers, t.impacts, row().duration, knobs, direction, k);
+    };
+    const auto expected = rates(knob);
     double scale = kSmallestScale;
-    for (const auto& e : expected) scale = std::max(scale, e.cwiseAbs().maxCoeff());
+    const auto include = [&scale](const auto& column) {
+      for (const auto& e : column) scale = std::max(scale, e.cwiseAbs().maxCoeff());
+    };
+    include(expected);
+    if (t.numbers.body.inertia_derived && (knob.name == "mass" || knob.name == "density")) include(rates(inertiaOfMass()));
     for (std::size_t k = 0; k < moments.size(); ++k)
       for (std::size_t i = 0; i < moments[k].size(); ++i) {
         const double found = knob.entry(moments[k][i]), wanted = expected[k][static_cast<Eigen::Index>(i)];
