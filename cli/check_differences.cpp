@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "adjoint/errors.h"
-#include "editing/refined_times.h"
+#include "editing/rows/refined_times.h"
 
 namespace carom::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "adjoint/simulate.h"
 #include "cli/output.h"
-#include "editing/refined_times.h"
+#include "editing/rows/refined_times.h"
 #include "formats/json_writer.h"
 #include "formats/scene_json.h"
 

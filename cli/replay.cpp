@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/loading.h"
-#include "editing/session_replay.h"
+#include "editing/session/session_replay.h"
 #include "formats/journal_json.h"
 #include "formats/scene_json.h"
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "editing/event_margins.h"
 #include "editing/jacobian.h"
-#include "editing/motion_checks.h"
 #include "editing/text.h"
+#include "editing/verdict/event_margins.h"
+#include "editing/verdict/motion_checks.h"
 
 namespace carom {
 namespace {

@@ -62,7 +62,7 @@ struct Constraint {
   std::string body;
   When at;
   std::vector<Target> targets;
-  /// Not empty: targets are seen from this body, in its shape's axes (see `seenFrom` in editing/relative.h).
+  /// Not empty: targets are seen from this body, in its shape's axes (see `seenFrom` in editing/rows/relative.h).
   std::string relative_to = {};
   std::vector<Region> regions = {};  ///< whenever `at` is
 };

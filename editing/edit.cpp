@@ -3,10 +3,10 @@
 #include <chrono>
 
 #include "adjoint/simulate.h"
-#include "editing/alternatives.h"
-#include "editing/edit_result.h"
-#include "editing/edit_solution.h"
-#include "editing/explain.h"
+#include "editing/search/alternatives.h"
+#include "editing/solve/edit_result.h"
+#include "editing/solve/edit_solution.h"
+#include "editing/verdict/explain.h"
 
 namespace carom {
 

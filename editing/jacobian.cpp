@@ -8,7 +8,7 @@
 #include "adjoint/errors.h"
 #include "adjoint/seed.h"
 #include "adjoint/tangent.h"
-#include "editing/control_families.h"
+#include "editing/controls/control_families.h"
 #include "editing/text.h"
 
 namespace carom {
@@ -111,8 +111,8 @@ Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const
                 ContactSource* contacts) {
   const Scene scene = problem.controls.sceneAt(values);
   const std::vector<BoundControl>& controls = problem.controls.controls();
-  const bool resized = std::any_of(controls.begin(), controls.end(),
-                                   [](const BoundControl& c) { return c.kind == &kSizeControl; });
+  const bool resized =
+      std::any_of(controls.begin(), controls.end(), [](const BoundControl& c) { return c.kind == &kSizeControl; });
   if (!resized) return replay(like, scene, like.geometry, until);
   ContactSource& source = contacts ? *contacts : *problem.contacts;
   source.begin(scene);

@@ -6,9 +6,9 @@
 
 #include "adjoint/replay.h"
 #include "adjoint/simulate.h"
-#include "editing/constraint_rows.h"
-#include "editing/control_set.h"
-#include "editing/validity_rows.h"
+#include "editing/controls/control_set.h"
+#include "editing/controls/validity_rows.h"
+#include "editing/rows/constraint_rows.h"
 
 namespace carom {
 

@@ -4,7 +4,7 @@
 
 #include "adjoint/errors.h"
 #include "adjoint/simulate.h"
-#include "editing/session_state.h"
+#include "editing/session/session_state.h"
 #include "editing/text.h"
 
 namespace carom {

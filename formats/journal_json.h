@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "editing/session_replay.h"
+#include "editing/session/session_replay.h"
 #include "formats/document.h"
 #include "formats/format_error.h"
 

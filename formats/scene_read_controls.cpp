@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "editing/control_kinds.h"
+#include "editing/controls/control_kinds.h"
 #include "formats/detail/json.hpp"
 #include "formats/detail/scene_reader.hpp"
 #include "formats/json_writer.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "adjoint/errors.h"
-#include "editing/control_kinds.h"
+#include "editing/controls/control_kinds.h"
 #include "formats/detail/scene_reader.hpp"
 #include "formats/detail/scene_writer.hpp"
 #include "formats/json_writer.h"

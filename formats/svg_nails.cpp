@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "editing/refined_times.h"
+#include "editing/rows/refined_times.h"
 #include "formats/detail/svg_canvas.hpp"
 
 namespace carom {

@@ -200,6 +200,8 @@ std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, c
 
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }
 
-std::unique_ptr<ContactSource> OdeContacts::another() const { return std::unique_ptr<ContactSource>(new OdeContacts()); }
+std::unique_ptr<ContactSource> OdeContacts::another() const {
+  return std::unique_ptr<ContactSource>(new OdeContacts());
+}
 
 }  // namespace carom

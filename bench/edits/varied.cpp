@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editing/control_set.h"
+#include "editing/controls/control_set.h"
 
 namespace carom::bench {
 namespace {

@@ -57,8 +57,8 @@ double turnsOfReadings(DerivativeTape& tape, std::span<const StateSeed> seeds, c
   const MotionTangent along_a = tangent(tape, a.scene), along_b = tangent(tape, b.scene);
   double sum = 0;
   for (std::size_t i = 0; i < seeds.size(); ++i)
-    sum += seeds[i].orientation.dot(turnOf(tape.motion(), along_a, a, seeds[i], i)
-                                        .cross(turnOf(tape.motion(), along_b, b, seeds[i], i)));
+    sum += seeds[i].orientation.dot(
+        turnOf(tape.motion(), along_a, a, seeds[i], i).cross(turnOf(tape.motion(), along_b, b, seeds[i], i)));
   return sum;
 }
 

@@ -6,7 +6,7 @@
 
 #include "adjoint/simulate.h"
 #include "editing/jacobian.h"
-#include "editing/refined_times.h"
+#include "editing/rows/refined_times.h"
 #include "formats/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"

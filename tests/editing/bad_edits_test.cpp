@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "adjoint/errors.h"
-#include "editing/bounded_least_squares.h"
 #include "editing/edit.h"
+#include "editing/solve/bounded_least_squares.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "editing/edit.h"
-#include "editing/event_margins.h"
-#include "editing/motion_checks.h"
+#include "editing/verdict/event_margins.h"
+#include "editing/verdict/motion_checks.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

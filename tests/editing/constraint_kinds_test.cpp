@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "editing/edit.h"
-#include "editing/polynomial.h"
-#include "editing/relative.h"
+#include "editing/rows/polynomial.h"
+#include "editing/rows/relative.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

@@ -1,6 +1,6 @@
 // Rows of constraints, and the Jacobian of all of them by every kind of control, by adjoint and by tangent.
 
-#include "editing/constraint_rows.h"
+#include "editing/rows/constraint_rows.h"
 
 #include <gtest/gtest.h>
 

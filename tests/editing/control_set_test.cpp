@@ -1,6 +1,6 @@
 // Every kind of control: set and get, gather and scatter, scales, bounds, and everything a person can get wrong.
 
-#include "editing/control_set.h"
+#include "editing/controls/control_set.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include "adjoint/body_model.h"
 #include "adjoint/errors.h"
 #include "adjoint/so3.h"
-#include "editing/natural_scales.h"
-#include "editing/validity_rows.h"
+#include "editing/controls/natural_scales.h"
+#include "editing/controls/validity_rows.h"
 #include "tests/editing/scenes.h"
 
 namespace carom {

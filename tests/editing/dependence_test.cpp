@@ -1,4 +1,4 @@
-#include "editing/dependence.h"
+#include "editing/rows/dependence.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "editing/edit_search.h"
+#include "editing/solve/edit_search.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

@@ -1,6 +1,6 @@
 // The solver adapter alone: small programs with known answers, and everything that can go wrong in one.
 
-#include "editing/ipopt_solver.h"
+#include "editing/solve/ipopt_solver.h"
 
 #include <gtest/gtest.h>
 

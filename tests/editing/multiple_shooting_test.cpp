@@ -1,6 +1,6 @@
 // Edits in segments, against the same edits taken whole.
 
-#include "editing/multiple_shooting.h"
+#include "editing/shooting/multiple_shooting.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "adjoint/simulate.h"
-#include "editing/cut.h"
 #include "editing/edit.h"
-#include "editing/shooting_program.h"
+#include "editing/shooting/cut.h"
+#include "editing/shooting/shooting_program.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

@@ -8,7 +8,7 @@
 
 #include "adjoint/simulate.h"
 #include "editing/edit.h"
-#include "editing/samples.h"
+#include "editing/search/samples.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

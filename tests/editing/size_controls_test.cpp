@@ -6,7 +6,7 @@
 
 #include "adjoint/errors.h"
 #include "adjoint/tangent.h"
-#include "editing/control_set.h"
+#include "editing/controls/control_set.h"
 #include "editing/edit.h"
 #include "tests/editing/scenes.h"
 #include "tests/support/solids.h"

@@ -155,7 +155,8 @@ inline RealModel modelOf(const WrittenNumbers& n) {
   RealModel m;
   m.mass = n.has_density ? n.mass_or_density * solid.volume : n.mass_or_density;
   m.center = n.center ? *n.center : solid.center;
-  m.principal = n.inertia_derived ? principalOf((n.inertia_factor * m.mass / solid.volume) * solid.J) : Principal{n.moments, n.axes};
+  m.principal = n.inertia_derived ? principalOf((n.inertia_factor * m.mass / solid.volume) * solid.J)
+                                  : Principal{n.moments, n.axes};
   return m;
 }
 

@@ -205,7 +205,8 @@ std::vector<ThrowKnob> throwKnobs(const ThrowNumbers& numbers, int body, int flo
 }
 
 ThrowKnob inertiaOfMass() {
-  return {"inertia of mass", [](ThrowNumbers& n, const Real& h) { n.body.inertia_factor += h / n.body.mass_or_density; },
+  return {"inertia of mass",
+          [](ThrowNumbers& n, const Real& h) { n.body.inertia_factor += h / n.body.mass_or_density; },
           [](SceneDerivative&) -> double& { throw std::logic_error("no number of a scene"); }};
 }
 

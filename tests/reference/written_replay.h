@@ -51,8 +51,8 @@ struct ThrowKnob {
 };
 std::vector<ThrowKnob> throwKnobs(const ThrowNumbers& numbers, int body, int floor);
 
-/// The part of a derivative by the mass or density that comes through the derived inertia. For a lone body it cancels the
-/// rest, so the whole is to be held to this size and not to its own, which is 0.
+/// The part of a derivative by the mass or density that comes through the derived inertia. For a lone body it cancels
+/// the rest, so the whole is to be held to this size and not to its own, which is 0.
 ThrowKnob inertiaOfMass();
 
 /// d(position, rotation vector, velocity, angular velocity, time) of the states of `replay`, by central differences in

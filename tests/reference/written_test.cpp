@@ -155,7 +155,8 @@ TEST_P(WrittenThrow, SecondDerivatives) {
       for (const auto& e : column) scale = std::max(scale, e.cwiseAbs().maxCoeff());
     };
     include(expected);
-    if (t.numbers.body.inertia_derived && (knob.name == "mass" || knob.name == "density")) include(rates(inertiaOfMass()));
+    if (t.numbers.body.inertia_derived && (knob.name == "mass" || knob.name == "density"))
+      include(rates(inertiaOfMass()));
     for (std::size_t k = 0; k < moments.size(); ++k)
       for (std::size_t i = 0; i < moments[k].size(); ++i) {
         const double found = knob.entry(moments[k][i]), wanted = expected[k][static_cast<Eigen::Index>(i)];

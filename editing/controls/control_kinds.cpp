@@ -1,0 +1,34 @@
+#include "editing/controls/control_kinds.h"
+
+#include "editing/controls/control_families.h"
+
+namespace carom {
+namespace {
+
+const ControlKind* const kTable[] = {
+    &kPositionControl,
+    &kOrientationControl,
+    &kVelocityControl,
+    &kAngularVelocityControl,
+    &kElasticityControl,
+    &kFrictionControl,
+    &kTangentialElasticityControl,
+    &kMassControl,
+    &kInertiaControl,
+    &kSizeControl,
+    &kTiltControl,
+    &kGravityControl,
+};
+
+}  // namespace
+
+std::span<const ControlKind* const> controlKinds() { return kTable; }
+
+const ControlKind* findControlKind(const std::string& word) {
+  for (const ControlKind* kind : kTable) {
+    if (word == kind->word) return kind;
+  }
+  return nullptr;
+}
+
+}  // namespace carom

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "editing/rows/constraint_rows.h"
+
+namespace carom {
+
+/// For each free time the one at which its constraint is most nearly met in a motion: ConstraintSet::nearestTimes,
+/// followed to the bottom by golden sections. Where the constraint is met, to rounding.
+Eigen::VectorXd refinedTimes(const ConstraintSet& constraints, const Motion& motion);
+
+}  // namespace carom

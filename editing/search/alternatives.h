@@ -1,0 +1,13 @@
+#pragma once
+
+#include "editing/solve/edit_solution.h"
+
+/// Several solutions of one edit. Internal to editing/.
+namespace carom {
+
+/// The solutions that a search met besides its best, each simulated afresh, as many as the options ask for; what is
+/// not confirmed is left out.
+std::vector<EditAlternative> alternativesTo(const Scene& written, const EditSearch& search,
+                                            const EditSolution& solution);
+
+}  // namespace carom

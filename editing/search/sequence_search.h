@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "editing/search/parallel.h"
+#include "editing/solve/edit_search.h"
+
+/// Solutions in other impact sequences. Internal to editing/.
+namespace carom {
+
+/// A local discrete search, after Harada, Witkin and Baraff (1995), in rounds. Each simulates samples around the start
+/// and the best point on all cores, groups them by impact sequence, goes from the most promising of each group onto the
+/// constraints, whatever impacts that takes, and minimises the change within the sequences where that arrived.
+/// Everything is done, or taken over, in a fixed order: the answer is the same on any number of cores. Clock and
+/// callback are asked between batches.
+class SequenceSearch {
+ public:
+  SequenceSearch(EditSearch& search, EditPointPtr start);
+
+  /// False when there was nothing left to do.
+  bool round();
+  /// Distinct solutions, the smallest change first.
+  const std::vector<EditPointPtr>& solutions() const { return solutions_; }
+  /// Takes a solution in, unless it is one of those that are known already.
+  void add(const EditPointPtr& solution);
+
+ private:
+  std::vector<EditPointPtr> sample();
+  std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points);
+  std::vector<EditPointPtr> land(const std::vector<EditPointPtr>& candidates);
+  void minimise(const std::vector<EditPointPtr>& landed);
+  bool reportBatch();
+  template <class Work>
+  void forAll(std::size_t count, const Work& work);
+
+  EditSearch& search_;
+  ContactPool pool_;
+  EditPointPtr start_;
+  std::map<std::string, int> tries_;  // landings from a sequence so far
+  std::vector<EditPointPtr> solutions_;
+  int round_ = 0;
+};
+
+/// Whether two solutions differ in their impact sequence, or else clearly in their numbers.
+bool areDistinct(const EditPoint& a, const EditPoint& b);
+
+}  // namespace carom

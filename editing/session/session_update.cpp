@@ -1,0 +1,129 @@
+// What an update says: the motion, how far it is from what was asked for, and why.
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/errors.h"
+#include "adjoint/simulate.h"
+#include "adjoint/so3.h"
+#include "editing/session/session_state.h"
+#include "editing/text.h"
+
+namespace carom {
+
+BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where) {
+  const auto find = [&](const std::string& name) {
+    return findAt(where, [&] { return bodyIndex(*motion.scene, name); });
+  };
+  const int index = find(body);
+  if (at.span) throw InputError(where, "found a span of time, expected a time or an impact");
+  if (at.impact == 0 && at.with.empty()) {
+    if (!(at.time >= 0 && at.time <= motion.end))
+      throw InputError(
+          where, "found " + number(at.time) + " s, expected a time in the motion, 0 to " + number(motion.end) + " s");
+    return motion.stateAt(index, at.time);
+  }
+  if (at.impact < 1) throw InputError(where, "found impact " + std::to_string(at.impact) + ", expected 1 or more");
+  const auto event = motion.findImpact(index, at.impact, at.with.empty() ? -1 : find(at.with));
+  if (!event)
+    throw InputError(where, "found impact " + std::to_string(at.impact) +
+                                (at.with.empty() ? "" : " with '" + at.with + "'") + " of '" + body +
+                                "', expected one that comes within " + number(motion.end) + " s");
+  return motion.stateBefore(*event, index);
+}
+
+std::shared_ptr<const Motion> EditSession::State::simulated(const std::shared_ptr<const Scene>& scene) const {
+  auto motion = std::make_shared<Motion>(simulate(*scene, contacts, duration));
+  motion->scene = scene;
+  return motion;
+}
+
+std::shared_ptr<const Motion> EditSession::State::motionOf(const SessionSolver& solver) const {
+  const EditPointPtr& point = solver.point();
+  if (point->motion.duration == duration) return {point, &point->motion};
+  return simulated(point->motion.scene);
+}
+
+namespace {
+
+struct Errors {
+  double si = 0, scaled = 0;
+  void add(double residual, double scaled_residual) {
+    // written so that NaN stays
+    if (!(std::abs(residual) <= si)) si = std::abs(residual);
+    if (!(std::abs(scaled_residual) <= scaled)) scaled = std::abs(scaled_residual);
+  }
+};
+
+void putNails(const Errors& nails, double tolerance, SessionUpdate& update) {
+  update.nail_error = nails.si;
+  update.scaled_nail_error = nails.scaled;
+  update.reached = update.reached && nails.scaled <= tolerance;
+}
+
+}  // namespace
+
+void EditSession::State::measureNails(SessionUpdate& update) const {
+  if (now.nails.empty()) return;
+  const ConstraintSet constraints(*now.scene, now.constraints(), duration);
+  const RowValues rows = constraints.evaluate(*update.motion);
+  Errors nails;
+  for (int i = 0; i < constraints.size(); ++i) nails.add(rows.residuals[i], rows.scaled[i]);
+  putNails(nails, options.tolerance, update);
+  if (!rows.available) update.message += (update.message.empty() ? "" : " ") + rows.message;
+}
+
+void EditSession::State::measureGoal(const SessionSolver& solver, SessionUpdate& update) const {
+  const EditProblem& problem = solver.problem();
+  const RowValues rows = problem.constraints.evaluate(*update.motion, problem.timesOf(solver.point()->changes));
+  const int goal = static_cast<int>(problem.constraints.constraints().size()) - 1;
+  Errors of_nails, of_goal;
+  for (int i = 0; i < problem.constraints.size(); ++i) {
+    const bool is_goal = problem.constraints.rows()[static_cast<std::size_t>(i)].constraint == goal;
+    (is_goal ? of_goal : of_nails).add(rows.residuals[i], rows.scaled[i]);
+  }
+  update.scaled_distance = of_goal.scaled;
+  update.reached = of_goal.scaled <= options.tolerance;
+  putNails(of_nails, options.tolerance, update);
+}
+
+void EditSession::State::measureDrag(SessionUpdate& update) const {
+  const SessionGesture& record = drag->record;
+  const BodyState state = stateAtMoment(*update.motion, record.body, record.at, "dragTo");
+  const Vec3 place = state.position + state.orientation * record.grip.body_point.value_or(Vec3::Zero());
+  Vec3 away = place - drag->place;
+  const std::vector<std::string>& held = record.grip.components;
+  for (int k = 0; k < 3; ++k)
+    if (!held.empty() && std::find(held.begin(), held.end(), std::string(1, "xyz"[k])) == held.end()) away[k] = 0;
+  update.distance = away.norm();
+  if (drag->orientation) update.turn = logSO3(state.orientation * drag->orientation->normalized().conjugate()).norm();
+}
+
+void EditSession::State::describe(SessionSolver& solver, SessionUpdate& update) const {
+  std::vector<std::string> sentences;
+  if (!update.reached) {
+    const ConstraintSet& constraints = solver.problem().constraints;
+    const int goal = static_cast<int>(constraints.constraints().size()) - 1;
+    const std::string name = constraints.describeConstraint(goal);
+    if (update.scaled_nail_error > options.tolerance)
+      sentences.push_back("The nails are missed by up to " + number(update.nail_error) + ".");
+    if (drag && update.distance > 0)
+      sentences.push_back(name + " stays " + number(update.distance) + " m from where it is dragged to.");
+    if (!drag && update.scaled_distance > options.tolerance)
+      sentences.push_back("The nail of " + name + " is not met.");
+    sentences.push_back(update.cut_by_clock ? "The clock ended the update." : solver.describeObstacle());
+  }
+  const std::string change = solver.describeSequenceChange();
+  update.sequence_changed = !change.empty();
+  if (!change.empty()) sentences.push_back(change);
+  for (const std::string& note : solver.problem().controls.notes()) sentences.push_back(note);
+  for (const std::string& sentence : sentences) update.message += (update.message.empty() ? "" : " ") + sentence;
+}
+
+void EditSession::State::takeOver(const SessionSolver& solver, const SessionUpdate& update) {
+  if (solver.atStart()) return;
+  now.scene = update.motion->scene;
+  if (options.measure_from == MeasureFrom::start)
+    now.changes = solver.point()->changes.head(solver.problem().controls.size());
+}
+
+}  // namespace carom

@@ -1,0 +1,140 @@
+#include "editing/solve/edit_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "adjoint/errors.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t kRecentPoints = 4;
+/// An impact that is held may come later than at the start: so much of its time is simulated at first.
+constexpr double kMarginAfterLast = 1.25;
+/// Longest time budget that a clock can add.
+constexpr double kLongestBudget = 1e8;
+
+}  // namespace
+
+EditSearch::EditSearch(const EditProblem& problem, const EditOptions& options)
+    : problem_(problem), options_(options), lower_(problem.lower()), upper_(problem.upper()), until_(problem.horizon) {
+  if (options.time_budget_seconds < kLongestBudget) {
+    using Clock = std::chrono::steady_clock;
+    const std::chrono::duration<double> budget(std::max(0.0, options.time_budget_seconds));
+    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(budget);
+  }
+}
+
+bool EditSearch::expired() {
+  if (deadline_ && std::chrono::steady_clock::now() >= *deadline_ && halt_ == Halt::none) halt_ = Halt::out_of_time;
+  return halt_ != Halt::none;
+}
+
+bool EditSearch::step(double objective, double violation) {
+  ++iterations_;
+  if (expired()) return false;
+  if (!silent_ && options_.progress && !options_.progress({iterations_, objective, violation})) halt_ = Halt::cancelled;
+  return halt_ == Halt::none;
+}
+
+void readRows(const EditProblem& problem, EditPoint& point) {
+  point.rows = problem.constraints.evaluate(point.motion, problem.timesOf(point.changes));
+  point.violation = 0;
+  for (double residual : point.rows.scaled) point.violation = std::max(point.violation, std::abs(residual));
+  for (double h : point.validity) point.violation = std::max(point.violation, -h);
+}
+
+EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
+                     const MotionMaker& maker) {
+  auto point = std::make_shared<EditPoint>();
+  point->changes = unknowns;
+  point->values = problem.valuesOf(unknowns);
+  if (maker.like) {
+    Replay replay = replayAt(problem, point->values, maker.like->motion, until, maker.contacts);
+    if (!replay.complete) return nullptr;
+    point->motion = std::move(replay.motion);
+  } else {
+    point->motion = simulateAt(problem, point->values, until, maker.contacts);
+  }
+  if (nearest_times && problem.times() > 0)
+    point->changes.tail(problem.times()) = problem.unknownTimes(problem.constraints.nearestTimes(point->motion));
+  point->validity = problem.validity.evaluate(problem.controls, point->values);
+  point->objective = problem.objective(unknowns);
+  readRows(problem, *point);
+  point->signature = point->motion.signature(problem.constraints.extentIn(point->motion, point->rows.times).events);
+  return point;
+}
+
+EditPointPtr EditSearch::evaluateStart() {
+  EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
+  if (!point->rows.available) return point;
+  until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
+  recent_.push_back(point);
+  consider(point);
+  return point;
+}
+
+EditPointPtr EditSearch::make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const {
+  if (!changes.allFinite()) return nullptr;
+  EditPointPtr point;
+  try {
+    point = pointAt(problem_, changes, until_, nearest_times, maker);
+    if (point && !point->rows.available && until_ < problem_.horizon)
+      point = pointAt(problem_, changes, problem_.horizon, nearest_times, maker);
+  } catch (const InputError&) {
+    return nullptr;  // this trial makes no sense (bodies overlap, moments are impossible): others may
+  }
+  return point && point->rows.available && point->rows.scaled.allFinite() ? point : nullptr;
+}
+
+EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_times) {
+  for (const EditPointPtr& point : recent_) {
+    if (!nearest_times && point->changes == changes) return point;
+  }
+  if (expired()) return nullptr;
+  const EditPointPtr point = make(changes, nearest_times, maker_);
+  if (!point) return nullptr;
+  if (recent_.size() == kRecentPoints) recent_.erase(recent_.begin());
+  recent_.push_back(point);
+  consider(point);
+  return point;
+}
+
+EditSearch EditSearch::branch(const MotionMaker& maker, bool silent) const {
+  EditSearch other(*this);
+  other.maker_ = maker;
+  other.silent_ = silent;
+  other.recent_.clear();
+  other.best_ = nullptr;
+  return other;
+}
+
+void differentiate(const EditProblem& problem, EditPoint& point) {
+  if (point.row_jacobian) return;
+  const Eigen::VectorXd rates = problem.rates(point.changes);
+  const Eigen::Index n = problem.controls.size(), k = problem.times();
+  Eigen::MatrixXd J(problem.constraints.size(), n + k);
+  J.leftCols(n) = jacobianByAdjoint(problem, point.values, point.motion, point.rows);
+  J.rightCols(k) = jacobianByTimes(problem, point.motion, point.rows);
+  J *= rates.asDiagonal();
+  const std::vector<Row>& rows = problem.constraints.rows();
+  for (Eigen::Index i = 0; i < J.rows(); ++i) J.row(i) /= rows[i].scale;
+  point.row_jacobian = std::move(J);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(problem.validity.size(), n + k);
+  H.leftCols(n) = problem.validity.jacobian(problem.controls, point.values) * rates.head(n).asDiagonal();
+  point.validity_jacobian = std::move(H);
+}
+
+void EditSearch::consider(const EditPointPtr& point) {
+  if (best_) {
+    if (options_.sequence == SequencePolicy::stay && point->signature != best_->signature) return;
+    const bool both = reached(*point) && reached(*best_);
+    const bool better = both ? point->objective < best_->objective : point->violation < best_->violation;
+    if (!better) return;
+  }
+  best_ = point;
+}
+
+}  // namespace carom

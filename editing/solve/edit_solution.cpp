@@ -1,0 +1,175 @@
+#include "editing/solve/edit_solution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editing/rows/dependence.h"
+#include "editing/rows/row_choice.h"
+#include "editing/search/sequence_search.h"
+#include "editing/solve/edit_program.h"
+#include "editing/solve/ipopt_solver.h"
+#include "editing/solve/projection.h"
+#include "editing/text.h"
+
+namespace carom {
+namespace {
+
+constexpr int kProjectionSteps = 15;
+constexpr int kPolishSteps = 15;
+/// Rounds of the search across impact sequences.
+constexpr int kRounds = 6;
+/// The same when the constraints stand against each other in the sequence of the start: mostly they do so in all.
+constexpr int kRoundsAgainstContradiction = 2;
+
+/// A point once more brought as near to the constraints as rounding allows, within its own impact sequence.
+EditPointPtr polished(EditSearch& search, const EditPointPtr& point) {
+  if (search.halt() != Halt::none) return point;
+  return projectOntoConstraints(search, point, kPolishSteps, &point->signature);
+}
+
+/// "position.x of 'hat' at 1.4 s by 0.02 and ..."
+std::string unmetRows(const EditSearch& search, const EditPoint& point) {
+  std::vector<std::string> unmet;
+  for (int i = 0; i < search.problem().constraints.size(); ++i) {
+    if (std::abs(point.rows.scaled[i]) <= search.options().tolerance) continue;
+    unmet.push_back(search.problem().constraints.describeRow(i) + " by " + number(point.rows.residuals[i]));
+  }
+  return listOf(unmet);
+}
+
+/// Whether even the linearised rows cannot be brought much nearer to their targets from here.
+bool isStuck(EditSearch& search, EditPoint& point) {
+  search.differentiate(point);
+  const double before = point.rows.scaled.norm();
+  const double after = residualsAfter(search, point, smallestStep(search, point)).norm();
+  return !(after < 0.5 * before);
+}
+
+EditSolution unsolved(EditSearch& search, EditSolution solution) {
+  const std::string nearest = "The nearest that was found misses " + unmetRows(search, *solution.point) + ".";
+  const bool stays = search.options().sequence == SequencePolicy::stay;
+  const std::string where = stays ? " within the impact sequence of the start" : "";
+  if (search.halt() == Halt::out_of_time) {
+    solution.status = EditStatus::out_of_time;
+    solution.message = "The time budget ran out before the constraints were met. " + nearest;
+  } else if (search.halt() == Halt::cancelled) {
+    solution.status = EditStatus::cancelled;
+    solution.message = "The edit was cancelled before the constraints were met. " + nearest;
+  } else if (isStuck(search, *solution.point)) {
+    solution.status = EditStatus::infeasible;
+    solution.message = "No way was found to meet all constraints" + where + " with these controls. " + nearest;
+  } else {
+    solution.status = EditStatus::not_converged;
+    solution.message = "The search ended after " + std::to_string(search.iterations()) +
+                       " iterations without meeting the constraints" + where + ". " + nearest;
+  }
+  return solution;
+}
+
+}  // namespace
+
+EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+                            const std::string* signature, int max_iterations) {
+  if (max_iterations <= 0) return from;
+  // From a point that meets the constraints the solver has only the change left to minimise.
+  const EditPointPtr projected = projectOntoConstraints(search, from, kProjectionSteps, signature);
+  const EditPointPtr start = search.reached(*projected) ? projected : from;
+  EditProgram program(search, start->changes, rows, signature);
+  SolverOptions options;
+  options.max_iterations = max_iterations;
+  options.tolerance = 1e-8;
+  options.constraint_tolerance = std::max(search.options().tolerance, 1e-10);
+  options.deadline = search.deadline();
+  const SolverResult result = solveWithIpopt(program, options);
+  EditPointPtr end = search.evaluate(result.x);
+  if (!end || (signature && end->signature != *signature)) return start;
+  end = projectOntoConstraints(search, end, kPolishSteps, signature);
+  const bool worse = search.reached(*start) && (!search.reached(*end) || end->objective > start->objective);
+  return worse ? start : end;
+}
+
+EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+                            int max_iterations) {
+  EditSearch smooth = search.branch({nullptr, from}, false);
+  const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
+  search.adopt(smooth);
+  const EditPointPtr real = search.make(end->changes, false, {});
+  if (real) search.consider(real);
+  return real;
+}
+
+EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {
+  search.differentiate(*point);
+  const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
+  return minimiseChange(search, point, split.independent, &point->signature,
+                        std::min(max_iterations, search.iterationsLeft()));
+}
+
+namespace {
+
+/// The smallest change within the impact sequence of the start; null where none was found. First as if its features had
+/// no edges: trials may leave the sequence on the way, and where they end outside of it they show where to look.
+EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start,
+                             ShootingReport& shooting) {
+  const bool may_leave = search.options().sequence != SequencePolicy::stay;
+  const int iterations = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
+  const auto solves = [&](const EditPointPtr& point) {
+    return point && search.reached(*point) && point->signature == start->signature;
+  };
+  if (wantsSegments(search, *start, shooting)) {
+    const EditPointPtr shot = shootInSegments(search, choice.from, choice.rows, iterations / 2, shooting);
+    if (solves(shot)) return shot;
+    if (!search.goesOn() || (shot && search.options().shooting == Shooting::multiple)) return nullptr;
+  }
+  const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations / 2);
+  if (solves(followed)) return followed;
+  if (!search.goesOn()) return nullptr;
+  const EditPointPtr inside = minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
+  return solves(inside) ? inside : nullptr;
+}
+
+/// Distinct solutions until there are as many as the options ask for, the smallest change first.
+std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch& across, const EditPointPtr& first) {
+  across.add(first);
+  while (static_cast<int>(across.solutions().size()) < search.options().alternatives && across.round()) continue;
+  return across.solutions();
+}
+
+}  // namespace
+
+EditSolution findSolution(EditSearch& search) {
+  EditSolution solution;
+  const EditPointPtr start = solution.start = solution.point = search.evaluateStart();
+  if (!start->rows.available) {
+    solution.status = EditStatus::bad_start;
+    solution.message = start->rows.message;
+    return solution;
+  }
+  if (search.reached(*start)) {
+    solution.status = EditStatus::solved;
+    return solution;
+  }
+  const bool may_leave = search.options().sequence != SequencePolicy::stay;
+  const RowChoice choice = chooseRows(search, start);
+  const bool contradicts = !choice.contradiction.empty();  // in this impact sequence at least
+  const EditPointPtr inside = contradicts ? nullptr : solveInSequence(search, choice, start, solution.shooting);
+  SequenceSearch across(search, start);
+  for (int rounds = contradicts ? kRoundsAgainstContradiction : kRounds;
+       may_leave && !inside && rounds > 0 && across.solutions().empty() && across.round(); --rounds) {
+  }
+
+  solution.point = polished(search, inside ? inside : search.best());
+  if (!search.reached(*solution.point)) {
+    if (contradicts && search.halt() == Halt::none) {
+      solution.status = EditStatus::infeasible;
+      solution.message = choice.contradiction;
+      return solution;
+    }
+    return unsolved(search, std::move(solution));
+  }
+  solution.status = EditStatus::solved;
+  if (may_leave && search.options().alternatives > 1) solution.others = moreSolutions(search, across, solution.point);
+  return solution;
+}
+
+}  // namespace carom

@@ -1,0 +1,191 @@
+#include "editing/solve/projection.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+namespace {
+
+/// Validity rows nearer than this to their limit are held at it.
+constexpr double kActiveValidity = 1e-6;
+/// Steps across the border of an impact sequence that may make things worse at first.
+constexpr int kLeaps = 8;
+/// Where rounding leaves nothing to improve.
+constexpr double kExact = 1e-14;
+/// Steps of a free time count so much less than those of a control.
+constexpr double kTimeIsCheap = 100;
+/// A step that leaves a range by more than this, dimensionless, is taken again with the range held.
+constexpr double kLeavesRange = 1e-12;
+
+/// Damping of steps, against rows of unit length: it grows until a step succeeds, and falls from one to the next.
+constexpr double kLeastDamping = 1e-5, kMostDamping = 20, kMoreDamping = 10, kLessDamping = 100;
+
+struct System {
+  Eigen::MatrixXd J;
+  Eigen::VectorXd r;
+
+  void add(const Eigen::MatrixXd& from, Eigen::Index row, double residual) {
+    J.conservativeResize(J.rows() + 1, from.cols());
+    r.conservativeResize(J.rows());
+    // Rows of one length: the rank is judged by their directions.
+    const double norm = from.row(row).norm(), length = norm > 0 ? norm : 1;
+    J.bottomRows<1>() = from.row(row) / length;
+    r[r.size() - 1] = residual / length;
+  }
+};
+
+/// The rows to bring to zero: what is held at a number, ranges that `active` names, and what would be invalid or is
+/// about to be.
+System systemAt(const EditProblem& problem, const EditPoint& point, const std::vector<int>& active) {
+  System system;
+  for (int i : problem.constraints.equations()) system.add(*point.row_jacobian, i, point.rows.scaled[i]);
+  for (int i : active) {
+    const Row& row = problem.constraints.rows()[i];
+    const double value = point.rows.values[i];
+    const double limit = std::abs(value - row.lower) < std::abs(value - row.upper) ? row.lower : row.upper;
+    system.add(*point.row_jacobian, i, (value - limit) / row.scale);
+  }
+  for (int i = 0; i < point.validity.size(); ++i)
+    if (point.validity[i] < 0) system.add(*point.validity_jacobian, i, point.validity[i] - kActiveValidity);
+  if (system.r.size() == 0) system.J.resize(0, point.changes.size());
+  return system;
+}
+
+/// Smallest x with A x = b (least squares where that is impossible); with damping the smallest |A x - b|^2 + damping
+/// |x|^2, which does not follow directions that hardly move the rows.
+Eigen::VectorXd smallestSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double damping) {
+  if (damping > 0) {
+    Eigen::MatrixXd normal = A * A.transpose();
+    normal.diagonal().array() += damping;
+    return A.transpose() * normal.ldlt().solve(b);
+  }
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(1e-10);
+  decomposition.compute(A);
+  return decomposition.solve(b);
+}
+
+/// Smallest step with J step = -r that stays within the bounds: numbers that would leave them stop there, and the
+/// others make up for it.
+Eigen::VectorXd boundedStep(const System& system, double damping, const Eigen::VectorXd& at,
+                            const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  const Eigen::Index n = at.size();
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(n), r = system.r;
+  std::vector<Eigen::Index> free(static_cast<std::size_t>(n));
+  for (Eigen::Index j = 0; j < n; ++j) free[static_cast<std::size_t>(j)] = j;
+  while (!free.empty()) {
+    const Eigen::VectorXd wanted = -smallestSolution(system.J(Eigen::all, free), r, damping);
+    std::vector<Eigen::Index> still_free;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const Eigen::Index j = free[k];
+      const double inside = std::clamp(at[j] + wanted[static_cast<Eigen::Index>(k)], lower[j], upper[j]) - at[j];
+      step[j] = inside;
+      if (inside == wanted[static_cast<Eigen::Index>(k)] ||
+          std::abs(inside - wanted[static_cast<Eigen::Index>(k)]) <= 1e-15 * (1 + std::abs(at[j]))) {
+        still_free.push_back(j);
+      } else {
+        r += system.J.col(j) * inside;
+      }
+    }
+    if (still_free.size() == free.size()) break;
+    free = std::move(still_free);
+  }
+  return step;
+}
+
+}  // namespace
+
+Eigen::VectorXd residualsAfter(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& step) {
+  const ConstraintSet& constraints = search.problem().constraints;
+  Eigen::VectorXd residuals = *point.row_jacobian * step;
+  for (int i = 0; i < constraints.size(); ++i) {
+    const double scale = constraints.rows()[i].scale;
+    residuals[i] = constraints.residual(i, point.rows.values[i] + residuals[i] * scale) / scale;
+  }
+  return residuals;
+}
+
+// Ranges that the step would leave are held at their limits in another try, until none is left out.
+Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, double damping) {
+  const EditProblem& problem = search.problem();
+  std::vector<int> active;
+  for (int i : problem.constraints.ranges())
+    if (point.rows.residuals[i] != 0) active.push_back(i);
+  // A free time costs nothing, so that it goes most of the way.
+  const Eigen::Index n = problem.controls.size(), times = problem.times();
+  const auto stretched = [&](Eigen::VectorXd v, double factor) {
+    v.tail(times) *= factor;
+    return v;
+  };
+  for (;;) {
+    System system = systemAt(problem, point, active);
+    system.J.rightCols(times) *= kTimeIsCheap;
+    Eigen::VectorXd step =
+        boundedStep(system, damping, stretched(point.changes, 1 / kTimeIsCheap),
+                    stretched(search.lower(), 1 / kTimeIsCheap), stretched(search.upper(), 1 / kTimeIsCheap));
+    step = stretched(std::move(step), kTimeIsCheap);
+    if (problem.constraints.ranges().empty()) return step;
+    const Eigen::VectorXd after = residualsAfter(search, point, step);
+    const std::size_t before = active.size();
+    for (int i : problem.constraints.ranges())
+      if (std::abs(after[i]) > kLeavesRange && std::find(active.begin(), active.end(), i) == active.end())
+        active.push_back(i);
+    if (active.size() == before || active.size() > static_cast<std::size_t>(n + times)) return step;
+  }
+}
+
+namespace {
+
+/// The first point along a step with a smaller violation; null where there is none. `full` is the one at its end.
+EditPointPtr descend(EditSearch& search, const EditPoint& from, const Eigen::VectorXd& step,
+                     const std::string* signature, EditPointPtr& full) {
+  for (double length = 1; length > 0.01 && search.halt() == Halt::none; length /= 2) {
+    EditPointPtr trial = search.evaluate(from.changes + length * step);
+    if (!trial || (signature && trial->signature != *signature)) continue;
+    if (length == 1) full = trial;
+    if (trial->violation < from.violation) return trial;
+  }
+  return nullptr;
+}
+
+/// A damped step with a smaller violation, the least damping first; null where there is none.
+EditPointPtr descendDamped(EditSearch& search, const EditPoint& from, const std::string* signature, double& damping) {
+  for (damping = std::max(damping / kLessDamping, kLeastDamping);
+       damping <= kMostDamping && search.halt() == Halt::none; damping *= kMoreDamping) {
+    EditPointPtr trial = search.evaluate(from.changes + smallestStep(search, from, damping));
+    if (!trial || (signature && trial->signature != *signature)) continue;
+    if (trial->violation < from.violation) return trial;
+  }
+  damping = 0;
+  return nullptr;
+}
+
+}  // namespace
+
+EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int max_steps,
+                                    const std::string* signature) {
+  EditPointPtr point = std::move(from), nearest = point;
+  int leaps = 0;
+  double damping = 0;
+  for (int k = 0; k < max_steps && point->violation > kExact; ++k) {
+    search.differentiate(*point);
+    if (!point->row_jacobian->allFinite()) break;
+    EditPointPtr full, next;
+    if (damping <= kLeastDamping) next = descend(search, *point, smallestStep(search, *point), signature, full);
+    // At the border of two impact sequences the violation may have a kink that no descent leaves.
+    const bool may_leap = !signature && full && leaps < kLeaps && full->signature != point->signature;
+    if (!next && may_leap) next = full, ++leaps;
+    // Where even a short way along the undamped step is too far, the rows are nearly dependent.
+    const bool nearly_met = point->violation <= search.options().tolerance;
+    if (!next && !nearly_met) next = descendDamped(search, *point, signature, damping);
+    if (!next) break;
+    point = std::move(next);
+    if (point->violation < nearest->violation) nearest = point;
+    if (!search.step(point->objective, point->violation)) break;
+  }
+  return nearest;
+}
+
+}  // namespace carom
