@@ -13,7 +13,7 @@
 namespace carom {
 namespace {
 
-constexpr int kRounds = 6;
+constexpr int kRounds = 8;
 constexpr int kSamples = 64;
 /// Of each group so many points, the nearest to the constraints, are looked at more closely.
 constexpr std::size_t kOfEachGroup = 2;
@@ -23,16 +23,25 @@ constexpr std::size_t kMinimised = 3;
 constexpr int kMinimisingIterations = 40;
 /// A step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 1.5;
+/// A solution from which the change could still fall by this share, if it were not for the border of its sequence.
+constexpr double kAtBorder = 0.05;
+/// Once there is a solution only points from which the change is expected to be smaller than this share of it count.
+constexpr double kClearlySmaller = 0.9;
 /// Solutions of one sequence whose changes differ by less than this share of them are the same.
 constexpr double kSameChange = 0.1;
 
+// Around a point that meets the constraints the step is one towards a smaller change: along the free directions, which
+// matters at the border of a sequence, or else back to the start.
 Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
   search.differentiate(point);
   const Eigen::MatrixXd& J = *point.row_jacobian;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J.transpose());
   qr.setThreshold(1e-9);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  return {point.changes, smallestStep(search, point), Q.rightCols(J.cols() - qr.rank())};
+  const Eigen::MatrixXd Q = qr.householderQ(), free = Q.rightCols(J.cols() - qr.rank());
+  if (!search.reached(point)) return {point.changes, smallestStep(search, point), free};
+  const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
+  const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();
+  return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
 }
 
 }  // namespace
@@ -54,12 +63,12 @@ void SequenceSearch::forAll(std::size_t count, const Work& work) {
   });
 }
 
-bool SequenceSearch::round() {
+bool SequenceSearch::round(Seek seek) {
   if (search_.problem().unknowns() == 0) return false;  // nowhere to go
   if (round_ == kRounds || !search_.goesOn()) return false;
   const std::vector<EditPointPtr> points = sample();
   if (!reportBatch()) return false;
-  const std::vector<EditPointPtr> landed = land(promising(points));
+  const std::vector<EditPointPtr> landed = land(promising(points, seek), seek);
   if (!reportBatch()) return false;
   minimise(landed);
   ++round_;
@@ -89,23 +98,33 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
 
 // Those from which the linearised rows lead to the smallest change by the shortest step, sequences that were not tried
 // often first.
-std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointPtr>& points) {
+std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointPtr>& points, Seek seek) {
   std::map<std::string, std::vector<EditPointPtr>> groups;
-  for (const EditPointPtr& point : points) groups[point->signature].push_back(point);
+  for (const EditPointPtr& point : points)
+    if (seek != Seek::smaller_inside || point->signature == start_->signature)
+      groups[point->signature].push_back(point);
   std::vector<std::pair<double, EditPointPtr>> ranked;
   for (auto& [signature, group] : groups) {
     std::stable_sort(group.begin(), group.end(),
                      [](const EditPointPtr& a, const EditPointPtr& b) { return a->violation < b->violation; });
-    group.resize(std::min(group.size(), kOfEachGroup));
+    group.resize(std::min(group.size(), seek == Seek::smaller_inside ? kLandings : kOfEachGroup));
     for (const EditPointPtr& point : group) ranked.push_back({0, point});
   }
+  const bool improving = seek != Seek::anything && !solutions_.empty();
+  const double largest =
+      improving ? kClearlySmaller * std::sqrt(2 * solutions_.front()->objective) : std::numeric_limits<double>::max();
+  const auto controlsOf = [&](const Eigen::VectorXd& changes) {
+    return changes.head(search_.problem().controls.size());
+  };
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     auto& [score, point] = ranked[i];
     search_.differentiate(*point);
     const Eigen::VectorXd step = smallestStep(search_, *point);
+    const double change = controlsOf(point->changes + step).norm();
     score = (point->changes + step).norm() + kStepsAreUncertain * step.norm();
-    if (!std::isfinite(score)) score = std::numeric_limits<double>::infinity();
+    if (!std::isfinite(score) || change > largest) score = std::numeric_limits<double>::infinity();
   });
+  if (improving) std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
   for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   ranked.resize(std::min(ranked.size(), kLandings));
@@ -117,12 +136,13 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
   return chosen;
 }
 
-std::vector<EditPointPtr> SequenceSearch::land(const std::vector<EditPointPtr>& candidates) {
+std::vector<EditPointPtr> SequenceSearch::land(const std::vector<EditPointPtr>& candidates, Seek seek) {
+  const std::string* within = seek == Seek::smaller_inside ? &start_->signature : nullptr;
   std::vector<EditPointPtr> landed(candidates.size());
   std::vector<int> steps(candidates.size(), 0);
   forAll(candidates.size(), [&](std::size_t i, ContactSource& contacts) {
     EditSearch branch = search_.branch({&contacts, nullptr}, true);
-    landed[i] = projectOntoConstraints(branch, candidates[i], kLandingSteps);
+    landed[i] = projectOntoConstraints(branch, candidates[i], kLandingSteps, within);
     steps[i] = branch.iterations() - search_.iterations();
   });
   for (const EditPointPtr& point : landed) search_.consider(point);

@@ -19,8 +19,11 @@ class SequenceSearch {
  public:
   SequenceSearch(EditSearch& search, EditPointPtr start);
 
+  /// What a round looks for once there is a solution: others, only such as change clearly less, or of those only such
+  /// as stay in the sequence of the start.
+  enum class Seek { anything, smaller, smaller_inside };
   /// False when there was nothing left to do.
-  bool round();
+  bool round(Seek seek = Seek::anything);
   /// Distinct solutions, the smallest change first.
   const std::vector<EditPointPtr>& solutions() const { return solutions_; }
   /// Takes a solution in, unless it is one of those that are known already.
@@ -28,8 +31,8 @@ class SequenceSearch {
 
  private:
   std::vector<EditPointPtr> sample();
-  std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points);
-  std::vector<EditPointPtr> land(const std::vector<EditPointPtr>& candidates);
+  std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points, Seek seek);
+  std::vector<EditPointPtr> land(const std::vector<EditPointPtr>& candidates, Seek seek);
   void minimise(const std::vector<EditPointPtr>& landed);
   bool reportBatch();
   template <class Work>

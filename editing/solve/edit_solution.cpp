@@ -18,7 +18,11 @@ constexpr int kProjectionSteps = 15;
 constexpr int kPolishSteps = 15;
 /// Rounds of the search across impact sequences.
 constexpr int kRounds = 6;
-/// The same when the constraints stand against each other in the sequence of the start: mostly they do so in all.
+/// More of them after the first solution, for smaller ones.
+constexpr int kRoundsToImprove = 2;
+/// Of the objective: a fifth of a natural scale.
+constexpr double kLargeChange = 0.02;
+/// Rounds when the constraints stand against each other in the sequence of the start: mostly they do so in all.
 constexpr int kRoundsAgainstContradiction = 2;
 
 /// A point once more brought as near to the constraints as rounding allows, within its own impact sequence.
@@ -55,13 +59,14 @@ EditSolution unsolved(EditSearch& search, EditSolution solution) {
   } else if (search.halt() == Halt::cancelled) {
     solution.status = EditStatus::cancelled;
     solution.message = "The edit was cancelled before the constraints were met. " + nearest;
-  } else if (isStuck(search, *solution.point)) {
+  } else if (search.iterationsLeft() > 0 && isStuck(search, *solution.point)) {
     solution.status = EditStatus::infeasible;
     solution.message = "No way was found to meet all constraints" + where + " with these controls. " + nearest;
   } else {
     solution.status = EditStatus::not_converged;
-    solution.message = "The search ended after " + std::to_string(search.iterations()) +
-                       " iterations without meeting the constraints" + where + ". " + nearest;
+    const std::string limit = search.iterationsLeft() > 0 ? "" : ", its limit,";
+    solution.message = "The search ended after " + std::to_string(search.iterations()) + " iterations" + limit +
+                       " without meeting the constraints" + where + ". " + nearest;
   }
   return solution;
 }
@@ -135,6 +140,12 @@ std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch
   return across.solutions();
 }
 
+/// The smaller of a solution and the best that the search knows.
+EditPointPtr smallestOf(const EditPointPtr& inside, const SequenceSearch& across) {
+  if (across.solutions().empty() || across.solutions().front()->objective >= inside->objective) return inside;
+  return across.solutions().front();
+}
+
 }  // namespace
 
 EditSolution findSolution(EditSearch& search) {
@@ -157,8 +168,14 @@ EditSolution findSolution(EditSearch& search) {
   for (int rounds = contradicts ? kRoundsAgainstContradiction : kRounds;
        may_leave && !inside && rounds > 0 && across.solutions().empty() && across.round(); --rounds) {
   }
+  // The first that is found across sequences is seldom the smallest, nor is a large change within one.
+  const bool large = inside && inside->objective > kLargeChange;
+  if (large) across.add(inside);
+  const auto seek = large ? SequenceSearch::Seek::smaller_inside : SequenceSearch::Seek::smaller;
+  for (int rounds = kRoundsToImprove; !across.solutions().empty() && rounds > 0 && across.round(seek); --rounds) {
+  }
 
-  solution.point = polished(search, inside ? inside : search.best());
+  solution.point = polished(search, inside ? smallestOf(inside, across) : search.best());
   if (!search.reached(*solution.point)) {
     if (contradicts && search.halt() == Halt::none) {
       solution.status = EditStatus::infeasible;
