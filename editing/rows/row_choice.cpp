@@ -40,6 +40,14 @@ std::string offBy(const EditSearch& search, const EditPoint& point, int row) {
   return constraints.describeRow(row) + " (off by " + number(point.rows.residuals[row]) + ")";
 }
 
+/// With the number that it shall have, where it is one that can be read: two nails of one thing are told apart by it.
+std::string withTarget(const ConstraintSet& constraints, int index) {
+  const Row& row = constraints.rows()[static_cast<std::size_t>(index)];
+  const bool turn = row.name.rfind("orientation", 0) == 0;
+  if (turn || !std::isfinite(row.wanted)) return constraints.describeRow(index);
+  return constraints.describeRow(index) + " = " + number(row.wanted);
+}
+
 std::string explainContradictions(const EditSearch& search, const EditPoint& start, const RowSplit& split) {
   std::string text;
   const ConstraintSet& constraints = search.problem().constraints;
@@ -54,8 +62,8 @@ std::string explainContradictions(const EditSearch& search, const EditPoint& sta
     const double off = contradictionOf(split, dependent, start.rows.scaled);
     if (std::abs(off) <= kContradiction * size) continue;
     std::vector<std::string> others;
-    for (int row : dependent.on) others.push_back(constraints.describeRow(row));
-    text += (text.empty() ? "" : " ") + constraints.describeRow(dependent.row) + " cannot be met together with " +
+    for (int row : dependent.on) others.push_back(withTarget(constraints, row));
+    text += (text.empty() ? "" : " ") + withTarget(constraints, dependent.row) + " cannot be met together with " +
             listOf(others) + ": the controls move them only together.";
   }
   return text;

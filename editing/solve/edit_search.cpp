@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kRecentPoints = 4;
 /// An impact that is held may come later than at the start: so much of its time is simulated at first.
 constexpr double kMarginAfterLast = 1.25;
+/// No number is followed further than this, in natural scales: where constraints stand against each other steps may
+/// lead to any speed and spin, and so to motions of any cost.
+constexpr double kFarthest = 1e3;
 /// Longest time budget that a clock can add.
 constexpr double kLongestBudget = 1e8;
 
@@ -78,6 +81,8 @@ EditPointPtr EditSearch::evaluateStart() {
 
 EditPointPtr EditSearch::make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const {
   if (!changes.allFinite()) return nullptr;
+  const Eigen::Index n = problem_.controls.size();
+  if (n > 0 && changes.head(n).cwiseAbs().maxCoeff() > kFarthest) return nullptr;
   EditPointPtr point;
   try {
     point = pointAt(problem_, changes, until_, nearest_times, maker);

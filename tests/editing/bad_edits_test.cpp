@@ -9,6 +9,7 @@
 #include "adjoint/errors.h"
 #include "editing/edit.h"
 #include "editing/solve/bounded_least_squares.h"
+#include "editing/solve/edit_search.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
@@ -59,6 +60,19 @@ TEST(BadEdits, ContradictoryNails) {
   EXPECT_EQ(r.why_not.conflicts[0].rows, (std::vector<int>{1, 3})) << allOf(r.why_not);
   EXPECT_NE(allOf(r.why_not).find("stand against each other"), std::string::npos);
   for (const WhyNot::Help& help : r.why_not.would_help) EXPECT_FALSE(help.solves) << help.name;
+}
+
+// Where nails stand against each other steps lead to any spin, and a motion of any spin costs any time and memory.
+TEST(BadEdits, PointsTooFarAwayAreNotSimulated) {
+  const Scene scene = floorAndWall();
+  OdeContacts contacts(scene);
+  const EditProblem problem(scene, contacts, 0.6, {angularVelocity("ball")},
+                            {Constraint{"ball", 0.5, {Target{"position", {0.5, 0, 1}}}}});
+  EditOptions options;
+  EditSearch search(problem, options);
+  ASSERT_TRUE(search.evaluateStart());
+  EXPECT_TRUE(search.evaluate(Vec3(0, 0, 900)));
+  EXPECT_FALSE(search.evaluate(Vec3(0, 0, 1e12)));
 }
 
 TEST(BadEdits, MoreHeldThanCanVary) {
