@@ -205,6 +205,8 @@ std::string editJson(const EditResult& result, const std::vector<std::string>& o
   out.key("scaled_residual").number(result.scaled_residual);
   out.key("objective").number(result.objective);
   out.key("iterations").integer(result.iterations);
+  out.key("growth").number(result.growth);
+  out.key("segments").integer(result.segments);
   out.key("milliseconds").number(result.milliseconds);
   writeLines(out, "sequence_before", result.sequence_before);
   writeLines(out, "sequence_after", result.sequence_after);

@@ -6,6 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "bench/machine.h"
+
 namespace carom::bench {
 namespace {
 
@@ -126,6 +128,7 @@ void writeOutcomes(const std::string& file, const std::vector<Task>& tasks, cons
 void writeSummary(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
                   const BestKnown& best) {
   const File out = openForWriting(file);
+  std::fprintf(out.get(), "# %s\n", machineLine().c_str());
   std::fprintf(
       out.get(),
       "configuration,label,tasks,met,ball,box,hull,meeting,at_a_time,at_an_impact,pose,two_nails,"

@@ -140,9 +140,11 @@ TEST_P(OnScene, EditMeetsEveryConstraintAndWritesTheScene) {
   const json answer = runJson({"edit", path(), "-o", edited});
   EXPECT_EQ(readText(path()), before);
   EXPECT_EQ(membersOf(answer),
-            (Names{"alternatives", "certificate", "changed", "iterations", "message", "milliseconds", "objective",
-                   "output", "reliable", "residual", "residuals", "scaled_residual", "sequence_after",
-                   "sequence_before", "sequence_changes", "signature_changed", "status", "times", "why_not"}));
+            (Names{"alternatives",    "certificate",      "changed",           "growth",   "iterations",
+                   "message",         "milliseconds",     "objective",         "output",   "reliable",
+                   "residual",        "residuals",        "scaled_residual",   "segments", "sequence_after",
+                   "sequence_before", "sequence_changes", "signature_changed", "status",   "times",
+                   "why_not"}));
   EXPECT_TRUE(answer["why_not"].is_null());
   EXPECT_TRUE(answer["certificate"]["deepest_penetration"].get<double>() <= 1e-9) << answer["certificate"];
   EXPECT_EQ(answer["output"], edited);
