@@ -23,6 +23,8 @@ class Random {
   std::uint64_t state_;
 };
 
+constexpr double kWall = 2.5;  // m
+
 Scene room(double elasticity, double friction) {
   Scene scene;
   scene.materials = {{.name = "floor", .elasticity = elasticity, .friction = friction},
@@ -33,7 +35,7 @@ Scene room(double elasticity, double friction) {
     scene.bodies.push_back(body);
   };
   plane("floor", Vec3::UnitZ(), 0);
-  plane("wall", -Vec3::UnitX(), -2.5);
+  plane("wall", -Vec3::UnitX(), -kWall);
   return scene;
 }
 
@@ -59,6 +61,16 @@ DragCase oneBox() {
   c.controls = {position("box"), orientation("box"), velocity("box"), angularVelocity("box"), elasticity("toy"),
                 friction("toy"), mass("box"),        inertia("box"),  tilt("box", 1)};
   c.body = "box", c.at = 1.1;
+  return c;
+}
+
+/// Dragged against the wall, and to places behind it.
+DragCase boxAtTheWall() {
+  DragCase c = oneBox();
+  c.name = "box at a wall";
+  c.scene.bodies.back().velocity = {2.2, 0.1, 1.5};
+  c.at = 1.0;
+  c.farthest_x = kWall - 0.5 * 0.1;  // its flattest side against the wall
   return c;
 }
 
@@ -110,6 +122,7 @@ std::vector<DragCase> dragCases() {
   return {oneBall(),
           oneBox(),
           nailedBox(),
+          boxAtTheWall(),
           threeBodies(),
           tenBodies("ten balls", Sphere{0.1}, 1.2),
           tenBodies("ten boxes", Box{{0.22, 0.16, 0.12}}, 1.0)};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,9 @@ struct DragCase {
   When at = 1.0;
   Grip grip = {};
   double wide = 0.3;  ///< m, half the width of the path of the mouse
-  double limit = 4;   ///< ms, that 95 of 100 updates are to keep
+  /// m; a target with a larger x is behind a wall, where nothing brings the body.
+  double farthest_x = std::numeric_limits<double>::infinity();
+  double limit = 4;  ///< ms, that 95 of 100 updates are to keep
 };
 std::vector<DragCase> dragCases();
 

@@ -59,6 +59,7 @@ void EditSession::State::begin(const Scene& scene, std::vector<Control> controls
   now.controls = std::move(controls);
   for (Constraint& nail : nails) now.nails.push_back({{next_nail++}, std::move(nail)});
   last.motion = simulated(now.scene);
+  last.message = earlyEnd(*last.motion);
   measureNails(last);
 }
 
@@ -160,7 +161,7 @@ SessionUpdate EditSession::State::stay(const std::string& message) {
   const auto began_at = std::chrono::steady_clock::now();
   SessionUpdate update;
   update.motion = last.motion;
-  update.message = message;
+  update.message = message.empty() ? earlyEnd(*update.motion) : message;
   measureNails(update);
   update.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began_at).count();
   return last = std::move(update);

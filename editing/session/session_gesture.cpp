@@ -121,7 +121,7 @@ SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<
   measureDrag(update);
   describe(solver, update);
   DragTarget target{millisecondsSinceStart(), place, orientation, std::nullopt};
-  if (work.cutByClock()) target.cut_after = work.done();
+  target.cut_after = work.cutAfter();
   drag->record.targets.push_back(target);
   update.milliseconds = millisecondsSince(began_at);
   return last = std::move(update);
@@ -148,7 +148,7 @@ SessionUpdate EditSession::State::endDrag(SessionGesture::Ending ending) {
     update.stage = solver.atStart() ? SessionStage::kept : SessionStage::solved;
     update.iterations = solver.iterations() - steps;
     update.cut_by_clock = work.cutByClock();
-    if (work.cutByClock()) ended.record.cut_after = work.done();
+    ended.record.cut_after = work.cutAfter();
     measureGoal(solver, update);
     drag = std::move(ended);  // where the distance is measured
     measureDrag(update);
@@ -194,7 +194,7 @@ NailId EditSession::State::addNail(Constraint constraint) {
   update.iterations = solver->iterations();
   update.simulations = fast.done();
   update.cut_by_clock = work.cutByClock();
-  if (work.cutByClock()) gesture.cut_after = work.done();
+  gesture.cut_after = work.cutAfter();
   remember(now);
   now.nails.push_back({{next_nail++}, std::move(constraint)});
   if (!solver->atStart()) takeOver(*solver, update);

@@ -24,10 +24,12 @@ struct SessionOptions {
   MeasureFrom measure_from = MeasureFrom::grab;
   SequencePolicy sequence = SequencePolicy::prefer_start;  ///< stay: no gesture changes which impacts happen
   double tolerance = 1e-9;                                 ///< of every number that is held, dimensionless
-  int drag_simulations = 8;                                ///< at most, for one update
-  int release_iterations = 200;                            ///< at most, when a gesture ends
+  /// At most, for one update. A motion of m bodies that move counts m / 5 where more than 5 move in the scene, m / all
+  /// where fewer do: parts of the scene are simulated on their own where nothing else matters.
+  int drag_simulations = 14;
+  int release_iterations = 200;  ///< at most, when a gesture ends
   double drag_seconds = 0.25;
-  double release_seconds = 3;
+  double release_seconds = 2;
 };
 
 /// How a body is held while it is dragged.

@@ -4,6 +4,8 @@
 
 #include <Eigen/SVD>
 
+#include "editing/verdict/event_margins.h"
+
 namespace carom {
 namespace {
 
@@ -11,6 +13,12 @@ namespace {
 constexpr double kSharp = 0.02;
 /// Other ranks of the change are smaller than this share of the first: else it is no kink but a jump.
 constexpr double kOneRank = 0.3;
+/// A border is crossed on the way where that is so, to first order, after so much of it.
+constexpr double kOnTheWay = 1.3;
+/// Share of the way to a border that may be taken.
+constexpr double kBefore = 0.9;
+/// Borders cost a pass each for several of them at every impact.
+constexpr std::size_t kMostEvents = 16;
 
 }  // namespace
 
@@ -29,6 +37,30 @@ std::optional<Kink> kinkBetween(const EditProblem& problem, const EditPoint& a, 
   const double side_a = kink.normal.dot(a.changes) - kink.offset, side_b = kink.normal.dot(b.changes) - kink.offset;
   if (!(side_a * side_b < 0)) return std::nullopt;
   return kink;
+}
+
+std::vector<Kink> jumpsBetween(const EditProblem& problem, const EditPoint& a, const EditPoint& b) {
+  const std::size_t events = problem.constraints.extentIn(a.motion, a.rows.times).events;
+  if (events == 0 || events > kMostEvents) return {};
+  const Eigen::VectorXd rates = problem.rates(a.changes), way = b.changes - a.changes;
+  const Eigen::Index n = problem.controls.size();
+  const auto byChanges = [&](const SceneGradient& gradient) {
+    return Eigen::VectorXd(problem.controls.gather(gradient, a.values).cwiseProduct(rates.head(n)));
+  };
+  std::vector<Kink> jumps;
+  DerivativeTape tape(a.motion);
+  for (const EventMargin& m : eventMargins(tape, events, {}, byChanges)) {
+    const bool jumps_there = m.way == EventMargin::Way::grazes || m.way == EventMargin::Way::leaves;
+    const double slope = m.gradient.norm();
+    if (!jumps_there || !(slope > 0) || !std::isfinite(slope)) continue;
+    const double share = -m.value / m.gradient.dot(way.head(n));
+    if (!(share > 0 && share < kOnTheWay)) continue;
+    Kink jump{Eigen::VectorXd::Zero(a.changes.size()), 0};
+    jump.normal.head(n) = m.gradient / slope;
+    jump.offset = jump.normal.dot(a.changes) - kBefore * m.value / slope;
+    jumps.push_back(std::move(jump));
+  }
+  return jumps;
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "editing/solve/edit_search.h"
 
@@ -18,5 +19,9 @@ struct Kink {
 /// first order, where both linearisations agree: n . y = u . (v_b - v_a + J_a y_a - J_b y_b) / s, with v the rows'
 /// values. Null when that plane does not part the two points, which are of different sequences and differentiated.
 std::optional<Kink> kinkBetween(const EditProblem& problem, const EditPoint& a, const EditPoint& b);
+
+/// Borders at which the motion jumps (an impact moves to another feature, or is missed), between `a`, which is of
+/// another sequence than `b`, and b: to first order at a, and a little on its side of them.
+std::vector<Kink> jumpsBetween(const EditProblem& problem, const EditPoint& a, const EditPoint& b);
 
 }  // namespace carom

@@ -19,6 +19,24 @@ std::size_t eventsThatCount(const EditProblem& problem, const EditPoint& point) 
   return problem.constraints.extentIn(point.motion, point.rows.times).events;
 }
 
+std::vector<SequenceChange> changesBetween(const EditProblem& problem, const EditPoint& from, const EditPoint& to) {
+  return sequenceChanges(from.motion, eventsThatCount(problem, from), to.motion, eventsThatCount(problem, to));
+}
+
+/// Where a step would have led: other bodies meet, or the same ones in another way.
+std::string describeBorder(const EditProblem& problem, const EditPoint& from, const EditPoint& to) {
+  const std::vector<SequenceChange> changes = changesBetween(problem, from, to);
+  std::string what = "the order in which bodies meet";
+  if (!changes.empty() && changes[0].kind != SequenceChange::Kind::order) {
+    const SequenceChange& first = changes[0];
+    const Motion& motion = first.before >= 0 ? from.motion : to.motion;
+    const Event& event = motion.events[static_cast<std::size_t>(first.before >= 0 ? first.before : first.after)];
+    const auto name = [&](int b) { return "'" + motion.scene->bodies[static_cast<std::size_t>(b)].name + "'"; };
+    what = "how " + name(event.contacts[0].a) + " and " + name(event.contacts[0].b) + " meet";
+  }
+  return "A step nearer changes " + what + ", and of what was tried nothing leads there.";
+}
+
 std::vector<std::string> controlsAtBounds(const ControlSet& controls, const Eigen::VectorXd& changes) {
   const Eigen::VectorXd lower = controls.lowerChanges(), upper = controls.upperChanges();
   std::vector<std::string> names;
@@ -31,9 +49,9 @@ std::vector<std::string> controlsAtBounds(const ControlSet& controls, const Eige
 }  // namespace
 
 std::string SessionSolver::describeSequenceChange() const {
+  if (part_) return part_->describeSequenceChange();
   if (point_->signature == start_->signature) return "";
-  const std::vector<SequenceChange> changes = sequenceChanges(start_->motion, eventsThatCount(problem_, *start_),
-                                                              point_->motion, eventsThatCount(problem_, *point_));
+  const std::vector<SequenceChange> changes = changesBetween(problem_, *start_, *point_);
   std::string text;
   for (std::size_t i = 0; i < std::min(kFewChanges, changes.size()); ++i)
     text += (text.empty() ? "" : " ") + changes[i].sentence;
@@ -43,6 +61,7 @@ std::string SessionSolver::describeSequenceChange() const {
 }
 
 std::string SessionSolver::describeObstacle() {
+  if (part_) return part_->describeObstacle();
   if (problem_.unknowns() == 0) return "Nothing may vary: there are no controls.";
   const StepProblem problem = stepProblem(*point_);
   if (!point_->row_jacobian->allFinite()) return "The derivatives are not known there.";
@@ -62,6 +81,8 @@ std::string SessionSolver::describeObstacle() {
   const double error = problem.soft.r.norm();
   if (step.soft_after > (1 - kCouldGoOn) * error)
     return "No small change of what may vary brings it nearer." + at_bounds;
+  if (beyond_ && beyond_->signature != point_->signature)
+    return describeBorder(problem_, *point_, *beyond_) + at_bounds;
   return "The work of one update was done before it was there." + at_bounds;
 }
 

@@ -1,44 +1,29 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "editing/search/samples.h"
 #include "editing/session/session_journal.h"
 #include "editing/session/session_kink.h"
+#include "editing/session/session_part.h"
 #include "editing/session/session_step.h"
+#include "editing/session/session_work.h"
 #include "editing/solve/edit_search.h"
 
 /// One gesture as an edit whose targets move. Internal to editing/.
 namespace carom {
 
-/// How much an update may still do: counted, so that it is the same everywhere, and watched by the clock for safety.
-class Work {
- public:
-  Work(int limit, double seconds, std::optional<int> cut_after);
-
-  /// Takes one unit; false when there is none left.
-  bool take();
-  int done() const { return done_; }
-  int left() const { return limit_ - done_; }
-  bool cutByClock() const { return cut_; }
-
- private:
-  int limit_, done_ = 0;
-  bool cut_at_limit_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
-  bool cut_ = false;
-};
-
 class SessionSolver {
  public:
   /// Starts at `changes` of the controls, and the nearest free times. `goal` is the index of the constraint that gives
   /// way to all others, -1: none. Throws InputError for what makes no sense, or where the start lacks a constraint.
+  /// `part`: `reference` is part of a scene, and its motions are not for showing.
   SessionSolver(const Scene& reference, ContactSource& contacts, double duration, const std::vector<Control>& controls,
                 const std::vector<Constraint>& constraints, int goal, const Eigen::VectorXd& changes,
-                const SessionOptions& options);
+                const SessionOptions& options, bool part = false);
 
   const EditProblem& problem() const { return problem_; }
   const EditPointPtr& point() const { return point_; }
@@ -48,7 +33,8 @@ class SessionSolver {
 
   /// Gives one target of the goal other numbers.
   void aim(int target, const std::vector<double>& value);
-  /// Comes nearer to the constraints and makes the change smaller, by differential updates.
+  /// Comes nearer to the constraints and makes the change smaller, by differential updates. Where few of the bodies
+  /// matter, it works with a scene of those alone, and what came of that is verified with all.
   void improve(Work& work);
   /// Minimises the change, or searches further where the constraints are not met. Work is counted in iterations.
   void finish(Work& work);
@@ -75,6 +61,20 @@ class SessionSolver {
   bool holdAtKink(EditPoint& at, EditPoint& trial);
   void learnEase(const EditPoint& at, const Step& step);
 
+  // session_descent.cpp: with all bodies that there are
+  void improveHere(Work& work);
+  void descendFromBest(Work& work);
+  void descend(EditPointPtr at, Work& work, int most);
+  std::optional<Surroundings> surroundings(EditPoint& point) const;
+  void lookElsewhere(Work& work);
+  void finishHere(Work& work);
+
+  // session_division.cpp: with some of them
+  void divide(const std::vector<bool>& moving);
+  void shrinkPart();
+  void startAt(const Eigen::VectorXd& changes);
+  bool takeOverPart(Work& work);
+
   SessionOptions options_;
   EditProblem problem_;
   int goal_;
@@ -84,9 +84,18 @@ class SessionSolver {
   double nails_allowed_ = 0;  // nails that are not met may stay as far off as they are
   double reach_ = 1, ease_ = 1;
   std::vector<Kink> kinks_;       // met in this update
+  bool holds_jumps_ = false;      // steps are held before borders where the motion jumps, once
+  EditPointPtr beyond_;           // a step from the best point, with other impacts
   Eigen::VectorXd last_towards_;  // what would have made the change smallest, at the last step
   std::string last_signature_;
   int iterations_ = 0;
+  int samples_ = 0;  // taken so far, in lookElsewhere
+
+  bool is_part_;
+  bool stays_whole_;      // too many bodies matter
+  int since_growth_ = 0;  // updates
+  ScenePart division_;
+  std::unique_ptr<SessionSolver> part_;  // null: not divided
 };
 
 }  // namespace carom

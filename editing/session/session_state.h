@@ -85,6 +85,8 @@ struct EditSession::State {
   void takeOver(const SessionSolver& solver, const SessionUpdate& update);
 };
 
+/// Why a motion ends before its duration: a sentence; empty for one that does not.
+std::string earlyEnd(const Motion& motion);
 /// A body at a moment of a motion. Throws InputError naming `where` when the motion does not have it.
 BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where);
 

@@ -9,6 +9,16 @@
 #include "editing/text.h"
 
 namespace carom {
+std::string earlyEnd(const Motion& motion) {
+  if (motion.status == MotionStatus::complete) return "";
+  return "The motion ends at " + number(motion.end) + " s: " + motion.message + ".";
+}
+
+namespace {
+
+std::string behind(const std::string& sentence) { return sentence.empty() ? "" : ". " + sentence; }
+
+}  // namespace
 
 BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where) {
   const auto find = [&](const std::string& name) {
@@ -18,8 +28,8 @@ BodyState stateAtMoment(const Motion& motion, const std::string& body, const Whe
   if (at.span) throw InputError(where, "found a span of time, expected a time or an impact");
   if (at.impact == 0 && at.with.empty()) {
     if (!(at.time >= 0 && at.time <= motion.end))
-      throw InputError(
-          where, "found " + number(at.time) + " s, expected a time in the motion, 0 to " + number(motion.end) + " s");
+      throw InputError(where, "found " + number(at.time) + " s, expected a time in the motion, 0 to " +
+                                  number(motion.end) + " s" + behind(earlyEnd(motion)));
     return motion.stateAt(index, at.time);
   }
   if (at.impact < 1) throw InputError(where, "found impact " + std::to_string(at.impact) + ", expected 1 or more");
@@ -27,7 +37,8 @@ BodyState stateAtMoment(const Motion& motion, const std::string& body, const Whe
   if (!event)
     throw InputError(where, "found impact " + std::to_string(at.impact) +
                                 (at.with.empty() ? "" : " with '" + at.with + "'") + " of '" + body +
-                                "', expected one that comes within " + number(motion.end) + " s");
+                                "', expected one that comes within " + number(motion.end) + " s" +
+                                behind(earlyEnd(motion)));
   return motion.stateBefore(*event, index);
 }
 
@@ -115,8 +126,10 @@ void EditSession::State::describe(SessionSolver& solver, SessionUpdate& update) 
   const std::string change = solver.describeSequenceChange();
   update.sequence_changed = !change.empty();
   if (!change.empty()) sentences.push_back(change);
+  sentences.push_back(earlyEnd(*update.motion));
   for (const std::string& note : solver.problem().controls.notes()) sentences.push_back(note);
-  for (const std::string& sentence : sentences) update.message += (update.message.empty() ? "" : " ") + sentence;
+  for (const std::string& sentence : sentences)
+    if (!sentence.empty()) update.message += (update.message.empty() ? "" : " ") + sentence;
 }
 
 void EditSession::State::takeOver(const SessionSolver& solver, const SessionUpdate& update) {

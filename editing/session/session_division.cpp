@@ -1,0 +1,119 @@
+// A gesture on part of the scene: the bodies that can matter, with what came of it verified by a simulation of all.
+#include <algorithm>
+
+#include "adjoint/errors.h"
+#include "editing/session/session_solver.h"
+
+namespace carom {
+namespace {
+
+/// With more than this share of the moving bodies there is little to gain.
+constexpr double kMostShare = 0.5;
+/// Work is counted in simulations of so many moving bodies, or of all where there are fewer.
+constexpr double kCounted = 5;
+/// Bodies that do not matter any more leave the part after so many updates since the last one came in.
+constexpr int kUpdatesToShrink = 10;
+
+bool contains(const std::vector<bool>& all, const std::vector<bool>& some) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (some[i] && !all[i]) return false;
+  return true;
+}
+
+}  // namespace
+
+/// Works with these bodies from here on, or with all where that makes no difference.
+void SessionSolver::divide(const std::vector<bool>& moving) {
+  part_.reset();
+  division_ = scenePart(problem_, moving);
+  stays_whole_ = true;
+  if (division_.moving > kMostShare * division_.all_moving) return;
+  try {
+    // whose numbers the unknowns are is known by a problem of the part; the start is where the gesture began
+    const EditProblem problem(division_.scene, *problem_.contacts, problem_.duration, division_.controls,
+                              problem_.constraints.constraints());
+    if (!matchUnknowns(problem_, problem, division_)) return;
+    part_ = std::make_unique<SessionSolver>(
+        division_.scene, *problem_.contacts, problem_.duration, division_.controls, problem_.constraints.constraints(),
+        goal_, division_.restrict(start_->changes).head(problem.controls.size()), options_, true);
+  } catch (const InputError&) {
+    return;  // without the others it makes no sense
+  }
+  stays_whole_ = false;
+  if (point_ != start_) part_->startAt(division_.restrict(point_->changes));
+  until_ = problem_.duration;  // what is verified is shown
+}
+
+void SessionSolver::startAt(const Eigen::VectorXd& changes) {
+  if (point_->changes == changes) return;
+  const EditPointPtr point = changes == start_->changes ? start_ : evaluate(changes);
+  if (point) point_ = point;
+}
+
+/// Verifies where the part came to. True when the part had to grow, so that there is more to do.
+bool SessionSolver::takeOverPart(Work& work) {
+  const EditPointPtr& found = part_->point();
+  Eigen::VectorXd changes = point_->changes;
+  division_.extend(found->changes, changes);
+  if (changes == point_->changes) return false;
+  EditPointPtr trial = start_;
+  if (changes != start_->changes) {
+    work.takeReserved();
+    trial = evaluate(changes);
+  }
+  if (!trial) {  // with all bodies it makes no sense
+    stays_whole_ = true;
+    since_growth_ = 0;
+    part_.reset();
+    return true;
+  }
+  keepIfBetter(trial);
+  if ((trial->rows.scaled - found->rows.scaled).cwiseAbs().maxCoeff() <= options_.tolerance) return false;
+  std::vector<bool> counts = bodiesThatCount(problem_, *trial);
+  if (!contains(division_.bodies, counts)) {
+    for (std::size_t b = 0; b < counts.size(); ++b)
+      counts[b] = counts[b] || (division_.bodies[b] && !problem_.controls.writtenScene().bodies[b].fixed);
+    divide(counts);
+    since_growth_ = 0;
+    return true;
+  }
+  part_->startAt(division_.restrict(point_->changes));
+  return false;
+}
+
+/// Bodies that came in on the way and have left it cost work for nothing.
+void SessionSolver::shrinkPart() {
+  if (++since_growth_ < kUpdatesToShrink) return;
+  since_growth_ = 0;
+  const std::vector<bool> counts = bodiesThatCount(problem_, *point_);
+  if (stays_whole_ || std::count(counts.begin(), counts.end(), true) < division_.moving) divide(counts);
+}
+
+void SessionSolver::improve(Work& work) {
+  if (is_part_) return improveHere(work);
+  if (division_.bodies.empty()) divide(bodiesThatCount(problem_, *start_));
+  shrinkPart();
+  const double whole = std::max(1.0, division_.all_moving / kCounted);
+  if (part_) keepIfBetter(start_);
+  for (bool goes_on = true; part_ && goes_on;) {
+    const int before = part_->iterations();
+    work.setPrice(whole * division_.moving / division_.all_moving, whole);
+    part_->improve(work);
+    work.setPrice(whole, 0);
+    iterations_ += part_->iterations() - before;
+    goes_on = takeOverPart(work) && work.left() > 1;
+  }
+  work.setPrice(whole, 0);
+  if (!part_) improveHere(work);
+}
+
+void SessionSolver::finish(Work& work) {
+  if (!part_) return finishHere(work);
+  const int before = part_->iterations();
+  part_->finish(work);
+  iterations_ += part_->iterations() - before;
+  const bool agrees = !takeOverPart(work) && part_->reached() == reached();
+  if (!agrees) finishHere(work);
+}
+
+}  // namespace carom
