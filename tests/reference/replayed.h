@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "adjoint/derivative_tape.h"
 #include "adjoint/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/reference/cases.h"

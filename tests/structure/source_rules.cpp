@@ -34,7 +34,11 @@ struct Confined {
 
 const std::vector<Confined>& confinedLibraries() {
   static const std::vector<Confined> rows = {
-      {"ODE", std::regex("ode/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
+      {"ODE", std::regex("ode/.*"), std::regex("(ode_bridge|bench/charts/engines)/.*\\.cpp"),
+       "ode_bridge/*.cpp and bench/charts/engines/*.cpp"},
+      {"Bullet", std::regex("bt[A-Z]\\w*\\.h"), std::regex("bench/charts/engines/.*\\.cpp"),
+       "bench/charts/engines/*.cpp"},
+      {"MuJoCo", std::regex("mujoco/.*"), std::regex("bench/charts/engines/.*\\.cpp"), "bench/charts/engines/*.cpp"},
       {"qhull", std::regex("libqhull(_r|cpp)?/.*"), std::regex("ode_bridge/.*\\.cpp"), "ode_bridge/*.cpp"},
       {"Ipopt", std::regex("(.*/)?Ip[A-Z]\\w*\\.(h|hpp)"), std::regex("editing/.*\\.cpp"), "one editing/*.cpp"},
       {"oneTBB", std::regex("(oneapi/)?tbb/.*"), std::regex("editing/.*\\.cpp"), "editing/*.cpp"},
