@@ -3,14 +3,14 @@ height = 760
 load "style.gnuplot"
 set logscale xy
 set format "10^{%T}"
-set yrange [1e-14:1e3]
+set yrange [1e-14:1e7]
 set ytics 1e-16,1e3,1
 set mxtics 1
 set mytics 1
 set key off
 of(scene, method) = sprintf("< awk -F, -v OFS=, '$1 == \"%s\" && $2 == \"%s\" && $5 == \"%s\"' '%s'; echo nan,nan,nan,nan,nan,nan", \
   scene, method, method[1:12] eq "MuJoCo steps" ? "velocity" : "all", csv)
-set multiplot layout 2,2 margins 0.08,0.985,0.17,0.95 spacing 0.08,0.12
+set multiplot layout 2,2 margins 0.08,0.985,0.19,0.95 spacing 0.08,0.12
 do for [i = 1:4] {
   scene = i < 3 ? "box" : "two boxes"
   by = i % 2 ? 3 : 4
@@ -29,10 +29,10 @@ do for [i = 1:4] {
     of(scene, "tangent") using (by == 3 ? NaN : $4):6 with points ls 1 pt 6 ps 1.3
 }
 load "legend.gnuplot"
-set key maxcols 4
+set key maxrows 4 maxcols 4
 plot NaN with linespoints ls 1 title "adjoint", NaN with points ls 1 pt 6 ps 1.3 title "tangent", \
   NaN with linespoints ls 6 lw 2 title "differences of carom", NaN with linespoints ls 2 title "of ODE at 1e-3 s", \
   NaN with points ls 2 pt 4 ps 1.3 title "of ODE at 1e-4 s", NaN with linespoints ls 4 title "of Bullet at 1e-3 s", \
   NaN with points ls 4 pt 8 ps 1.3 title "of Bullet at 1e-4 s", NaN with linespoints ls 5 title "of MuJoCo at 1e-3 s", \
-  NaN with points ls 7 pt 2 ps 1.3 title "mjd_transitionFD chain (velocities alone)"
+  NaN with points ls 7 pt 2 ps 1.3 title "MuJoCo: product of its step derivatives, by velocities"
 unset multiplot
