@@ -29,6 +29,7 @@ plot of("bodies", "balls", "adjoint") using 5:9 with linespoints ls 1 title "bal
 set logscale y
 set format y "10^{%T}"
 set yrange [*:*]
+set key right bottom
 set title "memory, 20 bodies" offset 0,-0.6
 set xlabel "impacts" offset 0,0.5
 set ylabel "bytes"

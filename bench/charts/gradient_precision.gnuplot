@@ -29,10 +29,11 @@ do for [i = 1:4] {
     of(scene, "tangent") using (by == 3 ? NaN : $4):6 with points ls 1 pt 6 ps 1.3
 }
 load "legend.gnuplot"
-set key maxrows 4 maxcols 4
+set tmargin at screen 0.11
+set key maxcols 4 width -2 font ",11"
 plot NaN with linespoints ls 1 title "adjoint", NaN with points ls 1 pt 6 ps 1.3 title "tangent", \
-  NaN with linespoints ls 6 lw 2 title "differences of carom", NaN with linespoints ls 2 title "of ODE at 1e-3 s", \
-  NaN with points ls 2 pt 4 ps 1.3 title "of ODE at 1e-4 s", NaN with linespoints ls 4 title "of Bullet at 1e-3 s", \
-  NaN with points ls 4 pt 8 ps 1.3 title "of Bullet at 1e-4 s", NaN with linespoints ls 5 title "of MuJoCo at 1e-3 s", \
-  NaN with points ls 7 pt 2 ps 1.3 title "MuJoCo: product of its step derivatives, by velocities"
+  NaN with linespoints ls 6 lw 2 title "carom differences", NaN with linespoints ls 2 title "ODE at 1e-3 s", \
+  NaN with points ls 2 pt 4 ps 1.3 title "ODE at 1e-4 s", NaN with linespoints ls 4 title "Bullet at 1e-3 s", \
+  NaN with points ls 4 pt 8 ps 1.3 title "Bullet at 1e-4 s", NaN with linespoints ls 5 title "MuJoCo at 1e-3 s", \
+  NaN with points ls 7 pt 2 ps 1.3 title "MuJoCo step by step"
 unset multiplot
