@@ -27,8 +27,8 @@ const std::vector<Configuration>& configurations() {
   static const std::vector<Configuration> rows = {
       {"search", "with search", EditOptions{}},
       {"no_search", "Ipopt alone", staying()},
-      {"secant", "Ipopt alone, secant update", derivatives(SecondDerivatives::secant)},
-      {"limited_memory", "Ipopt alone, limited memory", derivatives(SecondDerivatives::limited_memory)},
+      {"secant", "Ipopt alone (secant update)", derivatives(SecondDerivatives::secant)},
+      {"limited_memory", "Ipopt alone (limited memory)", derivatives(SecondDerivatives::limited_memory)},
       {"shooting", "multiple shooting alone", shooting(Shooting::multiple)},
   };
   return rows;
