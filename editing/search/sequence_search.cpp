@@ -171,12 +171,13 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed) {
 }
 
 void SequenceSearch::add(const EditPointPtr& solution) {
-  for (EditPointPtr& known : solutions_) {
-    if (areDistinct(*known, *solution)) continue;
-    if (solution->objective < known->objective) known = solution;
-    return;
+  const auto known = std::find_if(solutions_.begin(), solutions_.end(),
+                                  [&](const EditPointPtr& other) { return !areDistinct(*other, *solution); });
+  if (known == solutions_.end()) {
+    solutions_.push_back(solution);
+  } else if (solution->objective < (*known)->objective) {
+    *known = solution;
   }
-  solutions_.push_back(solution);
   std::stable_sort(solutions_.begin(), solutions_.end(),
                    [](const EditPointPtr& a, const EditPointPtr& b) { return a->objective < b->objective; });
 }

@@ -37,8 +37,9 @@ constexpr int kLeaps = 2;
 /// An update ends after so many steps that hardly bring the goal nearer, or leave the change as large as it was.
 constexpr int kStalls = 3;
 constexpr double kHardly = 0.99;
-/// Steps from the best point, and from each sample; samples of which the best is followed.
-constexpr double kNearer = 0.5;  // a share of what it was, from which on it is worth while to go on
+/// It is worth while to go on where the goal came at least so much nearer, as a share of what was left.
+constexpr double kNearer = 0.5;
+/// Steps from the best point, along a border, and from samples; samples of which the best is followed.
 constexpr int kSteps = 8, kStepsAlong = 5, kStepsElsewhere = 6, kBatch = 3;
 /// Validity is kept a little away from its limit.
 constexpr double kValidityMargin = 1e-7;
@@ -145,9 +146,9 @@ std::optional<Surroundings> SessionSolver::surroundings(EditPoint& point) const 
   return Surroundings{point.changes, hierarchicalStep(problem).d, Q.rightCols(Q.cols() - across.rank())};
 }
 
-/// Where the steps from the best point end before the goal, others are tried from samples around it, and
-/// around the start of the gesture. What is found is
-/// another way to the same target; impact sequences that were not tried come first.
+/// Where the steps from the best point end before the goal, others are tried from samples around it, and around the
+/// start of the gesture. What is found is another way to the same target; impact sequences that were not tried come
+/// first.
 void SessionSolver::lookElsewhere(Work& work) {
   const double reach = reach_, ease = ease_;
   std::vector<std::string> known{point_->signature};  // where steps began in this update

@@ -66,14 +66,6 @@ void SessionSolver::aim(int target, const std::vector<double>& value) {
   if (part_) part_->aim(target, value);
 }
 
-double SessionSolver::goalError(const RowValues& rows) const {
-  double error = 0;
-  for (int i = 0; i < problem_.constraints.size(); ++i)
-    if (problem_.constraints.rows()[static_cast<std::size_t>(i)].constraint == goal_)
-      error = std::max(error, std::abs(rows.scaled[i]));
-  return error;
-}
-
 double SessionSolver::nailError(const RowValues& rows) const {
   double error = 0;
   for (int i = 0; i < problem_.constraints.size(); ++i)

@@ -39,8 +39,7 @@ class SessionSolver {
   /// Minimises the change, or searches further where the constraints are not met. Work is counted in iterations.
   void finish(Work& work);
 
-  /// Largest scaled error of the rows of the goal; of all others.
-  double goalError(const RowValues& rows) const;
+  /// Largest scaled error of the rows that are not of the goal.
   double nailError(const RowValues& rows) const;
 
   /// How the impacts that count differ from where the gesture began: sentences; empty where they do not.

@@ -14,11 +14,6 @@ namespace {
 constexpr std::size_t kRecentPoints = 3;
 /// As in single shooting: validity is kept a little away from its limit.
 constexpr double kValidityMargin = 1e-7;
-/// Patience as in single shooting.
-constexpr int kPatience = 8;
-constexpr double kEnoughProgress = 0.7;
-constexpr double kNearlyMet = 1e-5;
-constexpr double kSameObjective = 1e-7;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool holdsTime(const ConstraintSet& constraints, const Row& row) {
@@ -62,12 +57,7 @@ void visitPairs(const Segment& segment, Visit visit) {
 
 ShootingProgram::ShootingProgram(EditSearch& search, const EditPoint& from, const Segments& segments,
                                  const std::vector<int>& rows)
-    : search_(search),
-      segments_(segments),
-      start_(Eigen::VectorXd::Zero(segments.variables.size)),
-      lowest_violation_(kInfinity),
-      lowest_at_mark_(kInfinity),
-      objective_at_mark_(kInfinity) {
+    : search_(search), segments_(segments), start_(Eigen::VectorXd::Zero(segments.variables.size)) {
   start_.head(search.problem().unknowns()) = from.changes;
   const ConstraintSet& held = search.problem().constraints;
   for (std::size_t s = 0; s < segments.segments.size(); ++s) {
@@ -264,17 +254,6 @@ bool ShootingProgram::hessianEntries(const Eigen::VectorXd& x, double factor, co
     });
   entries = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return true;
-}
-
-bool ShootingProgram::iteration(const Iteration& i) {
-  if (i.number == 0) return search_.halt() == Halt::none;
-  if (!search_.step(i.objective, i.violation)) return false;
-  lowest_violation_ = std::min(lowest_violation_, i.violation);
-  if (i.number % kPatience != 0) return true;
-  const bool falls = lowest_violation_ <= kEnoughProgress * lowest_at_mark_;
-  const bool shrinks = std::abs(i.objective - objective_at_mark_) > kSameObjective * i.objective;
-  lowest_at_mark_ = lowest_violation_, objective_at_mark_ = i.objective;
-  return falls || (shrinks && lowest_violation_ <= kNearlyMet);
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include "editing/shooting/segments.h"
 #include "editing/solve/edit_search.h"
 #include "editing/solve/nonlinear_program.h"
+#include "editing/solve/patience.h"
 
 /// An edit by multiple shooting as a sparse nonlinear program. Internal to editing/.
 namespace carom {
@@ -33,7 +34,7 @@ class ShootingProgram final : public NonlinearProgram {
   bool hessianEntries(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                       Eigen::VectorXd& entries) override;
   /// Also stops where the violation hardly falls any more, as EditProgram does.
-  bool iteration(const Iteration& i) override;
+  bool iteration(const Iteration& i) override { return patience_.allows(search_, i); }
 
  private:
   struct SegmentTerm {
@@ -61,7 +62,7 @@ class ShootingProgram final : public NonlinearProgram {
   Eigen::VectorXd start_;
   std::vector<ProgramRow> rows_;
   std::vector<Point> recent_;
-  double lowest_violation_, lowest_at_mark_, objective_at_mark_;
+  Patience patience_;
 };
 
 }  // namespace carom

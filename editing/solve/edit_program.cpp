@@ -11,12 +11,6 @@ namespace {
 
 /// Validity is kept a little away from its limit, so that what the solver's tolerance lets through is still valid.
 constexpr double kValidityMargin = 1e-7;
-/// A solve is given up when so many iterations neither bring the violation below this fraction of what it was nor, once
-/// it is small, still make the change smaller.
-constexpr int kPatience = 8;
-constexpr double kEnoughProgress = 0.7;
-constexpr double kNearlyMet = 1e-5;
-constexpr double kSameObjective = 1e-7;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -26,10 +20,7 @@ EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<
       start_(std::move(start)),
       rows_(std::move(rows)),
       equations_(rows_.size()),
-      signature_(signature),
-      lowest_violation_(kInfinity),
-      lowest_at_mark_(kInfinity),
-      objective_at_mark_(kInfinity) {
+      signature_(signature) {
   const std::vector<int>& ranges = search.problem().constraints.ranges();
   rows_.insert(rows_.end(), ranges.begin(), ranges.end());
 }
@@ -140,18 +131,6 @@ bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::
     h += multipliers[static_cast<Eigen::Index>(k)] * curvature_[k];
   }
   return true;
-}
-
-bool EditProgram::iteration(const Iteration& i) {
-  if (i.number == 0) return search_.halt() == Halt::none;
-  if (!search_.step(i.objective, i.violation)) return false;
-  lowest_violation_ = std::min(lowest_violation_, i.violation);
-  if (i.number % kPatience != 0) return true;
-  const bool falls = lowest_violation_ <= kEnoughProgress * lowest_at_mark_;
-  const bool shrinks = std::abs(i.objective - objective_at_mark_) > kSameObjective * i.objective;
-  lowest_at_mark_ = lowest_violation_;
-  objective_at_mark_ = i.objective;
-  return falls || (shrinks && lowest_violation_ <= kNearlyMet);
 }
 
 }  // namespace carom

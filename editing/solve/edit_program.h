@@ -5,6 +5,7 @@
 
 #include "editing/solve/edit_search.h"
 #include "editing/solve/nonlinear_program.h"
+#include "editing/solve/patience.h"
 
 /// An edit as a nonlinear program. Internal to editing/.
 namespace carom {
@@ -32,7 +33,7 @@ class EditProgram final : public NonlinearProgram {
   bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                Eigen::MatrixXd& h) override;
   /// Also stops where the violation hardly falls any more: at the border of the impact sequence, mostly.
-  bool iteration(const Iteration& i) override;
+  bool iteration(const Iteration& i) override { return patience_.allows(search_, i); }
 
  private:
   EditPointPtr at(const Eigen::VectorXd& x);
@@ -45,7 +46,7 @@ class EditProgram final : public NonlinearProgram {
   std::size_t equations_;  // how many
   const std::string* signature_;
   std::vector<Eigen::MatrixXd> curvature_;  // of each constraint
-  double lowest_violation_, lowest_at_mark_, objective_at_mark_;
+  Patience patience_;
   Eigen::VectorXd last_x_;
   Eigen::MatrixXd last_dg_dx_;
 };

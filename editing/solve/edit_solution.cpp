@@ -140,12 +140,6 @@ std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch
   return across.solutions();
 }
 
-/// The smaller of a solution and the best that the search knows.
-EditPointPtr smallestOf(const EditPointPtr& inside, const SequenceSearch& across) {
-  if (across.solutions().empty() || across.solutions().front()->objective >= inside->objective) return inside;
-  return across.solutions().front();
-}
-
 }  // namespace
 
 EditSolution findSolution(EditSearch& search) {
@@ -175,7 +169,7 @@ EditSolution findSolution(EditSearch& search) {
   for (int rounds = kRoundsToImprove; !across.solutions().empty() && rounds > 0 && across.round(seek); --rounds) {
   }
 
-  solution.point = polished(search, inside ? smallestOf(inside, across) : search.best());
+  solution.point = polished(search, large ? across.solutions().front() : inside ? inside : search.best());
   if (!search.reached(*solution.point)) {
     if (contradicts && search.halt() == Halt::none) {
       solution.status = EditStatus::infeasible;
