@@ -1,6 +1,6 @@
 #pragma once
 
-#include "adjoint/flight_triaxial.h"
+#include "adjoint/rotation_sensitivity.h"
 
 namespace carom {
 

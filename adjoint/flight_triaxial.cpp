@@ -34,6 +34,7 @@ void TriaxialRotation::begin(const Vec3& inverse_inertia, const Quat& q, const V
   L_ = L;
   q_ = q;
   segments_.clear();
+  closed_form_.reset();
   const double middle = D_.sum() - D_.maxCoeff() - D_.minCoeff();
   shifted_D_ = D_.array() - middle;
   const Vec3 u = (q.toRotationMatrix().transpose() * L).normalized();
@@ -103,24 +104,28 @@ Quat TriaxialRotation::orientationIn(const Segment& s, double h) {
 }
 
 void TriaxialRotation::extendTo(double elapsed) {
+  if (closed_form_) return;
   if (segments_.empty()) {
     segments_.reserve(2);  // most flights end within them
     segments_.push_back(makeSegment(0, q_));
   }
-  while (segments_.back().start + segments_.back().length < elapsed) {
+  while (endOfSegments() < elapsed) {
+    if (segments_.size() == kSegments) closed_form_ = EllipticRotation::of(D_, q_, L_);
+    if (closed_form_) return;
     const Segment& last = segments_.back();
     segments_.push_back(makeSegment(last.start + last.length, orientationIn(last, last.length)));
   }
 }
 
 const TriaxialRotation::Segment& TriaxialRotation::segmentAt(double elapsed) const {
-  assert(!segments_.empty() && elapsed <= segments_.back().start + segments_.back().length);
+  assert(!segments_.empty() && elapsed <= endOfSegments());
   auto next = std::upper_bound(segments_.begin(), segments_.end(), elapsed,
                                [](double t, const Segment& s) { return t < s.start; });
   return next == segments_.begin() ? *next : *(next - 1);
 }
 
 Quat TriaxialRotation::orientationAt(double elapsed) const {
+  if (closed_form_ && elapsed > endOfSegments()) return closed_form_->orientationAt(elapsed);
   const Segment& s = segmentAt(elapsed);
   return orientationIn(s, elapsed - s.start);
 }

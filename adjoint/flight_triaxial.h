@@ -1,32 +1,29 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "adjoint/flight_elliptic.h"
+#include "adjoint/rotation_sensitivity.h"
 #include "adjoint/types.h"
 
 namespace carom {
 
-/// Derivative of the rotation vector theta at the end of a stretch of free rotation by theta and L at its start, by the
-/// principal moments, and by the products of inertia (yz, xz, xy) in principal axes, which are 0 (every one 3x3). The
-/// last one is 0 unless it was asked for.
-struct RotationSensitivity {
-  Mat3 dtheta_dtheta = Mat3::Identity();
-  Mat3 dtheta_dL = Mat3::Zero();
-  Mat3 dtheta_dI = Mat3::Zero();
-  Mat3 dtheta_dproducts = Mat3::Zero();
-};
-
-/// Torque-free rotation with three different moments, as Taylor segments. With l = |L| the direction of L in principal
-/// axes, u = R^T L / l, obeys a quadratic system, and R is a twist about u(0) followed by the swing S from u(0) to u:
+/// Torque-free rotation with three different moments: Taylor segments at first, which are the cheapest to read, and the
+/// closed form (flight_elliptic.h) after them, where more segments would cost more than it does. With l = |L| the
+/// direction of L in principal axes, u = R^T L / l, obeys a quadratic system, and R is a twist about u(0) followed by
+/// the swing S from u(0) to u:
 ///   u' = l u x (D u),  psi' = l (u(0) + u).(D u) / (1 + u(0).u),  R = R(0) exp([psi u(0)]x) S^T,  D = diag(1/I).
 /// Coefficients come from the recurrences of Cauchy products; the step is chosen from the last coefficients (Jorba and
 /// Zou, Experimental Mathematics 14(1), 2005) and rounded to a short binary number, so that segment times add without
 /// error. Every segment starts again from u = R^T L / l, moved onto the energy of the start: rounding would otherwise
-/// change the energy in a random walk and the phase, which sums it up, far more.
+/// change the energy in a random walk and the phase, which sums it up, far more. Where the closed form is singular the
+/// segments go on. The orientation at a time depends on the start alone, not on the times asked for before.
 class TriaxialRotation {
  public:
   static constexpr int kOrder = 20;
+  static constexpr std::size_t kSegments = 2;  // before the closed form
 
   void begin(const Vec3& inverse_inertia, const Quat& q, const Vec3& L);
   /// Makes [0, elapsed] available.
@@ -46,6 +43,8 @@ class TriaxialRotation {
   Vec3 restoreEnergy(Quat& q, const Vec3& u) const;
   static Quat orientationIn(const Segment& segment, double h);
   const Segment& segmentAt(double elapsed) const;
+  double endOfSegments() const { return segments_.back().start + segments_.back().length; }
+  RotationSensitivity sensitivityOver(double elapsed, bool products) const;
   template <int N>
   RotationSensitivity segmentSensitivity(const Segment& segment, double& h) const;
 
@@ -54,6 +53,7 @@ class TriaxialRotation {
   Vec3 shifted_D_ = Vec3::Zero();  // D less its middle entry
   double energy_ = 0;              // u.(shifted D u)
   std::vector<Segment> segments_;
+  std::optional<EllipticRotation> closed_form_;  // once a time after the segments is asked for
 };
 
 }  // namespace carom

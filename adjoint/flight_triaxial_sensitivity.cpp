@@ -220,26 +220,33 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& segment,
   return S;
 }
 
-RotationSensitivity TriaxialRotation::sensitivityAt(double elapsed, bool products) const {
+// Segment by segment, or in shorter steps where the series of the variations demand them.
+RotationSensitivity TriaxialRotation::sensitivityOver(double elapsed, bool products) const {
   RotationSensitivity total;
-  for (const Segment& segment : segments_) {
-    if (segment.start >= elapsed && segment.start > 0) break;
-    const double end = std::min(segment.length, elapsed - segment.start);
-    Segment part = segment;
-    for (double done = 0;;) {
-      double h = end - done;
-      const RotationSensitivity S =
-          products ? segmentSensitivity<kProducts>(part, h) : segmentSensitivity<kMoments>(part, h);
-      total.dtheta_dL = S.dtheta_dtheta * total.dtheta_dL + S.dtheta_dL;
-      total.dtheta_dI = S.dtheta_dtheta * total.dtheta_dI + S.dtheta_dI;
-      total.dtheta_dproducts = S.dtheta_dtheta * total.dtheta_dproducts + S.dtheta_dproducts;
-      total.dtheta_dtheta = S.dtheta_dtheta * total.dtheta_dtheta;
-      if (!(done + h < end)) break;
-      done += h;
-      part = makeSegment(0, orientationIn(segment, done));
-    }
+  for (double t = 0; t < elapsed;) {
+    const Segment* around = t < endOfSegments() ? &segmentAt(t) : nullptr;
+    const Segment part = around && around->start == t ? *around : makeSegment(t, orientationAt(t));
+    const double rest = elapsed - t;
+    double h = std::min(part.length, rest);
+    if (around) h = std::min(h, around->start + around->length - t);
+    total = chained(total, products ? segmentSensitivity<kProducts>(part, h) : segmentSensitivity<kMoments>(part, h));
+    if (h == rest) break;
+    t += h;
   }
   return total;
+}
+
+// Whole periods in the time that one takes.
+RotationSensitivity TriaxialRotation::sensitivityAt(double elapsed, bool products) const {
+  if (!closed_form_ || !(elapsed > endOfSegments())) return sensitivityOver(elapsed, products);
+  const double period = closed_form_->period(), count = std::floor(elapsed / period);
+  if (count < 2) return sensitivityOver(elapsed, products);
+  const double rest = std::max(0.0, std::fma(-period, count, elapsed));
+  const auto omega = [&](const Quat& q) { return Vec3(q * D_.cwiseProduct(q.conjugate() * L_)); };
+  const auto turnAfter = [&](double n) { return orientationAt(n * period) * q_.conjugate(); };
+  const PeriodicSensitivity periodic(sensitivityOver(period, products), turnAfter(1), L_, omega(q_));
+  const Quat turn = turnAfter(count);
+  return periodic.over(count, turn, turned(sensitivityOver(rest, products), turn), omega(orientationAt(elapsed)));
 }
 
 }  // namespace carom

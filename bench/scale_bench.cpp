@@ -1,5 +1,6 @@
 // Impacts per second and memory per impact against the number of bodies: equal balls in a pen, tumbling boxes, mugs.
 //   carom_scale_bench --benchmark_min_time=1
+//   carom_scale_bench --machine               prints what it would be measured on
 // bench/plot_scale runs it and draws the chart.
 
 #include <benchmark/benchmark.h>
@@ -14,6 +15,7 @@
 
 #include "adjoint/errors.h"
 #include "adjoint/simulate.h"
+#include "bench/machine.h"
 #include "bench/pen.h"
 #include "ode_bridge/ode_contacts.h"
 
@@ -98,6 +100,10 @@ void measure(benchmark::State& state, const Case& c, std::size_t number) {
 int main(int argc, char** argv) {
   using namespace carom;
   const std::vector<Case> cases = allCases();
+  if (argc == 2 && std::string(argv[1]) == "--machine") {
+    std::printf("%s\n", machineLine().c_str());
+    return 0;
+  }
   if (argc == 3 && std::string(argv[1]) == "--bytes")
     return printBytesPerImpact(cases.at(static_cast<std::size_t>(std::atoi(argv[2]))));
   for (std::size_t i = 0; i < cases.size(); ++i)

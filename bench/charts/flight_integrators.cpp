@@ -102,7 +102,7 @@ void growth(Csv& csv, Progress& progress) {
     progress.next("turns of " + Cell(angle).text);
     const std::vector<SpinModel> models = spinModels(start);
     Spin end;
-    for (const char* name : {"carom", "elliptic functions", "Fehlberg 7(8)"})
+    for (const char* name : {"carom", "elliptic functions", "Taylor series", "Fehlberg 7(8)"})
       for (const SpinModel& model : models) {
         if (model.name != name) continue;
         const double seconds =
@@ -124,7 +124,7 @@ void measure(Csv& csv) {
              Cell(top.inertia[2]).text + "; " + Cell(top.spin.norm()).text + " rad/s for " + Cell(top.duration).text +
              " s, read " + (top.readings == 1 ? "once" : std::to_string(top.readings) + " times"));
   csv.columns({"top", "method", "step", "seconds", "error"});
-  Progress progress(9 * 9 + 10);
+  Progress progress(9 * 10 + 10);
   for (const Top& top : tops()) compare(csv, progress, top);
   growth(csv, progress);
 }

@@ -29,12 +29,14 @@ do for [i = 1:9] {
     rows(top.",Dormand-Prince 5(4)") using 4:5 with linespoints ls 4, \
     rows(top.",Fehlberg 7(8)") using 4:5 with linespoints ls 7, \
     rows(top.",elliptic functions") using 4:5 with points ls 2 ps 1.2, \
+    rows(top.",Taylor series") using 4:5 with points ls 3 ps 1.2, \
     rows(top.",triaxial tier") using 4:5 with points ls 1 pt 6 ps 1.4, \
     rows(top.",carom") using 4:5 with points ls 1 ps 1.4
 }
 load "legend.gnuplot"
 set tmargin at screen 0.07
-plot NaN with points ls 1 ps 1.4 title "carom", NaN with points ls 2 ps 1.2 title "elliptic functions", \
+plot NaN with points ls 1 ps 1.4 title "carom", NaN with points ls 2 ps 1.2 title "elliptic functions alone", \
+  NaN with points ls 3 ps 1.2 title "Taylor series alone", \
   NaN with points ls 1 pt 6 ps 1.4 title "triaxial tier forced", NaN with linespoints ls 7 title "Fehlberg 7(8)", \
   NaN with linespoints ls 4 title "Dormand-Prince 5(4)", NaN with linespoints ls 6 title "RK4", \
   NaN with linespoints ls 5 title "RK4, Euler's equations", NaN with linespoints ls 8 title "Lie group 4", \

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
+#include "adjoint/flight_elliptic.h"
 #include "adjoint/flight_symmetric.h"
-#include "bench/charts/elliptic_rotation.h"
+#include "adjoint/flight_triaxial.h"
 #include "bench/charts/flight_models.h"
 
 namespace carom::charts {
@@ -114,9 +117,30 @@ Spin byArc(const Spin& start, Tier tier, double t, int readings) {
 }
 
 Spin byElliptic(const Spin& start, double t, int readings) {
-  const EllipticRotation rotation(start.inertia.cwiseInverse(), start.q, start.L);
+  const std::optional<EllipticRotation> rotation = EllipticRotation::of(start.inertia.cwiseInverse(), start.q, start.L);
+  if (!rotation) throw std::logic_error("this top has no closed form");
   Spin end = start;
-  for (int i = 1; i <= readings; ++i) end.q = rotation.orientationAt(t * i / readings);
+  for (int i = 1; i <= readings; ++i) end.q = rotation->orientationAt(t * i / readings);
+  return end;
+}
+
+// By flights of a segment each.
+Spin bySeries(const Spin& start, double t, int readings) {
+  const Vec3 D = start.inertia.cwiseInverse();
+  const double length = 0.9 / (start.L.norm() * D.maxCoeff());
+  double begun = 0;
+  Spin end = start;
+  TriaxialRotation part;
+  part.begin(D, start.q, start.L);
+  for (int i = 1; i <= readings; ++i) {
+    const double time = t * i / readings;
+    for (; time - begun > length; begun += length) {
+      part.extendTo(length);
+      part.begin(D, part.orientationAt(length), start.L);
+    }
+    part.extendTo(time - begun);
+    end.q = part.orientationAt(time - begun);
+  }
   return end;
 }
 
@@ -140,12 +164,15 @@ std::vector<SpinModel> spinModels(const Spin& spin) {
   const Tier own = spin.tier();
   models.push_back(
       {"carom", Steps::none, [own](const Spin& s, double t, double, int n) { return byArc(s, own, t, n); }});
-  if (own == Tier::triaxial)
+  if (own == Tier::triaxial) {
     models.push_back({"elliptic functions", Steps::none,
                       [](const Spin& s, double t, double, int n) { return byElliptic(s, t, n); }});
-  else
+    models.push_back(
+        {"Taylor series", Steps::none, [](const Spin& s, double t, double, int n) { return bySeries(s, t, n); }});
+  } else {
     models.push_back({"triaxial tier", Steps::none,
                       [](const Spin& s, double t, double, int n) { return byArc(s, Tier::triaxial, t, n); }});
+  }
   for (const FlightModel& model : flightModels())
     models.push_back({model.name, model.adaptive ? Steps::adaptive : Steps::fixed,
                       [&model](const Spin& s, double t, double h, int n) { return byFlightModel(model, s, t, h, n); }});

@@ -109,6 +109,7 @@ void printFailures(const std::vector<Task>& tasks, const std::vector<Run>& runs)
 void writeOutcomes(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
                    const BestKnown& best) {
   const File out = openForWriting(file);
+  std::fprintf(out.get(), "# %s\n", machineLine().c_str());
   std::fprintf(out.get(),
                "task,family,goal,impacts,other_sequence,rows,numbers,hidden_distance,growth,configuration,met,"
                "status,residual,objective,best_known,iterations,ms,cpu_ms,sequence_changed\n");

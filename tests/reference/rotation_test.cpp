@@ -5,8 +5,11 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "adjoint/arc.h"
+#include "adjoint/flight_triaxial.h"
 #include "tests/reference/replay.h"
 #include "tests/reference/worst.h"
 
@@ -140,6 +143,54 @@ TEST(FreeRotation, TriaxialArcs) {
     }
   }
   std::cout << "worst orientation " << worst_state << ", worst sensitivity " << worst_sensitivity << '\n';
+}
+
+struct LongFlight {
+  std::string what;
+  Vec3 inertia, spin;  // in principal axes
+  double time;
+};
+
+/// Flights of many periods, where the closed form and the formula for whole periods are in use: errors in multiples of
+/// what the rounding of the start is worth at the end.
+TEST(FreeRotation, LongFlights) {
+  const Vec3 direction = Vec3(2, -1, 2) / 3, nearly_middle = Vec3(1e-3, 1, 1e-3).normalized();
+  const Quat q = Quat(0.4, 0.3, -0.8, 0.2).normalized();
+  const std::vector<LongFlight> flights = {
+      {"box", {0.0045, 0.0087, 0.0108}, direction, 50},
+      {"nearly symmetric", {1, 1 + 1e-6, 1.7}, direction, 50},
+      {"nearly symmetric about the least", {1, 1.7, 1.7 + 1e-9}, direction, 50},
+      {"strongly triaxial", {1, 3, 3.9}, direction, 50},
+      {"backwards about the greatest", {1, 2, 2.5}, {0.3, -0.2, -1}, 50},
+      {"nearly about the least", {1, 2, 2.5}, {1, 1e-6, 1e-6}, 40},
+      {"about the least but for a rounding", {1, 2, 2.5}, {1, 1e-13, 1e-13}, 40},
+      {"nearly about the greatest", {1, 2, 2.5}, {1e-9, 1e-9, 1}, 40},
+      {"nearly about the middle", {1, 2, 2.5}, nearly_middle, 170},
+      {"nearly on the separatrix", {1, 2, 2.5}, {1, 1e-9, std::sqrt(0.8) * (1 + 1e-5)}, 100}};
+  double worst_state = 0, worst_sensitivity = 0;
+  for (const LongFlight& flight : flights) {
+    SCOPED_TRACE(flight.what);
+    const Vec3 L = q * flight.inertia.cwiseProduct(flight.spin);
+    TriaxialRotation rotation;
+    rotation.begin(flight.inertia.cwiseInverse(), q, L);
+    rotation.extendTo(flight.time);
+    const Rotation exact = freeRotation(flight.inertia, q, L, {flight.time}, true)[0];
+    const double rounding = 1.1e-16 * (exact.dtheta_dtheta.norm() + exact.dtheta_dL.norm() * L.norm() +
+                                       (exact.dtheta_dI * flight.inertia.asDiagonal()).norm());
+    const double state = worst(rotation.orientationAt(flight.time).toRotationMatrix(), exact.R) / rounding;
+    EXPECT_LE(state, 10) << "roundings of the start";
+    keepWorst(worst_state, state);
+    const RotationSensitivity S = rotation.sensitivityAt(flight.time);
+    // sensitivities of sensitivities are of the size of their squares
+    const double unit = rounding * exact.dtheta_dtheta.norm();
+    for (const double error : {worst(S.dtheta_dtheta, exact.dtheta_dtheta), worst(S.dtheta_dL, exact.dtheta_dL),
+                               worst(S.dtheta_dI, exact.dtheta_dI)}) {
+      EXPECT_LE(error, 10 * unit);
+      keepWorst(worst_sensitivity, error / unit);
+    }
+  }
+  std::cout << "worst orientation " << worst_state << " roundings of the start, worst sensitivity " << worst_sensitivity
+            << " of them times their growth\n";
 }
 
 }  // namespace

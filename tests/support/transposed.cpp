@@ -11,10 +11,27 @@ namespace {
 
 constexpr double kDot = 1e-13;
 
+// What a change of the dimensions does by the inertia that it changes: with the spin held, L changes by the same share,
+// and the two turn the body to and fro by about as much as a change of the spin by that share does. The sum of both may
+// be far smaller than they are; their rounding is not. Dimensions are at most 1, so a share is at least d.size.
+SceneTangent spinBySize(const Scene& scene, const SceneTangent& d) {
+  SceneTangent spin(scene);
+  const auto largest = [](const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseAbs().maxCoeff(); };
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    spin.bodies[b].angular_velocity = largest(d.bodies[b].size) * scene.bodies[b].angular_velocity;
+  return spin;
+}
+
 double absoluteSum(const BodyStateRate& r, const StateSeed& s) {
   return r.position.cwiseAbs().dot(s.position.cwiseAbs()) + r.orientation.cwiseAbs().dot(s.orientation.cwiseAbs()) +
          r.velocity.cwiseAbs().dot(s.velocity.cwiseAbs()) +
          r.angular_velocity.cwiseAbs().dot(s.angular_velocity.cwiseAbs()) + std::abs(r.time * s.time);
+}
+
+double absoluteSum(const MotionTangent& t, const std::vector<StateSeed>& seeds) {
+  double sum = 0;
+  for (const StateSeed& seed : seeds) sum += absoluteSum(t.at(seed.body, seed.at), seed);
+  return sum;
 }
 
 }  // namespace
@@ -22,12 +39,9 @@ double absoluteSum(const BodyStateRate& r, const StateSeed& s) {
 double expectTransposed(DerivativeTape& tape, const SceneTangent& direction, const std::vector<StateSeed>& seeds,
                         double least, const std::string& what) {
   const MotionTangent t = tangent(tape, direction);
-  double lhs = 0, size = least;
-  for (const StateSeed& seed : seeds) {
-    const BodyStateRate rate = t.at(seed.body, seed.at);
-    lhs += rate.dot(seed);
-    size += absoluteSum(rate, seed);
-  }
+  double lhs = 0;
+  for (const StateSeed& seed : seeds) lhs += t.at(seed.body, seed.at).dot(seed);
+  double size = least + absoluteSum(t, seeds);
   const SceneGradient g = adjoint(tape, seeds);
   const double rhs = g.dot(direction);
   size = std::max(size, flatten(g).cwiseAbs().dot(flatten(direction).cwiseAbs()));
@@ -90,7 +104,9 @@ void expectTransposed(const Motion& motion, std::uint64_t seed) {
     for (const ControlRow& control : controlRows()) {
       SceneTangent d(scene);
       control.copy(d, all);
-      expectTransposed(tape, d, *seeds, least, control.name + std::string(when));
+      double parts = least;
+      if (std::string(control.name) == "size") parts += absoluteSum(tangent(tape, spinBySize(scene, d)), *seeds);
+      expectTransposed(tape, d, *seeds, parts, control.name + std::string(when));
     }
   }
 }
