@@ -125,7 +125,11 @@ const TriaxialRotation::Segment& TriaxialRotation::segmentAt(double elapsed) con
 }
 
 Quat TriaxialRotation::orientationAt(double elapsed) const {
-  if (closed_form_ && elapsed > endOfSegments()) return closed_form_->orientationAt(elapsed);
+  if (closed_form_ && elapsed > endOfSegments()) {
+    Quat q = closed_form_->orientationAt(elapsed);
+    restoreEnergy(q, (q.toRotationMatrix().transpose() * L_).normalized());
+    return q;
+  }
   const Segment& s = segmentAt(elapsed);
   return orientationIn(s, elapsed - s.start);
 }

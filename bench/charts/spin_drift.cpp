@@ -28,7 +28,8 @@ const std::vector<Way> kWays = {{"carom", 0, 1e6},
                                 {"splitting 2", 1.0 / 32, 1e5},
                                 {"Fehlberg 7(8)", 1e-11, 1e5},
                                 {"Dormand-Prince 5(4)", 1e-8, 1e5}};
-// One flight of carom keeps all of its segments, so that any time of it can be read: a new one begins after so many.
+// A new flight of carom begins after so many revolutions, as by an impact that changes nothing: what rounding does to
+// the start of a flight adds up.
 constexpr double kFlight = 10;
 
 double largerThanNothing(double drift) { return std::isnan(drift) ? drift : std::max(drift, 1e-17); }
