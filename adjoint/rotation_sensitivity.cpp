@@ -33,7 +33,10 @@ PeriodicSensitivity::PeriodicSensitivity(const RotationSensitivity& one, const Q
   Eigen::Matrix<double, 3, 12> grown;
   grown << one.dtheta_dtheta - kept.dtheta_dtheta, one.dtheta_dL - kept.dtheta_dL, one.dtheta_dI, one.dtheta_dproducts;
   dangle_ = axis_.transpose() * grown;
-  dT_ = -(Q * across).transpose() * grown / across.squaredNorm();
+  // so near to a principal axis a change of time moves nothing, and none can be read off
+  const double size = across.squaredNorm();
+  dT_.setZero();
+  if (size > 1e-40 * omega.squaredNorm()) dT_ = -(Q * across).transpose() * grown / size;
 }
 
 RotationSensitivity PeriodicSensitivity::withoutGrowth(const Quat& turn) const {

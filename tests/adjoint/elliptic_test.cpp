@@ -166,6 +166,25 @@ TEST(EllipticRotation, ThereIsNoneWhereItIsSingular) {
   }
 }
 
+// As near to a principal axis as numbers go, a long flight has the derivatives of the flight about the axis itself.
+TEST(EllipticRotation, DerivativesAtTheEdgeOfAPrincipalAxis) {
+  const Vec3 I(1, 2, 2.5), D = I.cwiseInverse();
+  for (const double off : {1e-12, 1e-17, 1e-25, 1e-60, 1e-140}) {
+    SCOPED_TRACE("off the axis by " + std::to_string(std::log10(off)));
+    RotationSensitivity S[2];
+    for (const bool exact : {false, true}) {
+      TriaxialRotation r;
+      r.begin(D, Quat::Identity(), exact ? Vec3(3, 0, 0) : Vec3(3, 3 * off, 3 * off));
+      r.extendTo(40);
+      S[exact] = r.sensitivityAt(40, true);
+    }
+    expectEntries(S[0].dtheta_dtheta, S[1].dtheta_dtheta, 1e-10, "dtheta/dtheta");
+    expectEntries(S[0].dtheta_dL, S[1].dtheta_dL, 1e-10, "dtheta/dL", 40);
+    expectEntries(S[0].dtheta_dI, S[1].dtheta_dI, 1e-10, "dtheta/dI", 40);
+    expectEntries(S[0].dtheta_dproducts, S[1].dtheta_dproducts, 1e-10, "dtheta/dproducts", 40);
+  }
+}
+
 // The times that were asked for before do not matter, to the bit.
 TEST(EllipticRotation, ReadingLateChangesNothingEarly) {
   const Top top = randomTop(7);
