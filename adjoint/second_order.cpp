@@ -33,11 +33,23 @@ struct RotationPlan {
   bool products;
 };
 
-// The reverse pass of adjoint.cpp in dual numbers.
+bool hasRates(const Num& n) {
+  return std::any_of(n.rate.begin(), n.rate.end(), [](double r) { return r != 0; });
+}
+bool hasRates(const NVec& v) { return hasRates(v[0]) || hasRates(v[1]) || hasRates(v[2]); }
+bool hasRates(const StateBar& s) { return hasRates(s.x) || hasRates(s.theta) || hasRates(s.v) || hasRates(s.L); }
+bool hasRates(const DualSeed& s) {
+  return hasRates(s.position) || hasRates(s.orientation) || hasRates(s.velocity) || hasRates(s.angular_velocity) ||
+         hasRates(s.center_of_mass) || hasRates(s.time);
+}
+
+// The reverse pass of adjoint.cpp in dual numbers. It leaves out what is out of the directions' reach and has no
+// rates, as its sums have none either; a `whole` pass leaves out nothing, and the values of its sums are right too.
 class DualPass {
  public:
-  DualPass(const Lanes& lanes, Responses& responses, const std::vector<bool>& inertia_varies)
+  DualPass(const Lanes& lanes, bool whole, Responses& responses, const std::vector<bool>& inertia_varies)
       : lanes_(lanes),
+        whole_(whole),
         motion_(lanes.motion()),
         responses_(responses),
         inertia_varies_(inertia_varies),
@@ -50,6 +62,8 @@ class DualPass {
   // Adds the rates of the seed's time derivative to `time_rate`, where its time is given.
   void plant(const StateSeed& seed, const DualSeed& weights, const Num& time, const ReadPlace& place,
              std::array<double, kLanes>& time_rate) {
+    const bool reached = reaches(seed.body, place.arc) || (seed.at.event >= 0 && lanes_.reach().event(seed.at.event));
+    if (!reached && !hasRates(time) && !hasRates(weights)) return;
     const auto b = static_cast<std::size_t>(seed.body);
     const DualState state =
         lanes_.stateAt(seed.body, place.arc, time, place.state, plainSensitivity(seed.body, place.arc, place.time));
@@ -177,6 +191,7 @@ class DualPass {
   }
 
   void throughFlight(int body, int k, const Num& t, const DualState& end, const StateBar& bar) {
+    if (!reaches(body, k) && !hasRates(t) && !hasRates(bar)) return;
     const auto b = static_cast<std::size_t>(body);
     StateBar d = bar;
     if (lanes_.model(body).moving) {
@@ -209,6 +224,7 @@ class DualPass {
     }
   }
 
+  bool reaches(int body, int k) const { return whole_ || lanes_.reach().arc(body, k); }
   std::size_t participantOf(int event, int body) const {
     const Event& e = motion_.events[static_cast<std::size_t>(event)];
     return static_cast<std::size_t>(e.find(body) - e.participants.data());
@@ -222,6 +238,7 @@ class DualPass {
   }
 
   const Lanes& lanes_;
+  bool whole_;
   const Motion& motion_;
   Responses& responses_;
   const std::vector<bool>& inertia_varies_;
@@ -293,7 +310,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   for (std::size_t first = 0; first < directions.size(); first += kLanes) {
     const Lanes lanes(tape, directions.subspan(first, std::min(kLanes, directions.size() - first)));
     const std::vector<DualSeed> weights = dualSeeds(seeds, seed_rates, lanes);
-    DualPass pass(lanes, responses, inertia_varies);
+    DualPass pass(lanes, first == 0, responses, inertia_varies);  // the first gives the gradient too
     std::vector<Eigen::VectorXd> time_rates(lanes.size(),
                                             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(seeds.size())));
     for (std::size_t i = 0; i < seeds.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "adjoint/tangent.h"
 
+#include "adjoint/detail/reach.hpp"
 #include "adjoint/event_linearization.h"
 #include "adjoint/seed.h"
 
@@ -35,7 +36,9 @@ BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
   return rate;
 }
 
-MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) { return tangent(tape, direction, nullptr); }
+
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach) {
   const Motion& motion = tape.motion();
   MotionTangent t;
   t.tape_ = &tape;
@@ -48,6 +51,11 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
   }
   for (std::size_t e = 0; e < motion.events.size(); ++e) {
     const Event& event = motion.events[e];
+    if (reach && !reach->event(static_cast<int>(e))) {
+      t.event_time_.push_back(0);
+      for (const Participant& p : event.participants) t.starts_[static_cast<std::size_t>(p.body)].emplace_back();
+      continue;
+    }
     std::vector<StateDerivative> before;
     for (const Participant& p : event.participants) {
       const auto b = static_cast<std::size_t>(p.body), k = static_cast<std::size_t>(p.arc);

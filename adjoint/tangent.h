@@ -6,6 +6,9 @@
 #include "adjoint/derivative_tape.h"
 
 namespace carom {
+namespace detail {
+class Reach;
+}
 
 /// Rate of a BodyState as the scene varies: world rotation vector for the orientation. `time` is the rate of the
 /// instant itself (0 at a given time).
@@ -31,7 +34,7 @@ class MotionTangent {
   double eventTime(int event) const { return event_time_[event]; }
 
  private:
-  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction);
+  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
   DerivativeTape* tape_ = nullptr;
   Vec3 dgravity_ = Vec3::Zero();
   std::vector<BodyModelDerivative> dmodels_;
@@ -42,5 +45,7 @@ class MotionTangent {
 
 /// The tape must outlive the result.
 MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction);
+/// The same, where it is known how far the direction reaches: events beyond are passed over.
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 // Latency of drags: the path of a mouse at 60 Hz against edit sessions, in scenes of one to ten bodies.
-//   carom_drag_bench [--csv FILE] [--seconds S] [--seeds N] [--first SEED] [--scene NAME] [--simulations N]
-//                    [--release S] [--no-clock] [--frames]
+//   drag_bench [--csv FILE] [--seconds S] [--seeds N] [--first SEED] [--scene NAME] [--simulations N]
+//              [--release S] [--no-clock] [--frames]
 // Prints, for each scene, the median, 95th percentile and longest time of an update, how many of them came to the
 // target (of the targets that are not behind a wall), how far the worst stayed from it, and how long the release took.
 // --no-clock: no update is cut by the clock, so that all but the times is the same in every run.

@@ -1,12 +1,23 @@
 #include "bench/machine.h"
 
 #include <Eigen/Core>
+#include <ctime>
 #include <fstream>
 #include <thread>
 
 #include "carom/version.h"
 
 namespace carom {
+namespace {
+
+std::string today() {
+  const std::time_t time = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&time));
+  return text;
+}
+
+}  // namespace
 
 std::string machineLine() {
   std::ifstream info("/proc/cpuinfo");
@@ -18,7 +29,8 @@ std::string machineLine() {
   }
   return processor + "; " + std::to_string(std::thread::hardware_concurrency()) + " cores; g++ " + __VERSION__ +
          "; Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
-         std::to_string(EIGEN_MINOR_VERSION) + "; carom " + kVersion;
+         std::to_string(EIGEN_MINOR_VERSION) + "; ODE " CAROM_BENCH_ODE "; Ipopt " CAROM_BENCH_IPOPT "; carom " +
+         kVersion + "; " + today();
 }
 
 }  // namespace carom

@@ -4,7 +4,7 @@
 
 namespace carom {
 
-/// What figures were measured on: processor, number of cores, compiler, versions of Eigen and carom.
+/// What figures were measured on: processor, number of cores, compiler, versions of libraries and of carom, date.
 std::string machineLine();
 
 }  // namespace carom

@@ -1,7 +1,7 @@
 // Impacts per second and memory per impact against the number of bodies: equal balls in a pen, tumbling boxes, mugs.
-//   carom_scale_bench --benchmark_min_time=1
-//   carom_scale_bench --machine               prints what it would be measured on
-// bench/plot_scale runs it and draws the chart.
+//   scale_bench --benchmark_min_time=1
+//   scale_bench --machine               prints what it would be measured on
+// bench/charts/scale.measure runs it for the chart.
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>

@@ -1,12 +1,24 @@
 #include "adjoint/detail/lanes.hpp"
 
 namespace carom::detail {
+namespace {
+
+std::vector<const SceneTangent*> scenesOf(std::span<const ReadingDirection> directions) {
+  std::vector<const SceneTangent*> out;
+  for (const ReadingDirection& d : directions) out.push_back(&d.scene);
+  return out;
+}
+
+}  // namespace
 
 Lanes::Lanes(DerivativeTape& tape, std::span<const ReadingDirection> directions)
-    : tape_(tape), directions_(directions), gravity_(constant(tape.motion().scene->gravity)) {
+    : tape_(tape),
+      directions_(directions),
+      reach_(tape.motion(), scenesOf(directions)),
+      gravity_(constant(tape.motion().scene->gravity)) {
   for (const BodyModel& model : *motion().models) models_.push_back(dualModel(model));
   for (std::size_t lane = 0; lane < directions.size(); ++lane) {
-    tangents_.push_back(carom::tangent(tape, directions[lane].scene));
+    tangents_.push_back(carom::tangent(tape, directions[lane].scene, &reach_));
     setRates(gravity_, directions[lane].scene.gravity, lane);
     for (std::size_t b = 0; b < models_.size(); ++b)
       setRates(models_[b], tangents_.back().model(static_cast<int>(b)), lane);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "adjoint/detail/dual_state.hpp"
+#include "adjoint/detail/reach.hpp"
 #include "adjoint/second_order.h"
 
 namespace carom::detail {
@@ -15,6 +16,8 @@ class Lanes {
   const Motion& motion() const { return tape_.motion(); }
   const ReadingDirection& direction(std::size_t lane) const { return directions_[lane]; }
   const MotionTangent& tangent(std::size_t lane) const { return tangents_[lane]; }
+  /// How far any of the directions comes.
+  const Reach& reach() const { return reach_; }
   const DualModel& model(int body) const { return models_[static_cast<std::size_t>(body)]; }
   std::vector<const BodyDerivative*> ofBody(std::size_t body) const;
 
@@ -35,6 +38,7 @@ class Lanes {
 
   DerivativeTape& tape_;
   std::span<const ReadingDirection> directions_;
+  Reach reach_;
   std::vector<MotionTangent> tangents_;
   std::vector<DualModel> models_;
   NVec gravity_;

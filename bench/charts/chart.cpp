@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <stdexcept>
 
@@ -22,13 +21,6 @@ std::string numberText(double number) {
   return std::isnan(number) ? "nan" : text;
 }
 
-std::string today() {
-  const std::time_t time = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&time));
-  return text;
-}
-
 }  // namespace
 
 Cell::Cell(double number) : text(numberText(number)) {}
@@ -41,7 +33,6 @@ Csv::Csv(const std::string& path) : path_(path) {
   note(machineLine());
   for (const EngineKind& kind : engines()) note(kind.name + ": " + kind.version);
   for (const std::string& name : missingEngines()) note(name + ": left out, it was not there when this was built");
-  note("measured on " + today());
 }
 
 void Csv::note(const std::string& sentence) { text_ += "# " + sentence + "\n"; }

@@ -24,6 +24,7 @@ plot of("impacts", "balls", "adjoint") using 4:9 with linespoints ls 1 title "ba
   of("impacts", "boxes", "adjoint") using 4:9 with linespoints ls 4 title "boxes with friction"
 set title "adjoint pass: more bodies, 1000 impacts" offset 0,-0.6
 set xlabel "bodies" offset 0,0.5
+set key right top
 plot of("bodies", "balls", "adjoint") using 5:9 with linespoints ls 1 title "balls", \
   of("bodies", "boxes", "adjoint") using 5:9 with linespoints ls 4 title "boxes with friction"
 set logscale y

@@ -1,7 +1,7 @@
 // Solves a set of edits that the program makes itself, by several ways, and says how many of them were met, how fast,
 // and how small the changes are.
 //   edits_bench --tasks 300 --config search --failures
-// bench/edits/plot_edits runs it and draws the chart.
+// bench/charts/edits.measure runs it for the chart.
 
 #include <unistd.h>
 

@@ -197,12 +197,13 @@ def two_balls(step):
 
 
 def main():
-    for make in (ball, top, two_balls):
-        for step in STEPS:
+    left = [ball, top, two_balls]
+    for step in STEPS:  # should time run out, all problems have their longer steps
+        for make in list(left):
             problem, run = make(step)
             seconds = peer.measure(problem, step, run, "reverse mode")
             if seconds is None or seconds > LONGEST / 10:
-                break
+                left.remove(make)
 
 
 main()

@@ -110,8 +110,9 @@ def two_balls(step):
 
 
 def main():
-    for make in (ball, top, two_balls):
-        for step in STEPS:
+    left = [ball, top, two_balls]
+    for step in STEPS:  # should time run out, all problems have their longer steps
+        for make in list(left):
             problem, end, unknown = make(step)
 
             def run():
@@ -121,7 +122,7 @@ def main():
                 return state.tolist(), [[None if k in unknown else d for k, d in enumerate(row)] for row in rows]
             seconds = peer.measure(problem, step, run, "reverse mode")
             if seconds is None or seconds > LONGEST / 10:
-                break
+                left.remove(make)
 
 
 main()

@@ -41,6 +41,7 @@ ControlSet::ControlSet(const Scene& scene, const std::vector<Control>& controls)
     controls_.push_back(bindControl(written_, controls[i], pointerOf(static_cast<int>(i))));
   }
   for (std::size_t i = 0; i < controls.size(); ++i) addVariables(static_cast<int>(i));
+  shareOwners();
   start_ = sceneAt(startValues());
 }
 
@@ -91,20 +92,29 @@ Eigen::VectorXd ControlSet::startValues() const {
   return values;
 }
 
-/// Several controls may share an owner (x in one, y in the other): the numbers of all of them are merged.
-Eigen::VectorXd ControlSet::slots(int control, const Eigen::VectorXd& values) const {
-  const BoundControl& bound = controls_[control];
-  const Eigen::VectorXd written = bound.kind->get(written_, bound.owner);
-  Eigen::VectorXd merged = written;
-  for (const BoundControl& other : controls_) {
-    if (!sameOwner(other, bound)) continue;
-    for (Eigen::Index slot = 0; slot < written.size(); ++slot) {
-      if (other.start[slot] != written[slot]) merged[slot] = other.start[slot];
+void ControlSet::shareOwners() {
+  std::vector<int> first;  // of each owner, the control that came first
+  for (std::size_t c = 0; c < controls_.size(); ++c) {
+    const BoundControl& bound = controls_[c];
+    const auto known = std::find_if(first.begin(), first.end(), [&](int f) { return sameOwner(controls_[f], bound); });
+    owner_of_.push_back(static_cast<int>(known - first.begin()));
+    const Eigen::VectorXd written = bound.kind->get(written_, bound.owner);
+    if (known == first.end()) {
+      first.push_back(static_cast<int>(c));
+      owners_.push_back({written, {}});
     }
+    Eigen::VectorXd& start = owners_[static_cast<std::size_t>(owner_of_.back())].start;
+    for (Eigen::Index slot = 0; slot < written.size(); ++slot)
+      if (bound.start[slot] != written[slot]) start[slot] = bound.start[slot];
   }
-  for (int i = 0; i < size(); ++i) {
-    if (sameOwner(controls_[variables_[i].control], bound)) merged[variables_[i].slot] = values[i];
-  }
+  for (int i = 0; i < size(); ++i)
+    owners_[static_cast<std::size_t>(owner_of_[variables_[i].control])].variables.push_back(i);
+}
+
+Eigen::VectorXd ControlSet::slots(int control, const Eigen::VectorXd& values) const {
+  const SharedOwner& owner = ownerOf(control);
+  Eigen::VectorXd merged = owner.start;
+  for (const int i : owner.variables) merged[variables_[i].slot] = values[i];
   return merged;
 }
 
@@ -140,8 +150,7 @@ Eigen::VectorXd ControlSet::gatherRate(const SceneGradient& gradient, const Eige
     const BoundControl& bound = controls_[variables_[i].control];
     if (!bound.kind->gather_rate) continue;
     Eigen::VectorXd of_owner = Eigen::VectorXd::Zero(bound.start.size());
-    for (int j = 0; j < size(); ++j)
-      if (sameOwner(controls_[variables_[j].control], bound)) of_owner[variables_[j].slot] = rates[j];
+    for (const int j : ownerOf(variables_[i].control).variables) of_owner[variables_[j].slot] = rates[j];
     if (of_owner.isZero(0)) continue;
     out[i] = bound.kind->gather_rate(gradient, bound.owner, slots(variables_[i].control, values),
                                      of_owner)[variables_[i].slot];
@@ -160,9 +169,9 @@ SceneTangent ControlSet::scatter(const Eigen::VectorXd& rates, const Eigen::Vect
   for (std::size_t c = 0; c < controls_.size(); ++c) {
     const BoundControl& bound = controls_[c];
     Eigen::VectorXd of_control = Eigen::VectorXd::Zero(bound.start.size());
-    for (int i = 0; i < size(); ++i) {
+    for (const int i : ownerOf(static_cast<int>(c)).variables)
       if (variables_[i].control == static_cast<int>(c)) of_control[variables_[i].slot] = rates[i];
-    }
+    if (of_control.isZero(0)) continue;
     bound.kind->scatter(of_control, bound.owner, slots(static_cast<int>(c), values), tangent);
   }
   return tangent;

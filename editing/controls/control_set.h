@@ -77,12 +77,22 @@ class ControlSet {
   Eigen::VectorXd slots(int control, const Eigen::VectorXd& values) const;
 
  private:
+  /// What several controls may share (x in one, y in the other): all its numbers at the start, and those that vary.
+  struct SharedOwner {
+    Eigen::VectorXd start;
+    std::vector<int> variables;
+  };
+
   void addVariables(int index);
+  void shareOwners();
+  const SharedOwner& ownerOf(int control) const { return owners_[static_cast<std::size_t>(owner_of_[control])]; }
 
   Scene written_;  ///< as written, prepared; values are set on copies of it
   Scene start_;
   std::vector<BoundControl> controls_;
   std::vector<Variable> variables_;
+  std::vector<SharedOwner> owners_;
+  std::vector<int> owner_of_;  // of each control
   std::vector<std::string> notes_;
   bool start_moved_ = false;
 };

@@ -42,15 +42,7 @@ SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, do
 }
 
 EditPointPtr SessionSolver::evaluate(const Eigen::VectorXd& changes) const {
-  if (!changes.allFinite()) return nullptr;
-  try {
-    EditPointPtr point = pointAt(problem_, changes, until_, false);
-    if (!point->rows.available && until_ < problem_.horizon)
-      point = pointAt(problem_, changes, problem_.horizon, false);
-    return point->rows.available && point->rows.scaled.allFinite() ? point : nullptr;
-  } catch (const InputError&) {
-    return nullptr;  // this trial makes no sense (bodies overlap, moments are impossible): others may
-  }
+  return trialAt(problem_, changes, until_, false);
 }
 
 void SessionSolver::aim(int target, const std::vector<double>& value) {

@@ -70,6 +70,20 @@ EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
   return point;
 }
 
+EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
+                     const MotionMaker& maker) {
+  if (!unknowns.allFinite()) return nullptr;
+  EditPointPtr point;
+  try {
+    point = pointAt(problem, unknowns, until, nearest_times, maker);
+    if (point && !point->rows.available && until < problem.horizon)
+      point = pointAt(problem, unknowns, problem.horizon, nearest_times, maker);
+  } catch (const InputError&) {
+    return nullptr;
+  }
+  return point && point->rows.available && point->rows.scaled.allFinite() ? point : nullptr;
+}
+
 EditPointPtr EditSearch::evaluateStart() {
   EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
   if (!point->rows.available) return point;
@@ -80,18 +94,9 @@ EditPointPtr EditSearch::evaluateStart() {
 }
 
 EditPointPtr EditSearch::make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const {
-  if (!changes.allFinite()) return nullptr;
   const Eigen::Index n = problem_.controls.size();
   if (n > 0 && changes.head(n).cwiseAbs().maxCoeff() > kFarthest) return nullptr;
-  EditPointPtr point;
-  try {
-    point = pointAt(problem_, changes, until_, nearest_times, maker);
-    if (point && !point->rows.available && until_ < problem_.horizon)
-      point = pointAt(problem_, changes, problem_.horizon, nearest_times, maker);
-  } catch (const InputError&) {
-    return nullptr;  // this trial makes no sense (bodies overlap, moments are impossible): others may
-  }
-  return point && point->rows.available && point->rows.scaled.allFinite() ? point : nullptr;
+  return trialAt(problem_, changes, until_, nearest_times, maker);
 }
 
 EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_times) {

@@ -36,6 +36,10 @@ struct MotionMaker {
 /// chosen afresh. Throws InputError for a scene that makes no sense; null where a sequence cannot be followed.
 EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
                      const MotionMaker& maker = {});
+/// The same for a trial: null where the scene makes no sense (bodies overlap, moments are impossible) or a row is not
+/// available, not even up to the horizon of the problem.
+EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
+                     const MotionMaker& maker = {});
 /// Reads the rows of a point's motion again, when targets are other ones than before.
 void readRows(const EditProblem& problem, EditPoint& point);
 /// Fills in the point's derivatives.

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "ode_bridge/ode_contacts.h"
 #include "tests/support/dot_product_scenes.h"
 #include "tests/support/transposed.h"
 
@@ -18,12 +17,7 @@ class DotProduct : public ::testing::TestWithParam<DotProductScene> {};
 
 TEST_P(DotProduct, TangentAndAdjointAreTransposed) {
   const DotProductScene& row = GetParam();
-  const Scene scene = row.scene();
-  OdeContacts contacts(scene);
-  SimulateOptions options;
-  options.impact_limit = row.impacts;
-  options.asked = row.asked;
-  const Motion m = simulate(scene, contacts, 3, options);
+  const Motion m = motionOf(row);
   ASSERT_FALSE(m.events.empty());
   for (const char* word : row.has)  // the row is about what its name says
     EXPECT_NE(

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "ode_bridge/ode_contacts.h"
+
 namespace carom::test {
 namespace {
 
@@ -205,6 +207,15 @@ std::vector<DotProductScene> dotProductScenes() {
       {"tilt", tilted, 3},
       {"several_bodies", threeBodies, 5},
   };
+}
+
+Motion motionOf(const DotProductScene& row) {
+  const Scene scene = row.scene();
+  OdeContacts contacts(scene);
+  SimulateOptions options;
+  options.impact_limit = row.impacts;
+  options.asked = row.asked;
+  return simulate(scene, contacts, 3, options);
 }
 
 }  // namespace carom::test

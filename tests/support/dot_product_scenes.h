@@ -17,5 +17,7 @@ struct DotProductScene {
 };
 std::ostream& operator<<(std::ostream& out, const DotProductScene& row);
 std::vector<DotProductScene> dotProductScenes();
+/// Of 3 s, or until the row's number of impacts.
+Motion motionOf(const DotProductScene& row);
 
 }  // namespace carom::test

@@ -89,6 +89,14 @@ const std::vector<ShapeMaker>& shapeMakers() {
   return rows;
 }
 
+std::vector<ShapePair> pairsThatMeet() {
+  std::vector<ShapePair> pairs;
+  for (const ShapeMaker& a : shapeMakers())
+    for (const ShapeMaker& b : shapeMakers())
+      if (a.moves || b.moves) pairs.push_back({&a, &b});
+  return pairs;
+}
+
 Mesh bracketMesh(Random& random, double jitter) {
   const double length = random.in(0.2, 0.4), height = random.in(0.2, 0.4), bar = random.in(0.05, 0.1);
   const double width = random.in(0.06, 0.3);

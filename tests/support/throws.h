@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ostream>
+#include <string>
 #include <vector>
 
 #include "tests/support/scenes.h"
@@ -14,6 +16,16 @@ struct ShapeMaker {
   Shape (*make)(Random&, bool fixed);
 };
 const std::vector<ShapeMaker>& shapeMakers();
+
+/// Two kinds in order.
+struct ShapePair {
+  const ShapeMaker *a, *b;
+  /// As in the names of tests: "sphere_on_box".
+  std::string name(const char* relation = "_on_") const { return std::string(a->name) + relation + b->name; }
+};
+inline std::ostream& operator<<(std::ostream& out, const ShapePair& pair) { return out << pair.name(); }
+/// Every ordered pair of kinds, but for those that both stand still and cannot meet.
+std::vector<ShapePair> pairsThatMeet();
 
 /// Closed, concave: an L of square bars; a cup with an open top. With `jitter` m its faces are not flat.
 Mesh bracketMesh(Random& random, double jitter);
