@@ -7,11 +7,6 @@
 namespace carom {
 namespace {
 
-int materialOfBody(const Scene& scene, int body) {
-  const std::string& name = scene.bodies[static_cast<std::size_t>(body)].material;
-  return name.empty() ? -1 : materialIndex(scene, name);
-}
-
 Pose poseBefore(const Motion& motion, const Event& event, int body) {
   const BodyModel& model = (*motion.models)[static_cast<std::size_t>(body)];
   const Participant* p = event.find(body);
@@ -44,8 +39,8 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
       return t < 0 ? Vec2(0, 0) : motion.scene->tilts[static_cast<std::size_t>(t)].value;
     };
     if (part.tilted) part.tilt = tiltedNormalJacobian(c.at.normal, tiltOf(c.tilt_a), tiltOf(c.tilt_b));
-    part.material_a = materialOfBody(*motion.scene, c.a);
-    part.material_b = materialOfBody(*motion.scene, c.b);
+    part.material_a = materialIndexOf(*motion.scene, c.a);
+    part.material_b = materialIndexOf(*motion.scene, c.b);
   }
   for (ContactPart& part : parts_)
     part.weight = total > 0 ? part.weight / total : 1.0 / static_cast<double>(parts_.size());

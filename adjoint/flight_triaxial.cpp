@@ -41,9 +41,11 @@ void TriaxialRotation::begin(const Vec3& inverse_inertia, const Quat& q, const V
   energy_ = u.dot(shifted_D_.cwiseProduct(u));
 }
 
-// Moves u by rounding-sized steps to the energy of the start, and turns q so that R u stays the direction of L. Energy
-// is counted from that of the middle axis, so that it has all its digits where two moments are nearly equal.
-Vec3 TriaxialRotation::restoreEnergy(Quat& q, const Vec3& u) const {
+// Moves u, the direction of L in the body, by rounding-sized steps to the energy of the start, and turns q so that R u
+// stays the direction of L; returns u. Energy is counted from that of the middle axis, so that it has all its digits
+// where two moments are nearly equal.
+Vec3 TriaxialRotation::restoreEnergy(Quat& q) const {
+  const Vec3 u = (q.toRotationMatrix().transpose() * L_).normalized();
   const Vec3 Du = shifted_D_.cwiseProduct(u);
   const double a = u.dot(Du);
   const Vec3 slope = Du - a * u;
@@ -68,7 +70,7 @@ TriaxialRotation::Segment TriaxialRotation::makeSegment(double start, const Quat
     s.u_psi.fill({});
     return s;
   }
-  const Vec3 u0 = restoreEnergy(s.q, (q.toRotationMatrix().transpose() * L_).normalized());
+  const Vec3 u0 = restoreEnergy(s.q);
   const Vec3 Du0 = D_.cwiseProduct(u0);
   const double a = u0.dot(Du0);
   const Lanes rate{l * (D_[2] - D_[1]), l * (D_[0] - D_[2]), l * (D_[1] - D_[0]), l};
@@ -127,7 +129,7 @@ const TriaxialRotation::Segment& TriaxialRotation::segmentAt(double elapsed) con
 Quat TriaxialRotation::orientationAt(double elapsed) const {
   if (closed_form_ && elapsed > endOfSegments()) {
     Quat q = closed_form_->orientationAt(elapsed);
-    restoreEnergy(q, (q.toRotationMatrix().transpose() * L_).normalized());
+    restoreEnergy(q);
     return q;
   }
   const Segment& s = segmentAt(elapsed);

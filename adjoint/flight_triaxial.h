@@ -40,7 +40,7 @@ class TriaxialRotation {
     std::array<std::array<double, 4>, kOrder + 1> u_psi;  // coefficients of u and psi
   };
   Segment makeSegment(double start, const Quat& q) const;
-  Vec3 restoreEnergy(Quat& q, const Vec3& u) const;
+  Vec3 restoreEnergy(Quat& q) const;
   static Quat orientationIn(const Segment& segment, double h);
   const Segment& segmentAt(double elapsed) const;
   double endOfSegments() const { return segments_.back().start + segments_.back().length; }

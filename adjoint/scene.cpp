@@ -52,6 +52,10 @@ int bodyIndex(const Scene& scene, const std::string& name) { return indexByName(
 int materialIndex(const Scene& scene, const std::string& name) {
   return indexByName(scene.materials, name, "material");
 }
+int materialIndexOf(const Scene& scene, int body) {
+  const std::string& name = scene.bodies[static_cast<std::size_t>(body)].material;
+  return name.empty() ? -1 : materialIndex(scene, name);
+}
 
 const Material& materialOf(const Scene& scene, const Body& body) {
   static const Material plain;

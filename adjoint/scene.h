@@ -71,6 +71,8 @@ struct Scene {
 /// Index of the named body or material; throws InputError that lists the names there are.
 int bodyIndex(const Scene& scene, const std::string& name);
 int materialIndex(const Scene& scene, const std::string& name);
+/// Index of the material of a body; -1 when it names none.
+int materialIndexOf(const Scene& scene, int body);
 /// The material of a body; a default Material when it names none.
 const Material& materialOf(const Scene& scene, const Body& body);
 

@@ -45,7 +45,5 @@ class MotionTangent {
 
 /// The tape must outlive the result.
 MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction);
-/// The same, where it is known how far the direction reaches: events beyond are passed over.
-MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
 
 }  // namespace carom

@@ -23,11 +23,6 @@ struct OneContact {
   PairNums pair;
 };
 
-int materialOfBody(const Scene& scene, int body) {
-  const std::string& name = scene.bodies[static_cast<std::size_t>(body)].material;
-  return name.empty() ? -1 : materialIndex(scene, name);
-}
-
 // Slopes of the pair's coefficient by the two materials', see combinePullback.
 struct Slopes {
   Num by_a, by_b;
@@ -100,8 +95,8 @@ void DualEvent::addContact(const Contact& c, double weight) {
   ContactPart part;
   part.a = sideOf(c.a), part.b = sideOf(c.b);
   part.weight = weight;
-  part.material_a = materialOfBody(*motion.scene, c.a);
-  part.material_b = materialOfBody(*motion.scene, c.b);
+  part.material_a = materialIndexOf(*motion.scene, c.a);
+  part.material_b = materialIndexOf(*motion.scene, c.b);
   const Pose A = poseOf(c.a), B = poseOf(c.b);
   const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, A, B);
   std::vector<PairTangent> along;

@@ -29,9 +29,9 @@ Reach::Reach(const Motion& motion, const std::vector<const SceneTangent*>& direc
     const Body& body = scene.bodies[b];
     if (changed([&](const SceneTangent& d) { return !isZero(d.bodies[b]); }) || (field && !body.fixed))
       first_arc_[b] = 0;
-    if (body.material.empty()) continue;
-    const auto m = static_cast<std::size_t>(materialIndex(scene, body.material));
-    surface[b] = changed([&](const SceneTangent& d) { return !isZero(d.materials[m]); });
+    const int m = materialIndexOf(scene, static_cast<int>(b));
+    surface[b] =
+        m >= 0 && changed([&](const SceneTangent& d) { return !isZero(d.materials[static_cast<std::size_t>(m)]); });
   }
   const auto tilted = [&](int tilt) {
     return tilt >= 0 &&

@@ -2,9 +2,10 @@
 
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/tangent.h"
 
-namespace carom::detail {
+namespace carom {
+namespace detail {
 
 /// How far a change of the scene along some directions comes: a body that one of them changes carries it from its
 /// start, and an event of such bodies, or of such surfaces, hands it on to all that take part. What it does not reach
@@ -21,4 +22,10 @@ class Reach {
   std::vector<bool> events_;
 };
 
-}  // namespace carom::detail
+}  // namespace detail
+
+/// tangent(tape, direction) where it is known how far the direction reaches: events beyond are passed over. Null: not
+/// known.
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
+
+}  // namespace carom

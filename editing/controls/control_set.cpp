@@ -93,16 +93,14 @@ Eigen::VectorXd ControlSet::startValues() const {
 }
 
 void ControlSet::shareOwners() {
-  std::vector<int> first;  // of each owner, the control that came first
   for (std::size_t c = 0; c < controls_.size(); ++c) {
     const BoundControl& bound = controls_[c];
-    const auto known = std::find_if(first.begin(), first.end(), [&](int f) { return sameOwner(controls_[f], bound); });
-    owner_of_.push_back(static_cast<int>(known - first.begin()));
+    const auto known = std::find_if(owners_.begin(), owners_.end(), [&](const SharedOwner& owner) {
+      return sameOwner(controls_[owner.first_control], bound);
+    });
+    owner_of_.push_back(static_cast<int>(known - owners_.begin()));
     const Eigen::VectorXd written = bound.kind->get(written_, bound.owner);
-    if (known == first.end()) {
-      first.push_back(static_cast<int>(c));
-      owners_.push_back({written, {}});
-    }
+    if (known == owners_.end()) owners_.push_back({static_cast<int>(c), written, {}});
     Eigen::VectorXd& start = owners_[static_cast<std::size_t>(owner_of_.back())].start;
     for (Eigen::Index slot = 0; slot < written.size(); ++slot)
       if (bound.start[slot] != written[slot]) start[slot] = bound.start[slot];

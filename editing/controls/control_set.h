@@ -76,16 +76,17 @@ class ControlSet {
   /// All numbers of the owner of a control, one a slot, at `values`.
   Eigen::VectorXd slots(int control, const Eigen::VectorXd& values) const;
 
- private:
-  /// What several controls may share (x in one, y in the other): all its numbers at the start, and those that vary.
+  /// What several controls may share: x in one, y in the other.
   struct SharedOwner {
-    Eigen::VectorXd start;
-    std::vector<int> variables;
+    int first_control;
+    Eigen::VectorXd start;       ///< all its numbers
+    std::vector<int> variables;  ///< those that vary, by any of the controls
   };
+  const SharedOwner& ownerOf(int control) const { return owners_[static_cast<std::size_t>(owner_of_[control])]; }
 
+ private:
   void addVariables(int index);
   void shareOwners();
-  const SharedOwner& ownerOf(int control) const { return owners_[static_cast<std::size_t>(owner_of_[control])]; }
 
   Scene written_;  ///< as written, prepared; values are set on copies of it
   Scene start_;

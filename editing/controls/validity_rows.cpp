@@ -3,28 +3,14 @@
 #include "editing/controls/control_families.h"
 
 namespace carom {
-namespace {
-
-bool sameOwner(const BoundControl& a, const BoundControl& b) {
-  return a.kind == b.kind && a.owner.body == b.owner.body && a.owner.tilt == b.owner.tilt;
-}
-
-/// Whether an earlier control has the same owner, whose rows are there already.
-bool isRepeated(const std::vector<BoundControl>& controls, std::size_t index) {
-  for (std::size_t i = 0; i < index; ++i) {
-    if (sameOwner(controls[i], controls[index])) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 ValidityRows::ValidityRows(const ControlSet& controls) {
   const Eigen::VectorXd start = controls.startValues();
   for (std::size_t c = 0; c < controls.controls().size(); ++c) {
     const BoundControl& bound = controls.controls()[c];
     const int control = static_cast<int>(c);
-    if (bound.kind == &kInertiaControl && !isRepeated(controls.controls(), c)) {
+    // of several controls of one owner's moments the first brings the rows
+    if (bound.kind == &kInertiaControl && controls.ownerOf(control).first_control == control) {
       const double sum = controls.slots(control, start).sum();
       for (int i = 0; i < 3; ++i) rows_.push_back({control, i, sum});
     }
@@ -51,12 +37,8 @@ Eigen::VectorXd ValidityRows::evaluate(const ControlSet& controls, const Eigen::
 Eigen::MatrixXd ValidityRows::jacobian(const ControlSet& controls, const Eigen::VectorXd& values) const {
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(size(), controls.size());
   for (int i = 0; i < size(); ++i) {
-    const BoundControl& bound = controls.controls()[rows_[i].control];
     const Eigen::VectorXd dh = gradient(rows_[i], controls.slots(rows_[i].control, values));
-    for (int j = 0; j < controls.size(); ++j) {
-      const Variable& v = controls.variables()[j];
-      if (sameOwner(controls.controls()[v.control], bound)) J(i, j) = dh[v.slot];
-    }
+    for (const int j : controls.ownerOf(rows_[i].control).variables) J(i, j) = dh[controls.variables()[j].slot];
   }
   return J;
 }
@@ -66,11 +48,7 @@ Eigen::MatrixXd ValidityRows::hessian(const ControlSet& controls, const Eigen::V
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(controls.size(), controls.size());
   for (int i = 0; i < size(); ++i) {
     if (rows_[i].moment >= 0) continue;
-    const BoundControl& bound = controls.controls()[rows_[i].control];
-    for (int j = 0; j < controls.size(); ++j) {
-      if (sameOwner(controls.controls()[controls.variables()[j].control], bound))
-        H(j, j) -= 2 * weights[i] / rows_[i].scale;
-    }
+    for (const int j : controls.ownerOf(rows_[i].control).variables) H(j, j) -= 2 * weights[i] / rows_[i].scale;
   }
   return H;
 }

@@ -76,7 +76,7 @@ bool SequenceSearch::round(Seek seek) {
 }
 
 bool SequenceSearch::reportBatch() {
-  const EditPointPtr& best = search_.best();
+  const EditPointPtr best = search_.best();
   return search_.step(best->objective, best->violation);
 }
 

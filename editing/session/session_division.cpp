@@ -52,7 +52,7 @@ void SessionSolver::startAt(const Eigen::VectorXd& changes) {
 
 /// Verifies where the part came to. True when the part had to grow, so that there is more to do.
 bool SessionSolver::takeOverPart(Work& work) {
-  const EditPointPtr& found = part_->point();
+  const EditPointPtr found = part_->point();
   Eigen::VectorXd changes = point_->changes;
   division_.extend(found->changes, changes);
   if (changes == point_->changes) return false;

@@ -26,7 +26,7 @@ class SessionSolver {
                 const SessionOptions& options, bool part = false);
 
   const EditProblem& problem() const { return problem_; }
-  const EditPointPtr& point() const { return point_; }
+  EditPointPtr point() const { return point_; }
   bool atStart() const { return point_ == start_; }
   bool reached() const { return reached(*point_); }
   int iterations() const { return iterations_; }

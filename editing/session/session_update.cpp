@@ -49,7 +49,7 @@ std::shared_ptr<const Motion> EditSession::State::simulated(const std::shared_pt
 }
 
 std::shared_ptr<const Motion> EditSession::State::motionOf(const SessionSolver& solver) const {
-  const EditPointPtr& point = solver.point();
+  const EditPointPtr point = solver.point();
   if (point->motion.duration == duration) return {point, &point->motion};
   return simulated(point->motion.scene);
 }

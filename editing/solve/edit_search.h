@@ -77,8 +77,9 @@ class EditSearch {
   /// Fills in the point's derivatives.
   void differentiate(EditPoint& point) const { carom::differentiate(problem_, point); }
 
-  /// The best point so far: within the tolerance the smallest change, else the smallest violation.
-  const EditPointPtr& best() const { return best_; }
+  /// The best point so far: within the tolerance the smallest change, else the smallest violation. By value: what goes
+  /// on from it finds better ones, and it must stay alive meanwhile.
+  EditPointPtr best() const { return best_; }
   bool reached(const EditPoint& point) const { return point.violation <= options_.tolerance; }
   bool reached() const { return best_ && reached(*best_); }
 

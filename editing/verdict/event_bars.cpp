@@ -8,11 +8,6 @@ namespace {
 
 using Vec7 = Eigen::Matrix<double, 7, 1>;
 
-int materialOfBody(const Scene& scene, int body) {
-  const std::string& name = scene.bodies[static_cast<std::size_t>(body)].material;
-  return name.empty() ? -1 : materialIndex(scene, name);
-}
-
 }  // namespace
 
 EventBars::EventBars(const Motion& motion, int event)
@@ -143,7 +138,7 @@ void EventBars::addLaw(int contact, const Mat3& K_bar, const Vec3& impulse_norma
   const Scene& scene = *motion_.scene;
   MaterialDerivative unused;
   const auto slot = [&](int body) -> MaterialDerivative& {
-    const int m = materialOfBody(scene, body);
+    const int m = materialIndexOf(scene, body);
     return m < 0 ? unused : direct_.materials[static_cast<std::size_t>(m)];
   };
   combinePullback(materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
