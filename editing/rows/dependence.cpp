@@ -69,6 +69,15 @@ RowSplit splitRows(const Eigen::MatrixXd& jacobian, const std::vector<int>& want
   return split;
 }
 
+Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& jacobian, double tolerance) {
+  const Eigen::Index n = jacobian.cols();
+  if (jacobian.size() == 0) return Eigen::MatrixXd::Identity(n, n);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian.transpose());
+  qr.setThreshold(tolerance);
+  const Eigen::MatrixXd Q = qr.householderQ();
+  return Q.rightCols(n - qr.rank());
+}
+
 double contradictionOf(const RowSplit& split, const DependentRow& row, const Eigen::VectorXd& residuals) {
   double combined = 0;
   for (std::size_t k = 0; k < split.independent.size(); ++k) {

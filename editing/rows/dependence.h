@@ -30,6 +30,10 @@ RowSplit splitRows(const Eigen::MatrixXd& jacobian);
 /// Looks at some of the rows alone; indices in the result are those of the whole Jacobian.
 RowSplit splitRows(const Eigen::MatrixXd& jacobian, const std::vector<int>& rows);
 
+/// Orthonormal basis, in columns, of the directions that change no row to first order (J z = 0); may have none. Pivots
+/// below `tolerance` times the largest count as zero.
+Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& jacobian, double tolerance = kRankTolerance);
+
 /// By how much a dependent row is out of reach while the independent ones are at their targets, to first order: its
 /// residual less the same combination of theirs.
 double contradictionOf(const RowSplit& split, const DependentRow& row, const Eigen::VectorXd& residuals);

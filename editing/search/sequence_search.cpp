@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/QR>
-
+#include "editing/rows/dependence.h"
 #include "editing/search/samples.h"
 #include "editing/solve/edit_solution.h"
 #include "editing/solve/projection.h"
@@ -34,10 +33,7 @@ constexpr double kSameChange = 0.1;
 // matters at the border of a sequence, or else back to the start.
 Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
   search.differentiate(point);
-  const Eigen::MatrixXd& J = *point.row_jacobian;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J.transpose());
-  qr.setThreshold(1e-9);
-  const Eigen::MatrixXd Q = qr.householderQ(), free = Q.rightCols(J.cols() - qr.rank());
+  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
   if (!search.reached(point)) return {point.changes, smallestStep(search, point), free};
   const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
   const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();

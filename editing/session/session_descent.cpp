@@ -4,8 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/QR>
-
+#include "editing/rows/dependence.h"
 #include "editing/session/session_solver.h"
 
 namespace carom {
@@ -141,9 +140,7 @@ void SessionSolver::descendFromBest(Work& work) {
 std::optional<Surroundings> SessionSolver::surroundings(EditPoint& point) const {
   const StepProblem problem = stepProblem(point);
   if (!point.row_jacobian->allFinite()) return std::nullopt;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> across(point.row_jacobian->transpose());
-  const Eigen::MatrixXd Q = across.householderQ();
-  return Surroundings{point.changes, hierarchicalStep(problem).d, Q.rightCols(Q.cols() - across.rank())};
+  return Surroundings{point.changes, hierarchicalStep(problem).d, nullSpace(*point.row_jacobian)};
 }
 
 /// Where the steps from the best point end before the goal, others are tried from samples around it, and around the

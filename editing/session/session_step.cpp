@@ -7,6 +7,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "editing/rows/dependence.h"
+
 namespace carom {
 namespace {
 
@@ -65,11 +67,7 @@ struct Solver {
       onto.compute(hard.J);
       d0 = -onto.solve(hard.r);
       shorten(d0, problem.reach);
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> across;
-      across.setThreshold(kRank);
-      across.compute(hard.J.transpose());
-      const Eigen::MatrixXd Q = across.householderQ();
-      Z = Q.rightCols(n - across.rank());
+      Z = nullSpace(hard.J, kRank);
     }
     Step step;
     Eigen::VectorXd d = d0, towards = Eigen::VectorXd::Zero(n);

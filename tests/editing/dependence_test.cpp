@@ -5,8 +5,12 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/compare.h"
+
 namespace carom {
 namespace {
+
+using test::expectEntries;
 
 Eigen::MatrixXd randomMatrix(int rows, int columns, unsigned seed) {
   std::mt19937 random(seed);
@@ -71,6 +75,29 @@ TEST(Dependence, MoreRowsThanColumns) {
   const RowSplit split = splitRows(randomMatrix(7, 3, 7));
   EXPECT_EQ(split.independent.size(), 3u);
   EXPECT_EQ(split.dependent.size(), 4u);
+}
+
+TEST(Dependence, NullSpaceIsAnOrthonormalBasisOfWhatChangesNoRow) {
+  Eigen::MatrixXd m = randomMatrix(4, 7, 8);
+  m.row(3) = m.row(0) - 2 * m.row(1);  // rank 3
+  const Eigen::MatrixXd Z = nullSpace(m);
+  ASSERT_EQ(Z.rows(), 7);
+  ASSERT_EQ(Z.cols(), 4);
+  expectEntries(m * Z, Eigen::MatrixXd::Zero(4, 4), 1e-14, "J Z", 1);
+  expectEntries(Z.transpose() * Z, Eigen::MatrixXd::Identity(4, 4), 1e-14, "Z'Z", 1);
+}
+
+TEST(Dependence, NullSpaceJudgesNearlyDependentRowsByTheTolerance) {
+  Eigen::MatrixXd m = randomMatrix(2, 5, 9);
+  m.row(1) = m.row(0) + 1e-10 * m.row(1);
+  EXPECT_EQ(nullSpace(m).cols(), 4);
+  EXPECT_EQ(nullSpace(m, 1e-12).cols(), 3);
+}
+
+TEST(Dependence, NullSpaceAtItsEnds) {
+  EXPECT_EQ(nullSpace(randomMatrix(3, 3, 10)).cols(), 0);
+  EXPECT_EQ(nullSpace(Eigen::MatrixXd(0, 3)), Eigen::MatrixXd(Eigen::MatrixXd::Identity(3, 3)));
+  EXPECT_EQ(nullSpace(Eigen::MatrixXd(2, 0)).size(), 0);
 }
 
 TEST(Dependence, NoColumns) { EXPECT_EQ(splitRows(Eigen::MatrixXd(2, 0)).zero.size(), 2u); }
