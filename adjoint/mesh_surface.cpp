@@ -6,6 +6,7 @@
 
 #include "adjoint/refuse.h"
 #include "adjoint/surface.h"
+#include "adjoint/two_part.h"
 #include "adjoint/weld.h"
 
 namespace carom {
@@ -47,9 +48,12 @@ void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const Trian
   const auto at = [&](int k) -> const Vec3& {
     return vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])];
   };
-  for (int k = 0; k < 3; ++k)
-    if (at(k) == at((k + 1) % 3))
-      refuse(nameOf("triangle", t), "found two corners at the same place, expected three places");
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 &a = at(k), &b = at((k + 1) % 3);
+    if (a == b) refuse(nameOf("triangle", t), "found two corners at the same place, expected three places");
+    if (const double side = (b - a).stableNorm(); !(side >= kLeastLength))
+      refuse(nameOf("triangle", t), "found a side of ", about(side), " m, expected at least ", about(kLeastLength));
+  }
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, (at((k + 1) % 3) - at(k)).squaredNorm());
   double area = 0;  // twice; the largest of the three ways to compute it errs on the side of the triangle
@@ -133,9 +137,8 @@ std::vector<Piece> piecesOf(const Surface& s) {
     const Vec3& origin = corner(root, 0);
     if (root == f) number[f] = pieces.size(), pieces.push_back({f, 0, 0, origin, origin});
     Piece& piece = pieces[number[root]];
-    const Vec3 a = corner(f, 0) - origin, b = corner(f, 1) - origin, c = corner(f, 2) - origin;
-    piece.volume += a.dot(b.cross(c)) / 6;
-    piece.area += (b - a).cross(c - a).norm() / 2;
+    piece.volume += tripleProduct(origin, corner(f, 0), corner(f, 1), corner(f, 2)) / 6;
+    piece.area += crossProduct(corner(f, 0), corner(f, 1), corner(f, 2)).norm() / 2;
     for (int k = 0; k < 3; ++k) {
       piece.low = piece.low.cwiseMin(corner(f, k));
       piece.high = piece.high.cwiseMax(corner(f, k));

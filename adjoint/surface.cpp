@@ -4,36 +4,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "adjoint/two_part.h"
+
 namespace carom {
 namespace {
-
-// a - b and a b without rounding: the value is the sum of the two parts.
-struct Parts {
-  double high, low;
-};
-Parts difference(double a, double b) {
-  const double high = a - b, back = a - high;
-  return {high, (a - (high + back)) + (back - b)};
-}
-Parts product(double a, double b) {
-  const double high = a * b;
-  return {high, std::fma(a, b, -high)};
-}
-
-// a b - c d to about 1e-31 |a b|, for factors in two parts.
-double crossTerm(const Parts& a, const Parts& b, const Parts& c, const Parts& d) {
-  const Parts ab = product(a.high, b.high), cd = product(c.high, d.high), main = difference(ab.high, cd.high);
-  const double small = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
-  return main.high + (main.low + (ab.low - cd.low) + small);
-}
-
-// (a - o) x (b - o). A sliver's normal has to be as good as any other: the rounding of a plain cross product would turn
-// that of a triangle 1e-6 as high as it is long by 1e-10.
-Vec3 crossProduct(const Vec3& o, const Vec3& a, const Vec3& b) {
-  Parts u[3], v[3];
-  for (int k = 0; k < 3; ++k) u[k] = difference(a[k], o[k]), v[k] = difference(b[k], o[k]);
-  return {crossTerm(u[1], v[2], u[2], v[1]), crossTerm(u[2], v[0], u[0], v[2]), crossTerm(u[0], v[1], u[1], v[0])};
-}
 
 // Twice the vector area of a polygon.
 Vec3 doubleArea(const Surface& s, const Surface::Face& f) {
@@ -92,27 +66,28 @@ void addEdges(Surface& s) {
 //   integral of x     = sum V/4 (a + b + c)
 //   integral of x x^T = sum V/20 (a a^T + b b^T + c c^T + (a + b + c)(a + b + c)^T)
 struct Moments {
-  double volume = 0;
-  Vec3 first = Vec3::Zero();
-  Mat3 second = Mat3::Zero();
+  double volume;
+  Vec3 first;
+  Mat3 second;
 };
 
 Moments momentsAbout(const Surface& s, const Vec3& o) {
-  Moments m;
+  TwoPart volumes, firsts[3];  // of many triangles plain sums would be some roundings off
+  Mat3 second = Mat3::Zero();
   for (const Surface::Face& f : s.faces) {
-    const auto corner = [&](int i) -> Vec3 {
-      return s.vertices[static_cast<std::size_t>(s.corners[static_cast<std::size_t>(f.first + i)])] - o;
+    const auto corner = [&](int i) -> const Vec3& {
+      return s.vertices[static_cast<std::size_t>(s.corners[static_cast<std::size_t>(f.first + i)])];
     };
-    const Vec3 a = corner(0);
+    const Vec3 a = corner(0) - o;
     for (int i = 1; i + 1 < f.count; ++i) {
-      const Vec3 b = corner(i), c = corner(i + 1), sum = a + b + c;
-      const double volume = a.dot(b.cross(c)) / 6;
-      m.volume += volume;
-      m.first += volume / 4 * sum;
-      m.second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+      const Vec3 b = corner(i) - o, c = corner(i + 1) - o, sum = a + b + c;
+      const double volume = tripleProduct(o, corner(0), corner(i), corner(i + 1)) / 6;
+      volumes = volumes + TwoPart{volume, 0};
+      for (int k = 0; k < 3; ++k) firsts[k] = firsts[k] + TwoPart{volume / 4 * sum[k], 0};
+      second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
     }
   }
-  return m;
+  return {volumes.value(), {firsts[0].value(), firsts[1].value(), firsts[2].value()}, second};
 }
 
 // The moments are taken about the vertices' mean and then about the centre found, so that nothing cancels for a surface
@@ -142,9 +117,7 @@ Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vecto
     assert(polygon.size() >= 3);
     Surface::Face f{static_cast<int>(s.corners.size()), static_cast<int>(polygon.size())};
     s.corners.insert(s.corners.end(), polygon.begin(), polygon.end());
-    const Vec3 area = doubleArea(s, f);
-    assert(area.squaredNorm() > 0);
-    f.normal = area.stableNormalized();
+    f.normal = doubleArea(s, f).stableNormalized();
     s.faces.push_back(f);
   }
   addEdges(s);

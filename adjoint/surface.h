@@ -35,14 +35,18 @@ struct Surface {
   Mat3 unit_inertia = Mat3::Zero();  ///< about the centre, per unit mass, m^2
 };
 
+/// Least length of a side of a mesh and of the extent of a hull, m: the fifth powers in the integrals and the squares
+/// of areas then stay far within the range of a double.
+inline constexpr double kLeastLength = 1e-30;
+
 /// Mesh of triangles. Vertices at the same place are joined. Throws InputError naming the vertex, triangle or edge:
-/// nothing in it, numbers not finite or above 1e9, indices out of range, triangles without area, edges of more than two
-/// triangles or run through twice in one direction, a closed mesh inside out.
+/// nothing in it, numbers not finite or above 1e9, indices out of range, sides below kLeastLength, triangles without
+/// area, edges of more than two triangles or run through twice in one direction, a closed mesh inside out.
 std::shared_ptr<const Surface> meshSurface(const std::vector<Vec3>& vertices,
                                            const std::vector<std::array<int, 3>>& triangles);
 
 /// Surface from polygons whose corners are already shared and counter-clockwise; fills in normals, edges and integrals.
-/// Checks nothing but what the others rely on (asserts).
+/// The normal of a polygon without area is zero, which is for the caller to check.
 Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& polygons);
 
 }  // namespace carom

@@ -47,9 +47,12 @@ void checkNumbers(const std::vector<Vec3>& points) {
 double checkSpread(const std::vector<Vec3>& points) {
   Vec3 low = points[0], high = low;
   for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const double size = (high - low).norm();
+  const double size = (high - low).stableNorm();
   const auto expected = ", expected points that span a volume";
   if (!(size > 0)) refuse("", "found all ", points.size(), " points of a hull at one place", expected);
+  if (!(size >= kLeastLength))
+    refuse("", "found points of a hull within ", about(size), " m of each other, expected an extent of at least ",
+           about(kLeastLength), " m");
   const auto farthest = [&](auto&& measure) {
     return *std::max_element(points.begin(), points.end(),
                              [&](const Vec3& a, const Vec3& b) { return measure(a) < measure(b); });
@@ -213,6 +216,9 @@ std::shared_ptr<const Surface> surfaceOf(Polygons polygons, const std::vector<Ve
   if (!closesOnce(polygons)) return nullptr;
   std::vector<Vec3> vertices = keepUsed(polygons, points);
   auto surface = std::make_shared<Surface>(assembleSurface(std::move(vertices), polygons));
+  problem = "a face without area";
+  for (const Surface::Face& face : surface->faces)
+    if (face.normal.isZero(0)) return nullptr;
   problem = "a face that points stand out of";
   if (!(unevenness(*surface, points) <= kAbove * size)) return nullptr;
   problem = "an edge that is sunk in";

@@ -16,7 +16,7 @@ namespace carom {
 /// rounding of the coordinates in place of 1e-14).
 ///
 /// Throws InputError: fewer than four points, numbers not finite or above 1e9 (naming the point), all points at one
-/// place, on one line or in one plane within 1e-9 size. Safe to call from several threads.
+/// place, within kLeastLength, on one line or in one plane within 1e-9 size. Safe to call from several threads.
 std::shared_ptr<const Surface> convexHull(const std::vector<Vec3>& points);
 
 }  // namespace carom

@@ -202,6 +202,28 @@ TEST(Surface, PlatesAndNeedles) {
   }
 }
 
+// The volume of a needle turned any way is that of its corners, however thin it is, and so is its sign.
+TEST(Surface, VolumesOfTurnedNeedles) {
+  using Real = boost::multiprecision::cpp_bin_float_100;
+  Random random(15);
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE("seed 15, needle " + std::to_string(i));
+    const double thin = std::pow(10, random.in(-5.5, -1));  // the volume's share of area x extent falls to 1e-12 below
+    const auto needle = tetrahedron({0, 0, 0}, {1, 0, 0}, {random.in(0, 1), thin, 0}, {random.in(0, 1), 0, thin})
+                            .placed(random.rotation(), random.vec(1));
+    Real d[3][3];
+    for (int r = 0; r < 3; ++r)
+      for (int k = 0; k < 3; ++k)
+        d[r][k] = Real(needle.vertices[static_cast<std::size_t>(r + 1)][k]) - Real(needle.vertices[0][k]);
+    const Real volume =
+        (d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) + d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
+         d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0])) /
+        6;
+    expectEntries(needle.surface()->volume / static_cast<double>(volume), 1, 2e-15, "volume");
+    EXPECT_THROW(needle.insideOut().surface(), InputError);
+  }
+}
+
 // Two pieces with one corner in common are a solid.
 TEST(Surface, PiecesMayShareACorner) {
   const auto s = boxTriangles({1, 1, 1}).with(boxTriangles({1, 1, 1}).placed(Quat::Identity(), {1, 1, 1})).surface();
@@ -321,6 +343,16 @@ std::vector<BadMesh> badMeshes() {
          return Triangles{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 1e-13}}, {{0, 1, 2}}};
        },
        {"triangle 0", "on one line"}},
+      {"tiny",
+       [] {
+         return boxTriangles({1e-90, 1e-90, 1e-90});
+       },
+       {"triangle 0", "a side of 1", "e-90 m", "at least 1e-30"}},
+      {"tinySide",
+       [] {
+         return Triangles{{{0, 0, 0}, {1e-200, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+       },
+       {"triangle 0", "a side of 1e-200 m", "at least 1e-30"}},
       {"threeTriangles",
        box([](Triangles& t) {
          t.vertices.push_back({9, 9, 9});

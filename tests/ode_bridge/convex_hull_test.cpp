@@ -225,6 +225,7 @@ std::vector<BadPoints> badPoints() {
           {"infinite", cube(7, {0, 0, kInf}), {"point 7", "inf", "finite"}},
           {"huge", cube(0, {-1e300, 0, 0}), {"point 0", "e+300", "at most 1e9"}},
           {"equal", std::vector<Vec3>(9, Vec3(1, 2, 3)), {"9 points", "at one place", "span a volume"}},
+          {"tiny", boxTriangles({1e-90, 1e-90, 1e-90}).vertices, {"within 1.73e-90 m", "at least 1e-30 m"}},
           {"line", line, {"30 points", "on one line", "span a volume"}},
           {"exactLine", {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}, {"on one line"}},
           {"plane", flat, {"30 points", "in one plane", "span a volume"}},
@@ -261,6 +262,25 @@ TEST(ConvexHull, ThinPlates) {
     expectHull(*hull, points);
     EXPECT_EQ(hull->vertices.size(), 8u);
   }
+}
+
+// Needles as thin both ways as a plate may be: a volume all the same.
+TEST(ConvexHull, Needles) {
+  Random random(39);
+  for (int i = 0; i < 500; ++i) {
+    SCOPED_TRACE("seed 39, needle " + std::to_string(i));
+    const double length = std::pow(10, random.in(-25, 8.5)), thin = std::pow(10, random.in(-8, -3));
+    const auto points =
+        boxTriangles({length, thin * length, thin * length}).placed(random.rotation(), Vec3::Zero()).vertices;
+    const auto hull = convexHull(points);
+    expectHull(*hull, points);
+    // rounding of the corners is 1e-16 of the length, of the thickness ever more
+    expectEntries(hull->volume / (thin * thin * std::pow(length, 3)), 1, 1e-14 / thin, "volume");
+  }
+  // a needle whose plain triple products are rounding
+  const Vec3 far = Vec3::Constant(1e9), near = far - Vec3::UnitX();
+  EXPECT_GT(
+      convexHull({far, near, {15, -0.5, 0.5}, {-0.5, 0.5, -0.1}, {-0.5, -0.5, 0}, {0.5, 1, 0}, {2, 0, 0}})->volume, 0);
 }
 
 }  // namespace

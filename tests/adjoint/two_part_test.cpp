@@ -1,0 +1,69 @@
+// Products of differences to twice the digits, against a hundred digits.
+
+#include "adjoint/two_part.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include "tests/support/compare.h"
+#include "tests/support/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace test;
+using Real = boost::multiprecision::cpp_bin_float_100;
+using RealVec = std::array<Real, 3>;
+
+constexpr double kRounding = 2.3e-16;
+
+RealVec exactDifference(const Vec3& a, const Vec3& o) {
+  RealVec d;
+  for (int k = 0; k < 3; ++k) d[static_cast<std::size_t>(k)] = Real(a[k]) - Real(o[k]);
+  return d;
+}
+
+RealVec exactCross(const RealVec& u, const RealVec& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+void expectWithin(double found, const Real& exact, double share, const char* what) {
+  const auto expected = static_cast<double>(exact);
+  const double allowed = kRounding * std::abs(expected) + share;
+  const auto error = static_cast<double>(Real(abs(Real(found) - exact)));
+  EXPECT_TRUE(error <= allowed) << what << ": found " << found << ", expected " << expected << ", error " << error;
+}
+
+// Needles and plates of every thickness, any way round, near the origin and far from it.
+TEST(TwoPart, ProductsOfThinTetrahedra) {
+  Random random(61);
+  for (int i = 0; i < 5000; ++i) {
+    SCOPED_TRACE("seed 61, throw " + std::to_string(i));
+    const double size = std::pow(10, random.in(-25, 8)), far = i % 2 ? std::pow(10, random.in(-3, 4)) : 0;
+    const Vec3 o = size * far * random.unit(), along = random.vec(1), aside = random.vec(1), up = random.vec(1);
+    const double width = std::pow(10, random.in(-12, 0)), height = std::pow(10, random.in(-12, 0));
+    const Vec3 a = o + size * along, b = o + size * (random.in(-1, 1) * along + width * aside),
+               c = o + size * (random.in(-1, 1) * along + width * random.in(-1, 1) * aside + height * up);
+    const RealVec u = exactDifference(a, o), v = exactDifference(b, o), w = exactDifference(c, o);
+    const RealVec area = exactCross(u, v), vw = exactCross(v, w);
+
+    const double lengths = (a - o).norm() * (b - o).norm();
+    const Vec3 found = crossProduct(o, a, b);
+    for (int k = 0; k < 3; ++k) expectWithin(found[k], area[static_cast<std::size_t>(k)], 1e-31 * lengths, "area");
+    expectWithin(tripleProduct(o, a, b, c), Real(u[0] * vw[0] + u[1] * vw[1] + u[2] * vw[2]),
+                 1e-30 * lengths * (c - o).norm(), "volume");
+    if (HasFailure()) return;
+  }
+}
+
+TEST(TwoPart, NothingIsLost) {
+  const TwoPart third = TwoPart::product(1 / 3., 1 / 3.), sum = third + TwoPart::difference(1, 1e-20);
+  EXPECT_EQ(Real(third.high) + Real(third.low), Real(1 / 3.) * Real(1 / 3.));
+  expectEntries((sum - TwoPart{1, 0} - third).value(), -1e-20, 1e-31, "sum");
+  expectEntries((TwoPart::difference(1, 1e-20) * TwoPart{3, 0} - TwoPart{3, 0}).value(), -3e-20, 1e-31, "product");
+}
+
+}  // namespace
+}  // namespace carom
