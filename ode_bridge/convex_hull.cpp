@@ -218,7 +218,7 @@ std::shared_ptr<const Surface> surfaceOf(Polygons polygons, const std::vector<Ve
   auto surface = std::make_shared<Surface>(assembleSurface(std::move(vertices), polygons));
   problem = "a face without area";
   for (const Surface::Face& face : surface->faces)
-    if (face.normal.isZero(0)) return nullptr;
+    if (face.normal == Vec3::Zero()) return nullptr;
   problem = "a face that points stand out of";
   if (!(unevenness(*surface, points) <= kAbove * size)) return nullptr;
   problem = "an edge that is sunk in";
