@@ -52,7 +52,8 @@ void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const Trian
     const Vec3 &a = at(k), &b = at((k + 1) % 3);
     if (a == b) refuse(nameOf("triangle", t), "found two corners at the same place, expected three places");
     if (const double side = (b - a).stableNorm(); !(side >= kLeastLength))
-      refuse(nameOf("triangle", t), "found a side of ", about(side), " m, expected at least ", about(kLeastLength));
+      refuse(nameOf("triangle", t), "found a side of ", about(side), " m, expected at least ", about(kLeastLength),
+             " m");
   }
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, (at((k + 1) % 3) - at(k)).squaredNorm());
