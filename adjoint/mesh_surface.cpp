@@ -48,15 +48,16 @@ void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const Trian
   const auto at = [&](int k) -> const Vec3& {
     return vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])];
   };
+  double longest = 0;  // squared
   for (int k = 0; k < 3; ++k) {
-    const Vec3 &a = at(k), &b = at((k + 1) % 3);
-    if (a == b) refuse(nameOf("triangle", t), "found two corners at the same place, expected three places");
-    if (const double side = (b - a).stableNorm(); !(side >= kLeastLength))
-      refuse(nameOf("triangle", t), "found a side of ", about(side), " m, expected at least ", about(kLeastLength),
+    const Vec3 side = at((k + 1) % 3) - at(k);
+    if (side == Vec3::Zero())
+      refuse(nameOf("triangle", t), "found two corners at the same place, expected three places");
+    if (const double length = side.stableNorm(); !(length >= kLeastLength))
+      refuse(nameOf("triangle", t), "found a side of ", about(length), " m, expected at least ", about(kLeastLength),
              " m");
+    longest = std::max(longest, side.squaredNorm());
   }
-  double longest = 0;
-  for (int k = 0; k < 3; ++k) longest = std::max(longest, (at((k + 1) % 3) - at(k)).squaredNorm());
   double area = 0;  // twice; the largest of the three ways to compute it errs on the side of the triangle
   for (int k = 0; k < 3; ++k) area = std::max(area, (at((k + 1) % 3) - at(k)).cross(at((k + 2) % 3) - at(k)).norm());
   if (!(area > kFlattest * longest))

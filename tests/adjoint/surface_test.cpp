@@ -9,6 +9,7 @@
 
 #include "adjoint/errors.h"
 #include "tests/support/compare.h"
+#include "tests/support/exact/vector.h"
 #include "tests/support/scenes.h"
 #include "tests/support/solids.h"
 
@@ -16,6 +17,8 @@ namespace carom {
 namespace {
 
 using namespace test;
+using Real = boost::multiprecision::cpp_bin_float_100;
+using Exact = exact::Vec<Real>;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 constexpr double kPi = std::numbers::pi;
@@ -204,21 +207,14 @@ TEST(Surface, PlatesAndNeedles) {
 
 // The volume of a needle turned any way is that of its corners, however thin it is, and so is its sign.
 TEST(Surface, VolumesOfTurnedNeedles) {
-  using Real = boost::multiprecision::cpp_bin_float_100;
   Random random(15);
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE("seed 15, needle " + std::to_string(i));
     const double thin = std::pow(10, random.in(-5.5, -1));  // the volume's share of area x extent falls to 1e-12 below
     const auto needle = tetrahedron({0, 0, 0}, {1, 0, 0}, {random.in(0, 1), thin, 0}, {random.in(0, 1), 0, thin})
                             .placed(random.rotation(), random.vec(1));
-    Real d[3][3];
-    for (int r = 0; r < 3; ++r)
-      for (int k = 0; k < 3; ++k)
-        d[r][k] = Real(needle.vertices[static_cast<std::size_t>(r + 1)][k]) - Real(needle.vertices[0][k]);
-    const Real volume =
-        (d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) + d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
-         d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0])) /
-        6;
+    const auto side = [&](std::size_t k) { return Exact(needle.vertices[k]) - Exact(needle.vertices[0]); };
+    const Real volume = dot(side(1), cross(side(2), side(3))) / 6;
     expectEntries(needle.surface()->volume / static_cast<double>(volume), 1, 2e-15, "volume");
     EXPECT_THROW(needle.insideOut().surface(), InputError);
   }
@@ -279,20 +275,14 @@ TEST(Surface, PolygonsShareEdges) {
 
 // The normal of a sliver is as good as any other.
 TEST(Surface, NormalsOfSlivers) {
-  using Real = boost::multiprecision::cpp_bin_float_100;
   Random random(13);
   for (int i = 0; i < 2000; ++i) {
     SCOPED_TRACE("seed 13, throw " + std::to_string(i));
     const Vec3 a = random.vec(1), along = random.vec(1), aside = random.vec(1);
     const double height = std::pow(10, random.in(-11, 0));
     const std::vector<Vec3> p = {a, a + along, a + random.in(-0.5, 1.5) * along + height * aside};
-    Real u[3], v[3];
-    for (int k = 0; k < 3; ++k) u[k] = Real(p[1][k]) - Real(p[0][k]), v[k] = Real(p[2][k]) - Real(p[0][k]);
-    const Real n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const Real length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    Vec3 expected;
-    for (int k = 0; k < 3; ++k) expected[k] = static_cast<double>(Real(n[k] / length));
-    expectEntries(meshSurface(p, {{0, 1, 2}})->faces[0].normal, expected, 5e-16, "normal");
+    const Exact normal = unit(cross(Exact(p[1]) - Exact(p[0]), Exact(p[2]) - Exact(p[0])));
+    expectEntries(meshSurface(p, {{0, 1, 2}})->faces[0].normal, normal.rounded(), 5e-16, "normal");
   }
 }
 

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "tests/support/compare.h"
+#include "tests/support/exact/vector.h"
 #include "tests/support/scenes.h"
 
 namespace carom {
@@ -15,19 +15,9 @@ namespace {
 
 using namespace test;
 using Real = boost::multiprecision::cpp_bin_float_100;
-using RealVec = std::array<Real, 3>;
+using Exact = exact::Vec<Real>;
 
 constexpr double kRounding = 2.3e-16;
-
-RealVec exactDifference(const Vec3& a, const Vec3& o) {
-  RealVec d;
-  for (int k = 0; k < 3; ++k) d[static_cast<std::size_t>(k)] = Real(a[k]) - Real(o[k]);
-  return d;
-}
-
-RealVec exactCross(const RealVec& u, const RealVec& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 
 void expectWithin(double found, const Real& exact, double share, const char* what) {
   const auto expected = static_cast<double>(exact);
@@ -46,14 +36,12 @@ TEST(TwoPart, ProductsOfThinTetrahedra) {
     const double width = std::pow(10, random.in(-12, 0)), height = std::pow(10, random.in(-12, 0));
     const Vec3 a = o + size * along, b = o + size * (random.in(-1, 1) * along + width * aside),
                c = o + size * (random.in(-1, 1) * along + width * random.in(-1, 1) * aside + height * up);
-    const RealVec u = exactDifference(a, o), v = exactDifference(b, o), w = exactDifference(c, o);
-    const RealVec area = exactCross(u, v), vw = exactCross(v, w);
+    const Exact u = Exact(a) - Exact(o), v = Exact(b) - Exact(o), w = Exact(c) - Exact(o), area = cross(u, v);
 
     const double lengths = (a - o).norm() * (b - o).norm();
     const Vec3 found = crossProduct(o, a, b);
-    for (int k = 0; k < 3; ++k) expectWithin(found[k], area[static_cast<std::size_t>(k)], 1e-31 * lengths, "area");
-    expectWithin(tripleProduct(o, a, b, c), Real(u[0] * vw[0] + u[1] * vw[1] + u[2] * vw[2]),
-                 1e-30 * lengths * (c - o).norm(), "volume");
+    for (int k = 0; k < 3; ++k) expectWithin(found[k], area[k], 1e-31 * lengths, "area");
+    expectWithin(tripleProduct(o, a, b, c), dot(u, cross(v, w)), 1e-30 * lengths * (c - o).norm(), "volume");
     if (HasFailure()) return;
   }
 }
