@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/adjoint.h"
 
 #include <functional>
 #include <map>
 
+#include "adjoint/arguments.h"
 #include "adjoint/event_linearization.h"
 #include "adjoint/seed.h"
 
@@ -114,6 +116,7 @@ class ReversePass {
 }  // namespace
 
 SceneGradient adjoint(DerivativeTape& tape, std::span<const StateSeed> seeds, Reliability* reliability) {
+  for (const StateSeed& seed : seeds) checkSeed("adjoint", tape.motion(), seed);
   return ReversePass(tape).run(seeds, reliability);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/arc.h"
 
 #include <algorithm>

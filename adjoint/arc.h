@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "adjoint/body_model.h"
@@ -43,8 +45,11 @@ class Arc {
   const Vec3& acceleration() const { return gravity_; }
   bool moving() const { return model_->moving; }
 
-  /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do).
+  /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do). Throws
+  /// InputError for a time that is not finite, NotComputable where the rotation cannot be followed that far.
   void extendTo(double t);
+  /// Up to here the motion is available; infinite where all of it is.
+  double reach() const { return triaxial_ ? start_ + triaxial_->reach() : std::numeric_limits<double>::infinity(); }
 
   State stateAt(double t) const;
   Kinematics kinematicsAt(double t) const { return kinematicsOf(stateAt(t)); }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/body_model.h"
 
 #include <Eigen/Eigenvalues>
@@ -36,6 +37,8 @@ void setInertiaTensor(const Mat3& J, BodyModel& model) {
   const double products = std::max({std::abs(J(1, 2)), std::abs(J(0, 2)), std::abs(J(0, 1))});
   if (products <= kDiagonal * J.diagonal().maxCoeff()) {
     model.inertia = J.diagonal();
+  } else if (!J.allFinite()) {
+    model.inertia = J.diagonal();  // for validate to refuse
   } else {
     const Inertia inertia = Inertia::fromMatrix(J);
     model.inertia = inertia.moments;

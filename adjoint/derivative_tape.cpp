@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/derivative_tape.h"
 
 #include <algorithm>
 #include <sstream>
 
+#include "adjoint/arguments.h"
 #include "adjoint/errors.h"
 #include "adjoint/event_linearization.h"
 
@@ -29,10 +31,11 @@ DerivativeTape::DerivativeTape(const Motion& motion) : motion_(motion), events_(
 DerivativeTape::~DerivativeTape() = default;
 
 const RotationSensitivity& DerivativeTape::arc(int body, int k) {
-  const auto b = static_cast<std::size_t>(body), kk = static_cast<std::size_t>(k);
+  const std::size_t b = checkedIndex("DerivativeTape::arc", "body", body, arcs_.size());
+  const WorldLine& line = motion_.world_lines[b];
+  const std::size_t kk = checkedIndex("DerivativeTape::arc", "an arc that ends in an event,", k, line.events.size());
   auto& slot = arcs_[b][kk];
   if (!slot) {
-    const WorldLine& line = motion_.world_lines[b];
     slot = std::make_unique<RotationSensitivity>(
         sensitivity(motion_, body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
   }
@@ -40,6 +43,9 @@ const RotationSensitivity& DerivativeTape::arc(int body, int k) {
 }
 
 RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
+  const std::size_t b = checkedIndex("DerivativeTape::arcUntil", "body", body, arcs_.size());
+  checkedIndex("DerivativeTape::arcUntil", "arc", k, arcs_[b].size());
+  checkTime("DerivativeTape::arcUntil", motion_, t);
   const auto found = until_.find({body, k, t});
   if (found != until_.end()) return found->second;
   if (until_.size() == kRemembered) until_.clear();
@@ -47,13 +53,13 @@ RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
 }
 
 const EventLinearization& DerivativeTape::event(int event) {
-  auto& slot = events_[static_cast<std::size_t>(event)];
+  auto& slot = events_[checkedIndex("DerivativeTape::event", "event", event, events_.size())];
   if (!slot) slot = std::make_unique<EventLinearization>(motion_, event);
   return *slot;
 }
 
 void Reliability::pass(const Motion& motion, int index) {
-  const Event& event = motion.events[static_cast<std::size_t>(index)];
+  const Event& event = motion.events[checkedIndex("Reliability::pass", "event", index, motion.events.size())];
   ++events;
   smallest_margin = std::min(smallest_margin, event.margins.smallest());
   if (!reliable) return;

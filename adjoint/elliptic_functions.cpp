@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/elliptic_functions.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <stdexcept>
@@ -18,6 +19,14 @@ class InputError : public std::runtime_error {
 
  private:
   std::string where_, message_;
+};
+
+/// The numbers of a scene went where doubles do not follow: an overflow, 0/0, or a rotation or an approach that would
+/// take more steps than there is time for. A simulation ends there, with MotionStatus::not_computable and this
+/// sentence; derivatives throw it.
+class NotComputable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/event_linearization.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/event_queue.h"
 
 namespace carom {

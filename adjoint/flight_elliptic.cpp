@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/flight_elliptic.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/flight_symmetric.h"
 
 #include <algorithm>

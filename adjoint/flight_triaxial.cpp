@@ -1,8 +1,13 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/flight_triaxial.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <limits>
+#include <string>
+
+#include "adjoint/arguments.h"
+#include "adjoint/errors.h"
 
 namespace carom {
 namespace {
@@ -16,13 +21,16 @@ double shortBinary(double h) {
   return std::ldexp(std::floor(std::ldexp(mantissa, 10)), exponent - 10);
 }
 
-using Lanes = std::array<double, 4>;
+using SeriesLanes = std::array<double, 4>;
 
 // Logarithm of the radius of convergence seen from the last two coefficients of u and psi, which are of size 1.
-double logRadius(const std::array<Lanes, K + 1>& c) {
+double logRadius(const std::array<SeriesLanes, K + 1>& c) {
   const auto from = [&](std::size_t k) {
     const double size = c[k][0] * c[k][0] + c[k][1] * c[k][1] + c[k][2] * c[k][2] + c[k][3] * c[k][3];
-    return size > 0 ? -0.5 * std::log(size) / static_cast<double>(k) : 50.0;
+    if (size > 1e-290 && size < 1e300) return -0.5 * std::log(size) / static_cast<double>(k);
+    double largest = 0;  // of a spin below 1e-7 or above 5e7 rad/s, whose squares leave the range of doubles
+    for (double x : c[k]) largest = std::max(largest, std::abs(x));
+    return largest > 0 ? -std::log(largest) / static_cast<double>(k) : 50.0;
   };
   return std::min(from(K), from(K - 1));
 }
@@ -73,15 +81,15 @@ TriaxialRotation::Segment TriaxialRotation::makeSegment(double start, const Quat
   const Vec3 u0 = restoreEnergy(s.q);
   const Vec3 Du0 = D_.cwiseProduct(u0);
   const double a = u0.dot(Du0);
-  const Lanes rate{l * (D_[2] - D_[1]), l * (D_[0] - D_[2]), l * (D_[1] - D_[0]), l};
-  std::array<Lanes, K> left, right;
+  const SeriesLanes rate{l * (D_[2] - D_[1]), l * (D_[0] - D_[2]), l * (D_[1] - D_[0]), l};
+  std::array<SeriesLanes, K> left, right;
   s.u_psi[0] = {u0[0], u0[1], u0[2], 0};
   for (std::size_t k = 0; k < K; ++k) {
-    const Lanes& u = s.u_psi[k];
+    const SeriesLanes& u = s.u_psi[k];
     const double first = k == 0 ? 1.0 : 0.0;
     left[k] = {u[1], u[2], u[0], first + u0[0] * u[0] + u0[1] * u[1] + u0[2] * u[2]};
     right[k] = {u[2], u[0], u[1], 0};  // f_k is not known yet
-    Lanes sum{};
+    SeriesLanes sum{};
     for (std::size_t j = 0; j <= k; ++j)
       for (std::size_t i = 0; i < 4; ++i) sum[i] += left[j][i] * right[k - j][i];
     sum[3] = right[k][3] = (first * a + Du0[0] * u[0] + Du0[1] * u[1] + Du0[2] * u[2] - sum[3]) / left[0][3];
@@ -95,7 +103,7 @@ TriaxialRotation::Segment TriaxialRotation::makeSegment(double start, const Quat
 
 Quat TriaxialRotation::orientationIn(const Segment& s, double h) {
   if (h == 0) return s.q;
-  Lanes sum = s.u_psi[K];
+  SeriesLanes sum = s.u_psi[K];
   for (std::size_t k = K; k-- > 0;)
     for (std::size_t i = 0; i < 4; ++i) sum[i] = sum[i] * h + s.u_psi[k][i];
   const Vec3 u0(s.u_psi[0][0], s.u_psi[0][1], s.u_psi[0][2]), u(sum[0], sum[1], sum[2]);
@@ -106,6 +114,7 @@ Quat TriaxialRotation::orientationIn(const Segment& s, double h) {
 }
 
 void TriaxialRotation::extendTo(double elapsed) {
+  checkedNumber("TriaxialRotation::extendTo", "the time", elapsed);
   if (closed_form_) return;
   if (segments_.empty()) {
     segments_.reserve(2);  // most flights end within them
@@ -115,19 +124,27 @@ void TriaxialRotation::extendTo(double elapsed) {
     if (segments_.size() == kSegments) closed_form_ = EllipticRotation::of(D_, q_, L_);
     if (closed_form_) return;
     const Segment& last = segments_.back();
+    if (segments_.size() >= kMostSegments || !(last.start + last.length > last.start))
+      throw NotComputable("its rotation takes more than " + std::to_string(kMostSegments) + " series to follow");
     segments_.push_back(makeSegment(last.start + last.length, orientationIn(last, last.length)));
   }
 }
 
+double TriaxialRotation::reach() const {
+  if (closed_form_) return std::numeric_limits<double>::infinity();
+  return segments_.empty() ? 0 : endOfSegments();
+}
+
 const TriaxialRotation::Segment& TriaxialRotation::segmentAt(double elapsed) const {
-  assert(!segments_.empty() && elapsed <= endOfSegments());
+  if (segments_.empty() || !(elapsed <= endOfSegments()))
+    refuseNumber("TriaxialRotation", "the time", elapsed, "one up to which it was extended");
   auto next = std::upper_bound(segments_.begin(), segments_.end(), elapsed,
                                [](double t, const Segment& s) { return t < s.start; });
   return next == segments_.begin() ? *next : *(next - 1);
 }
 
 Quat TriaxialRotation::orientationAt(double elapsed) const {
-  if (closed_form_ && elapsed > endOfSegments()) {
+  if (closed_form_ && elapsed > endOfSegments() && std::isfinite(elapsed)) {
     Quat q = closed_form_->orientationAt(elapsed);
     restoreEnergy(q);
     return q;

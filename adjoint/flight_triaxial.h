@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -24,10 +25,15 @@ class TriaxialRotation {
  public:
   static constexpr int kOrder = 20;
   static constexpr std::size_t kSegments = 2;  // before the closed form
+  /// Where there is no closed form, and of a derivative: some 1e5 radians, in 70 MB.
+  static constexpr std::size_t kMostSegments = 100'000;
 
   void begin(const Vec3& inverse_inertia, const Quat& q, const Vec3& L);
-  /// Makes [0, elapsed] available.
+  /// Makes [0, elapsed] available. Throws NotComputable where that takes more than kMostSegments; then what was reached
+  /// stays available.
   void extendTo(double elapsed);
+  /// Up to here the rotation is available.
+  double reach() const;
   Quat orientationAt(double elapsed) const;
   /// Sensitivity over [0, elapsed] by the variational equations of the same system, see
   /// flight_triaxial_sensitivity.cpp. `products`: dtheta_dproducts too.

@@ -1,12 +1,15 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "adjoint/errors.h"
 #include "adjoint/flight_triaxial.h"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t K = TriaxialRotation::kOrder;
+constexpr std::size_t kOrder = TriaxialRotation::kOrder;
 
 // Variations in principal axes, eta = R^T dtheta, lambda = R^T dL and dM = lambda + M x eta, obey (w = D M, dA the
 // change of the inverse inertia tensor: dD on its diagonal, dA_ij = -dJ_ij D_i D_j off it)
@@ -25,12 +28,12 @@ using Triple = std::array<Columns<N>, 3>;
 
 template <int N>
 struct Variations {
-  std::array<Triple<N>, K + 1> dM;
-  std::array<Columns<N>, K + 1> along;  // M.eta
+  std::array<Triple<N>, kOrder + 1> dM;
+  std::array<Columns<N>, kOrder + 1> along;  // M.eta
 };
 
 struct MomentumSeries {
-  std::array<std::array<double, 3>, K> M, w;
+  std::array<std::array<double, 3>, kOrder> M, w;
 };
 
 // dA by the columns.
@@ -94,7 +97,7 @@ Variations<N> variations(const MomentumSeries& s, const Vec3& D, const Vec3& u1,
   v.along[0].setZero();
   const InverseInertiaRates<N> dA(D);
   const double d32 = D[2] - D[1], d13 = D[0] - D[2], d21 = D[1] - D[0];
-  for (std::size_t k = 0; k < K; ++k) {
+  for (std::size_t k = 0; k < kOrder; ++k) {
     Columns<N> p23 = Columns<N>::Zero(), p31 = p23, p12 = p23, wd = p23;
     MomentumSquares squares;
     for (std::size_t j = 0; j <= k; ++j) {
@@ -121,7 +124,7 @@ double variationStep(const Variations<N>& v, double momentum, double largest_D) 
   Columns<N> size = Columns<N>::Constant(momentum * largest_D);
   size[0] = size[1] = 1;
   double log_step = 700;
-  for (std::size_t k : {K, K - 1}) {
+  for (std::size_t k : {kOrder, kOrder - 1}) {
     Columns<N> square = (v.along[k] / momentum).square();
     for (std::size_t i = 0; i < 3; ++i) square += v.dM[k][i].square();
     const double share = (square / size.square()).maxCoeff();
@@ -166,9 +169,9 @@ Eigen::Matrix<double, 3, N> smallTurn(const MomentumSeries& s, const Variations<
 template <int N>
 Eigen::Matrix<double, 3, N> largeTurn(const Variations<N>& v, double h, const Vec3& M, const Vec3& lambda1,
                                       const Vec3& lambda2) {
-  Triple<N> dM = v.dM[K];
-  Columns<N> along = v.along[K];
-  for (std::size_t k = K; k-- > 0;) {
+  Triple<N> dM = v.dM[kOrder];
+  Columns<N> along = v.along[kOrder];
+  for (std::size_t k = kOrder; k-- > 0;) {
     for (std::size_t i = 0; i < 3; ++i) dM[i] = dM[i] * h + v.dM[k][i];
     along = along * h + v.along[k];
   }
@@ -196,7 +199,7 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& segment,
     return S;
   }
   MomentumSeries s;
-  for (std::size_t k = 0; k < K; ++k) {
+  for (std::size_t k = 0; k < kOrder; ++k) {
     const auto& u = segment.u_psi[k];
     s.M[k] = {l * u[0], l * u[1], l * u[2]};
     s.w[k] = {D_[0] * s.M[k][0], D_[1] * s.M[k][1], D_[2] * s.M[k][2]};
@@ -223,6 +226,7 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& segment,
 // Segment by segment, or in shorter steps where the series of the variations demand them.
 RotationSensitivity TriaxialRotation::sensitivityOver(double elapsed, bool products) const {
   RotationSensitivity total;
+  std::size_t steps = 0;
   for (double t = 0; t < elapsed;) {
     const Segment* around = t < endOfSegments() ? &segmentAt(t) : nullptr;
     const Segment part = around && around->start == t ? *around : makeSegment(t, orientationAt(t));
@@ -231,6 +235,9 @@ RotationSensitivity TriaxialRotation::sensitivityOver(double elapsed, bool produ
     if (around) h = std::min(h, around->start + around->length - t);
     total = chained(total, products ? segmentSensitivity<kProducts>(part, h) : segmentSensitivity<kMoments>(part, h));
     if (h == rest) break;
+    if (++steps == kMostSegments || !(t + h > t))
+      throw NotComputable("the derivative of a rotation takes more than " + std::to_string(kMostSegments) +
+                          " series to follow");
     t += h;
   }
   return total;

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/motion.h"
 
 #include <algorithm>
-#include <sstream>
 
+#include "adjoint/arguments.h"
 #include "adjoint/errors.h"
 
 namespace carom {
@@ -31,6 +32,8 @@ const char* nameOf(MotionStatus status) {
       return "cascade";
     case MotionStatus::unresolved_impact:
       return "unresolved_impact";
+    case MotionStatus::not_computable:
+      return "not_computable";
   }
   return "";
 }
@@ -60,7 +63,8 @@ BodyState toBodyState(const BodyModel& model, const State& s) {
 }
 
 int Motion::arcAt(int body, double t) const {
-  const auto& arcs = world_lines[static_cast<std::size_t>(body)].arcs;
+  const auto& arcs = world_lines[checkedIndex("arcAt", "body", body, world_lines.size())].arcs;
+  checkedNumber("arcAt", "the time", t);
   const auto next = std::upper_bound(arcs.begin(), arcs.end(), t, [](double x, const Arc& a) { return x < a.start(); });
   return std::max(0, static_cast<int>(next - arcs.begin()) - 1);
 }
@@ -68,29 +72,27 @@ int Motion::arcAt(int body, double t) const {
 BodyState Motion::stateAt(const std::string& body, double t) const { return stateAt(bodyIndex(*scene, body), t); }
 
 BodyState Motion::stateAt(int body, double t) const {
-  if (!(t >= 0 && t <= end)) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "found the time " << t << ", expected one in [0, " << end << "]";
-    if (status != MotionStatus::complete) text << "; " << message;
-    throw InputError(text.str());
-  }
-  const auto b = static_cast<std::size_t>(body);
+  const std::size_t b = checkedIndex("stateAt", "body", body, world_lines.size());
+  checkTime("stateAt", *this, t);
   const Arc& arc = world_lines[b].arcs[static_cast<std::size_t>(arcAt(body, t))];
   return toBodyState((*models)[b], arc.stateAt(t));
 }
 
 BodyState Motion::stateBefore(int event, int body) const {
-  const Event& e = events.at(static_cast<std::size_t>(event));
+  const std::size_t b = checkedIndex("stateBefore", "body", body, world_lines.size());
+  const Event& e = events[checkedIndex("stateBefore", "event", event, events.size())];
   const Participant* p = e.find(body);
   if (!p) return stateAt(body, e.time);
-  return toBodyState((*models)[static_cast<std::size_t>(body)], p->before);
+  return toBodyState((*models)[b], p->before);
 }
 
 std::optional<int> Motion::findImpact(int body, int n, int with) const {
   if (!has_events) throw InputError("found a motion whose events were not recorded, expected one with them");
+  const std::size_t b = checkedIndex("findImpact", "body", body, world_lines.size());
+  if (with != -1) checkedIndex("findImpact", "the other body", with, world_lines.size());
+  if (n < 1) refuseNumber("findImpact", "impact", n, "1 (the first) or more");
   int count = 0;
-  for (int e : world_lines[static_cast<std::size_t>(body)].events) {
+  for (int e : world_lines[b].events) {
     if (with >= 0 && !events[static_cast<std::size_t>(e)].touches(body, with)) continue;
     if (++count == n) return e;
   }
@@ -98,7 +100,7 @@ std::optional<int> Motion::findImpact(int body, int n, int with) const {
 }
 
 std::string Motion::describeEvent(int index) const {
-  const Event& event = events[static_cast<std::size_t>(index)];
+  const Event& event = events[checkedIndex("describeEvent", "event", index, events.size())];
   std::string text;
   for (const Contact& c : event.contacts) {
     if (!text.empty()) text += " + ";

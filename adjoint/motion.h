@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <memory>
@@ -72,8 +73,9 @@ enum class MotionStatus {
   complete,          ///< known up to the asked duration
   impact_limit,      ///< stopped after the allowed number of impacts
   cascade,           ///< impacts accumulate: infinitely many in finite time, or bodies stay in contact
-  unresolved_impact  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach), or a
-                     ///< contact without a normal
+  unresolved_impact,  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach), or a
+                      ///< contact without a normal
+  not_computable      ///< numbers beyond the range of doubles, or more steps than can be made: see NotComputable
 };
 const char* nameOf(MotionStatus status);
 
@@ -95,13 +97,15 @@ struct Motion {
   /// State of a body at 0 <= t <= end; at the time of an impact, the state after it. Throws InputError outside.
   BodyState stateAt(const std::string& body, double t) const;
   BodyState stateAt(int body, double t) const;
-  /// State just before event `event`; of a body that takes no part in it, at its time.
+  /// State just before event `event`; of a body that takes no part in it, at its time. Throws InputError for an event
+  /// or a body that is not there, as do all that follow.
   BodyState stateBefore(int event, int body) const;
 
-  /// The event that is the n-th impact of a body (1 = first), counting only those with `with` unless that is -1.
+  /// The event that is the n-th impact of a body (1 = first), counting only those with the body `with` unless that is
+  /// -1; none where it has fewer.
   std::optional<int> findImpact(int body, int n, int with = -1) const;
 
-  /// Index of the arc that holds time t.
+  /// Index of the arc that holds time t; the first one before the start, the last one after the end.
   int arcAt(int body, double t) const;
 
   /// The collision sequence as text: who, with which features, in which mode. Two motions can be compared and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/plan.h"
 
 #include <algorithm>

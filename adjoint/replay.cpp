@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/replay.h"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "adjoint/arguments.h"
 #include "adjoint/errors.h"
 #include "adjoint/flight_symmetric.h"
 #include "adjoint/impact/impact.h"
@@ -37,6 +39,7 @@ class Follower {
   bool parts(const std::vector<State>& after);
   void commit(const Event& was, std::vector<State>& after);
   void orderByTime();
+  void extendLast(std::size_t body);
   Outcome fail(const Event& was, const std::string& why);
 
   Arc& arcOf(int body) { return replay_.motion.world_lines[index(body)].arcs.back(); }
@@ -97,7 +100,11 @@ Replay Follower::run() {
   motion.message = "complete";
   Outcome outcome = Outcome::found;
   for (const Event& was : like_.events) {
-    outcome = follow(was);
+    try {
+      outcome = follow(was);
+    } catch (const NotComputable& error) {
+      outcome = fail(was, error.what());
+    }
     if (outcome == Outcome::late) ++replay_.left_out;
     if (outcome == Outcome::failed) break;
   }
@@ -110,8 +117,22 @@ Replay Follower::run() {
   }
   orderByTime();
   motion.impacts = motion.events.size();
-  for (WorldLine& line : motion.world_lines) line.arcs.back().extendTo(motion.end);
+  for (std::size_t b = 0; b < motion.world_lines.size(); ++b) extendLast(b);
   return std::move(replay_);
+}
+
+void Follower::extendLast(std::size_t body) {
+  Motion& motion = replay_.motion;
+  Arc& arc = motion.world_lines[body].arcs.back();
+  try {
+    arc.extendTo(motion.end);
+  } catch (const NotComputable& error) {
+    motion.end = std::min(motion.end, arc.reach());
+    motion.status = MotionStatus::not_computable;
+    replay_.complete = false;
+    replay_.why_not = motion.message =
+        "the flight of '" + scene_.bodies[body].name + "' cannot be computed: " + error.what();
+  }
 }
 
 void Follower::start() {
@@ -299,8 +320,7 @@ Replay replay(const Motion& like, const Scene& scene, std::shared_ptr<const Cont
               double duration) {
   if (!like.has_events)
     throw InputError("found a motion whose events were not recorded, expected one with them: they are followed");
-  if (!(duration >= 0 && duration <= 1e9))
-    throw InputError("found a duration of " + std::to_string(duration) + " s, expected a finite number >= 0");
+  checkDuration("replay", duration);
   if (!geometry) throw InputError("found no geometry, expected that of the scene");
   requireSameParts(*like.scene, scene);
   validate(scene);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/replay_root.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@ namespace carom {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kSteps = 200;
 /// Where the gap rises the search goes on by this share of the stride, and twice as far each time.
 constexpr double kFirstStride = 1.0 / 16;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/rotation_sensitivity.h"
 
 #include "adjoint/so3.h"

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/scene.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/arguments.h"
 #include "adjoint/errors.h"
 
 namespace carom {
@@ -16,6 +18,7 @@ Inertia Inertia::fromMoments(const Vec3& moments) {
 }
 
 Inertia Inertia::fromMatrix(const Mat3& matrix) {
+  checkEntries("Inertia::fromMatrix", "an entry of", matrix);
   Inertia inertia;
   inertia.source = Source::matrix;
   if (matrix.isDiagonal(0)) {  // already principal: keep the order that was written
@@ -43,7 +46,8 @@ int indexByName(const Items& items, const std::string& name, const char* what) {
     if (items[i].name == name) return static_cast<int>(i);
   std::string known;
   for (const auto& item : items) known += (known.empty() ? "'" : ", '") + item.name + "'";
-  throw InputError(std::string("there is no ") + what + " '" + name + "'; found " + (known.empty() ? "none" : known));
+  throw InputError(std::string("found no ") + what + " '" + name + "', expected one of " +
+                   (known.empty() ? "none: the scene has none" : known));
 }
 
 }  // namespace
@@ -53,7 +57,7 @@ int materialIndex(const Scene& scene, const std::string& name) {
   return indexByName(scene.materials, name, "material");
 }
 int materialIndexOf(const Scene& scene, int body) {
-  const std::string& name = scene.bodies[static_cast<std::size_t>(body)].material;
+  const std::string& name = scene.bodies[checkedIndex("materialIndexOf", "body", body, scene.bodies.size())].material;
   return name.empty() ? -1 : materialIndex(scene, name);
 }
 
@@ -72,6 +76,12 @@ SceneDerivative::SceneDerivative(const Scene& scene)
 }
 
 double SceneDerivative::dot(const SceneDerivative& o) const {
+  checkCount("SceneDerivative::dot", "materials", o.materials.size(), materials.size());
+  checkCount("SceneDerivative::dot", "bodies", o.bodies.size(), bodies.size());
+  checkCount("SceneDerivative::dot", "tilts", o.tilts.size(), tilts.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    checkCount("SceneDerivative::dot", "dimensions", static_cast<std::size_t>(o.bodies[i].size.size()),
+               static_cast<std::size_t>(bodies[i].size.size()));
   double sum = gravity.dot(o.gravity);
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const MaterialDerivative &m = materials[i], &n = o.materials[i];

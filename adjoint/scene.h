@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -9,8 +10,8 @@
 
 namespace carom {
 
-/// How the coefficients of two materials become the pair's. Where two materials differ, the rule of higher precedence
-/// wins: average, minimum, maximum, multiply, in that order (as in glTF's KHR_physics_rigid_bodies).
+/// How the coefficients of two materials become the pair's. Where two materials name different rules, the
+/// earlier one of average, minimum, maximum, multiply holds (as in glTF's KHR_physics_rigid_bodies).
 enum class Combine { average, minimum, maximum, multiply };
 
 struct Material {
@@ -20,6 +21,7 @@ struct Material {
   double tangential_elasticity = 0.0;  ///< e_t, in [-1, 1]; always combined by average
   Combine combine_elasticity = Combine::average;
   Combine combine_friction = Combine::average;
+  std::string notes = {};  ///< for people; kept in documents
 };
 
 /// Inertia as written: derived from shape and mass; three principal moments about the shape's own axes; or a symmetric
@@ -31,7 +33,8 @@ struct Inertia {
   Quat axes = Quat::Identity();  ///< p_shape = axes * p_principal; identity unless matrix
 
   static Inertia fromMoments(const Vec3& moments);
-  /// Eigen-decomposition of a symmetric matrix; axes that already are principal keep their order.
+  /// Eigen-decomposition of a symmetric matrix; axes that already are principal keep their order. Throws InputError for
+  /// entries that are not finite.
   static Inertia fromMatrix(const Mat3& matrix);
   Mat3 matrix() const;
 };
@@ -50,6 +53,7 @@ struct Body {
   Quat orientation = Quat::Identity();   ///< shape to world, unit
   Vec3 velocity = Vec3::Zero();          ///< m/s, world, of the centre of mass
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s, world axes
+  std::string notes = {};                ///< for people; kept in documents
 };
 
 /// Tilt of the collision normal at one impact of one body (equation 4 of docs/equations.md): the impulse uses
@@ -71,7 +75,7 @@ struct Scene {
 /// Index of the named body or material; throws InputError that lists the names there are.
 int bodyIndex(const Scene& scene, const std::string& name);
 int materialIndex(const Scene& scene, const std::string& name);
-/// Index of the material of a body; -1 when it names none.
+/// Index of the material of a body; -1 when it names none. Throws InputError for a body that is not there.
 int materialIndexOf(const Scene& scene, int body);
 /// The material of a body; a default Material when it names none.
 const Material& materialOf(const Scene& scene, const Body& body);
@@ -102,7 +106,7 @@ struct SceneDerivative {
   std::vector<BodyDerivative> bodies;
   std::vector<Vec2> tilts;
 
-  /// Sum of products of all fields, <gradient, tangent>.
+  /// Sum of products of all fields, <gradient, tangent>. Throws InputError where the other is of another scene's size.
   double dot(const SceneDerivative& other) const;
 };
 using SceneGradient = SceneDerivative;

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/second_order.h"
 
 #include <algorithm>
 #include <map>
 
+#include "adjoint/arguments.h"
 #include "adjoint/detail/dual_event.hpp"
 #include "adjoint/detail/dual_rotation.hpp"
 #include "adjoint/flight_symmetric.h"
@@ -19,7 +21,7 @@ struct DualSeed {
   Num time;
 };
 
-struct Pending {
+struct PendingBars {
   std::vector<StateBar> after, before;
   Num time;
 };
@@ -71,7 +73,7 @@ class DualPass {
     const Num slope = bar.dot(lanes_.rate(seed.body, state));
     if (seed.at.event < 0) time_rate = slope.rate;
     if (seed.at.event >= 0) {
-      Pending& at = pendingAt(seed.at.event);
+      PendingBars& at = pendingAt(seed.at.event);
       at.time += weights.time;
       if (motion_.events[static_cast<std::size_t>(seed.at.event)].find(seed.body)) {
         at.before[participantOf(seed.at.event, seed.body)] += bar;
@@ -86,7 +88,7 @@ class DualPass {
     while (!pending_.empty()) {
       const auto latest = pending_.begin();
       const int index = latest->first;
-      const Pending bars = std::move(latest->second);
+      const PendingBars bars = std::move(latest->second);
       pending_.erase(latest);
       throughEvent(index, bars);
     }
@@ -214,7 +216,7 @@ class DualPass {
     }
   }
 
-  void throughEvent(int index, const Pending& bars) {
+  void throughEvent(int index, const PendingBars& bars) {
     const Event& event = motion_.events[static_cast<std::size_t>(index)];
     const DualEvent dual(lanes_, index);
     const std::vector<StateBar> before = dual.pullback(bars.after, bars.before, bars.time, scene_bar_, model_bar_);
@@ -229,8 +231,8 @@ class DualPass {
     const Event& e = motion_.events[static_cast<std::size_t>(event)];
     return static_cast<std::size_t>(e.find(body) - e.participants.data());
   }
-  Pending& pendingAt(int event) {
-    Pending& p = pending_[event];
+  PendingBars& pendingAt(int event) {
+    PendingBars& p = pending_[event];
     const std::size_t n = motion_.events[static_cast<std::size_t>(event)].participants.size();
     p.after.resize(n);
     p.before.resize(n);
@@ -246,7 +248,7 @@ class DualPass {
   SceneBar scene_bar_;
   std::vector<StateBar> start_bar_;
   std::vector<ModelBar> model_bar_;
-  std::map<int, Pending, std::greater<>> pending_;  // latest event first
+  std::map<int, PendingBars, std::greater<>> pending_;  // latest event first
   RotationSensitivity until_;
 };
 
@@ -281,6 +283,7 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
       if (seeds[i].at.event < 0 && dtime != 0) addFlow(motion, seeds[i].body, seeds[i].at, dtime, rates.back());
     }
     const std::vector<StateSeed> weights = seed_rates(rates);
+    checkCount("secondOrder", "seeds of rates", weights.size(), seeds.size());
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       setRates(out[i].position, weights[i].position, lane);
       setRates(out[i].orientation, weights[i].orientation, lane);
@@ -300,6 +303,13 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   SecondOrder out;
   Responses responses;
   const Motion& motion = tape.motion();
+  for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
+  for (const ReadingDirection& d : directions) {
+    checkDirection("secondOrder", *motion.scene, d.scene);
+    if (d.time.size() > 0)
+      checkCount("secondOrder", "rates of times", static_cast<std::size_t>(d.time.size()), seeds.size());
+    checkEntries("secondOrder", "the rate of a time of", d.time);
+  }
   std::vector<bool> inertia_varies(motion.world_lines.size(), wanted == RatesWanted::all);
   for (const ReadingDirection& d : directions) {
     for (std::size_t b = 0; b < inertia_varies.size(); ++b) {

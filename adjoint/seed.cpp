@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/seed.h"
 
-#include "adjoint/errors.h"
+#include "adjoint/arguments.h"
 
 namespace carom {
 
@@ -41,21 +42,20 @@ Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const St
 }
 
 ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
-  const auto b = static_cast<std::size_t>(body);
-  if (instant.event >= 0) {
-    const Event& event = motion.events.at(static_cast<std::size_t>(instant.event));
+  const std::size_t b = checkedIndex("an instant that is read", "body", body, motion.world_lines.size());
+  if (instant.event != -1) {
+    const Event& event =
+        motion.events[checkedIndex("an instant that is read", "event", instant.event, motion.events.size())];
     const Participant* p = event.find(body);
     return p ? ReadPlace{event.time, p->arc, p->before} : readPlace(motion, body, Instant::at(event.time));
   }
-  if (!(instant.time >= 0 && instant.time <= motion.end))
-    throw InputError("found the time " + std::to_string(instant.time) + ", expected one in [0, " +
-                     std::to_string(motion.end) + "]" +
-                     (motion.status == MotionStatus::complete ? "" : "; " + motion.message));
+  checkTime("an instant that is read", motion, instant.time);
   const int k = motion.arcAt(body, instant.time);
   return {instant.time, k, motion.world_lines[b].arcs[static_cast<std::size_t>(k)].stateAt(instant.time)};
 }
 
 double timeDerivative(const Motion& motion, const StateSeed& seed) {
+  checkSeed("timeDerivative", motion, seed);
   const auto b = static_cast<std::size_t>(seed.body);
   const ReadPlace place = readPlace(motion, seed.body, seed.at);
   const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/shape.h"
 
 #include <array>

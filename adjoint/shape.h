@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <memory>
@@ -82,7 +83,8 @@ struct SolidProperties {
 };
 
 /// One row of the table of shapes: what the rest of the program asks of a shape. A new shape adds a struct above, a row
-/// in shape.cpp and its features in ode_bridge/.
+/// in shape.cpp and its features in ode_bridge/. What takes a vector throws InputError where it has not one number a
+/// dimension.
 struct ShapeKind {
   const char* name;  ///< word in the scene document
   /// Words of the `size` control: "radius"; "x", "y", "z"; "scale"; of a part of a compound "0.radius".

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/simulate.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/errors.h"
+#include "adjoint/arguments.h"
 #include "adjoint/impact/impact.h"
 #include "adjoint/impact/tilt.h"
 #include "adjoint/simulator.h"
@@ -11,29 +12,40 @@
 namespace carom {
 
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options) {
-  if (!(duration >= 0 && duration <= 1e9))
-    throw InputError("found a duration of " + std::to_string(duration) + " s, expected a finite number >= 0");
+  checkDuration("simulate", duration);
+  if (!options.asked.empty()) checkCount("simulate", "bodies asked for", options.asked.size(), scene.bodies.size());
   validate(scene);
   return Simulator(scene, contacts, duration, options).run();
 }
 
 Motion Simulator::run() {
+  try {
+    if (!follow()) return std::move(motion_);
+  } catch (const NotComputable& error) {
+    finish(MotionStatus::not_computable, now_, error.what());
+    return std::move(motion_);
+  }
+  finish(MotionStatus::complete, motion_.duration, "complete");
+  return std::move(motion_);
+}
+
+// False where the motion has ended before its time.
+bool Simulator::follow() {
   start();
   for (Prediction next; takeNext(next);) {
     if (motion_.impacts >= impact_limit_) {
       finish(MotionStatus::impact_limit, next.time,
              "stopped after " + std::to_string(impact_limit_) + " impacts, the limit that was set");
-      return std::move(motion_);
+      return false;
     }
-    if (!isExplained(next)) return std::move(motion_);
+    if (!isExplained(next)) return false;
     resolve(next);
-    if (!separates()) return std::move(motion_);
+    if (!separates()) return false;
     const bool last = accumulates();
     commit();
-    if (last) return std::move(motion_);
+    if (last) return false;
   }
-  finish(MotionStatus::complete, motion_.duration, "complete");
-  return std::move(motion_);
+  return true;
 }
 
 Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
@@ -71,6 +83,9 @@ void Simulator::start() {
     const BodyModel& model = (*motion_.models)[index(b)];
     arc_[index(b)] = &motion_.world_lines[index(b)].arcs.emplace_back(
         model, motion_.plan.bodies[index(b)].tier, scene_.gravity, 0.0, startState(scene_.bodies[index(b)], model));
+  }
+  for (int b = 0; b < n; ++b) {
+    requireFlight(b, arcOf(b));
     contacts_.setPath(b, arcOf(b), 0, motion_.duration);
   }
   for (int b = 0; b < n; ++b)
@@ -159,6 +174,10 @@ Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& fea
   c.b = b;
   c.features = features;
   c.at = motion_.geometry->contact(a, b, features, {ka.x, ka.R}, {kb.x, kb.R});
+  if (!(std::isfinite(c.at.gap) && c.at.point.allFinite() && c.at.normal.allFinite()))
+    giveUp("contact", a, b, time,
+           NotComputable("its features (" + motion_.geometry->describe(a, b, features) +
+                         ") give it no point or no normal"));
   c.pair = combine(*material_[index(a)], *material_[index(b)]);
   const auto tilt = [&](int body) { return arcOf(body).moving() ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
   c.tilt_a = tilt(a);
@@ -193,12 +212,17 @@ void Simulator::solveDraft() {
   for (int body : bodies_)
     event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1,
                                   impacts_[index(body)] + 1, snapshots_[snapshot(body, event.time)].state});
-  solveImpact(event, *motion_.models, draft_.after);
+  try {
+    solveImpact(event, *motion_.models, draft_.after);
+  } catch (const NotComputable& error) {
+    giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
+  }
   draft_.arcs.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto b = index(bodies_[i]);
     draft_.arcs.emplace_back((*motion_.models)[b], motion_.plan.bodies[b].tier, scene_.gravity, event.time,
                              draft_.after[i]);
+    requireFlight(bodies_[i], draft_.arcs.back());
     in_draft_[b] = static_cast<int>(i);
   }
 }
@@ -224,6 +248,7 @@ bool Simulator::joinInstant() {
 void Simulator::commit() {
   Event& event = draft_.event;
   const int number = static_cast<int>(motion_.impacts++);
+  searches_ = 0;
   for (std::size_t i = 0; i < draft_.arcs.size(); ++i) {
     const int body = event.participants[i].body;
     WorldLine& line = motion_.world_lines[index(body)];
@@ -242,7 +267,7 @@ void Simulator::finish(MotionStatus status, double end, std::string message) {
   motion_.status = status;
   motion_.end = end;
   motion_.message = std::move(message);
-  for (Arc* arc : arc_) arc->extendTo(end);
+  extendAll();
 }
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ struct SimulateOptions {
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.
-/// Throws InputError for bad input (see validate); ends early, with a status and a sentence, where the motion cannot be
+/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies); ends early, with a status and a sentence, where the motion cannot be
 /// continued. The same input gives the same motion to the last bit.
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
 

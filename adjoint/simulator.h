@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <unordered_map>
 #include <vector>
 
+#include "adjoint/errors.h"
 #include "adjoint/event_queue.h"
 #include "adjoint/simulate.h"
 
@@ -18,6 +20,13 @@ inline constexpr int kRattles = 8;
 /// As many impacts of one body as this within kStall seconds are a cascade, whichever bodies it meets.
 inline constexpr std::size_t kStallEvents = 64;
 inline constexpr double kStall = 1e-9;  // s
+
+/// A body further away or faster than this (m, m/s) cannot be computed with: fourth powers of it would overflow.
+inline constexpr double kFurthest = 1e60;
+/// Bodies that ask for their neighbours as often as this without an impact fly too fast for how near they are.
+inline constexpr long kMostSearches = 5'000'000;
+/// An angle of which a sine has no digit left, rad.
+inline constexpr double kMostTurn = 1e15;
 
 /// The event loop behind `simulate`. Every body has one entry in the queue: its first impact, as far as it has been
 /// searched for, or the horizon of that search. An impact touches the entries of its own bodies only; an entry whose
@@ -66,6 +75,7 @@ class Simulator {
   };
 
   void start();
+  bool follow();
   bool takeNext(Prediction& next);
   bool holds(const Prediction& p) const { return version_[index(p.partner())] == p.partner_version; }
 
@@ -96,6 +106,10 @@ class Simulator {
   bool accumulates();
   bool isLow(const Contact& c, const Prediction*& next) const;
   bool stalls(int body) const;
+  void requireFlight(int body, const Arc& arc) const;
+  [[noreturn]] void giveUp(const char* what, int a, int b, double time, const NotComputable& why) const;
+  void extendAll();
+  void forgetAfter(double end);
   void finish(MotionStatus status, double end, std::string message);
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -104,6 +118,8 @@ class Simulator {
   const Scene& scene_;
   ContactSource& contacts_;
   std::size_t impact_limit_;
+  double now_ = 0;     // everything before it is known
+  long searches_ = 0;  // since the last impact
   Motion motion_;
   // a body each
   std::vector<Arc*> arc_;  // the last one of its world-line

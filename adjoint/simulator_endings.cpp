@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -91,6 +93,61 @@ bool Simulator::accumulates() {
     return true;
   }
   return false;
+}
+
+// What a flight comes to must be numbers that can be computed with.
+void Simulator::requireFlight(int body, const Arc& arc) const {
+  if (!arc.moving()) return;
+  const double end = motion_.duration;
+  const State& s = arc.startState();
+  double furthest = 0;
+  for (const Vec3& v : {s.x, s.v, arc.positionAt(end), arc.velocityAt(end)})
+    furthest = std::max(furthest, v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+  const auto refuseFlight = [&](const std::string& what) {
+    std::ostringstream text;
+    text << "the flight of '" << scene_.bodies[index(body)].name << "' from t = " << arc.start()
+         << " s on cannot be computed: " << what;
+    throw NotComputable(text.str());
+  };
+  if (!(furthest <= kFurthest && s.q.coeffs().allFinite()))
+    refuseFlight("its place or its velocity is beyond the range of doubles");
+  if (arc.tier() == Tier::none) return;  // whose orientation is not asked for
+  if (!(arc.spinBound() * (end - arc.start()) <= kMostTurn && s.L.allFinite()))
+    refuseFlight("it spins so fast that no digit of its orientation is left");
+}
+
+void Simulator::giveUp(const char* what, int a, int b, double time, const NotComputable& why) const {
+  std::ostringstream text;
+  text << "the " << what << " of '" << scene_.bodies[index(std::min(a, b))].name << "' and '"
+       << scene_.bodies[index(std::max(a, b))].name << "' at t = " << time << " s cannot be computed: " << why.what();
+  throw NotComputable(text.str());
+}
+
+// Makes the last arcs available to the end of the motion, which comes sooner where one of them cannot be followed.
+void Simulator::extendAll() {
+  for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) {
+    if (motion_.world_lines[b].arcs.empty()) continue;  // given up before the start
+    Arc& arc = motion_.world_lines[b].arcs.back();
+    try {
+      arc.extendTo(motion_.end);
+    } catch (const NotComputable& error) {
+      motion_.status = MotionStatus::not_computable;
+      motion_.message = "the flight of '" + scene_.bodies[b].name + "' cannot be computed: " + error.what();
+      motion_.end = std::min(motion_.end, arc.reach());
+      forgetAfter(motion_.end);
+    }
+  }
+}
+
+void Simulator::forgetAfter(double end) {
+  for (WorldLine& line : motion_.world_lines)
+    while (line.arcs.size() > 1 && line.arcs.back().start() > end) {
+      line.arcs.pop_back();
+      if (motion_.has_events) line.events.pop_back();
+    }
+  if (!motion_.has_events) return;
+  while (!motion_.events.empty() && motion_.events.back().time > end) motion_.events.pop_back();
+  motion_.impacts = motion_.events.size();
 }
 
 }  // namespace carom

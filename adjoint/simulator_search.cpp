@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 #include "adjoint/simulator.h"
 
@@ -17,9 +20,16 @@ void Simulator::search(int body, double from, Outlook& outlook) {
   for (int other : neighbours_) {
     const bool is_first = body < other;
     Arc& path = pathOf(other);
-    const auto impact = is_first ? contacts_.firstImpact(body, other, arc, path, from, until)
-                                 : contacts_.firstImpact(other, body, path, arc, from, until);
+    std::optional<PredictedImpact> impact;
+    try {
+      impact = is_first ? contacts_.firstImpact(body, other, arc, path, from, until)
+                        : contacts_.firstImpact(other, body, path, arc, from, until);
+    } catch (const NotComputable& error) {
+      giveUp("approach", body, other, from, error);
+    }
     if (!impact) continue;
+    if (!std::isfinite(impact->time))
+      giveUp("approach", body, other, from, NotComputable("the time at which they meet is beyond the range of doubles"));
     until = std::min(until, std::max(impact->time, from) + kInstant);
     const int version = version_[index(other)] + (in_draft_[index(other)] >= 0 ? 1 : 0);
     found_.push_back({impact->time, body, is_first ? body : other, is_first ? other : body, version, impact->features});
@@ -63,10 +73,17 @@ void Simulator::predictDraft() {
 bool Simulator::takeNext(Prediction& next) {
   while (!queue_.empty()) {
     const int body = queue_.body();
+    now_ = std::max(now_, queue_.time());
     const Prediction& first = outlook_[index(body)].first;
     if (first.a >= 0 && holds(first)) {
       next = first;
       return true;
+    }
+    if (++searches_ > kMostSearches) {
+      std::ostringstream text;
+      text << "'" << scene_.bodies[index(body)].name << "' flies so fast at t = " << now_
+           << " s that its neighbours cannot be kept: more than " << kMostSearches << " searches without an impact";
+      throw NotComputable(text.str());
     }
     predictBody(body, queue_.time());
   }

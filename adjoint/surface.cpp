@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/surface.h"
 
 #include <algorithm>
 #include <cassert>
 
+#include "adjoint/arguments.h"
 #include "adjoint/two_part.h"
 
 namespace carom {
@@ -113,7 +115,9 @@ Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vecto
   s.vertices = std::move(vertices);
   s.faces.reserve(polygons.size());
   for (const std::vector<int>& polygon : polygons) {
-    assert(polygon.size() >= 3);
+    if (polygon.size() < 3)
+      refuseNumber("assembleSurface", "a polygon of corners", static_cast<double>(polygon.size()), "3 or more");
+    for (int v : polygon) checkedIndex("assembleSurface", "vertex", v, s.vertices.size());
     Surface::Face f{static_cast<int>(s.corners.size()), static_cast<int>(polygon.size())};
     s.corners.insert(s.corners.end(), polygon.begin(), polygon.end());
     f.normal = doubleArea(s, f).stableNormalized();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -46,7 +47,8 @@ std::shared_ptr<const Surface> meshSurface(const std::vector<Vec3>& vertices,
                                            const std::vector<std::array<int, 3>>& triangles);
 
 /// Surface from polygons whose corners are already shared and counter-clockwise; fills in normals, edges and integrals.
-/// The normal of a polygon without area is zero, which is for the caller to check.
+/// The normal of a polygon without area is zero, which is for the caller to check. Throws InputError for polygons of
+/// fewer than three corners and vertices that are not there.
 Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& polygons);
 
 }  // namespace carom

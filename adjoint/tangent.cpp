@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/tangent.h"
 
+#include "adjoint/arguments.h"
 #include "adjoint/detail/reach.hpp"
 #include "adjoint/event_linearization.h"
 #include "adjoint/seed.h"
@@ -36,7 +38,23 @@ BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
   return rate;
 }
 
-MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) { return tangent(tape, direction, nullptr); }
+const StateDerivative& MotionTangent::start(int body, int arc) const {
+  const auto& of_body = starts_[checkedIndex("MotionTangent::start", "body", body, starts_.size())];
+  return of_body[checkedIndex("MotionTangent::start", "arc", arc, of_body.size())];
+}
+
+const BodyModelDerivative& MotionTangent::model(int body) const {
+  return dmodels_[checkedIndex("MotionTangent::model", "body", body, dmodels_.size())];
+}
+
+double MotionTangent::eventTime(int event) const {
+  return event_time_[checkedIndex("MotionTangent::eventTime", "event", event, event_time_.size())];
+}
+
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
+  checkDirection("tangent", *tape.motion().scene, direction);
+  return tangent(tape, direction, nullptr);
+}
 
 MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach) {
   const Motion& motion = tape.motion();

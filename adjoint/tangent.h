@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <span>
@@ -21,17 +22,15 @@ struct BodyStateRate {
 };
 
 /// Forward pass: how the whole motion changes when the scene changes along `direction`. Equations 5.1 and 5.2 of
-/// docs/equations.md.
+/// docs/equations.md. Bodies, arcs, events and instants that the motion does not have throw InputError.
 class MotionTangent {
  public:
   BodyStateRate at(int body, const Instant& instant) const;
   /// Of the state at the start of an arc, at the fixed time at which it starts; and of the mass properties.
-  const StateDerivative& start(int body, int arc) const {
-    return starts_[static_cast<std::size_t>(body)][static_cast<std::size_t>(arc)];
-  }
-  const BodyModelDerivative& model(int body) const { return dmodels_[static_cast<std::size_t>(body)]; }
+  const StateDerivative& start(int body, int arc) const;
+  const BodyModelDerivative& model(int body) const;
   /// d(time of event).
-  double eventTime(int event) const { return event_time_[event]; }
+  double eventTime(int event) const;
 
  private:
   friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
@@ -43,7 +42,8 @@ class MotionTangent {
   StateDerivative stateTangent(int body, int arc, double t) const;
 };
 
-/// The tape must outlive the result.
+/// The tape must outlive the result. Throws InputError for a direction that has not the entries of the scene, or numbers
+/// that are not finite; NotComputable as `adjoint`.
 MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction);
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/two_part.h"
 
 #include <array>

@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: MIT
 #pragma once
+
+#include <limits>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -9,6 +12,8 @@ using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Skew-symmetric matrix [a]x, so that [a]x b = a x b.
 inline Mat3 skew(const Vec3& a) {

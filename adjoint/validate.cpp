@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
 #include <sstream>
 #include <string_view>
 #include <unordered_map>
@@ -32,8 +34,10 @@ void fail(const Place& where, const std::string& found, const std::string& expec
   throw InputError(where.pointer(), "found " + found + ", expected " + expected);
 }
 
-void requireFinite(const Place& where, double value) {
-  if (!(std::abs(value) <= kLargest)) fail(where, text(value), "a finite number of magnitude at most 1e9");
+void requireFinite(const Place& where, double value, double largest) {
+  if (!(std::abs(value) <= largest))
+    fail(where, text(value),
+         "a finite number of magnitude at most 1e" + std::to_string(std::lround(std::log10(largest))));
 }
 
 void requireFinite(const Place& where, const Vec3& value) {
@@ -45,9 +49,19 @@ void requireRange(const Place& where, double value, double lo, double hi) {
   if (!(value >= lo && value <= hi)) fail(where, text(value), "a number in [" + text(lo) + ", " + text(hi) + "]");
 }
 
-void requirePositive(const Place& where, double value) {
-  requireFinite(where, value);
+void requirePositive(const Place& where, double value, double largest) {
+  requireFinite(where, value, largest);
   if (!(value > 0)) fail(where, text(value), "a number > 0");
+}
+
+void requireLength(const Place& where, double value) {
+  requirePositive(where, value);
+  if (!(value >= kLeastLength)) fail(where, text(value) + " m", "at least " + text(kLeastLength) + " m");
+}
+
+void requireDivisor(const Place& where, double value) {
+  requirePositive(where, value, kHeaviest);
+  if (!(value >= kLeastDivisor)) fail(where, text(value), "at least " + text(kLeastDivisor) + ": it is divided by");
 }
 
 void requireUnit(const Place& where, const Quat& q) {
@@ -60,10 +74,10 @@ namespace {
 
 using namespace validation;
 
-constexpr double kThinnest = 1e-10;  // least share of the largest moment that the roots of an inertia tensor resolve
+constexpr double kLeastMomentShare = 1e-10;  // least share of the largest moment that the roots of an inertia tensor resolve
 
 void requireMoments(const Place& where, const Vec3& I) {
-  for (int i = 0; i < 3; ++i) requirePositive(where, I[i]);
+  for (int i = 0; i < 3; ++i) requireDivisor(where, I[i]);
   for (int i = 0; i < 3; ++i) {
     const double others = I[(i + 1) % 3] + I[(i + 2) % 3];
     if (!(I[i] <= others * (1 + 1e-12)))  // rounding of the three written numbers
@@ -72,20 +86,20 @@ void requireMoments(const Place& where, const Vec3& I) {
   }
 }
 
-// Mass and moments that follow from the shape must be numbers that can be divided by: 1e-110 m squared and cubed is
-// not, nor is a moment that is lost in the rounding of the others.
+// Mass and moments that follow from the shape must be numbers that can be divided by, and that a document can hold when
+// an edit writes them down: 1e-110 m squared and cubed is not, nor is a moment lost in the rounding of the others.
 void requireDerived(const Place& where, const Body& body) {
   const bool derived = body.inertia.source == Inertia::Source::derived;
   if (body.fixed || (!derived && !body.density)) return;
   const BodyModel model = modelOf(body);
   const double least = derived ? model.inertia.minCoeff() : model.mass;
   const double most = derived ? model.inertia.maxCoeff() : model.mass;
-  if (!(model.mass > 1e-300 && model.mass < 1e300 && least > 1e-300 && most < 1e300))
+  if (!(model.mass >= kLeastDivisor && model.mass <= kHeaviest && least >= kLeastDivisor && most <= kHeaviest))
     fail(where / "shape",
          "a size from which a mass of " + text(model.mass) + " kg and a least moment of " + text(least) +
              " kg m^2 follow",
          "a size whose mass and moments can be divided by");
-  if (derived && model.has_offset && !(least > kThinnest * most))
+  if (derived && model.has_offset && !(least > kLeastMomentShare * most))
     fail(where / "shape",
          "a body so thin that its least moment, " + text(least) + " kg m^2 of " + text(most) + ", is lost in rounding",
          "a thicker one, or \"inertia\" written");
@@ -93,8 +107,8 @@ void requireDerived(const Place& where, const Body& body) {
 
 void validateMass(const Place& where, const Body& body) {
   if (body.mass && body.density) fail(where / "density", "both mass and density", "one of them");
-  if (body.mass) requirePositive(where / "mass", *body.mass);
-  if (body.density) requirePositive(where / "density", *body.density);
+  if (body.mass) requireDivisor(where / "mass", *body.mass);
+  if (body.density) requireDivisor(where / "density", *body.density);
   if (!body.fixed && !body.mass && !body.density) fail(where, "neither mass nor density", "one of them");
   if (body.inertia.source != Inertia::Source::derived) {
     requireMoments(where / "inertia", body.inertia.moments);

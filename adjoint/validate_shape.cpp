@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/validation.h"
 
 namespace carom::validation {
@@ -11,9 +12,9 @@ struct Checker {
   const char* derived;  // what is derived from the volume of a moving body; null when nothing is
   int depth;
 
-  void operator()(const Sphere& s) const { requirePositive(where / "radius", s.radius); }
+  void operator()(const Sphere& s) const { requireLength(where / "radius", s.radius); }
   void operator()(const Box& s) const {
-    for (int i = 0; i < 3; ++i) requirePositive(where / "size" / i, s.size[i]);
+    for (int i = 0; i < 3; ++i) requireLength(where / "size" / i, s.size[i]);
   }
   void operator()(const Plane& s) const {
     if (!(std::abs(s.normal.norm() - 1) <= 1e-9))
@@ -21,12 +22,12 @@ struct Checker {
     requireFinite(where / "offset", s.offset);
   }
   void operator()(const Capsule& s) const {
-    requirePositive(where / "radius", s.radius);
-    requirePositive(where / "height", s.height);
+    requireLength(where / "radius", s.radius);
+    requireLength(where / "height", s.height);
   }
   void operator()(const Cylinder& s) const {
-    requirePositive(where / "radius", s.radius);
-    requirePositive(where / "height", s.height);
+    requireLength(where / "radius", s.radius);
+    requireLength(where / "height", s.height);
   }
   void operator()(const Hull& s) const {
     if (!s.surface) fail(where, "no surface", "one made by convexHull");
@@ -45,7 +46,11 @@ struct Checker {
 
   void requireScale(double scale, const Shape& shape) const {
     requirePositive(where / "scale", scale);
-    const double extent = scale > 1 ? kindOf(shape).boundingRadius(shape) : 0;  // at scale 1 the surface is checked
+    if (scale == 1) return;  // the surface itself was checked when it was made
+    const double extent = kindOf(shape).boundingRadius(shape);
+    if (!(extent >= kLeastLength))
+      fail(where / "scale", text(scale) + ", which takes it to " + text(extent) + " m",
+           "an extent of at least " + text(kLeastLength) + " m");
     if (!(extent <= 2 * kLargest))
       fail(where / "scale", text(scale) + ", which takes it to " + text(extent) + " m", "coordinates of at most 1e9");
   }

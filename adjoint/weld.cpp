@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/weld.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Latency of drags: the path of a mouse at 60 Hz against edit sessions, in scenes of one to ten bodies.
 //   drag_bench [--csv FILE] [--seconds S] [--seeds N] [--first SEED] [--scene NAME] [--simulations N]
 //              [--release S] [--no-clock] [--frames]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/drag_scenes.h"
 
 #include <algorithm>

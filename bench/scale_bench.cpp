@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Impacts per second and memory per impact against the number of bodies: equal balls in a pen, tumbling boxes, mugs.
 //   scale_bench --benchmark_min_time=1
 //   scale_bench --machine               prints what it would be measured on

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Simulate, one adjoint row, the full Jacobian and a whole edit, for example scenes and for boxes with three impacts.
 //   carom_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 // Ratios (adjoint row over simulate) are to be read within one run: machines are noisy.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom check: the derivatives by adjoint and by tangent, beside differences over a sweep of steps.
 #include <CLI/App.hpp>
 #include <algorithm>

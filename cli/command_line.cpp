@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "cli/command_line.h"
 
 #include <CLI/CLI.hpp>
@@ -24,6 +25,7 @@ constexpr const char* kFooter =
     "  carom edit examples/scenes/book-on-shelf.json -o edited.json\n"
     "                                                       finds the throw that meets the targets\n"
     "  carom export edited.json -o edited.glb               the motion for Blender or any glTF viewer\n"
+    "  carom export edited.json -o edited.py --camera       the same for blender --python edited.py\n"
     "\n"
     "carom COMMAND --help explains a command, with examples. With --json every command prints one\n"
     "JSON document on standard output, for errors as well; warnings and progress go to standard error.\n"

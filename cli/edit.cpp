@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom edit: solves the edit of a document.
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom export: the motion in the formats of other programs.
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
@@ -17,9 +18,9 @@ namespace carom::cli {
 namespace {
 
 struct Options {
-  std::string scene, output, before;
-  std::string profile;
-  std::optional<double> frames_per_second;
+  std::string scene, output, before, keys;
+  std::optional<double> frames_per_second, tolerance, light, ghosts;
+  bool camera = false, nails = false;
 };
 
 std::string extensionOf(const std::string& path) {
@@ -38,12 +39,33 @@ void requireSense(const Options& options) {
     for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
     throw UsageError("-o " + options.output + ": found the extension '" + extension + "', expected one of " + list);
   }
-  const bool gltf = extension == ".glb" || extension == ".gltf";
-  if (!options.profile.empty() && !gltf) throw UsageError("--profile is only for .glb and .gltf");
   if (!options.before.empty() && extension != ".svg") throw UsageError("--before is only for .svg");
-  if (!options.frames_per_second) return;
-  if (gltf && options.profile != "blender") throw UsageError("--fps needs --profile blender: a web key is exact");
-  if (extension == ".svg") throw UsageError("--fps is only for .glb, .gltf and .csv");
+  if (options.frames_per_second && extension == ".svg")
+    throw UsageError("--fps is only for .glb, .gltf, .py and .csv");
+  if (options.keys == "cubic" && extension == ".py")
+    throw UsageError("--keys cubic is only for .glb and .gltf: Blender drops the tangents of cubic keys");
+  if (options.keys == "cubic" && options.tolerance) throw UsageError("--tolerance needs --keys linear");
+  if (extension == ".glb" || extension == ".gltf" || extension == ".py") return;
+  const std::pair<const char*, bool> given[] = {{"--keys", !options.keys.empty()},
+                                                {"--tolerance", options.tolerance.has_value()},
+                                                {"--camera", options.camera},
+                                                {"--light", options.light.has_value()},
+                                                {"--ghosts", options.ghosts.has_value()},
+                                                {"--nails", options.nails}};
+  for (const auto& [name, is_given] : given)
+    if (is_given) throw UsageError(std::string(name) + " is only for .glb, .gltf and .py");
+}
+
+GltfOptions gltfOptionsOf(const Options& options) {
+  GltfOptions out;
+  if (options.keys == "cubic") out.keys = GltfKeys::cubic;
+  out.frames_per_second = options.frames_per_second.value_or(out.frames_per_second);
+  out.tolerance = options.tolerance.value_or(out.tolerance);
+  out.camera = options.camera;
+  out.light = options.light;
+  out.ghosts = options.ghosts;
+  out.nails = options.nails;
+  return out;
 }
 
 Exit exportScene(const Options& options, Output& out) {
@@ -51,9 +73,8 @@ Exit exportScene(const Options& options, Output& out) {
   Loaded loaded(options.scene);
   const Motion motion = loaded.simulate();
   ExportOptions export_options;
-  if (options.profile == "blender") export_options.gltf.profile = GltfProfile::blender;
-  if (options.frames_per_second)
-    export_options.gltf.frames_per_second = export_options.csv_rate = *options.frames_per_second;
+  export_options.gltf = gltfOptionsOf(options);
+  export_options.csv_rate = options.frames_per_second.value_or(export_options.csv_rate);
   std::optional<Motion> before;
   if (!options.before.empty()) {
     Loaded earlier(options.before);
@@ -79,16 +100,29 @@ Exit exportScene(const Options& options, Output& out) {
 Action declare(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   addScene(app, options->scene);
-  app.add_option("-o,--output", options->output, "The file to write: .glb, .gltf, .csv or .svg")
+  app.add_option("-o,--output", options->output, "The file to write: .glb, .gltf, .py, .csv or .svg")
       ->required()
       ->type_name("FILE");
-  app.add_option("--profile", options->profile, "How a .glb or .gltf is keyed: web (the default) or blender")
-      ->check(CLI::IsMember({"web", "blender"}))
-      ->type_name("NAME");
-  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg)")->type_name("OLD.json");
-  app.add_option("--fps", options->frames_per_second, "Frames (blender) or rows (.csv) a second")
+  app.add_option("--fps", options->frames_per_second, "Frames a second (24), or rows (.csv: 60)")
       ->check(positiveNumber())
       ->type_name("N");
+  app.add_option("--keys", options->keys, "How a .glb or .gltf is keyed: linear (the default) or cubic")
+      ->check(CLI::IsMember({"linear", "cubic"}))
+      ->type_name("KIND");
+  app.add_option("--tolerance", options->tolerance, "Metres that linear keys may be off between keys (0.0001)")
+      ->check(positiveNumber())
+      ->type_name("M");
+  app.add_flag("--camera", options->camera, "A camera that sees the whole motion (.glb, .gltf, .py)");
+  app.add_option("--light", options->light, "A sun of so many lux, 2000 if none are given (.glb, .gltf, .py)")
+      ->expected(0, 1)
+      ->default_str("2000")
+      ->check(positiveNumber())
+      ->type_name("LUX");
+  app.add_option("--ghosts", options->ghosts, "Translucent copies of moving bodies every S seconds (.glb, .gltf, .py)")
+      ->check(positiveNumber())
+      ->type_name("S");
+  app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
+  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg)")->type_name("OLD.json");
   return [options](Output& out) { return exportScene(*options, out); };
 }
 
@@ -96,15 +130,18 @@ Action declare(CLI::App& app) {
 
 const Command kExportCommand{
     "export", "Write the motion as glTF, as a table or as a picture",
-    "  .glb, .gltf  scene and motion. Profile web has one cubic key an impact, which is exact; profile\n"
-    "               blender has linear keys at every frame (24 a second) and every impact, because\n"
-    "               Blender drops cubic tangents\n"
+    "  .glb, .gltf  scene and motion, for Blender, three.js and every other reader of glTF: linear keys\n"
+    "               at every frame, every impact and between, right to 0.1 mm. --keys cubic has one key\n"
+    "               an impact, which is exact and small, but not for Blender\n"
+    "  .py          a script that opens the same in Blender with frame rate, frame range and camera set:\n"
+    "               blender --python motion.py\n"
     "  .csv         a row for every moving body 60 times a second, and before and after each impact\n"
-    "  .svg         side and top view with paths, ghosts, impacts and targets\n"
+    "  .svg         side and top view with paths, positions, impacts and nails, at most 500 kB: thousands\n"
+    "               of impacts become dots, crowds of bodies a shade\n"
     "\n"
     "Examples:\n"
     "  carom export scene.json -o motion.glb\n"
-    "  carom export scene.json -o motion.glb --profile blender --fps 60\n"
+    "  carom export scene.json -o motion.py --camera --light --ghosts 0.1 --nails\n"
     "  carom export edited.json -o both.svg --before scene.json",
     declare};
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom gradient: the exact derivative of every constrained number by every control number.
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom import: a scene document from a glTF file with physics.
 #include <CLI/App.hpp>
 #include <filesystem>

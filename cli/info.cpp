@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom info: how a scene is computed, and why; without a scene, the program itself.
 #include <CLI/App.hpp>
 #include <CLI/Version.hpp>
@@ -13,6 +14,7 @@
 #include "cli/options.h"
 #include "formats/export_motion.h"
 #include "formats/info_json.h"
+#include "formats/json_writer.h"
 #include "formats/status_json.h"
 
 namespace carom::cli {
@@ -57,6 +59,7 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
     return EditProblem(scene, loaded.contacts, document.duration, document.controls, document.constraints);
   });
   ScenePlan plan;
+  plan.name = document.name, plan.notes = document.notes;
   plan.duration = document.duration;
   plan.controls = problem.controls.size();
   plan.rows = problem.constraints.size();
@@ -69,6 +72,22 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
       if (!scene.bodies[static_cast<std::size_t>(a)].fixed || !scene.bodies[static_cast<std::size_t>(b)].fixed)
         plan.pairs.push_back(pairOf(out, scene, a, b));
   return plan;
+}
+
+/// A text of a document as it can stand in a terminal, every line of it indented.
+std::string indented(const std::string& text) {
+  std::string lines = "  ";
+  for (const char c : text) {
+    const bool control = static_cast<unsigned char>(c) < ' ' || c == 0x7f;
+    lines += c == '\n' ? "\n  " : std::string(1, control ? ' ' : c);
+  }
+  return lines + '\n';
+}
+
+void printNotes(Output& out, const Document& document) {
+  if (!document.notes.empty()) out.text() << indented(document.notes);
+  for (const Body& body : document.scene.bodies)
+    if (!body.notes.empty()) out.text() << indented("'" + body.name + "': " + body.notes);
 }
 
 void printBodies(Output& out, const Scene& scene, const ScenePlan& plan) {
@@ -124,8 +143,9 @@ Exit describeScene(const std::string& path, Output& out) {
     out.document(infoJson(loaded.document.scene, plan));
     return Exit::done;
   }
-  out.text() << path << ": " << out.number(plan.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
+  out.text() << path << ": " << (plan.name.empty() ? "" : quotedText(plan.name) + ", ") << out.number(plan.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
              << counted(plan.rows, "number") << " held\n";
+  printNotes(out, loaded.document);
   printShapes(out, loaded.document.scene);
   printBodies(out, loaded.document.scene, plan);
   printPairs(out, loaded.document.scene, plan);

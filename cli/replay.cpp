@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom replay: plays the journal of an edit session again.
 #include <CLI/App.hpp>
 #include <iostream>
@@ -52,7 +53,11 @@ Exit replay(const Options& options, Output& out) {
       played.push_back(replay.next());
       same = same && played.back().differences.empty();
     }
-    if (!options.output.empty()) saveDocument(options.output, documentOf(replay.session(), document.folder));
+    if (!options.output.empty()) {
+      Document end = documentOf(replay.session(), document.folder);
+      end.name = document.name, end.notes = document.notes;
+      saveDocument(options.output, end);
+    }
     if (out.json()) {
       out.document(replayJson(options.journal, document.journal, played, replay.session(), options.output));
       return;

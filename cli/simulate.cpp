@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom simulate: every impact, and states at the times asked for.
 #include <CLI/App.hpp>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom validate: whether a document can be simulated and edited.
 #include <CLI/App.hpp>
 #include <memory>

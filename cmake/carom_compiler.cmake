@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What every target of this project is compiled with.
 
 set(CMAKE_CXX_STANDARD 20)
@@ -42,4 +43,24 @@ if(CAROM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Depend mode takes the included files from the compiler's -MD, which the generators ask for, and so preprocesses only
   # once: a build with an empty cache takes a tenth less time.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 ${CAROM_CCACHE})
+endif()
+
+# The linker: mold takes a fraction of the time of the default one, with which nothing else changes.
+find_program(CAROM_MOLD mold)
+mark_as_advanced(CAROM_MOLD)
+if(CAROM_MOLD AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  add_link_options(-fuse-ld=mold)
+endif()
+
+# What reads, writes and prints spends its time elsewhere: with -O1 it is as fast to use and faster to build. Tests that
+# compute for long need no more than -O2. The bits are those of -O3.
+function(carom_optimise_well target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+endfunction()
+function(carom_optimise_lightly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+if(NOT CAROM_PCH)
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()

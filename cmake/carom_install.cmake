@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Installs the libraries, their headers and the command, and the package for find_package(carom).
 include(CMakePackageConfigHelpers)
 
@@ -13,6 +14,11 @@ foreach(folder adjoint ode_bridge editing formats)
     FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/carom/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/carom/carom)
+
+# What editors check documents with, and what goes with a copy of the program.
+install(FILES ${PROJECT_SOURCE_DIR}/formats/scene.schema.json ${PROJECT_SOURCE_DIR}/formats/journal.schema.json
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/carom)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT caromTargets NAMESPACE carom:: DESTINATION ${carom_package_dir})
 configure_package_config_file(cmake/caromConfig.cmake.in ${PROJECT_BINARY_DIR}/caromConfig.cmake

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # ODE, qhull and Ipopt, which ship no CMake package: PkgConfig::ODE, PkgConfig::QHULL and PkgConfig::IPOPT.
 # Used by the build and by the installed package alike.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # carom_library(<name>): the static library carom_<name> (alias carom::<name>) from all .cpp files of the current folder
 # and its sub-folders. Include paths start at the project root: #include "adjoint/scene.h".
 function(carom_library name)
@@ -16,8 +17,5 @@ function(carom_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/carom>)
-  if(CAROM_PCH)
-    target_precompile_headers(carom_${name} PRIVATE
-      <Eigen/Core> <Eigen/Geometry> <algorithm> <cmath> <memory> <optional> <string> <vector>)
-  endif()
+  set_target_properties(carom_${name} PROPERTIES UNITY_BUILD ${CAROM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()

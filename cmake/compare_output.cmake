@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DPROGRAM=... -DEXPECTED=... -DACTUAL=... -P compare_output.cmake
 # Runs a program and compares its standard output with a stored text.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <limits>
@@ -65,6 +66,7 @@ struct Constraint {
   /// Not empty: targets are seen from this body, in its shape's axes (see `seenFrom` in editing/rows/relative.h).
   std::string relative_to = {};
   std::vector<Region> regions = {};  ///< whenever `at` is
+  std::string notes = {};            ///< for people; kept in documents
 };
 
 }  // namespace carom

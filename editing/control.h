@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -18,6 +19,7 @@ struct Control {
   std::vector<std::string> components;  ///< names of the components that vary ("x", "radius"); empty means all
   std::vector<double> min, max;         ///< empty: only the physical bounds; one number: every component; or one each
   double weight = 1;                    ///< of the change, on top of the natural scale
+  std::string notes = {};               ///< for people; kept in documents
 
   Control& within(double lo, double hi) { return min = {lo}, max = {hi}, *this; }
   Control& atLeast(double lo) { return min = {lo}, *this; }

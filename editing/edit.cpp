@@ -1,11 +1,15 @@
+// SPDX-License-Identifier: MIT
 #include "editing/edit.h"
 
 #include <chrono>
+#include <cmath>
 
+#include "adjoint/errors.h"
 #include "adjoint/simulate.h"
 #include "editing/search/alternatives.h"
 #include "editing/solve/edit_result.h"
 #include "editing/solve/edit_solution.h"
+#include "editing/text.h"
 #include "editing/verdict/explain.h"
 
 namespace carom {
@@ -37,7 +41,23 @@ std::vector<Constraint> Edit::constraints() const {
 
 EditProblem Edit::problem() const { return EditProblem(scene_, contacts_, duration_, controls_, constraints()); }
 
+namespace {
+
+void checkEditOptions(const EditOptions& options) {
+  const auto check = [](const char* name, double value, bool good, const char* expected) {
+    if (!good) throw InputError(std::string("/options/") + name, "found " + number(value) + ", expected " + expected);
+  };
+  check("max_iterations", options.max_iterations, options.max_iterations >= 0, "0 or more");
+  check("time_budget_seconds", options.time_budget_seconds, options.time_budget_seconds >= 0, "a number >= 0");
+  check("tolerance", options.tolerance, options.tolerance > 0 && std::isfinite(options.tolerance), "a number > 0");
+  check("alternatives", options.alternatives, options.alternatives >= 1, "1 or more");
+  check("threads", options.threads, options.threads >= 0, "0 (all cores) or more");
+}
+
+}  // namespace
+
 EditResult Edit::solve(const EditOptions& options) const {
+  checkEditOptions(options);
   const auto began = std::chrono::steady_clock::now();
   const EditProblem problem = this->problem();
   EditSearch search(problem, options);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/hessian.h"
 
 #include "adjoint/second_order.h"

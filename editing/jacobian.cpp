@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/jacobian.h"
 
 #include <algorithm>
@@ -128,6 +129,10 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
     if (rows.seeds[i].empty()) continue;
     const SceneGradient gradient = adjoint(tape, rows.seeds[i], reliability ? &(*reliability)[i] : nullptr);
     J.row(i) = problem.controls.gather(gradient, values).transpose();
+    if (!reliability || J.row(i).allFinite()) continue;
+    (*reliability)[i].reliable = false;
+    (*reliability)[i].message =
+        "the derivative of " + problem.constraints.describeRow(static_cast<int>(i)) + " is beyond the range of doubles";
   }
   return J;
 }

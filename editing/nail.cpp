@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/nail.h"
 
 #include <algorithm>

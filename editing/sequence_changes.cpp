@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/sequence_changes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/session.h"
 
 #include <algorithm>

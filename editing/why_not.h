@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 namespace carom {
 
 /// Why an edit does not meet its constraints. Read at the nearest point that was found, to first order in the controls,
-/// within their bounds and within kReach natural scales of that point; what is said to solve the edit was tried.
+/// within their bounds and within kLargestStep natural scales of that point; what is said to solve the edit was tried.
 struct WhyNot {
   /// Constrained numbers that cannot be met together while all but any one of them can: leaving out one is enough. One
   /// alone is out of reach of everything that varies.

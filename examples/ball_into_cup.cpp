@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A ball bounces on the table and misses a cup made of five boxes. Two nails without a given time bring it in.
 #include <cmath>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A die is thrown so that it strikes the table with a chosen face down at its third impact: each of the six faces.
 #include <cstdio>
 

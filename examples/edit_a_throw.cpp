@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds the throw that lands a ball at a place with its second bounce, and what the floor's elasticity has to be.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A ball falls, bounces once, and rises: how its height at time t depends on everything, in one reverse pass.
 #include <cmath>
 #include <cstdio>

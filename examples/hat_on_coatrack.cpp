@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A hat is thrown onto a coatrack. A nail holds how it lands; then the spin is changed, and the throw follows: the more
 // spin, the flatter and faster it gets.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A ball that bounces and a crate meet in the air: where, and with which face, is nailed; when is left open.
 #include <cmath>
 #include <cstdio>

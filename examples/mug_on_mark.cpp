@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A session, as behind an editor's window: the third bounce of a mug is taken hold of and dragged over the table.
 #include <cstdio>
 #include <string>

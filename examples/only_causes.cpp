@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The throw stays as it is. How springy hammer and floor are, and how the hammer's mass is spread, alone bring it to a
 // place after its bounces.
 #include <cstdio>

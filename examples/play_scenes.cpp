@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plays the scenes of the gallery, which have shapes of every kind, and tells how each begins and ends.
 #include <cstdio>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Throws a spinning brick onto the floor and reads its motion: impacts, and the state at any time.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/check_json.h"
 
 #include "formats/gradient_json.h"
@@ -7,12 +8,6 @@ namespace carom {
 namespace {
 
 using Layout = JsonWriter::Layout;
-
-void writeLines(JsonWriter& out, const char* name, const std::vector<std::string>& lines) {
-  out.key(name).beginArray();
-  for (const std::string& line : lines) out.text(line);
-  out.endArray();
-}
 
 void writeEntry(JsonWriter& out, const EditProblem& problem, const DerivativeCheck& check, const char* name,
                 const DerivativeCheck::Entry& entry, const Eigen::MatrixXd& other, const char* other_name) {
@@ -53,8 +48,8 @@ void writeColumn(JsonWriter& out, const EditProblem& problem, const DerivativeCh
       out.key("disagreement").number(one.disagreement);
     } else {
       out.key("why").text(one.why);
-      writeLines(out, "sequence_below", one.below);
-      writeLines(out, "sequence_above", one.above);
+      out.key("sequence_below").texts(one.below);
+      out.key("sequence_above").texts(one.above);
     }
     out.endObject();
   }
@@ -68,7 +63,7 @@ std::string checkJson(const EditProblem& problem, const DerivativeCheck& check) 
   out.beginObject();
   out.key("passed").boolean(check.passed);
   out.key("message").text(check.message);
-  writeLines(out, "sequence", check.sequence);
+  out.key("sequence").texts(check.sequence);
   writeEntry(out, problem, check, "worst_tangent", check.adjoint_tangent, check.by_tangent, "tangent");
   writeEntry(out, problem, check, "worst_differences", check.differences, check.by_differences, "differences");
   out.key("columns").beginArray();

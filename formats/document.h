@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -15,7 +16,9 @@ struct Document {
   double duration = 1;  ///< s
   std::vector<Control> controls;
   std::vector<Constraint> constraints;
-  std::string folder;  ///< that file names in the scene are relative to; empty: the current folder
+  std::string folder;                 ///< that file names in the scene are relative to; empty: the current folder
+  std::string name = {}, notes = {};  ///< for people; nothing is computed from them
+  std::string schema = {};            ///< member "$schema", where an editor finds the schema; never opened here
 };
 
 }  // namespace carom

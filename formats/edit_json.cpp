@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/edit_json.h"
 
 #include "formats/json_writer.h"
@@ -147,12 +148,6 @@ void writeWhyNot(JsonWriter& out, const WhyNot& why) {
   out.endObject();
 }
 
-void writeLines(JsonWriter& out, const char* name, const std::vector<std::string>& lines) {
-  out.key(name).beginArray();
-  for (const std::string& line : lines) out.text(line);
-  out.endArray();
-}
-
 void writeSequenceChanges(JsonWriter& out, const std::vector<SequenceChange>& changes) {
   const auto event = [&](int index) { index < 0 ? out.null() : out.integer(index); };
   out.key("sequence_changes").beginArray();
@@ -183,7 +178,7 @@ void writeAlternatives(JsonWriter& out, const EditResult& result, const std::vec
     out.key("residual").number(other.residual);
     out.key("scaled_residual").number(other.scaled_residual);
     writeChanged(out, other.changed);
-    writeLines(out, "sequence", other.sequence);
+    out.key("sequence").texts(other.sequence);
     writeSequenceChanges(out, other.sequence_changes);
     writeOutput(out, outputs, i + 1);
     out.endObject();
@@ -208,8 +203,8 @@ std::string editJson(const EditResult& result, const std::vector<std::string>& o
   out.key("growth").number(result.growth);
   out.key("segments").integer(result.segments);
   out.key("milliseconds").number(result.milliseconds);
-  writeLines(out, "sequence_before", result.sequence_before);
-  writeLines(out, "sequence_after", result.sequence_after);
+  out.key("sequence_before").texts(result.sequence_before);
+  out.key("sequence_after").texts(result.sequence_after);
   out.key("signature_changed").boolean(result.signature_changed);
   writeSequenceChanges(out, result.sequence_changes);
   out.key("reliable").boolean(result.reliability.reliable);

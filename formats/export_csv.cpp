@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/export_csv.h"
 
 #include <algorithm>
@@ -11,16 +12,18 @@
 namespace carom {
 namespace {
 
-constexpr const char* kHeader =
+constexpr const char* kColumns =
     "time [s],body,kind,event,position.x [m],position.y [m],position.z [m],"
     "orientation.w,orientation.x,orientation.y,orientation.z,"
     "velocity.x [m/s],velocity.y [m/s],velocity.z [m/s],"
     "angular_velocity.x [rad/s],angular_velocity.y [rad/s],angular_velocity.z [rad/s]\r\n";
 
+constexpr double kMostRows = 1e7;  // some gigabytes
+
 enum class RowKind { sample, before, after };
 constexpr const char* kKindNames[] = {"sample", "before", "after"};
 
-struct Row {
+struct CsvRow {
   double time = 0;
   int body = 0;
   RowKind kind = RowKind::sample;
@@ -41,7 +44,7 @@ bool hasImpactAt(const Motion& motion, int body, double t) {
   return first != events.end() && motion.events[*first].time == t;
 }
 
-void addSamples(const Motion& motion, int body, double rate, std::vector<Row>& rows) {
+void addSamples(const Motion& motion, int body, double rate, std::vector<CsvRow>& rows) {
   const auto add = [&](double t) {
     if (!hasImpactAt(motion, body, t)) rows.push_back({t, body, RowKind::sample, -1});
   };
@@ -56,8 +59,8 @@ const Arc* arcAfter(const Motion& motion, const Participant& p) {
   return p.arc + 1 < static_cast<int>(arcs.size()) ? &arcs[p.arc + 1] : nullptr;
 }
 
-std::vector<Row> rowsOf(const Motion& motion, double rate) {
-  std::vector<Row> rows;
+std::vector<CsvRow> rowsOf(const Motion& motion, double rate) {
+  std::vector<CsvRow> rows;
   const auto& bodies = motion.scene->bodies;
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body)
     if (!bodies[body].fixed) addSamples(motion, body, rate, rows);
@@ -68,7 +71,7 @@ std::vector<Row> rowsOf(const Motion& motion, double rate) {
       if (arcAfter(motion, p)) rows.push_back({motion.events[e].time, p.body, RowKind::after, e});
   }
   // Stable: rows of one time keep the order they were made in, samples first, then the impacts in their order.
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
+  std::stable_sort(rows.begin(), rows.end(), [](const CsvRow& a, const CsvRow& b) { return a.time < b.time; });
   return rows;
 }
 
@@ -78,7 +81,7 @@ BodyState stateAfter(const Motion& motion, int event, int body) {
   return toBodyState(next->model(), next->startState());
 }
 
-BodyState stateOf(const Motion& motion, const Row& row) {
+BodyState stateOf(const Motion& motion, const CsvRow& row) {
   if (row.kind == RowKind::before) return motion.stateBefore(row.event, row.body);
   if (row.kind == RowKind::after) return stateAfter(motion, row.event, row.body);
   return motion.stateAt(row.body, row.time);
@@ -90,7 +93,7 @@ void appendNumber(std::string& out, double value) {
   out += text;
 }
 
-void appendRow(std::string& out, const Motion& motion, const Row& row) {
+void appendRow(std::string& out, const Motion& motion, const CsvRow& row) {
   const BodyState s = stateOf(motion, row);
   const Quat& q = s.orientation;
   char time[32];
@@ -114,8 +117,12 @@ void appendRow(std::string& out, const Motion& motion, const Row& row) {
 void exportCsv(const std::string& path, const Document&, const Motion& motion, double rate) {
   if (!(rate > 0 && rate <= 1e6))
     throw InputError("csv rate", "found " + std::to_string(rate) + ", expected a number of rows a second up to 1e6");
-  std::string out = kHeader;
-  for (const Row& row : rowsOf(motion, rate)) appendRow(out, motion, row);
+  const double rows = rate * motion.end * static_cast<double>(motion.scene->bodies.size());
+  if (!(rows <= kMostRows))
+    throw InputError("csv rate", "found " + std::to_string(rate) + ", which makes " + std::to_string(rows) +
+                                     " rows, expected one that makes at most " + std::to_string(kMostRows));
+  std::string out = kColumns;
+  for (const CsvRow& row : rowsOf(motion, rate)) appendRow(out, motion, row);
   writeFile(path, out);
 }
 

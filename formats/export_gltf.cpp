@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/export_gltf.h"
 
 #include <tiny_gltf.h>
@@ -8,12 +9,12 @@
 #include <variant>
 
 #include "adjoint/errors.h"
-#include "formats/detail/gltf_buffer.hpp"
+#include "formats/detail/gltf_frame.hpp"
 #include "formats/detail/gltf_keys.hpp"
-#include "formats/detail/gltf_mesh.hpp"
 #include "formats/detail/gltf_physics.hpp"
+#include "formats/detail/gltf_stage.hpp"
+#include "formats/json_writer.h"
 #include "formats/motion_extent.h"
-#include "formats/palette.h"
 #include "formats/write_file.h"
 
 namespace carom {
@@ -23,28 +24,6 @@ using tinygltf::Value;
 
 std::string placeOf(const Body& body) { return "body '" + body.name + "'"; }
 
-template <class Item>
-int append(std::vector<Item>& items, Item item) {
-  items.push_back(std::move(item));
-  return static_cast<int>(items.size()) - 1;
-}
-
-void setPose(tinygltf::Node& node, const Vec3& x, const Quat& q) {
-  node.translation = {x.x(), x.y(), x.z()};
-  node.rotation = {q.x(), q.y(), q.z(), q.w()};
-}
-
-int addMaterial(tinygltf::Model& model, const std::string& name, const Colour& colour, bool fixed, bool flat) {
-  tinygltf::Material material;
-  material.name = name;
-  const auto [r, g, b] = colour.linear();
-  material.pbrMetallicRoughness.baseColorFactor = {r, g, b, 1};
-  material.pbrMetallicRoughness.metallicFactor = 0;
-  material.pbrMetallicRoughness.roughnessFactor = fixed ? 0.9 : 0.45;
-  material.doubleSided = flat;
-  return append(model.materials, material);
-}
-
 class Writer {
  public:
   Writer(const Document& document, const Motion& motion, const GltfOptions& options)
@@ -52,23 +31,26 @@ class Writer {
         motion_(motion),
         scene_(*motion.scene),
         options_(options),
+        extent_(motionExtent(motion)),
         buffer_(model_),
+        look_(model_, buffer_, scene_, extent_.diagonal().norm()),
         physics_(scene_) {}
 
   tinygltf::Model make() {
-    const Extent extent = motionExtent(motion_);
-    centre_ = extent.center();
-    plane_half_width_ = extent.diagonal().norm();
     model_.asset.version = "2.0";
     model_.asset.generator = "carom";
     addSurfaces();
     addBodies();
     physics_.finish(model_);
     addAnimation();
+    addStage();
+    const Value playback(Value::Object{{"frames_per_second", Value(options_.frames_per_second)},
+                                       {"last_frame", Value(lastFrame(motion_.end, options_.frames_per_second))}});
     tinygltf::Scene scene;
     scene.name = "carom";
-    scene.nodes = {0};
-    scene.extras = Value(Value::Object{{"carom", documentOf(document_, scene_, surfaces_)}});
+    scene.nodes = roots_;
+    scene.extras =
+        Value(Value::Object{{"carom", documentOf(document_, scene_, surfaces_)}, {"carom_playback", playback}});
     model_.defaultScene = append(model_.scenes, scene);
     return std::move(model_);
   }
@@ -102,33 +84,24 @@ class Writer {
     return indices;
   }
 
-  // Node 0 turns z-up into glTF's y-up; node i + 1 is body i; then come the nodes below bodies.
+  // Node i is body i; then come the nodes below bodies.
   void addBodies() {
-    tinygltf::Node root;
-    root.name = "z-up";
-    root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
-    for (int body = 0; body < bodyCount(); ++body) root.children.push_back(body + 1);
-    model_.nodes.resize(static_cast<std::size_t>(1 + bodyCount()));
-    model_.nodes[0] = root;
-    for (int body = 0; body < bodyCount(); ++body) addBody(body);
+    model_.nodes.resize(static_cast<std::size_t>(bodyCount()));
+    for (int body = 0; body < bodyCount(); ++body) {
+      addBody(body);
+      roots_.push_back(body);
+    }
   }
 
   void addBody(int body) {
-    const Body& b = scene_.bodies[body];
     gltf::PhysicsNode physics = physicsNodeOf(scene_, body, (*motion_.models)[body], surfaces_);
-    const Plane* plane = std::get_if<Plane>(&b.shape);
-    if (plane != nullptr) {                                                    // drawn as a square around the motion
-      const Vec3 centre = b.orientation.conjugate() * (centre_ - b.position);  // in the body's axes
-      physics.children[0].translation = centre + (plane->offset - plane->normal.dot(centre)) * plane->normal;
+    if (std::holds_alternative<Plane>(scene_.bodies[body].shape)) {  // drawn as a square around the motion
+      const Vec3 normal = gltf::turned(physics.rotation, Vec3::UnitZ()), centre = extent_.center();
+      physics.translation = centre + normal.dot(physics.translation - centre) * normal;
     }
     tinygltf::Node node = nodeOf(physics);
-    const int mesh = addMesh(body);
-    if (plane == nullptr) {
-      node.mesh = mesh;
-    } else {
-      model_.nodes[static_cast<std::size_t>(node.children[0])].mesh = mesh;
-    }
-    model_.nodes[static_cast<std::size_t>(1 + body)] = node;
+    node.mesh = look_.body(body);
+    model_.nodes[static_cast<std::size_t>(body)] = node;
   }
 
   /// Adds the nodes below, not the node itself.
@@ -136,7 +109,8 @@ class Writer {
     tinygltf::Node node;
     node.name = physics.name;
     setPose(node, physics.translation, physics.rotation);
-    if (physics.scale != Vec3::Ones()) node.scale = {physics.scale.x(), physics.scale.y(), physics.scale.z()};
+    const Vec3 scale = gltf::swappedSizes(physics.scale);
+    if (scale != Vec3::Ones()) node.scale = {scale.x(), scale.y(), scale.z()};
     if (physics.motion || physics.collider) node.extensions["KHR_physics_rigid_bodies"] = physics_.extensionOf(physics);
     for (const gltf::PhysicsNode& child : physics.children) {
       const tinygltf::Node below = nodeOf(child);
@@ -145,45 +119,48 @@ class Writer {
     return node;
   }
 
-  int addMesh(int body) {
-    const Body& b = scene_.bodies[body];
-    const TriangleMesh triangles = meshOf(b.shape, plane_half_width_);
-    const Colour colour = bodyColour(scene_, body);
-    const bool flat = std::holds_alternative<Plane>(b.shape);
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.attributes["POSITION"] = buffer_.addVertices(triangles.positions, placeOf(b));
-    primitive.attributes["NORMAL"] = buffer_.addVertices(triangles.normals, placeOf(b));
-    primitive.indices = buffer_.addIndices(triangles.triangles);
-    primitive.material = addMaterial(model_, b.name, colour, b.fixed, flat);
-    tinygltf::Mesh mesh;
-    mesh.name = b.name;
-    mesh.primitives.push_back(primitive);
-    if (!triangles.accent.empty()) {
-      primitive.indices = buffer_.addIndices(triangles.accent);
-      primitive.material = addMaterial(model_, b.name + " accent", colour.mixedWith({1, 1, 1}, 0.55), b.fixed, flat);
-      mesh.primitives.push_back(primitive);
-    }
-    return append(model_.meshes, mesh);
+  void addStage() {
+    if (options_.camera) roots_.push_back(addCamera(model_, extent_));
+    if (options_.light) roots_.push_back(addSun(model_, extent_, *options_.light));
+    std::vector<int> marks;
+    if (options_.ghosts) marks = addGhosts(model_, look_, motion_, *options_.ghosts);
+    roots_.insert(roots_.end(), marks.begin(), marks.end());
+    marks.clear();
+    if (options_.nails) marks = addNails(model_, look_, document_, motion_);
+    roots_.insert(roots_.end(), marks.begin(), marks.end());
   }
 
   void addAnimation() {
     tinygltf::Animation animation;
     animation.name = "motion";
-    for (int body = 0; body < bodyCount(); ++body)
-      if (!scene_.bodies[body].fixed) addChannels(animation, body);
+    for (int body = 0; body < bodyCount(); ++body) {
+      if (scene_.bodies[body].fixed) continue;
+      if (options_.keys == GltfKeys::cubic) {
+        addCubic(animation, body);
+      } else {
+        addLinear(animation, body);
+      }
+    }
     if (!animation.channels.empty()) model_.animations.push_back(animation);
   }
 
-  void addChannels(tinygltf::Animation& animation, int body) {
+  // Where no time passes, the node's own pose says all.
+  void addLinear(tinygltf::Animation& animation, int body) {
     const std::string place = placeOf(scene_.bodies[body]);
-    const bool web = options_.profile == GltfProfile::web;
-    const TranslationKeys moves =
-        web ? splineKeys(motion_, body) : frameKeys(motion_, body, options_.frames_per_second);
-    if (moves.times.size() < 2) return;  // no time passes: the node's own pose says all
+    const FrameKeys keys = frameKeys(motion_, body, options_.frames_per_second, options_.tolerance);
+    if (keys.moves.times.size() < 2) return;
+    const int times = buffer_.addTimes(keys.moves.times, place);
+    addChannel(animation, body, "translation", times, buffer_.addVectors(keys.moves.values, place), "LINEAR");
+    addChannel(animation, body, "rotation", times, buffer_.addQuaternions(keys.turns.values, place), "LINEAR");
+  }
+
+  void addCubic(tinygltf::Animation& animation, int body) {
+    const std::string place = placeOf(scene_.bodies[body]);
+    const TranslationKeys moves = cubicKeys(motion_, body);
+    if (moves.times.size() < 2) return;
     addChannel(animation, body, "translation", buffer_.addTimes(moves.times, place),
-               buffer_.addVectors(web ? woven(moves) : moves.values, place), web ? "CUBICSPLINE" : "LINEAR");
-    const RotationKeys turns = rotationKeys(motion_, body, web ? 0 : options_.frames_per_second);
+               buffer_.addVectors(woven(moves), place), "CUBICSPLINE");
+    const RotationKeys turns = turnKeys(motion_, body);
     addChannel(animation, body, "rotation", buffer_.addTimes(turns.times, place),
                buffer_.addQuaternions(turns.values, place), "LINEAR");
   }
@@ -204,7 +181,7 @@ class Writer {
     sampler.interpolation = interpolation;
     tinygltf::AnimationChannel channel;
     channel.sampler = append(animation.samplers, sampler);
-    channel.target_node = body + 1;
+    channel.target_node = body;
     channel.target_path = path;
     animation.channels.push_back(channel);
   }
@@ -215,12 +192,13 @@ class Writer {
   const Motion& motion_;
   const Scene& scene_;
   const GltfOptions& options_;
+  const Extent extent_;
   tinygltf::Model model_;
   GltfBuffer buffer_;
+  GltfLook look_;
   PhysicsWriter physics_;
   SurfaceMeshes surfaces_;
-  Vec3 centre_ = Vec3::Zero();
-  double plane_half_width_ = 1;
+  std::vector<int> roots_;  // nodes of the scene
 };
 
 bool isBinary(const std::string& path) {
@@ -229,17 +207,33 @@ bool isBinary(const std::string& path) {
   return end == ".glb";
 }
 
+void requireSense(const std::string& what, double value, double most) {
+  if (!(value > 0 && value <= most))
+    throw InputError(what, "found " + numberText(value) + ", expected a number above 0 and up to " + numberText(most));
+}
+
 }  // namespace
 
-void exportGltf(const std::string& path, const Document& document, const Motion& motion, const GltfOptions& options) {
-  const double fps = options.frames_per_second;
-  if (!(fps > 0 && fps <= 1e5))
-    throw InputError("frames per second", "found " + std::to_string(fps) + ", expected a number up to 100000");
+int lastFrame(double seconds, double frames_per_second) {
+  // A motion that ends on a frame ends there, whatever the last digit of the product.
+  const double frames = std::ceil(seconds * frames_per_second * (1 - 1e-12));
+  return frames < 2e9 ? static_cast<int>(frames) : 2000000000;
+}
+
+std::string gltfText(const Document& document, const Motion& motion, const GltfOptions& options, bool binary) {
+  requireSense("frames per second", options.frames_per_second, 1e5);
+  requireSense("tolerance", options.tolerance, 1e6);
+  if (options.light) requireSense("light", *options.light, 1e9);
+  if (options.ghosts) requireSense("ghosts", *options.ghosts, 1e9);
   const tinygltf::Model model = Writer(document, motion, options).make();
   std::ostringstream out;
-  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, true, isBinary(path)))
-    throw InputError(path, "cannot write the scene as glTF");
-  writeFile(path, std::move(out).str());
+  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, true, binary))
+    throw InputError("glTF", "the scene cannot be written");
+  return std::move(out).str();
+}
+
+void exportGltf(const std::string& path, const Document& document, const Motion& motion, const GltfOptions& options) {
+  writeFile(path, gltfText(document, motion, options, isBinary(path)));
 }
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/export_motion.h"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <filesystem>
 
 #include "adjoint/errors.h"
+#include "formats/export_blender.h"
 #include "formats/export_csv.h"
 #include "formats/export_svg.h"
 
@@ -15,6 +17,10 @@ using Exporter = void (*)(const std::string&, const Document&, const Motion&, co
 
 void writeGltf(const std::string& path, const Document& document, const Motion& motion, const ExportOptions& options) {
   exportGltf(path, document, motion, options.gltf);
+}
+void writeBlender(const std::string& path, const Document& document, const Motion& motion,
+                  const ExportOptions& options) {
+  exportBlender(path, document, motion, options.gltf);
 }
 void writeCsv(const std::string& path, const Document& document, const Motion& motion, const ExportOptions& options) {
   exportCsv(path, document, motion, options.csv_rate);
@@ -27,7 +33,8 @@ struct Format {
   const char* extension;
   Exporter write;
 };
-constexpr Format kFormats[] = {{".glb", writeGltf}, {".gltf", writeGltf}, {".csv", writeCsv}, {".svg", writeSvg}};
+constexpr Format kFormats[] = {
+    {".glb", writeGltf}, {".gltf", writeGltf}, {".py", writeBlender}, {".csv", writeCsv}, {".svg", writeSvg}};
 
 }  // namespace
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -8,12 +9,12 @@
 namespace carom {
 
 struct ExportOptions {
-  GltfOptions gltf;
+  GltfOptions gltf;                ///< .glb, .gltf and .py, a script for Blender
   double csv_rate = 60;            ///< rows a second
   const Motion* before = nullptr;  ///< drawn behind the motion in pictures
 };
 
-/// Writes a motion in the format that the extension of `path` names (.glb, .gltf, .csv, .svg; capitals allowed). The
+/// Writes a motion in the format that the extension of `path` names (.glb, .gltf, .py, .csv, .svg; capitals allowed). The
 /// file appears whole or not at all. Throws InputError naming the path.
 void exportMotion(const std::string& path, const Document& document, const Motion& motion,
                   const ExportOptions& options = {});

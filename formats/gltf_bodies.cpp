@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nodes with physics -> bodies.
 #include "formats/detail/gltf_bodies.hpp"
 
@@ -31,7 +32,7 @@ class Builder {
       : file_(file), shapes_(shapes), known_(known), report_(report) {}
 
   std::vector<Body> build() {
-    for (const PhysicsNode& root : file_.roots) walk(root, zUpFrame(), nullptr, Frame());
+    for (const PhysicsNode& root : file_.roots) walk(root, Frame(), nullptr, Frame());
     nameAll();
     std::vector<Body> bodies;
     for (auto& entry : entries_)

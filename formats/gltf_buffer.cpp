@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/gltf_buffer.hpp"
 
 #include <tiny_gltf.h>
@@ -9,6 +10,7 @@
 #include <string_view>
 
 #include "adjoint/errors.h"
+#include "formats/detail/gltf_frame.hpp"
 
 namespace carom {
 namespace {
@@ -23,7 +25,7 @@ std::vector<float> flat(const std::vector<Vec3>& vectors) {
   std::vector<float> out;
   out.reserve(3 * vectors.size());
   for (const Vec3& v : vectors)
-    for (const double number : v) out.push_back(static_cast<float>(number));
+    for (const double number : gltf::yUp(v)) out.push_back(static_cast<float>(number));
   return out;
 }
 
@@ -40,8 +42,10 @@ int GltfBuffer::addVectors(const std::vector<Vec3>& vectors, const std::string& 
 int GltfBuffer::addQuaternions(const std::vector<Quat>& quaternions, const std::string& what) {
   std::vector<float> numbers;
   numbers.reserve(4 * quaternions.size());
-  for (const Quat& q : quaternions)
+  for (const Quat& ours : quaternions) {
+    const Quat q = gltf::yUp(ours);
     for (const double number : {q.x(), q.y(), q.z(), q.w()}) numbers.push_back(static_cast<float>(number));
+  }
   return addFloats(numbers, 4, TINYGLTF_TYPE_VEC4, kNoTarget, false, what);
 }
 
@@ -62,7 +66,10 @@ int GltfBuffer::addIndices(const std::vector<std::uint32_t>& indices) {
 
 int GltfBuffer::addDoubles(const std::vector<Vec3>& vectors) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  return addView(vectors.data(), vectors.size() * sizeof(Vec3), kNoTarget);
+  std::vector<Vec3> turned;
+  turned.reserve(vectors.size());
+  for (const Vec3& v : vectors) turned.push_back(gltf::yUp(v));
+  return addView(turned.data(), turned.size() * sizeof(Vec3), kNoTarget);
 }
 
 int GltfBuffer::addFloats(const std::vector<float>& numbers, int width, int type, int target, bool bounds,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/gltf_check.hpp"
 
 #include <tiny_gltf.h>

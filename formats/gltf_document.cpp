@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The scene document inside a glTF file: writing it, and taking from it what the file still says.
 #include "formats/detail/gltf_document.hpp"
 
@@ -126,6 +127,7 @@ std::string meshReference(int mesh) { return std::string(kMeshes) + std::to_stri
 Value documentOf(const Document& document, const Scene& scene, const SurfaceMeshes& meshes) {
   Document whole = document;
   whole.scene = scene;
+  whole.schema.clear();  // found from a document's own folder
   for (Body& body : whole.scene.bodies) nameSurfaces(body.shape, meshes);
   Json json = detail::parseJson(writeDocument(whole));
   for (auto member = json.begin(); member != json.end();)  // tinygltf would write an empty list as null
@@ -142,9 +144,11 @@ bool near(const Vector& a, const Vector& b) {
   return (a - b).cwiseAbs().maxCoeff() <= kSame * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
 }
 
-bool samePose(const Frame& world, const Body& body) {
-  return near(world.stretch, Mat3(Mat3::Identity())) && near(world.translation, body.position) &&
-         near(Mat3(world.rotation.toRotationMatrix()), Mat3(body.orientation.toRotationMatrix()));
+bool samePose(const Frame& world, const PhysicsNode& expected) {
+  if (!near(world.stretch, Mat3(Mat3::Identity()))) return false;
+  PhysicsNode found = expected;
+  found.translation = world.translation, found.rotation = world.rotation;
+  return samePlace(found, expected);
 }
 
 }  // namespace
@@ -197,7 +201,7 @@ const Body* LeftDocument::bodyOf(const PhysicsNode& node, const Frame& world,
   if (named == scene_.bodies.end() || found_.count(node.name) > 0) return nullptr;
   const int index = static_cast<int>(named - scene_.bodies.begin());
   const PhysicsNode expected = physicsNodeOf(scene_, index, modelOf(*named), meshes_);
-  if (!samePose(world, *named) || !samePhysics(expected, materials(), node, file_materials)) {
+  if (!samePose(world, expected) || !samePhysics(expected, materials(), node, file_materials)) {
     report_.warnings.push_back(node.label() +
                                ": it has changed since carom wrote the file; it is read from the physics of its node");
     return nullptr;
@@ -212,7 +216,7 @@ const Body* LeftDocument::bodyOf(const PhysicsNode& node, const Frame& world,
 
 Scene LeftDocument::sceneOf(std::vector<Body> bodies, const PhysicsFile& file) {
   Scene scene;
-  scene.gravity = turned(yToZ(), file.gravity);
+  scene.gravity = zUp(file.gravity);
   if (has_scene_ && near(scene.gravity, scene_.gravity)) scene.gravity = scene_.gravity;
   scene.materials = materialsOf(file);
   scene.bodies = std::move(bodies);
@@ -240,6 +244,8 @@ std::vector<Material> LeftDocument::materialsOf(const PhysicsFile& file) const {
 
 void LeftDocument::addEdit(Document& document) {
   if (!edit_.is_object()) return;
+  document.name = detail::textOr(edit_, "name");
+  document.notes = detail::textOr(edit_, "notes");
   if (const auto duration = edit_.find("duration"); duration != edit_.end())
     document.duration = duration->get<double>();
   const auto each = [&](const char* list, const std::string& what, auto&& read) {

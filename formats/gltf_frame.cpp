@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/gltf_frame.hpp"
 
 #include <cmath>
@@ -30,14 +31,12 @@ Quat product(const Quat& a, const Quat& b) {
 
 Vec3 turned(const Quat& q, const Vec3& v) { return matrixOf(q) * v; }
 
-Quat yToZ() { return {std::sqrt(0.5), std::sqrt(0.5), 0, 0}; }
-Quat zToY() { return {std::sqrt(0.5), -std::sqrt(0.5), 0, 0}; }
-
-Frame zUpFrame() {
-  Frame frame;
-  frame.rotation = yToZ();
-  return frame;
-}
+// 0 - x has no negative zeros, which would be written as "-0.0".
+Vec3 zUp(const Vec3& v) { return {v.x(), 0 - v.z(), v.y()}; }
+Vec3 yUp(const Vec3& v) { return {v.x(), v.z(), 0 - v.y()}; }
+Quat zUp(const Quat& q) { return {q.w(), q.x(), 0 - q.z(), q.y()}; }
+Quat yUp(const Quat& q) { return {q.w(), q.x(), q.z(), 0 - q.y()}; }
+Vec3 swappedSizes(const Vec3& sizes) { return {sizes.x(), sizes.z(), sizes.y()}; }
 
 Frame inside(const Frame& outer, const PhysicsNode& node) {
   Frame frame;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/gltf_geometry.hpp"
 
 #include <tiny_gltf.h>

@@ -1,47 +1,104 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/gltf_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "adjoint/errors.h"
+#include "formats/json_writer.h"
+#include "formats/motion_extent.h"
 
 namespace carom {
 namespace {
 
-// The largest turn between keys: well below the half turn at which the shortest way round would be the wrong one.
-constexpr double kMaxTurn = 1.5;
-// Share of the tolerance that is used up; the rest is for the curvature of the rotations and for floats.
+// The largest turn between keys. Blended quaternions run ahead of an even turn by at most 0.004 turn^3.
+constexpr double kMaxTurn = 0.45;
+// Share of the tolerance that is used up; the rest is for blended quaternions and for floats.
 constexpr double kShare = 0.5;
 
-struct Piece {
+struct KeyPiece {
   const Arc* arc;
   double from, to;
 };
 
-// The arcs of a body, cut at the frames when fps > 0.
-std::vector<Piece> piecesOf(const Motion& motion, int body, double fps) {
+// The flights of a body, whole.
+std::vector<KeyPiece> flightsOf(const Motion& motion, int body) {
   const auto& arcs = motion.world_lines[body].arcs;
-  std::vector<Piece> pieces;
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    const double end = k + 1 < arcs.size() ? arcs[k + 1].start() : motion.end;
-    double from = arcs[k].start();
-    if (fps > 0)
-      for (double frame = std::floor(from * fps) + 1; frame / fps < end; ++frame) {
-        if (!(frame / fps > from)) continue;
-        pieces.push_back({&arcs[k], from, frame / fps});
-        from = frame / fps;
-      }
-    pieces.push_back({&arcs[k], from, end});
-  }
+  std::vector<KeyPiece> pieces;
+  for (int k = 0; k < static_cast<int>(arcs.size()); ++k)
+    pieces.push_back({&arcs[k], arcs[k].start(), arcEnd(motion, body, k)});
   return pieces;
 }
 
-// Between keys h apart the shortest turn leaves the motion by at most h^2/8 |d omega/dt|.
-double countOfTurns(const Piece& piece) {
-  if (piece.arc->tier() == Tier::none) return 1;  // keeps its orientation
-  const double h = piece.to - piece.from;
-  const double by_rate = h * std::sqrt(piece.arc->spinRateBound() / (8 * kShare * kRotationTolerance));
-  return std::max({1.0, std::ceil(by_rate), std::ceil(h * piece.arc->spinBound() / kMaxTurn)});
+// How many keys a second keep shortest turns near enough: between keys h apart they leave the motion by at most
+// h^2/8 |d omega/dt|.
+double rateOfTurns(const Arc& arc) {
+  if (arc.tier() == Tier::none) return 0;  // keeps its orientation
+  return std::max(std::sqrt(arc.spinRateBound() / (8 * kShare * kRotationTolerance)), arc.spinBound() / kMaxTurn);
+}
+
+// How many keep straight lines near enough: h^2/8 |acceleration of the origin|, which is that of the centre of mass and
+// c (omega^2 + |d omega/dt|) at a distance c from it.
+double rateOfLines(const Arc& arc, double tolerance) {
+  double acceleration = arc.acceleration().norm();
+  if (arc.tier() != Tier::none)
+    acceleration += arc.model().center.norm() * (arc.spinBound() * arc.spinBound() + arc.spinRateBound());
+  return std::sqrt(acceleration / (8 * tolerance));
+}
+
+// Cubics between keys h apart leave the circle of radius c that the origin turns on by c (omega h)^4 / 384. The rate of
+// change of omega counts as spin of its own.
+double rateOfSwings(const Arc& arc) {
+  const double c = arc.model().center.norm();
+  if (c == 0 || arc.tier() == Tier::none) return 0;
+  const double spin = arc.spinBound() + std::sqrt(arc.spinRateBound());
+  return spin / std::pow(384 * kShare * kCubicTolerance / c, 0.25);
+}
+
+void requireFew(double keys, const Motion& motion, int body) {
+  if (!(keys <= kMaxKeys))
+    throw InputError("body '" + motion.scene->bodies[body].name + "'",
+                     "would need " + numberText(std::ceil(keys)) + " keys, at most " + numberText(kMaxKeys) +
+                         " are written; a shorter motion, fewer frames a second, a larger tolerance or cubic keys "
+                         "need less");
+}
+
+// The flights, each in equal parts.
+template <class Rate>
+std::vector<KeyPiece> evenPieces(const Motion& motion, int body, const Rate& rate) {
+  std::vector<KeyPiece> cut;
+  double total = 1;
+  for (const auto& [arc, from, to] : flightsOf(motion, body)) {
+    const double count = std::max(1.0, std::ceil((to - from) * rate(*arc))), step = (to - from) / count;
+    requireFew(total += count, motion, body);
+    for (double i = 0; i < count; ++i) cut.push_back({arc, from + i * step, i + 1 < count ? from + (i + 1) * step : to});
+  }
+  return cut;
+}
+
+// The flights, each cut at its multiples of a frame's part.
+std::vector<KeyPiece> framePieces(const Motion& motion, int body, double fps, double tolerance) {
+  std::vector<KeyPiece> cut;
+  double total = 1;
+  for (const auto& [arc, start, to] : flightsOf(motion, body)) {
+    const double need = std::max(rateOfTurns(*arc), rateOfLines(*arc, tolerance));
+    const double parts = std::ceil(need / fps), rate = parts * fps;
+    requireFew(total += (to - start) * rate + 1, motion, body);
+    double from = start;
+    if (rate > 0)
+      for (double k = std::floor(start * rate) + 1; k / rate < to; ++k) {
+        if (!(k / rate > from)) continue;
+        cut.push_back({arc, from, k / rate});
+        from = k / rate;
+      }
+    cut.push_back({arc, from, to});
+  }
+  return cut;
+}
+
+// The time that a file has for t, which is a float's: values are of that time, so that long motions lose nothing to it.
+double storedTime(double t, const KeyPiece& piece) {
+  return std::clamp<double>(static_cast<float>(t), piece.arc->start(), piece.to);
 }
 
 void add(TranslationKeys& keys, double t, const Vec3& x, const Vec3& v_in, const Vec3& v_out) {
@@ -56,10 +113,10 @@ void add(TranslationKeys& keys, double t, const Vec3& x, const Vec3& v_in, const
   keys.out_tangents.push_back(v_out);
 }
 
-void add(RotationKeys& keys, double t, const Arc& arc) {
+void add(RotationKeys& keys, double t, const KeyPiece& piece) {
   const auto time = static_cast<float>(t);
   if (!keys.times.empty() && !(time > keys.times.back())) return;
-  Quat q = toBodyState(arc.model(), arc.stateAt(t)).orientation;
+  Quat q = toBodyState(piece.arc->model(), piece.arc->stateAt(storedTime(t, piece))).orientation;
   if (!keys.values.empty() && keys.values.back().dot(q) < 0) q.coeffs() *= -1;
   keys.times.push_back(time);
   keys.values.push_back(q);
@@ -77,66 +134,37 @@ Origin originAt(const Arc& arc, double t) {
   return {s.position, s.velocity + s.angular_velocity.cross(from_centre)};
 }
 
-// Cubics between keys h apart leave the circle of radius c that the origin turns on by c (omega h)^4 / 384. The rate of
-// change of omega counts as spin of its own.
-double countOfSwings(const Piece& piece) {
-  const double c = piece.arc->model().center.norm();
-  if (c == 0 || piece.arc->tier() == Tier::none) return 1;
-  const double spin = piece.arc->spinBound() + std::sqrt(piece.arc->spinRateBound());
-  const double turn = std::pow(384 * kShare * kTranslationTolerance / c, 0.25);
-  return std::max(1.0, std::ceil(spin * (piece.to - piece.from) / turn));
-}
-
-TranslationKeys translationKeys(const std::vector<Piece>& pieces) {
+TranslationKeys moveKeys(const std::vector<KeyPiece>& pieces) {
   TranslationKeys keys;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const auto [arc, from, to] = pieces[k];
-    const Origin origin = originAt(*arc, from);
+    const Origin origin = originAt(*arc, storedTime(from, pieces[k]));
     add(keys, from, origin.x, k > 0 ? originAt(*pieces[k - 1].arc, from).v : origin.v, origin.v);
   }
   if (pieces.empty()) return keys;
-  const Origin end = originAt(*pieces.back().arc, pieces.back().to);
+  const Origin end = originAt(*pieces.back().arc, storedTime(pieces.back().to, pieces.back()));
   add(keys, pieces.back().to, end.x, end.v, end.v);
   return keys;
 }
 
-void requireFew(double keys, const Motion& motion, int body) {
-  if (!(keys <= kMaxKeys))
-    throw InputError("body '" + motion.scene->bodies[body].name + "'", "spins too fast to be exported: it would need " +
-                                                                           std::to_string(keys) + " keys, at most " +
-                                                                           std::to_string(kMaxKeys) + " are written");
+RotationKeys turnKeys(const std::vector<KeyPiece>& pieces) {
+  RotationKeys keys;
+  for (const KeyPiece& piece : pieces) add(keys, piece.from, piece);
+  if (!pieces.empty()) add(keys, pieces.back().to, pieces.back());
+  return keys;
 }
 
 }  // namespace
 
-TranslationKeys splineKeys(const Motion& motion, int body) {
-  std::vector<Piece> cut;
-  double total = 1;
-  for (const Piece& piece : piecesOf(motion, body, 0)) {
-    const double count = countOfSwings(piece), step = (piece.to - piece.from) / count;
-    requireFew(total += count, motion, body);
-    for (double i = 0; i < count; ++i)
-      cut.push_back({piece.arc, piece.from + i * step, i + 1 < count ? piece.from + (i + 1) * step : piece.to});
-  }
-  return translationKeys(cut);
-}
+TranslationKeys cubicKeys(const Motion& motion, int body) { return moveKeys(evenPieces(motion, body, rateOfSwings)); }
 
-TranslationKeys frameKeys(const Motion& motion, int body, double fps) {
-  return translationKeys(piecesOf(motion, body, fps));
-}
+RotationKeys turnKeys(const Motion& motion, int body) { return turnKeys(evenPieces(motion, body, rateOfTurns)); }
 
-RotationKeys rotationKeys(const Motion& motion, int body, double fps) {
-  RotationKeys keys;
-  const std::vector<Piece> pieces = piecesOf(motion, body, fps);
-  double total = 1;
-  for (const Piece& piece : pieces) total += countOfTurns(piece);
-  requireFew(total, motion, body);
-  for (const Piece& piece : pieces) {
-    const double count = countOfTurns(piece);
-    for (double i = 0; i < count; ++i) add(keys, piece.from + (piece.to - piece.from) * (i / count), *piece.arc);
-  }
-  if (!pieces.empty()) add(keys, pieces.back().to, *pieces.back().arc);
-  return keys;
+FrameKeys frameKeys(const Motion& motion, int body, double fps, double tolerance) {
+  const Body& b = motion.scene->bodies[body];
+  const double radius = radiusAbout(b.shape, Vec3::Zero());
+  const std::vector<KeyPiece> pieces = framePieces(motion, body, fps, std::min(tolerance, kShareOfRadius * radius));
+  return {moveKeys(pieces), turnKeys(pieces)};
 }
 
 }  // namespace carom

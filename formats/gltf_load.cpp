@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // glTF files -> tinygltf::Model. The container, the JSON text and the buffers are read and checked here: tinygltf reads
 // past the end of some binary files, recurses as deeply as a file nests, and takes wrong types in silence.
 #include <tiny_gltf.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/gltf_mesh.hpp"
 
 #include <cmath>
@@ -110,7 +111,7 @@ TriangleMesh boxMesh(const Box& box) {
 
 TriangleMesh planeMesh(double half_width) {
   TriangleMesh mesh;
-  addFace(mesh, Vec3::Zero(), half_width * Vec3::UnitZ(), half_width * Vec3::UnitX());
+  addFace(mesh, Vec3::Zero(), half_width * Vec3::UnitX(), half_width * Vec3::UnitY());
   return mesh;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The member `motion` of a node -> mass, inertia and velocities of a body.
 #include "adjoint/body_model.h"
 #include "adjoint/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Physics of nodes -> the extensions' JSON.
 #include "formats/detail/gltf_physics.hpp"
 
@@ -6,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "formats/detail/gltf_frame.hpp"
 #include "formats/detail/scene_reader.hpp"
 
 namespace carom {
@@ -19,8 +21,13 @@ using Object = Value::Object;
 using Array = Value::Array;
 
 Value textOf(const std::string& text) { return Value(text); }
-Value vectorOf(const Vec3& v) { return Value(Array{Value(v.x()), Value(v.y()), Value(v.z())}); }
-Value quaternionOf(const Quat& q) { return Value(Array{Value(q.x()), Value(q.y()), Value(q.z()), Value(q.w())}); }
+Value numbersOf(const Vec3& v) { return Value(Array{Value(v.x()), Value(v.y()), Value(v.z())}); }
+Value vectorOf(const Vec3& v) { return numbersOf(gltf::yUp(v)); }
+Value sizesOf(const Vec3& v) { return numbersOf(gltf::swappedSizes(v)); }
+Value quaternionOf(const Quat& ours) {
+  const Quat q = gltf::yUp(ours);
+  return Value(Array{Value(q.x()), Value(q.y()), Value(q.z()), Value(q.w())});
+}
 
 const std::string& nameOf(Combine combine) { return detail::combineWords()[static_cast<std::size_t>(combine)]; }
 
@@ -32,7 +39,7 @@ struct Listed {
 
 struct ShapeWriter {
   Listed operator()(const Sphere& sphere) const { return {"sphere", {{"radius", Value(sphere.radius)}}}; }
-  Listed operator()(const Box& box) const { return {"box", {{"size", vectorOf(box.size)}}}; }
+  Listed operator()(const Box& box) const { return {"box", {{"size", sizesOf(box.size)}}}; }
   Listed operator()(const Tapered& s) const {
     return {s.capsule ? "capsule" : "cylinder",
             {{"height", Value(s.height)}, {"radiusBottom", Value(s.bottom)}, {"radiusTop", Value(s.top)}}};
@@ -69,7 +76,7 @@ Value materialValue(const Material& material, const Object& extras) {
 Value gravityOf(const Vec3& gravity) {
   Object out{{"gravity", Value(gravity.norm())}};
   const Vec3 down = gravity.normalized();  // (0, 0, 0) stays as it is; then the default direction will do
-  if (gravity.norm() > 0) out["direction"] = vectorOf({down.x(), down.z(), 0 - down.y()});  // z-up to y-up
+  if (gravity.norm() > 0) out["direction"] = vectorOf(down);
   return Value(out);
 }
 
@@ -77,7 +84,7 @@ Value motionOf(const gltf::Moving& motion) {
   return Value(Object{{"isKinematic", Value(motion.kinematic)},
                       {"mass", Value(*motion.mass)},
                       {"centerOfMass", vectorOf(*motion.center_of_mass)},
-                      {"inertiaDiagonal", vectorOf(*motion.inertia_diagonal)},
+                      {"inertiaDiagonal", sizesOf(*motion.inertia_diagonal)},
                       {"inertiaOrientation", quaternionOf(motion.inertia_orientation)},
                       {"linearVelocity", vectorOf(motion.linear)},
                       {"angularVelocity", vectorOf(motion.angular)},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies -> nodes with physics.
 #include "formats/detail/gltf_frame.hpp"
 #include "formats/detail/gltf_physics.hpp"
@@ -11,8 +12,8 @@ using gltf::PhysicsNode;
 using gltf::Sheet;
 using gltf::Tapered;
 
-/// Adds the collider of a shape to a node, or below it where glTF has no such shape in these axes: round shapes lie
-/// along y there and planes face y; surfaces have no scale but that of nodes.
+/// Adds the collider of a shape to a node, or below it: parts have poses, and surfaces no scale but that of nodes. A
+/// plane moves its node onto itself, facing along it.
 struct ColliderAdder {
   PhysicsNode& node;
   const std::string& name;
@@ -21,15 +22,14 @@ struct ColliderAdder {
 
   void operator()(const Sphere& s) const { node.collider = Collider{s, material}; }
   void operator()(const Box& s) const { node.collider = Collider{s, material}; }
-  void operator()(const Capsule& s) const { turned(Tapered{true, s.height, s.radius, s.radius}); }
-  void operator()(const Cylinder& s) const { turned(Tapered{false, s.height, s.radius, s.radius}); }
+  void operator()(const Capsule& s) const { node.collider = Collider{Tapered{true, s.height, s.radius, s.radius}, material}; }
+  void operator()(const Cylinder& s) const { node.collider = Collider{Tapered{false, s.height, s.radius, s.radius}, material}; }
   void operator()(const Hull& s) const { scaled(s.surface.get(), s.scale, true); }
   void operator()(const Mesh& s) const { scaled(s.surface.get(), s.scale, false); }
   void operator()(const Plane& s) const {
-    PhysicsNode& child = addChild("surface");
-    child.translation = s.offset * s.normal;
-    child.rotation = Quat::FromTwoVectors(Vec3::UnitY(), s.normal);
-    child.collider = Collider{Sheet{}, material};
+    node.translation += gltf::turned(node.rotation, s.offset * s.normal);
+    node.rotation = gltf::product(node.rotation, Quat::FromTwoVectors(Vec3::UnitZ(), s.normal));
+    node.collider = Collider{Sheet{}, material};
   }
   void operator()(const Compound& s) const {
     for (std::size_t i = 0; i < s.parts.size(); ++i) {
@@ -41,11 +41,6 @@ struct ColliderAdder {
     }
   }
 
-  void turned(const Tapered& shape) const {
-    PhysicsNode& child = addChild("collider");
-    child.rotation = gltf::yToZ();
-    child.collider = Collider{shape, material};
-  }
   void scaled(const Surface* surface, double scale, bool convex) const {
     PhysicsNode& owner = scale == 1 ? node : addChild("collider");
     owner.scale = Vec3::Constant(scale);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Physics materials and gravity of a glTF document.
 #include <algorithm>
 #include <set>

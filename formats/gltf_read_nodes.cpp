@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nodes of a glTF document -> PhysicsNode.
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,8 @@ std::string labelOf(int index, const std::string& name) {
   return "node '" + detail::oneLine(name) + "'" + (pointer.empty() ? "" : " (" + pointer + ")");
 }
 
-/// A matrix is a rotation times a scale along the node's axes, as glTF asks; mirrored ones are mirrored in x.
+/// A matrix is a rotation times a scale along the node's axes, as glTF asks; mirrored ones are mirrored in x. In the
+/// axes of the file.
 void setMatrix(PhysicsNode& node, const JsonPlace& matrix) {
   Mat3 columns;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -45,13 +47,14 @@ Moving readMotion(const JsonPlace& motion) {
   out.kinematic = motion.booleanOr("isKinematic", false);
   out.mass = motion.findNumber("mass");
   if (out.mass && !(*out.mass >= 0)) fail(motion.pointer + "/mass", numberText(*out.mass), "a number >= 0");
-  out.center_of_mass = motion.findVector("centerOfMass");
+  if (const auto center = motion.findVector("centerOfMass")) out.center_of_mass = zUp(*center);
   out.inertia_diagonal = motion.findVector("inertiaDiagonal");
   if (out.inertia_diagonal && !(out.inertia_diagonal->minCoeff() >= 0))
     fail(motion.pointer + "/inertiaDiagonal", "a negative moment", "numbers >= 0");
-  if (const auto q = motion.find("inertiaOrientation")) out.inertia_orientation = q->quaternion();
-  out.linear = motion.findVector("linearVelocity").value_or(Vec3::Zero());
-  out.angular = motion.findVector("angularVelocity").value_or(Vec3::Zero());
+  if (out.inertia_diagonal) out.inertia_diagonal = swappedSizes(*out.inertia_diagonal);
+  if (const auto q = motion.find("inertiaOrientation")) out.inertia_orientation = zUp(q->quaternion());
+  out.linear = zUp(motion.findVector("linearVelocity").value_or(Vec3::Zero()));
+  out.angular = zUp(motion.findVector("angularVelocity").value_or(Vec3::Zero()));
   out.gravity_factor = motion.numberOr("gravityFactor", 1);
   return out;
 }
@@ -78,6 +81,7 @@ class NodeReader {
       if (const auto q = place.find("rotation")) node.rotation = q->quaternion();
       node.scale = place.findVector("scale").value_or(Vec3::Ones());
     }
+    node.translation = zUp(node.translation), node.rotation = zUp(node.rotation), node.scale = swappedSizes(node.scale);
     if (const auto physics = extensionOf(place, kRigidBodies)) readPhysicsOf(node, *physics);
     reportOthers(node, place);
     if (const auto children = place.find("children"))

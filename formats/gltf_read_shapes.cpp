@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 // Shapes of a glTF document, and what colliders say beside them.
 #include <algorithm>
 #include <array>
 
+#include "formats/detail/gltf_frame.hpp"
 #include "formats/detail/gltf_read.hpp"
 #include "formats/json_writer.h"
 
@@ -22,7 +24,7 @@ ColliderShape readSphere(const JsonPlace& shape) { return Sphere{positiveOr(shap
 ColliderShape readBox(const JsonPlace& shape) {
   const Vec3 size = shape.findVector("size").value_or(Vec3::Ones());
   if (!(size.minCoeff() > 0)) fail(shape.pointer + "/size", "a size that is not positive", "numbers > 0");
-  return Box{size};
+  return Box{swappedSizes(size)};
 }
 
 ColliderShape readTapered(const JsonPlace& shape, bool capsule) {
@@ -42,9 +44,9 @@ ColliderShape readCylinder(const JsonPlace& shape) { return readTapered(shape, f
 ColliderShape readPlane(const JsonPlace& shape) {
   Sheet out;
   out.size_x = shape.findNumber("sizeX");
-  out.size_z = shape.findNumber("sizeZ");
+  out.size_y = shape.findNumber("sizeZ");
   out.double_sided = shape.booleanOr("doubleSided", false);
-  for (const auto& size : {out.size_x, out.size_z})
+  for (const auto& size : {out.size_x, out.size_y})
     if (size && !(*size > 0)) fail(shape.pointer, "a size of " + numberText(*size), "numbers > 0");
   return out;
 }

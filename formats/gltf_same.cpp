@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether nodes say the same, number by number.
 #include <cmath>
 
@@ -40,7 +41,7 @@ struct ShapeSayer {
   }
   void operator()(const Sheet& s) const {
     out.word(s.double_sided ? "double plane" : "plane");
-    for (const auto& size : {s.size_x, s.size_z}) out.number(size.value_or(0));
+    for (const auto& size : {s.size_x, s.size_y}) out.number(size.value_or(0));
   }
   void operator()(const MeshShape& s) const {
     out.word((s.convex ? "hull " : "mesh ") + std::to_string(s.mesh) + " " + std::to_string(s.node));
@@ -49,13 +50,13 @@ struct ShapeSayer {
 
 bool isInfinitePlane(const PhysicsNode& node) {
   const Sheet* sheet = node.collider ? std::get_if<Sheet>(&node.collider->shape) : nullptr;
-  return sheet != nullptr && !sheet->size_x && !sheet->size_z;
+  return sheet != nullptr && !sheet->size_x && !sheet->size_y;
 }
 
 /// An infinite plane may lie anywhere in itself.
 void sayPose(const PhysicsNode& node, Sayings& out) {
   if (isInfinitePlane(node) && node.children.empty()) {
-    const Vec3 normal = node.rotation * Vec3::UnitY();
+    const Vec3 normal = node.rotation * Vec3::UnitZ();
     out.vector(normal);
     out.number(normal.dot(node.translation), node.translation.norm());
     return;
@@ -118,6 +119,13 @@ bool samePhysics(const PhysicsNode& a, const std::vector<FileMaterial>& material
   Sayings of_a, of_b;
   say(a, materials_a, of_a);
   say(b, materials_b, of_b);
+  return same(of_a, of_b);
+}
+
+bool samePlace(const PhysicsNode& a, const PhysicsNode& b) {
+  Sayings of_a, of_b;
+  sayPose(a, of_a);
+  sayPose(b, of_b);
   return same(of_a, of_b);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes of colliders -> our shapes.
 #include "formats/detail/gltf_shapes.hpp"
 
@@ -17,8 +18,9 @@ constexpr double kFloats = 1e-6;  // scales that differ by less differ by the ro
   throw errorAt(node, "found " + found + ", expected " + expected);
 }
 
+/// A scale as the file has it.
 std::string text(const Vec3& v) {
-  return "[" + numberText(v.x()) + ", " + numberText(v.y()) + ", " + numberText(v.z()) + "]";
+  return "[" + numberText(v.x()) + ", " + numberText(v.z()) + ", " + numberText(v.y()) + "]";
 }
 
 bool near(double a, double b) { return std::abs(a - b) <= kFloats * std::max(a, b); }
@@ -111,20 +113,20 @@ struct Maker {
       const double factor = uniformScale(node, scale, "capsule");
       out.height *= factor, out.bottom *= factor, out.top *= factor;
     } else {
-      if (!near(scale.x(), scale.z()))
+      if (!near(scale.x(), scale.y()))
         fail(node, "a scale of " + text(scale) + " on a cylinder along y", "the same in x and z, which keeps it round");
-      const double across = mean(scale.x(), scale.z());
-      out.height *= scale.y(), out.bottom *= across, out.top *= across;
+      const double across = mean(scale.x(), scale.y());
+      out.height *= scale.z(), out.bottom *= across, out.top *= across;
     }
-    if (stretch(1, 1) < 0) std::swap(out.bottom, out.top);
+    if (stretch(2, 2) < 0) std::swap(out.bottom, out.top);
     if (out.bottom != out.top) return taperedHull(out, node, report);
     if (out.capsule) return Capsule{out.bottom, out.height};
     return Cylinder{out.bottom, out.height};
   }
   std::optional<Shape> operator()(const Sheet& sheet) const {
     const Vec3 scale = axisScale(node, stretch);
-    if (sheet.size_x && sheet.size_z) return sheetMesh(*sheet.size_x * scale.x(), *sheet.size_z * scale.z());
-    if (sheet.size_x || sheet.size_z) {
+    if (sheet.size_x && sheet.size_y) return sheetMesh(*sheet.size_x * scale.x(), *sheet.size_y * scale.y());
+    if (sheet.size_x || sheet.size_y) {
       report.warnings.push_back(node.label() +
                                 ": its collider is left out: planes infinite in one direction are not supported");
       return std::nullopt;
@@ -140,9 +142,8 @@ struct Maker {
 }  // namespace
 
 Quat axesOf(const ColliderShape& shape, const Mat3& stretch) {
-  if (std::holds_alternative<Tapered>(shape)) return zToY();
-  if (std::holds_alternative<Sheet>(shape)) return stretch(1, 1) < 0 ? yToZ() : zToY();
-  return Quat::Identity();
+  const bool turned_over = std::holds_alternative<Sheet>(shape) && stretch(2, 2) < 0;
+  return turned_over ? Quat(0, 1, 0, 0) : Quat::Identity();
 }
 
 std::optional<Shape> ShapeMaker::make(const PhysicsNode& node, const Mat3& stretch) try {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/gltf_mesh.hpp"
 
 namespace carom {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces of colliders from the meshes of a glTF document.
 #include <tiny_gltf.h>
 
@@ -29,16 +30,18 @@ std::shared_ptr<const Surface> ShapeMaker::surfaceOf(const MeshShape& shape, con
 ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3& baked) {
   Triangles out;
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  const Mat3 z_up = (Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished();
   if (shape.mesh >= 0) {
     appendMeshTriangles(model_, shape.mesh, transform, out.vertices, out.triangles, "");
     useExactVertices(shape.mesh, out.vertices);
+    for (Vec3& v : out.vertices) v = zUp(v);
     if (!baked.isIdentity(0)) {
       for (Vec3& v : out.vertices) v = baked * v;
       if (baked.determinant() < 0)
         for (auto& triangle : out.triangles) std::swap(triangle[1], triangle[2]);
     }
   } else {
-    transform.linear() = baked;
+    transform.linear() = baked * z_up;
     appendBelow(shape.node, transform, out);
   }
   return out;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/import_gltf.h"
 
 #include <tiny_gltf.h>

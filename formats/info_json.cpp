@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/info_json.h"
 
 #include "adjoint/body_model.h"
@@ -27,6 +28,7 @@ void writeMassProperties(JsonWriter& out, const Body& body) {
 void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
   out.beginObject();
   out.key("name").text(body.name);
+  if (!body.notes.empty()) out.key("notes").text(body.notes);
   writeShapeOf(out, body);
   writeMassProperties(out, body);
   out.key("tier").text(nameOf(plan.tier));
@@ -52,7 +54,13 @@ void writePair(JsonWriter& out, const Scene& scene, const ScenePlan::Pair& pair)
 
 std::string infoJson(const Scene& scene, const ScenePlan& plan) {
   JsonWriter out;
+  const auto textOrNull = [&](const char* member, const std::string& text) {
+    out.key(member);
+    text.empty() ? out.null() : out.text(text);
+  };
   out.beginObject();
+  textOrNull("name", plan.name);
+  textOrNull("notes", plan.notes);
   out.key("duration").number(plan.duration);
   out.key("asked").text(plan.asked);
   out.key("bodies").beginArray();

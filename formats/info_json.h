@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -18,6 +19,7 @@ struct ScenePlan {
     std::string why;                           ///< the law
     std::string elasticity_why, friction_why;  ///< how the materials' coefficients were combined
   };
+  std::string name, notes;  ///< of the document
   double duration = 0;
   std::string asked;  ///< what the tiers are chosen for: "edit" or "simulate"
   Plan plan;
@@ -26,9 +28,9 @@ struct ScenePlan {
   int rows = 0;      ///< numbers that are held
 };
 
-/// The answer of `carom info S.json --json`: duration, asked, bodies {name, shape, dimensions by name, of moving ones
-/// mass, center_of_mass (m, shape axes) and principal moments (kg m^2), tier, why, derivative_tier, derivative_why},
-/// pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
+/// The answer of `carom info S.json --json`: name and notes (null where the document has none), duration, asked, bodies
+/// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
+/// principal moments (kg m^2), tier, why, derivative_tier, derivative_why}, pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
 std::string infoJson(const Scene& scene, const ScenePlan& plan);
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/journal_json.h"
 
 #include <algorithm>
@@ -17,16 +18,6 @@ using Kind = SessionGesture::Kind;
 using Ending = SessionGesture::Ending;
 
 constexpr std::size_t kMostJournalValues = 8'000'000;
-
-void requireVersion(const Json& document) {
-  const char* const expected = "\"carom_journal\": 1, the version of the format";
-  if (!document.is_object())
-    detail::fail("", detail::describe(document), "an object that begins with \"carom_journal\": 1");
-  const auto version = document.find("carom_journal");
-  if (version == document.end()) detail::fail("", "no member \"carom_journal\"", expected);
-  if (*version != 1)
-    detail::fail("/carom_journal", detail::describe(*version), "1, the version of the format that this program reads");
-}
 
 /// Runs a reader whose errors begin at `inner` of a part of the document, which stands at `outer`.
 template <class Read>
@@ -152,11 +143,13 @@ JournalDocument parseJournal(std::string_view text, const std::string& name, con
     throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
                      std::to_string(kLargestJournal) + " bytes");
   const Json json = detail::parseJson(text, kMostJournalValues);
-  requireVersion(json);
+  detail::requireVersion(json, "carom_journal");
   detail::requireSchema(json, detail::DocumentKind::journal);
   const Document scene = readAt("", "/scene", [&] { return detail::readDocument(json["scene"], folder); });
   JournalDocument document;
   document.folder = folder;
+  document.name = scene.name, document.notes = scene.notes;
+  document.schema = detail::textOr(json, "$schema");
   document.journal = {scene.scene, scene.duration, scene.controls, scene.constraints, readOptions(json), {}};
   const Json& gestures = json["gestures"];
   for (std::size_t i = 0; i < gestures.size(); ++i)
@@ -178,6 +171,7 @@ void saveJournal(const std::string& path, const JournalDocument& journal) try {
   JournalDocument moved = journal;
   moved.journal.scene = scene.scene;
   moved.folder = scene.folder;
+  moved.schema = detail::movedSchema(journal.schema, journal.folder, scene.folder);
   const std::string text = writeJournal(moved);
   parseJournal(text, path, moved.folder);
   writeFile(path, text);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -16,7 +17,9 @@ inline constexpr std::size_t kLargestJournal = 64 * 1024 * 1024;  // bytes
 /// A session as a document: version 1 of the format, formats/journal.schema.json.
 struct JournalDocument {
   SessionJournal journal;
-  std::string folder;  ///< that file names in its scene are relative to; empty: the current folder
+  std::string folder;                 ///< that file names in its scene are relative to; empty: the current folder
+  std::string name = {}, notes = {};  ///< of its scene
+  std::string schema = {};            ///< member "$schema" of the journal
 };
 
 /// Reads a journal. Throws FormatError that names file, place, what was found and what was expected.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <cmath>
 
 #include "formats/detail/scene_writer.hpp"
@@ -92,9 +93,10 @@ std::string writeJournal(const JournalDocument& document) {
   const SessionJournal& journal = document.journal;
   JsonWriter out;
   out.beginObject();
+  if (!document.schema.empty()) out.key("$schema").text(document.schema);
   out.key("carom_journal").integer(1);
-  detail::writeDocument(out.key("scene"),
-                        {journal.scene, journal.duration, journal.controls, journal.nails, document.folder});
+  detail::writeDocument(out.key("scene"), {journal.scene, journal.duration, journal.controls, journal.nails,
+                                           document.folder, document.name, document.notes, ""});
   writeOptions(out, journal.options);
   out.key("gestures").beginArray();
   for (std::size_t i = 0; i < journal.gestures.size(); ++i)

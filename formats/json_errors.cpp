@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
 #include "adjoint/errors.h"
 #include "formats/detail/json.hpp"
 #include "formats/json_writer.h"
+#include "formats/nearest_word.h"
 
 namespace carom::detail {
 namespace {
@@ -20,23 +21,6 @@ std::string cut(std::string_view text, std::size_t most) {
 }
 
 std::string shortened(std::string_view text) { return quotedText(cut(text, kLongestExcerpt)); }
-
-/// Number of letters to add, leave out, change or swap with their neighbour.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (lower(a[i - 1]) != lower(b[j - 1]) ? 1u : 0u)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before = last;
-    last = row;
-  }
-  return last[b.size()];
-}
 
 }  // namespace
 
@@ -103,15 +87,13 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-std::string nearestWord(std::string_view word, const std::vector<std::string>& known) {
-  if (word.size() > kLongestExcerpt) return {};
-  std::string nearest;
-  std::size_t best = 2 + word.size() / 6;  // more changes than this are another word
-  for (const std::string& candidate : known) {
-    const std::size_t distance = editDistance(word, candidate);
-    if (distance < best && distance < candidate.size()) best = distance, nearest = candidate;
-  }
-  return nearest;
+std::string hintFor(std::string_view word, const std::vector<std::string>& known) {
+  const std::optional<std::string> nearest = nearestWord(word, known);
+  return nearest ? "; did you mean " + shortened(*nearest) + "?" : "";
+}
+
+std::string expectedOf(std::string_view word, const std::vector<std::string>& known) {
+  return listed(known) + hintFor(word, known);
 }
 
 std::string listed(const std::vector<std::string>& words) {
@@ -123,6 +105,14 @@ std::string listed(const std::vector<std::string>& words) {
 
 void fail(const std::string& where, const std::string& found, const std::string& expected) {
   throw InputError(where, "found " + found + ", expected " + expected);
+}
+
+void requireVersion(const Json& document, const std::string& name) {
+  const std::string member = '"' + name + '"';
+  if (!document.is_object()) fail("", describe(document), "an object that begins with " + member + ": 1");
+  const auto version = document.find(name);
+  if (version == document.end()) fail("", "no member " + member, member + ": 1, the version of the format");
+  if (*version != 1) fail('/' + name, describe(*version), "1, the version of the format that this program reads");
 }
 
 }  // namespace carom::detail

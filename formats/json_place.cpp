@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/json_place.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -93,7 +94,7 @@ const Json* alternativeFor(const Json* node, const Json& value, const Json& tree
 }
 
 /// A place in the document, and what the schema says about it (null where it says nothing).
-struct Place {
+struct TreePlace {
   const Json* value;
   const Json* node;
   std::string pointer;
@@ -101,7 +102,7 @@ struct Place {
 };
 
 /// One step of a path as valijson writes it: "[name]" or "[2]".
-bool step(Place& place, const std::string& context) {
+bool step(TreePlace& place, const std::string& context) {
   const std::string token = context.substr(1, context.size() - 2);
   const Json* node = alternativeFor(place.node, *place.value, *place.tree);
   if (place.value->is_object()) {
@@ -126,11 +127,10 @@ std::vector<std::string> keysOf(const Json* object) {
   return keys;
 }
 
-[[noreturn]] void failUnknown(const Place& place, const std::string& member, const Json* node) {
+[[noreturn]] void failUnknown(const TreePlace& place, const std::string& member, const Json* node) {
   const std::vector<std::string> known = keysOf(memberOf(node, "properties"));
-  const std::string nearest = nearestWord(member, known);
-  const std::string hint = nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
-  fail(pointerTo(place.pointer, member), "an unknown member", "one of " + listed(known) + hint);
+  fail(pointerTo(place.pointer, member), "an unknown member " + describe(Json(member)),
+       "one of " + expectedOf(member, known));
 }
 
 /// What `value` must be, in the words of the schema.
@@ -142,19 +142,21 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
     title = memberOf(named, "title");
   }
   const std::string text = title != nullptr ? title->get<std::string>() : "what the schema says";
-  constexpr double kLargest = 1e9;
-  const bool large = value.is_number() && !(std::abs(value.get<double>()) <= kLargest);
-  return large ? text + " of magnitude at most 1e9" : text;
+  constexpr double kLargest = 1e9;  // of most numbers; smaller limits stand in the titles
+  const Json* maximum = memberOf(alternativeFor(node, value, tree), "maximum");
+  const double limit = std::max(kLargest, maximum != nullptr ? maximum->get<double>() : 0);
+  const bool large = value.is_number() && !(std::abs(value.get<double>()) <= limit);
+  return large ? text + " of magnitude at most 1e" + std::to_string(std::lround(std::log10(limit))) : text;
 }
 
-[[noreturn]] void failMissing(const Place& place, const Json& name, const std::string& beside, const Json* properties) {
+[[noreturn]] void failMissing(const TreePlace& place, const Json& name, const std::string& beside, const Json* properties) {
   fail(place.pointer, "no member " + name.dump() + beside,
        name.dump() + ": " +
            expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json(), *place.tree));
 }
 
 /// Throws what is wrong at a place that the schema refuses.
-[[noreturn]] void explain(const Place& place) {
+[[noreturn]] void explain(const TreePlace& place) {
   const Json& value = *place.value;
   const Json* node = alternativeFor(place.node, value, *place.tree);
   if (value.is_object()) {
@@ -172,7 +174,11 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
           if (value.contains(given.key()) && !value.contains(name.get<std::string>()))
             failMissing(place, name, " beside \"" + given.key() + "\"", properties);
   }
-  fail(place.pointer, describe(value), expected(place.node, value, *place.tree));
+  const Json* words = memberOf(node, "enum");
+  const bool misspelt = words != nullptr && value.is_string();
+  fail(place.pointer, describe(value),
+       expected(place.node, value, *place.tree) +
+           (misspelt ? hintFor(value.get_ref<const std::string&>(), *words) : ""));
 }
 
 }  // namespace
@@ -194,7 +200,7 @@ void requireSchema(const Json& document, DocumentKind kind) {
     if (first || inside) deepest = path;
     first = false;
   }
-  Place place{&document, &schema.tree, "", &schema.tree};
+  TreePlace place{&document, &schema.tree, "", &schema.tree};
   for (std::size_t i = 1; i < deepest.size(); ++i)  // the first is the document itself
     if (!step(place, deepest[i])) break;
   explain(place);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/mesh_file.h"
 
 #include <tiny_gltf.h>

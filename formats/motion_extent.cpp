@@ -1,19 +1,24 @@
+// SPDX-License-Identifier: MIT
 #include "formats/motion_extent.h"
+
+#include "adjoint/arguments.h"
 
 namespace carom {
 
 double arcEnd(const Motion& motion, int body, int k) {
-  const auto& arcs = motion.world_lines[body].arcs;
+  const auto& arcs = motion.world_lines[checkedIndex("arcEnd", "body", body, motion.world_lines.size())].arcs;
+  checkedIndex("arcEnd", "arc", k, arcs.size());
   return k + 1 < static_cast<int>(arcs.size()) ? arcs[k + 1].start() : motion.end;
 }
 
 Vec3 centreAt(const Motion& motion, int body, double t) {
+  checkedIndex("centreAt", "body", body, motion.world_lines.size());
   return motion.world_lines[body].arcs[motion.arcAt(body, t)].positionAt(t);
 }
 
 Extent pathExtent(const Motion& motion, int body) {
   Extent extent;
-  const auto& arcs = motion.world_lines[body].arcs;
+  const auto& arcs = motion.world_lines[checkedIndex("pathExtent", "body", body, motion.world_lines.size())].arcs;
   for (int k = 0; k < static_cast<int>(arcs.size()); ++k) {
     const Arc& arc = arcs[k];
     const double end = arcEnd(motion, body, k);

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "adjoint/scene.h"
 
@@ -16,8 +18,11 @@ struct Colour {
   Colour mixedWith(const Colour& other, double share) const;
 };
 
-/// The colour of a body in pictures and 3-D exports: moving bodies take distinct colours in their order (told apart by
-/// colour-blind people as well, for the first eight), fixed ones take greys.
+/// The colours of moving bodies. Each is told apart from the others by colour-blind people as well, and has a contrast of
+/// at least 3 to 1 to white.
+std::vector<Colour> bodyColours();
+
+/// The colour of a body in 3-D exports: moving bodies take distinct colours in their order, fixed ones take greys.
 Colour bodyColour(const Scene& scene, int body);
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/read_file.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/result_json.h"
 
 #include "formats/json_writer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A document with surfaces made in memory -> the document and mesh files beside it.
 #include <filesystem>
 #include <map>

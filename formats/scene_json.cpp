@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/scene_json.h"
 
 #include <filesystem>
@@ -13,15 +14,6 @@ namespace carom {
 namespace {
 
 using detail::Json;
-
-/// First of all: a document of another version may break every other rule.
-void requireVersion(const Json& document) {
-  if (!document.is_object()) detail::fail("", detail::describe(document), "an object that begins with \"carom\": 1");
-  const auto version = document.find("carom");
-  if (version == document.end()) detail::fail("", "no member \"carom\"", "\"carom\": 1, the version of the format");
-  if (*version != 1)
-    detail::fail("/carom", detail::describe(*version), "1, the version of the format that this program reads");
-}
 
 void rebaseFiles(Shape& shape, const std::string& from, const std::string& to) {
   if (auto* hull = std::get_if<Hull>(&shape); hull != nullptr && !hull->file.empty())
@@ -39,7 +31,13 @@ std::string detail::folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
+std::string detail::movedSchema(const std::string& schema, const std::string& from, const std::string& to) {
+  const bool address = schema.find(':') != std::string::npos;  // https://..., file:///..., urn:...
+  return schema.empty() || address ? schema : rebased(schema, from, to);
+}
+
 void detail::moveTo(const std::string& folder, Document& document) {
+  document.schema = movedSchema(document.schema, document.folder, folder);
   for (Body& body : document.scene.bodies) rebaseFiles(body.shape, document.folder, folder);
   document.folder = folder;
 }
@@ -47,6 +45,9 @@ void detail::moveTo(const std::string& folder, Document& document) {
 Document detail::readDocument(const Json& json, const std::string& folder) {
   Document document;
   document.folder = folder;
+  document.schema = textOr(json, "$schema");
+  document.name = textOr(json, "name");
+  document.notes = textOr(json, "notes");
   SurfaceFiles files(folder);
   document.scene = readScene(json, files);
   validate(document.scene);
@@ -61,7 +62,7 @@ Document parseDocument(std::string_view text, const std::string& name, const std
     throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
                      std::to_string(kLargestDocument) + " bytes");
   const Json json = detail::parseJson(text);
-  requireVersion(json);
+  detail::requireVersion(json, "carom");
   detail::requireSchema(json);
   return detail::readDocument(json, folder);
 } catch (const InputError& error) {

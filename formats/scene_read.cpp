@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -44,6 +45,7 @@ Material readMaterial(const std::string& name, const Json& value) {
   material.tangential_elasticity = numberOr(value, "tangential_elasticity", material.tangential_elasticity);
   material.combine_elasticity = readCombine(value, "elasticity");
   material.combine_friction = readCombine(value, "friction");
+  material.notes = textOr(value, "notes");
   return material;
 }
 
@@ -73,7 +75,7 @@ Body readBody(const Json& value, const std::string& where, SurfaceFiles& files) 
   Body body;
   body.name = value["name"].get<std::string>();
   body.fixed = value.contains("fixed") && value["fixed"].get<bool>();
-  if (value.contains("material")) body.material = value["material"].get<std::string>();
+  body.material = textOr(value, "material");
   body.shape = readShape(value["shape"], where + "/shape", files);
   if (value.contains("mass")) body.mass = value["mass"].get<double>();
   if (value.contains("density")) body.density = value["density"].get<double>();
@@ -83,6 +85,7 @@ Body readBody(const Json& value, const std::string& where, SurfaceFiles& files) 
   if (value.contains("orientation")) body.orientation = readQuaternion(value["orientation"], where + "/orientation");
   body.velocity = vectorOr(value, "velocity", body.velocity);
   body.angular_velocity = vectorOr(value, "angular_velocity", body.angular_velocity);
+  body.notes = textOr(value, "notes");
   requireAtRest(body, where);
   return body;
 }
@@ -123,6 +126,11 @@ const std::vector<std::string>& combineWords() {
   return words;
 }
 
+std::string textOr(const Json& object, const char* member, const std::string& otherwise) {
+  const auto found = object.find(member);
+  return found == object.end() ? otherwise : found->get<std::string>();
+}
+
 Vec3 readVector(const Json& value) { return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()}; }
 
 Quat readQuaternion(const Json& value, const std::string& where) {
@@ -138,12 +146,12 @@ int readBodyName(const Json& value, const std::string& where, const Scene& scene
   const auto& name = value.get_ref<const std::string&>();
   const auto named = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](auto& b) { return b.name == name; });
   if (named == scene.bodies.end())
-    fail(where, quotedText(name), "the name of a body (there is " + listed(namesOf(scene.bodies)) + ")");
+    fail(where, quotedText(name), "the name of a body (there is " + expectedOf(name, namesOf(scene.bodies)) + ")");
   return static_cast<int>(named - scene.bodies.begin());
 }
 
 void failUnknownMaterial(const std::string& where, const std::string& name, const Scene& scene) {
-  fail(where, quotedText(name), "the name of a material (there is " + listed(namesOf(scene.materials)) + ")");
+  fail(where, quotedText(name), "the name of a material (there is " + expectedOf(name, namesOf(scene.materials)) + ")");
 }
 
 Scene readScene(const Json& document, SurfaceFiles& files) {

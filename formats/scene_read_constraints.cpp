@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <utility>
 
@@ -139,7 +140,7 @@ Constraint readConstraint(const Json& value, const Scene& scene, double duration
   for (const auto& member : value.items()) {
     const std::string& word = member.key();
     const std::string place = pointerTo(where, word);
-    if (word == "body" || word == "at") continue;
+    if (word == "body" || word == "at" || word == "notes") continue;
     if (word == "relative_to") {
       constraint.relative_to = readRelativeTo(member.value(), value["body"], scene, place);
     } else if (word == "avoid" || word == "inside") {
@@ -150,6 +151,7 @@ Constraint readConstraint(const Json& value, const Scene& scene, double duration
     }
   }
   requireTargets(constraint, value, where);
+  constraint.notes = textOr(value, "notes");
   return constraint;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 
 #include "editing/controls/control_kinds.h"
@@ -52,7 +53,7 @@ std::vector<std::string> readComponents(const Json& value, const std::vector<std
     const auto name = (*list)[i].get<std::string>();
     const std::string place = pointerTo(where + "/components", i);
     if (std::find(known.begin(), known.end(), name) == known.end())
-      fail(place, quotedText(name), "a component of " + value["vary"].get<std::string>() + ": " + listed(known));
+      fail(place, quotedText(name), "a component of " + value["vary"].get<std::string>() + ": " + expectedOf(name, known));
     if (std::find(names.begin(), names.end(), name) != names.end())
       fail(place, quotedText(name) + " a second time", "every component once");
     names.push_back(name);
@@ -110,6 +111,7 @@ Control readControl(const Json& value, const Scene& scene, const std::string& wh
   control.max = readBound(value, "max", count, where);
   requireOrder(control, where);
   if (value.contains("weight")) control.weight = value["weight"].get<double>();
+  control.notes = textOr(value, "notes");
   return control;
 }
 

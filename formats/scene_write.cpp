@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "adjoint/errors.h"
@@ -17,6 +19,10 @@ using Layout = JsonWriter::Layout;
 
 const std::string& wordOf(Combine rule) { return detail::combineWords()[static_cast<std::size_t>(rule)]; }
 
+void writeText(JsonWriter& out, const char* member, const std::string& text) {
+  if (!text.empty()) out.key(member).text(text);
+}
+
 void writeMaterial(JsonWriter& out, const Material& m) {
   out.key(m.name).beginObject(Layout::line);
   out.key("elasticity").number(m.elasticity);
@@ -28,16 +34,12 @@ void writeMaterial(JsonWriter& out, const Material& m) {
     out.key("friction").text(wordOf(m.combine_friction));
     out.endObject();
   }
+  writeText(out, "notes", m.notes);
   out.endObject();
 }
 
-/// Entries to 15 digits of the largest one: below that they hold only the rounding of moments and axes, and a matrix
-/// that a person wrote comes back as it was.
-Mat3 roundedMatrix(const Inertia& inertia) {
-  Mat3 matrix = inertia.matrix();
-  const double largest = matrix.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) return matrix;
-  const int decimals = 14 - static_cast<int>(std::floor(std::log10(largest)));
+/// Entries to so many decimals.
+Mat3 rounded(Mat3 matrix, int decimals) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) {
       char text[400];
@@ -45,6 +47,20 @@ Mat3 roundedMatrix(const Inertia& inertia) {
       matrix(i, j) = matrix(j, i) = std::strtod(text, nullptr) + 0.0;  // no -0
     }
   return matrix;
+}
+
+/// Entries to 15 digits of the largest one, below which they hold only the rounding of moments and axes, and to fewer
+/// where that rounding alone is lost: so a matrix that a person wrote comes back as it was.
+Mat3 roundedMatrix(const Inertia& inertia) {
+  const Mat3 matrix = inertia.matrix();
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  if (!(largest > 0)) return matrix;
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
+  const int most = 14 - static_cast<int>(std::floor(std::log10(largest)));
+  for (int decimals = most - 3; decimals < most; ++decimals)
+    if (const Mat3 shorter = rounded(matrix, decimals); (shorter - matrix).cwiseAbs().maxCoeff() <= rounding)
+      return shorter;
+  return rounded(matrix, most);
 }
 
 void writeInertia(JsonWriter& out, const Inertia& inertia) {
@@ -63,8 +79,9 @@ void writeInertia(JsonWriter& out, const Inertia& inertia) {
 void writeBody(JsonWriter& out, const Body& body) {
   out.beginObject();
   out.key("name").text(body.name);
+  writeText(out, "notes", body.notes);
   if (body.fixed) out.key("fixed").boolean(true);
-  if (!body.material.empty()) out.key("material").text(body.material);
+  writeText(out, "material", body.material);
   if (body.mass) out.key("mass").number(*body.mass);
   if (body.density) out.key("density").number(*body.density);
   writeInertia(out, body.inertia);
@@ -103,13 +120,14 @@ void writeControl(JsonWriter& out, const Control& control) {
   const ControlKind* kind = findControlKind(control.vary);
   out.beginObject(Layout::line);
   out.key("vary").text(control.vary);
-  if (!control.body.empty()) out.key("body").text(control.body);
-  if (!control.material.empty()) out.key("material").text(control.material);
+  writeText(out, "body", control.body);
+  writeText(out, "material", control.material);
   if (kind != nullptr && kind->owner == OwnerKind::impact) out.key("impact").integer(control.impact);
   if (!control.components.empty()) out.key("components").texts(control.components);
   writeBound(out, "min", control.min);
   writeBound(out, "max", control.max);
   if (control.weight != 1) out.key("weight").number(control.weight);
+  writeText(out, "notes", control.notes);
   out.endObject();
 }
 
@@ -145,7 +163,10 @@ void detail::writeControl(JsonWriter& out, const Control& control) { carom::writ
 void detail::writeDocument(JsonWriter& out, const Document& document) {
   carom::requireWritable(document);
   out.beginObject();
+  writeText(out, "$schema", document.schema);
   out.key("carom").integer(1);
+  writeText(out, "name", document.name);
+  writeText(out, "notes", document.notes);
   out.key("gravity").vector(document.scene.gravity);
   out.key("duration").number(document.duration);
   if (!document.scene.materials.empty()) {

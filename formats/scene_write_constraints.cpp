@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -172,6 +173,7 @@ void writeConstraint(JsonWriter& out, const Constraint& constraint) {
       (again ? next : written).push_back(target);
     }
     if (first) writeBothSides(out, constraint.regions);
+    if (first && !constraint.notes.empty()) out.key("notes").text(constraint.notes);
     out.endObject();
     left = std::move(next);
     first = false;

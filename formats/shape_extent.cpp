@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/shape_extent.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/surface_files.hpp"
 
 #include <charconv>

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/svg_canvas.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -8,6 +10,16 @@
 
 namespace carom {
 namespace {
+
+// Advance widths of Helvetica in thousandths of the font size, from the space on to the tilde (its published metrics).
+constexpr std::array<int, 95> kLetterWidths = {
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,          // space to /
+    556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015,    // 0 to @
+    667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778,     // A to Q
+    722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556, 333,               // R to `
+    556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, 556, 556,     // a to q
+    333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584};                        // r to ~
+constexpr int kOtherLetter = 1000;  // Chinese, say
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -29,12 +41,6 @@ std::string escaped(std::string_view text) {
 }
 
 }  // namespace
-
-double PixelBox::overlap(const PixelBox& other) const {
-  const double across = std::min(x + width, other.x + other.width) - std::max(x, other.x);
-  const double down = std::min(y + height, other.y + other.height) - std::max(y, other.y);
-  return across > 0 && down > 0 ? across * down : 0;
-}
 
 std::string svgNumber(double value) {
   if (!std::isfinite(value)) throw InputError("svg", "a coordinate is not a finite number; nothing was written");
@@ -58,22 +64,40 @@ std::string shortNumber(double value) {
   return text;
 }
 
-double textWidth(std::string_view words, double font_size) {
-  const auto count = std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xC0) != 0x80; });
-  return 0.6 * font_size * static_cast<double>(count);
+double textWidth(std::string_view words, double font_size, bool bold) {
+  double thousandths = 0;
+  for (const char c : words) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0) == 0x80) continue;  // belongs to the letter before
+    thousandths += byte >= 0x20 && byte < 0x7F ? kLetterWidths[byte - 0x20] : byte < 0x80 ? 0 : kOtherLetter;
+  }
+  return (bold ? 1.12 : 1.04) * font_size * thousandths / 1000;
 }
 
-SvgCanvas::SvgCanvas(double width, double height, std::string_view title) {
+std::string ellipsized(std::string_view words, std::size_t most) {
+  std::size_t letters = 0, cut = words.size();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if ((static_cast<unsigned char>(words[i]) & 0xC0) == 0x80) continue;
+    if (letters + 1 == most) cut = i;
+    if (++letters > most) return std::string(words.substr(0, cut)) + "\u2026";
+  }
+  return std::string(words);
+}
+
+SvgCanvas::SvgCanvas(double width, double height, std::string_view title, std::string_view description) {
   const std::string w = svgNumber(width), h = svgNumber(height);
   out_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                {"viewBox", "0 0 " + w + " " + h},
                {"width", w},
                {"height", h},
+               {"role", "img"},
+               {"aria-labelledby", "title desc"},
                {"font-family", "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"},
                {"font-size", "13"},
                {"fill", "#2b2f36"}});
-  out_ += "<title>" + escaped(title) + "</title>\n";
+  out_ += "<title id=\"title\">" + escaped(title) + "</title>\n";
+  out_ += "<desc id=\"desc\">" + escaped(description) + "</desc>\n";
   element("rect", {{"width", w}, {"height", h}, {"fill", "#ffffff"}});
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/svg_contours.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/svg_layout.hpp"
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 namespace carom {
 namespace {
 
-constexpr double kLeft = 74, kRight = 24;
-constexpr double kTallest = 430, kLowest = 110;  // panel heights
+constexpr double kLeft = 66, kRight = 16, kBetween = 8;
+constexpr double kTallest = 430, kLowest = 110, kBothTogether = 660;  // panel heights
 constexpr double kTitleRoom = 30;                // above each panel
 constexpr double kMargin = 0.06;                 // around the content, share of its longest side
 
@@ -85,22 +86,33 @@ std::vector<View> layOutViews(const Picture& picture, double width, double top) 
   const double margin = kMargin * shown.sizes().maxCoeff();
   const Extent framed(shown.min() - Vec3::Constant(margin), shown.max() + Vec3::Constant(margin));
   const int across = acrossAxis(picture), depth = 1 - across;
-  const double panel_width = width - kLeft - kRight;
   const Vec3 size = framed.sizes();
-  const double scale = std::min({panel_width / size[across], kTallest / size.z(), kTallest / size[depth]});
+  const double whole = width - kLeft - kRight, half = 0.5 * (width - 2 * kLeft - kBetween - kRight);
+  // One above the other, or side by side where that shows as much in less room: of things taller than they are wide.
+  const double stacked = std::min({whole / size[across], kTallest / size.z(), kTallest / size[depth],
+                                   kBothTogether / (size.z() + size[depth])});
+  const double beside = std::min({half / size[across], kTallest / size.z(), kTallest / size[depth]});
+  const bool is_beside = beside >= 0.85 * stacked;
+  const double scale = is_beside ? beside : stacked;
 
   View side, above;
   side.name = "side", side.title = "Side view";
   above.name = "top", above.title = "Top view";
   side.up_axis = 2, above.up_axis = depth;
   above.up_is_negative = across == 1;  // right-handed seen from above: with y to the right, x runs downwards
+  double left = kLeft;
   for (View* view : {&side, &above}) {
     view->across_axis = across;
     view->scale = scale;
-    const double height = std::max(kLowest, scale * size[view->up_axis]);
-    view->panel = {kLeft, top + kTitleRoom, panel_width, height};
+    const double panel_width = is_beside ? half : whole;
+    const double own_height = std::max(kLowest, scale * size[view->up_axis]);
+    const double height = is_beside ? std::max(kLowest, scale * std::max(size.z(), size[depth])) : own_height;
+    view->panel = {left, top + kTitleRoom, panel_width, height};
     view->low = view->project(framed.center()) - Vec2(panel_width, height) / (2 * scale);
-    top += kTitleRoom + height + kAxisRoom;
+    if (is_beside)
+      left += half + kBetween + kLeft;
+    else
+      top += kTitleRoom + height + kAxisRoom;
   }
   return {side, above};
 }

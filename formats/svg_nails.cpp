@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/svg_nails.hpp"
 
 #include <algorithm>
@@ -10,15 +11,13 @@
 namespace carom {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// When a nail holds: just before an event, or at a time.
 struct Moment {
   std::optional<int> event;
   double time = 0;
 };
 
-BodyState stateOf(const Motion& motion, int body, const Moment& moment) {
+BodyState stateAtMoment(const Motion& motion, int body, const Moment& moment) {
   return moment.event ? motion.stateBefore(*moment.event, body) : motion.stateAt(body, moment.time);
 }
 
@@ -41,7 +40,7 @@ std::optional<Moment> momentOf(const Constraint& constraint, const Motion& motio
   return Moment{std::nullopt, time};
 }
 
-std::string labelOf(const Constraint& constraint, const std::optional<Moment>& moment) {
+std::string nailLabel(const Constraint& constraint, const std::optional<Moment>& moment) {
   const When& at = constraint.at;
   std::string text = constraint.body + " at ";
   if (at.impact > 0) {
@@ -90,6 +89,10 @@ void readPlace(const Target& target, const Frame& frame, bool is_relative, NailM
   }
   nail.nails_position = true;
   nail.target = is_relative ? Vec3(frame.origin + frame.axes * place) : place;
+  Vec3 shown = nail.target;
+  for (int i = 0; i < 3 && frame.seen; ++i)
+    if (!std::isfinite(shown[i])) shown[i] = (frame.origin + frame.axes * *frame.seen)[i];
+  if (shown.allFinite()) nail.place = shown;
   if (has_range || (is_relative && has_free)) nail.allowed = box;
 }
 
@@ -105,12 +108,12 @@ std::optional<NailMark> nailOf(const Constraint& constraint, const Motion& motio
   const std::optional<Moment> moment = momentOf(constraint, motion, nail.body);
   const bool is_relative = !constraint.relative_to.empty();
   if (is_relative && !moment) return std::nullopt;
-  nail.label = labelOf(constraint, moment);
+  nail.label = nailLabel(constraint, moment);
   std::optional<BodyState> state;
-  if (moment) state = stateOf(motion, nail.body, *moment);
+  if (moment) state = stateAtMoment(motion, nail.body, *moment);
   Frame frame;
   if (is_relative) {
-    const BodyState other = stateOf(motion, bodyIndex(*motion.scene, constraint.relative_to), *moment);
+    const BodyState other = stateAtMoment(motion, bodyIndex(*motion.scene, constraint.relative_to), *moment);
     frame.origin = other.position, frame.axes = other.orientation;
   }
   bool on_origin = true;

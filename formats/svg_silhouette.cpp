@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/detail/svg_silhouette.hpp"
 
 #include <algorithm>
@@ -5,12 +6,14 @@
 
 #include "formats/detail/gltf_mesh.hpp"
 #include "formats/detail/svg_contours.hpp"
+#include "formats/detail/svg_path.hpp"
 #include "formats/shape_extent.h"
 
 namespace carom {
 namespace {
 
-constexpr double kFlat = 0.12;    // pixels that a curve may be off
+constexpr double kFlat = 0.12;    // pixels that the line of an outline may be off
+constexpr double kMostPieces = 2000;  // of a line: of what is so long far most is outside the picture
 constexpr double kPiece = 5;      // pixels of a line that are judged as one
 constexpr double kBeside = 0.35;  // pixels from a line to the places that tell whether it is an outline
 // Products of pieces and triangles (or pieces): a shape of more is drawn as its area, with all its loops as outline.
@@ -18,46 +21,29 @@ constexpr double kMostWork = 3e7;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double distance(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double share = d.squaredNorm() > 0 ? std::clamp(d.dot(p - a) / d.squaredNorm(), 0.0, 1.0) : 0;
-  return (p - a - share * d).norm();
-}
-
-// Leaves out points that lie on the line between those that stay.
-std::vector<Vec2> thinned(const std::vector<Vec2>& points) {
+std::vector<Vec2> pixelsOf(const std::vector<Vec3>& points, const View& view) {
   std::vector<Vec2> out;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool end = i == 0 || i + 1 == points.size();
-    if (end || distance(points[i], out.back(), points[i + 1]) > kFlat) out.push_back(points[i]);
-  }
+  for (const Vec3& p : points) out.push_back(view.pixel(p));
   return out;
 }
 
-// Tenths of a pixel, and steps from point to point: pictures of many bodies are mostly these numbers.
-void addPath(std::string& out, const std::vector<Vec2>& points, bool closed) {
-  const auto append = [&](double tenths) {
-    const std::string number = svgNumber(tenths / 10);
-    if (number[0] != '-' && out.back() != 'M' && out.back() != 'l') out += ' ';
-    out += number;
-  };
-  Vec2 last(0, 0);
+// Adds a line, simplified, to path data.
+void addLine(std::string& out, const std::vector<Vec2>& points, bool closed, double tolerance) {
+  SvgPath path;
   bool first = true;
-  for (const Vec2& p : thinned(points)) {
-    const Vec2 tenths(std::round(10 * p.x()), std::round(10 * p.y())), step = tenths - last;
-    if (!first && step.isZero(0)) continue;
-    if (first) out += 'M';
-    append(step.x());
-    append(step.y());
-    if (first) out += 'l';
-    last = tenths, first = false;
+  for (const Vec2& p : simplified(points, tolerance)) {
+    if (first)
+      path.move(p);
+    else
+      path.line(p);
+    first = false;
   }
-  if (out.ends_with('l')) out += "0 0";
-  if (closed) out += 'Z';
+  if (closed) path.close();
+  out += path.data();
 }
 
 // A short piece of a line, in pixels, with its depth towards the viewer in metres.
-struct Piece {
+struct OutlinePiece {
   Vec2 a, b;
   double depth = 0;  // of its middle
   Vec2 middle() const { return 0.5 * (a + b); }
@@ -84,21 +70,22 @@ class Judge {
   }
 
   void draw(Silhouette& out) const {
-    std::vector<Piece> outline, seen;
-    for (const Piece& piece : loops_)
+    std::vector<OutlinePiece> outline, seen;
+    for (const OutlinePiece& piece : loops_)
       if (bordersNothing(piece))
         outline.push_back(piece);
       else if (!hidden(piece))
         seen.push_back(piece);
-    for (const Piece& piece : edges_)
+    for (const OutlinePiece& piece : edges_)
       if (!hidden(piece)) seen.push_back(piece);
     out.outline = joined(outline);
     out.edges = joined(seen);
   }
 
  private:
-  void cut(const Vec3& a, const Vec3& b, std::vector<Piece>& out) const {
-    const double length = (view_.pixel(b) - view_.pixel(a)).norm(), count = std::max(1.0, std::ceil(length / kPiece));
+  void cut(const Vec3& a, const Vec3& b, std::vector<OutlinePiece>& out) const {
+    const double length = (view_.pixel(b) - view_.pixel(a)).norm();
+    const double count = std::clamp(std::ceil(length / kPiece), 1.0, kMostPieces);
     for (double i = 0; i < count; ++i) {
       const Vec3 from = a + (i / count) * (b - a), to = a + ((i + 1) / count) * (b - a);
       out.push_back({view_.pixel(from), view_.pixel(to), 0.5 * (from + to).dot(view_.towardsViewer())});
@@ -108,7 +95,7 @@ class Judge {
   // How often the loops run round a point.
   int winding(const Vec2& p) const {
     int turns = 0;
-    for (const Piece& piece : loops_) {
+    for (const OutlinePiece& piece : loops_) {
       const bool up = piece.a.y() <= p.y() && piece.b.y() > p.y(), down = piece.b.y() <= p.y() && piece.a.y() > p.y();
       if (!up && !down) continue;
       const double side = cross(piece.b - piece.a, p - piece.a);
@@ -117,14 +104,14 @@ class Judge {
     return turns;
   }
 
-  bool bordersNothing(const Piece& piece) const {
+  bool bordersNothing(const OutlinePiece& piece) const {
     const Vec2 d = piece.b - piece.a;
     if (!(d.norm() > 0)) return false;
     const Vec2 beside = kBeside * Vec2(-d.y(), d.x()).normalized();
     return winding(piece.middle() + beside) == 0 || winding(piece.middle() - beside) == 0;
   }
 
-  bool hidden(const Piece& piece) const {
+  bool hidden(const OutlinePiece& piece) const {
     return coveredBy(mesh_.triangles, piece.middle(), piece.depth + slack_) ||
            coveredBy(mesh_.accent, piece.middle(), piece.depth + slack_);
   }
@@ -141,21 +128,21 @@ class Judge {
     return false;
   }
 
-  static std::string joined(const std::vector<Piece>& pieces) {
+  static std::string joined(const std::vector<OutlinePiece>& pieces) {
     std::string out;
     std::vector<Vec2> run;
-    for (const Piece& piece : pieces) {
-      if (!run.empty() && run.back() != piece.a) addPath(out, run, false), run.clear();
+    for (const OutlinePiece& piece : pieces) {
+      if (!run.empty() && run.back() != piece.a) addLine(out, run, false, kFlat), run.clear();
       if (run.empty()) run.push_back(piece.a);
       run.push_back(piece.b);
     }
-    if (!run.empty()) addPath(out, run, false);
+    if (!run.empty()) addLine(out, run, false, kFlat);
     return out;
   }
 
   const View& view_;
   double slack_;  // m: less than this behind the mesh is not hidden
-  std::vector<Piece> loops_, edges_;
+  std::vector<OutlinePiece> loops_, edges_;
   TriangleMesh mesh_;  // pixels and depth
 };
 
@@ -165,17 +152,38 @@ Silhouette silhouetteOf(const Shape& shape, const Vec3& x, const Quat& q, const 
   Contours contours;
   addContours(contours, shape, x, q, view.towardsViewer());
   Silhouette out;
-  for (const auto& loop : contours.loops) {
-    std::vector<Vec2> points;
-    for (const Vec3& p : loop) points.push_back(view.pixel(p));
-    addPath(out.area, points, true);
-  }
+  for (const auto& loop : contours.loops) addLine(out.area, pixelsOf(loop, view), true, kFlat);
   if (!contours.convex) {
     const Judge judge(contours, shape, x, q, view);
     if (judge.affordable()) judge.draw(out);
     return out;
   }
-  for (const auto& [a, b] : contours.edges) addPath(out.edges, {view.pixel(a), view.pixel(b)}, false);
+  for (const auto& [a, b] : contours.edges) addLine(out.edges, {view.pixel(a), view.pixel(b)}, false, kFlat);
+  return out;
+}
+
+std::string silhouetteArea(const Shape& shape, const Vec3& x, const Quat& q, const View& view, double tolerance) {
+  Contours contours;
+  addContours(contours, shape, x, q, view.towardsViewer());
+  std::string out;
+  for (const auto& loop : contours.loops) {
+    const std::vector<Vec2> points = pixelsOf(loop, view);
+    Vec2 low = points.front(), high = low;
+    for (const Vec2& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    // What is smaller than the tolerance may go, unless it is all there is.
+    if (contours.loops.size() == 1 || (high - low).maxCoeff() > tolerance) addLine(out, points, true, tolerance);
+  }
+  return out;
+}
+
+std::string silhouetteHull(const Shape& shape, const Vec3& x, const Quat& q, const View& view, double tolerance) {
+  Contours contours;
+  addContours(contours, shape, x, q, view.towardsViewer());
+  std::vector<Vec2> points;
+  for (const auto& loop : contours.loops)
+    for (const Vec3& p : loop) points.push_back(view.pixel(p));
+  std::string out;
+  if (!points.empty()) addLine(out, convexOutline(std::move(points)), true, tolerance);
   return out;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/write_file.h"
 
 #include <cerrno>
@@ -18,7 +19,7 @@ std::string temporaryBeside(const std::string& path) {
   return path + ".part-" + std::to_string(random());
 }
 
-[[noreturn]] void fail(const std::string& path, const std::string& temporary, const std::string& why) {
+[[noreturn]] void failToWrite(const std::string& path, const std::string& temporary, const std::string& why) {
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
   throw InputError(path, "cannot write the file: " + why);
@@ -30,13 +31,13 @@ void writeFile(const std::string& path, std::string_view content) {
   const std::string temporary = temporaryBeside(path);
   errno = 0;
   std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  if (!out) fail(path, temporary, std::strerror(errno));
+  if (!out) failToWrite(path, temporary, std::strerror(errno));
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out) fail(path, temporary, errno != 0 ? std::strerror(errno) : "the disk took only a part");
+  if (!out) failToWrite(path, temporary, errno != 0 ? std::strerror(errno) : "the disk took only a part");
   std::error_code error;
   std::filesystem::rename(temporary, path, error);
-  if (error) fail(path, temporary, error.message());
+  if (error) failToWrite(path, temporary, error.message());
 }
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What libFuzzer calls; CAROM_FUZZ_TARGET is the name of the reader.
 #include <cstddef>
 #include <cstdint>

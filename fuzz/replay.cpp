@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs one target on files, without libFuzzer: what it has found stays found, and a finding can be followed in any
 // debugger. A folder stands for its files.
 //   fuzz_replay scene fuzz/corpus/scene

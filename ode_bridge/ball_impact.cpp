@@ -1,18 +1,16 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/ball_impact.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "ode_bridge/rounding.h"
+
 namespace carom {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-// The same bounds as in the general search: an approach slower than this share of the speeds cannot be told from none,
-// and a gap of less than this share of the size of positions cannot be told from contact.
-constexpr double kStill = 1e-12, kTouch = 1e-13;
-
-struct Gap {
+struct GapAndRate {
   double gap, rate;
 };
 
@@ -21,7 +19,7 @@ template <class GapAt>
 double polish(const GapAt& gap_at, double from, double t) {
   double best = std::numeric_limits<double>::infinity(), best_time = t;
   for (int round = 0; round < 6; ++round) {
-    const Gap at = gap_at(t);
+    const GapAndRate at = gap_at(t);
     if (!(std::abs(at.gap) < best)) break;
     best = std::abs(at.gap);
     best_time = t;
@@ -52,7 +50,7 @@ BallImpact ballBallImpact(const FlightPath& a, const FlightPath& b, const Vec3& 
       [&](double t) {
         const Vec3 e = a.positionAt(t, g) - b.positionAt(t, g);
         const double l = e.norm();
-        return Gap{l - R, e.dot(a.velocityAt(t, g) - b.velocityAt(t, g)) / l};
+        return GapAndRate{l - R, e.dot(a.velocityAt(t, g) - b.velocityAt(t, g)) / l};
       },
       from, from + s);
   const double speeds = a.velocityAt(time, g).norm() + b.velocityAt(time, g).norm();
@@ -63,7 +61,7 @@ BallImpact ballBallImpact(const FlightPath& a, const FlightPath& b, const Vec3& 
 BallImpact ballPlaneImpact(const FlightPath& ball, const Vec3& g, const Vec3& normal, double offset, double from,
                            double until) {
   const auto gap_at = [&](double t) {
-    return Gap{normal.dot(ball.positionAt(t, g)) - offset - ball.radius, normal.dot(ball.velocityAt(t, g))};
+    return GapAndRate{normal.dot(ball.positionAt(t, g)) - offset - ball.radius, normal.dot(ball.velocityAt(t, g))};
   };
   const auto [h, v] = gap_at(from);
   const double a = normal.dot(g);

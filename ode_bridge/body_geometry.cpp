@@ -1,12 +1,19 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/body_geometry.h"
 
+#include "adjoint/arguments.h"
 #include "ode_bridge/feature_limits.h"
 #include "ode_bridge/gaps.h"
 #include "ode_bridge/overlap.h"
 
 namespace carom {
 
+double FeatureGeometry::boundingRadius(int body) const {
+  return solids_[checkedIndex("boundingRadius", "body", body, solids_.size())].bound();
+}
+
 double FeatureGeometry::overlap(int a, int b, const Pose& A, const Pose& B) const {
+  for (int body : {a, b}) checkedIndex("overlap", "body", body, solids_.size());
   return overlapOf(Placed(solid(a), A.x, A.R), Placed(solid(b), B.x, B.R), 0).value_or(0);
 }
 

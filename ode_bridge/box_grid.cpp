@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/box_grid.h"
 
 #include <algorithm>

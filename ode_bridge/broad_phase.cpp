@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/broad_phase.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/convex_hull.h"
 
 #include <algorithm>

@@ -1,10 +1,14 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/first_impact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <queue>
+#include <string>
 #include <vector>
 
+#include "adjoint/errors.h"
 #include "ode_bridge/refine.h"
 #include "ode_bridge/touching.h"
 
@@ -23,6 +27,9 @@ constexpr double kGrown = 0.01;
 
 // Balls further apart than this share of their size are followed as such; nearer ones are opened.
 constexpr double kFar = 0.05, kOpen = 0.25;
+
+// A search of more steps than this is given up.
+constexpr int kMostSteps = 1'000'000;
 
 // Two nodes, one of each body, that cannot touch before `time`.
 struct Pending {
@@ -86,6 +93,10 @@ class Search {
         b{&b_, &b_.solid->nodes[static_cast<std::size_t>(now_.node_b)]};
     const bool leaves = a.node->piece >= 0 && b.node->piece >= 0;
     const double apart = separationOf(a, b), size = sizeOf(a) + sizeOf(b);
+    if (!std::isfinite(apart)) throw NotComputable("their distance is beyond the range of doubles");
+    if (++steps_ > kMostSteps)
+      throw NotComputable("it takes more than " + std::to_string(kMostSteps) +
+                          " steps: they turn too fast, or move along each other too closely");
     if (apart > (leaves ? kFar : kOpen) * size) {
       now_.gliding = 0;
       return step(safeStep(a, b, apart, end() - now_.time));
@@ -115,6 +126,7 @@ class Search {
   static double sizeOf(const PlacedNode& p) { return p.body->solid->plane ? 0 : p.node->radius; }
 
   bool step(double h) {
+    if (std::isnan(h)) throw NotComputable("bounds on their motion are beyond the range of doubles");
     if (!(now_.time + h < end())) return false;
     now_.time = std::max(now_.time + h, std::nextafter(now_.time, until_));
     return true;
@@ -179,6 +191,7 @@ class Search {
   const PairMotion& pair_;
   double from_, until_;
   Placed a_, b_;
+  int steps_ = 0;
   double placed_at_ = std::numeric_limits<double>::quiet_NaN();
   Pending now_;
   std::priority_queue<Pending> queue_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -18,7 +19,8 @@ struct PairMotion {
 
 /// First impact of the pair in [from, until]: steps that provably cannot pass a contact, over balls that hold ever
 /// fewer pieces, then over pieces, up to contact within rounding; then Newton on the smooth gap of each touching
-/// feature pair. Separations of less than `touchTolerance` are contact.
+/// feature pair. Separations of less than `touchTolerance` are contact. Throws NotComputable where numbers are not
+/// finite, or steps so small that a million of them do not suffice.
 std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until);
 
 }  // namespace carom

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps.h"
 
 #include <algorithm>
 #include <array>
 
+#include "adjoint/arguments.h"
 #include "ode_bridge/gaps/rows.hpp"
 
 namespace carom {
@@ -47,6 +49,39 @@ constexpr std::array<std::array<std::int16_t, 4>, 4> kKinds = [] {
 }();
 
 const GapRow& rowOf(std::int16_t kind) { return kGaps[static_cast<std::size_t>(kind)]; }
+
+std::size_t countOf(const Solid& solid, Family family) {
+  switch (family) {
+    case Family::vertex:
+      return solid.vertices.size();
+    case Family::edge:
+      return solid.edges.size();
+    case Family::face:
+      return solid.faces.size();
+    case Family::rim:
+      return solid.rims.size();
+  }
+  return 0;
+}
+
+// What a frozen pair of features stands for, once it is known to stand for something.
+struct FoundPair {
+  const GapRow& row;
+  const Solid &of_a, &of_b;
+  const Feature &a, &b;
+};
+
+const Feature& featureOf(const Solid& solid, Family family, int index) {
+  checkedIndex("a feature pair", "feature", index, countOf(solid, family));
+  return solid.feature(family, index);
+}
+
+FoundPair found(const std::vector<Solid>& solids, int a, int b, const FeaturePair& f) {
+  const GapRow& row = kGaps[checkedIndex("a feature pair", "kind", f.kind, kGaps.size())];
+  const Solid& of_a = solids[checkedIndex("a feature pair", "body", a, solids.size())];
+  const Solid& of_b = solids[checkedIndex("a feature pair", "body", b, solids.size())];
+  return {row, of_a, of_b, featureOf(of_a, row.a, f.a), featureOf(of_b, row.b, f.b)};
+}
 
 // A feature about its body's centre in world axes, and how it changes with the dimensions.
 template <class S>
@@ -130,34 +165,38 @@ ContactPoint contactOf(GapKind kind, const WorldFeature& of_a, const WorldFeatur
 }
 
 ContactPoint FeatureGeometry::contact(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const {
-  const GapRow& row = rowOf(f.kind);
-  return contactOf(static_cast<GapKind>(f.kind), placeFeature(solid(a).feature(row.a, f.a), A),
-                   placeFeature(solid(b).feature(row.b, f.b), B), f.sign);
+  const FoundPair pair = found(solids_, a, b, f);
+  return contactOf(static_cast<GapKind>(f.kind), placeFeature(pair.a, A), placeFeature(pair.b, B), f.sign);
 }
 
 ContactJacobian FeatureGeometry::jacobian(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const {
-  const GapRow& row = rowOf(f.kind);
-  const Feature &fa = solid(a).feature(row.a, f.a), &fb = solid(b).feature(row.b, f.b);
+  const auto& [row, of_a, of_b, fa, fb] = found(solids_, a, b, f);
   const WorldFeature wa = placeFeature(fa, A), wb = placeFeature(fb, B);
   FeatureJacobian J = row.swapped ? row.jacobian(wb, wa, f.sign) : row.jacobian(wa, wb, f.sign);
   if (row.swapped) J.middleRows<3>(1) *= -1;
   ContactJacobian out;
-  fold<double>(J, row.swapped ? kP2 : kP1, turnedFeature(solid(a), fa, A), out.pose.leftCols<6>(), out.size_a);
-  fold<double>(J, row.swapped ? kP1 : kP2, turnedFeature(solid(b), fb, B), out.pose.rightCols<6>(), out.size_b);
+  fold<double>(J, row.swapped ? kP2 : kP1, turnedFeature(of_a, fa, A), out.pose.leftCols<6>(), out.size_a);
+  fold<double>(J, row.swapped ? kP1 : kP2, turnedFeature(of_b, fb, B), out.pose.rightCols<6>(), out.size_b);
   return out;
 }
 
 std::vector<ContactJacobian> FeatureGeometry::jacobianRates(int a, int b, const FeaturePair& f, const Pose& A,
                                                             const Pose& B,
                                                             std::span<const PairTangent> directions) const {
-  const GapRow& row = rowOf(f.kind);
-  const Feature &fa = solid(a).feature(row.a, f.a), &fb = solid(b).feature(row.b, f.b);
+  const auto& [row, of_a, of_b, fa, fb] = found(solids_, a, b, f);
+  for (const PairTangent& d : directions) {
+    checkEntries("jacobianRates", "a rate of a pose of", d.pose);
+    for (const auto& [size, solid] : {std::pair{&d.size_a, &of_a}, std::pair{&d.size_b, &of_b}})
+      if (size->size() > 0)
+        checkCount("jacobianRates", "rates of dimensions", static_cast<std::size_t>(size->size()),
+                   static_cast<std::size_t>(solid->center_rates.cols()));
+  }
   std::vector<ContactJacobian> out(directions.size());
   constexpr std::size_t kLanes = Rate4::kDirections;
   for (std::size_t first = 0; first < directions.size(); first += kLanes) {
     const auto lanes = directions.subspan(first, std::min(kLanes, directions.size() - first));
-    const PlacedRates pa = place(solid(a), fa, A, {lanes, 0, &PairTangent::size_a});
-    const PlacedRates pb = place(solid(b), fb, B, {lanes, 6, &PairTangent::size_b});
+    const PlacedRates pa = place(of_a, fa, A, {lanes, 0, &PairTangent::size_a});
+    const PlacedRates pb = place(of_b, fb, B, {lanes, 6, &PairTangent::size_b});
     JacobianOf<Rate4> J = row.swapped ? row.jacobian_rates(pb.feature, pa.feature, f.sign)
                                       : row.jacobian_rates(pa.feature, pb.feature, f.sign);
     if (row.swapped) J.middleRows<3>(1) *= Rate4(-1);
@@ -172,8 +211,8 @@ std::vector<ContactJacobian> FeatureGeometry::jacobianRates(int a, int b, const 
 }
 
 std::string FeatureGeometry::describe(int a, int b, const FeaturePair& f) const {
-  const GapRow& row = rowOf(f.kind);
-  return nameOf(solid(a), row.a, f.a) + " on " + nameOf(solid(b), row.b, f.b);
+  const FoundPair pair = found(solids_, a, b, f);
+  return nameOf(pair.of_a, pair.row.a, f.a) + " on " + nameOf(pair.of_b, pair.row.b, f.b);
 }
 
 }  // namespace carom

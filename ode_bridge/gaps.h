@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "adjoint/body_geometry.h"
@@ -67,7 +68,8 @@ int branches(GapKind kind);
 /// that lies flat before a plane the gap is defined and the point is NaN.
 ContactPoint contactOf(GapKind kind, const WorldFeature& of_a, const WorldFeature& of_b, int sign);
 
-/// The gaps above, for the solids of a scene. Where contactOf returns NaN so does the Jacobian.
+/// The gaps above, for the solids of a scene. Where contactOf returns NaN so does the Jacobian. Throws InputError for
+/// bodies and features that are not there.
 class FeatureGeometry final : public ContactGeometry, public BodyGeometry {
  public:
   explicit FeatureGeometry(std::vector<Solid> solids) : solids_(std::move(solids)) {}
@@ -78,7 +80,7 @@ class FeatureGeometry final : public ContactGeometry, public BodyGeometry {
                                              std::span<const PairTangent> directions) const override;
   std::string describe(int a, int b, const FeaturePair& f) const override;
 
-  double boundingRadius(int body) const override { return solid(body).bound(); }
+  double boundingRadius(int body) const override;
   double overlap(int a, int b, const Pose& A, const Pose& B) const override;
   std::vector<FeatureLimit> limits(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gjk.h"
 
 #include <cmath>
@@ -6,7 +7,7 @@
 namespace carom {
 namespace {
 
-constexpr int kMostRounds = 80;
+constexpr int kMostSimplexRounds = 80;
 constexpr double kClose = 1e-8;  // share of the distance that bounds may differ by
 
 // A point of the difference a - b, with where it comes from.
@@ -119,7 +120,7 @@ CoreDistance coreDistance(const PlacedPiece& a, const PlacedPiece& b, const Vec3
   Mix mix;
   simplex.add(corner(guess));
   double shortest = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostSimplexRounds; ++round) {
     const Mix found = simplex.nearest();
     if (round > 0 && !(found.square < shortest)) break;
     if (found.count == 4 && result.lower > 0) break;  // a direction is known along which they are apart

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/narrow_phase.h"
 
 #include <ode/ode.h>

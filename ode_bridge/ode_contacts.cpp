@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/ode_contacts.h"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "adjoint/arguments.h"
 #include "adjoint/errors.h"
 #include "ode_bridge/ball_impact.h"
 #include "ode_bridge/first_impact.h"
@@ -17,10 +19,6 @@ namespace {
 
 // Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).
 constexpr double kOverlap = 1e-9;
-
-// Impacts among balls that move and planes have a closed form.
-enum class Quick : char { fixed, moving, ball, plane };
-bool isQuick(Quick q) { return q == Quick::ball || q == Quick::plane; }
 
 // The box that a solid stands in, with room for rounding and for the tolerance of contact.
 Bounds standingBounds(const Solid& solid, const Kinematics& k) {
@@ -54,6 +52,10 @@ Extent extentOf(const Solid& solid, const Arc& arc) {
 
 }  // namespace
 
+// Impacts among balls that move and planes have a closed form.
+enum class Quick : char { fixed, moving, ball, plane };
+bool isQuick(Quick q) { return q == Quick::ball || q == Quick::plane; }
+
 struct OdeContacts::State {
   Neighbours neighbours;
   NarrowPhase narrow_phase;
@@ -64,6 +66,9 @@ struct OdeContacts::State {
   int opened = -1;              // body whose window was asked for last, when and up to where
   double opened_from = 0, opened_until = 0, end = 0;
 
+  std::size_t checkedBody(const char* call, int body) const {
+    return checkedIndex(call, "body", body, quick.size());
+  }
   void refuseOverlap(const Scene& scene, const std::vector<Arc>& arcs);
   BallImpact quickImpact(int a, int b, double from, double until) const;
   void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
@@ -76,6 +81,7 @@ OdeContacts::OdeContacts(const Scene& scene) : OdeContacts() { begin(scene); }
 OdeContacts::~OdeContacts() = default;
 
 void OdeContacts::begin(const Scene& scene) {
+  validate(scene);
   const std::size_t n = scene.bodies.size();
   std::vector<Solid> solids;
   std::vector<BodyModel> models;
@@ -120,6 +126,9 @@ void OdeContacts::State::refuseOverlap(const Scene& scene, const std::vector<Arc
 }
 
 void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
+  state_->checkedBody("setPath", body);
+  checkedNumber("setPath", "the time", from);
+  checkedNumber("setPath", "the time", until);
   if (!arc.moving()) return;
   state_->end = until;
   state_->opened = -1;
@@ -129,6 +138,8 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
 }
 
 double OdeContacts::window(int body, double t) {
+  state_->checkedBody("window", body);
+  checkedNumber("window", "the time", t);
   const double until = state_->neighbours.window(body, t);
   state_->opened = body;
   state_->opened_from = t;
@@ -137,6 +148,7 @@ double OdeContacts::window(int body, double t) {
 }
 
 void OdeContacts::neighbours(int body, std::vector<int>& out) {
+  state_->checkedBody("neighbours", body);
   state_->neighbours.list(body, out);
   if (state_->opened == body) state_->keepThoseThatMayMeet(body, out);
 }
@@ -177,6 +189,8 @@ BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double unt
 
 std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
                                                         double until) {
+  for (int body : {a, b}) state_->checkedBody("firstImpact", body);
+  for (double t : {from, until}) checkedNumber("firstImpact", "the time", t);
   const BallImpact quick = state_->quickImpact(a, b, from, until);
   if (quick.found == BallImpact::Found::none) return std::nullopt;
   if (quick.found == BallImpact::Found::impact) {
@@ -192,7 +206,8 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
                                                double reach) {
-  const auto quick = [&](int body) { return isQuick(state_->quick[static_cast<std::size_t>(body)]); };
+  for (double number : {t, reach}) checkedNumber("touching", "the time or the reach", number);
+  const auto quick = [&](int body) { return isQuick(state_->quick[state_->checkedBody("touching", body)]); };
   if (quick(a) && quick(b)) return {};  // one contact at the most
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
   return touchingFeatures(placed_a, placed_b, std::max(reach, 4 * touchTolerance(placed_a, placed_b)));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <memory>
@@ -6,12 +7,13 @@
 
 namespace carom {
 
-/// Collision detection for spheres, boxes and planes. The Open Dynamics Engine's sweep-and-prune space proposes the
+/// Collision detection for all shapes. The Open Dynamics Engine's sweep-and-prune space proposes the
 /// pairs whose swept boxes meet; exact geometry in double precision decides when, where and with which features they
 /// touch. One object serves one simulation at a time; different objects may be used from different threads.
 class OdeContacts final : public ContactSource {
  public:
-  /// Throws InputError when two bodies of the scene overlap at the start.
+  /// Throws InputError for a scene that is not valid (see validate), and when two bodies overlap at the start; so does
+  /// begin. The other functions throw it for bodies that are not there and times that are not finite.
   explicit OdeContacts(const Scene& scene);
   ~OdeContacts() override;
   OdeContacts(const OdeContacts&) = delete;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/qhull_facets.h"
 
 #include <cfloat>

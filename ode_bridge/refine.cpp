@@ -1,15 +1,14 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/refine.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "ode_bridge/rounding.h"
+
 namespace carom {
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-// Approach slower than this share of the speeds involved cannot be told from none.
-constexpr double kStill = 1e-12;
 
 double speedScale(const Placed& a, const Placed& b) {
   const auto turning = [](const Placed& p) { return p.spin > 0 ? p.spin * p.solid->bound() : 0; };

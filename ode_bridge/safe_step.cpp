@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,7 +54,7 @@ double firstRoot(double c, double rate, double bend) {
   return bend > 0 ? (rate + root) / bend : std::numeric_limits<double>::infinity();
 }
 
-constexpr int kMostRounds = 40;
+constexpr int kMostStepRounds = 40;
 
 // A time up to which g stays positive, at most `limit`: nearly its first root. Every parabola lies above g, so their
 // roots come down to that of g; should they not reach it, the chord from g(0) ends before it.
@@ -61,14 +62,14 @@ double firstTouch(const Gap& gap, double bend, double limit) {
   const Front start = gap.front(0);
   if (!(start.at > 0)) return 0;
   double h = std::min(limit, firstRoot(start.at, start.rate, bend)), value = 0;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostStepRounds; ++round) {
     const Front f = gap.front(h);
     value = f.at + f.rate * h - 0.5 * bend * h * h;
     if (value >= 0) return h;
     const double next = firstRoot(f.at, f.rate, bend);
     if (!(next < h)) break;
     h = next;
-    if (round == kMostRounds - 1) {
+    if (round == kMostStepRounds - 1) {
       const Front last = gap.front(h);
       value = last.at + last.rate * h - 0.5 * bend * h * h;
       if (value >= 0) return h;

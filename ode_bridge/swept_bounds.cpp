@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/swept_bounds.h"
 
 #include <algorithm>

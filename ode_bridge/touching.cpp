@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/touching.h"
 
 #include <algorithm>
@@ -6,18 +7,17 @@
 
 #include "ode_bridge/leaf_pairs.h"
 #include "ode_bridge/near_features.h"
+#include "ode_bridge/rounding.h"
 
 namespace carom {
 namespace {
 
-// Positions of size 1 are known to 1e-16 and a separation is a sum of some ten of them.
-constexpr double kTouch = 1e-13;
 // Two contacts this near, with normals this alike, are one; a normal may leave the cone of a feature by as much.
 constexpr double kSame = 1e-9;
 // Edges more parallel than this touch along a line: their ends carry the contact.
 constexpr double kParallel = 1e-6;
 
-struct Front {
+struct FacingFeature {
   Family family;
   int index;
 };
@@ -38,8 +38,8 @@ struct Touching {
 
   // The features of a piece that lie, as a whole, within tolerance of its furthest extent along a direction (of a rim:
   // one point of it).
-  std::vector<Front> frontOf(const PlacedPiece& p, const Vec3& direction) const {
-    std::vector<Front> front;
+  std::vector<FacingFeature> frontOf(const PlacedPiece& p, const Vec3& direction) const {
+    std::vector<FacingFeature> front;
     const Solid& solid = p.solid();
     if (p.halfSpace()) return {{Family::face, 0}};
     const Vec3 d = p.body->k.R.transpose() * direction;
@@ -62,7 +62,7 @@ struct Touching {
     });
     // a cylinder that stands flat touches with its marks, and its rims have no lowest point
     if (round && marks >= 3) return front;
-    if (round) std::erase_if(front, [](const Front& f) { return f.family == Family::vertex; });
+    if (round) std::erase_if(front, [](const FacingFeature& f) { return f.family == Family::vertex; });
     each(p, p.piece->rims, [&](int r) {
       const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
       if (rim.point.dot(d) + rim.rim * rim.direction.cross(d).norm() >= furthest) front.push_back({Family::rim, r});
@@ -81,7 +81,7 @@ struct Touching {
 
   // Whether the normal n (from b to a) is one that a sharp feature of `p` can push along: the surface near the feature
   // falls away from the contact. `outward` is n for b, -n for a.
-  bool inCone(const PlacedPiece& p, const Front& f, const Vec3& outward) const {
+  bool inCone(const PlacedPiece& p, const FacingFeature& f, const Vec3& outward) const {
     const Solid& solid = p.solid();
     const Vec3 n = p.body->k.R.transpose() * outward;
     const auto at = static_cast<std::size_t>(f.index);
@@ -106,7 +106,7 @@ struct Touching {
   }
 
   // Whether the foot of the contact is on the feature itself, not on its continuation.
-  bool onFeature(const PlacedPiece& p, const Front& f, const Front& other, const Vec3& point) const {
+  bool onFeature(const PlacedPiece& p, const FacingFeature& f, const FacingFeature& other, const Vec3& point) const {
     const Solid& solid = p.solid();
     const Vec3 local = p.body->k.R.transpose() * (point - p.body->k.x);
     if (f.family == Family::face) {
@@ -131,12 +131,12 @@ struct Touching {
   std::vector<ContactPoint> points;  // of `found`
   std::size_t known_before = 0;
 
-  ContactPoint contactNow(GapKind kind, const Front& f, const Front& g, int sign) const {
+  ContactPoint contactNow(GapKind kind, const FacingFeature& f, const FacingFeature& g, int sign) const {
     return contactOf(kind, placeFeature(a.solid().feature(f.family, f.index), {a.body->k.x, a.body->k.R}),
                      placeFeature(b.solid().feature(g.family, g.index), {b.body->k.x, b.body->k.R}), sign);
   }
 
-  bool tryPair(const Front& f, const Front& g, int sign) {
+  bool tryPair(const FacingFeature& f, const FacingFeature& g, int sign) {
     const GapKind kind = gapKind(f.family, g.family);
     const ContactPoint c = contactNow(kind, f, g, sign);
     if (!(std::abs(c.gap) <= tolerance)) return false;
@@ -148,7 +148,7 @@ struct Touching {
     return true;
   }
 
-  bool canMeet(const Front& f, const Front& g) const {
+  bool canMeet(const FacingFeature& f, const FacingFeature& g) const {
     if (!hasKind(f.family, g.family)) return false;
     const Feature &fa = a.solid().feature(f.family, f.index), &fb = b.solid().feature(g.family, g.index);
     const bool face = f.family == Family::face || g.family == Family::face;
@@ -160,11 +160,11 @@ struct Touching {
   }
 
   void run() {
-    const std::vector<Front> of_a = frontOf(a, -witness.n), of_b = frontOf(b, witness.n);
+    const std::vector<FacingFeature> of_a = frontOf(a, -witness.n), of_b = frontOf(b, witness.n);
     // faces before edges and edges before vertices, so that a contact on a border is the face's
     for (const int wanted : {0, 1, 2})
-      for (const Front& f : of_a)
-        for (const Front& g : of_b) {
+      for (const FacingFeature& f : of_a)
+        for (const FacingFeature& g : of_b) {
           const bool face = f.family == Family::face || g.family == Family::face;
           const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
           if ((face ? 0 : vertex ? 2 : 1) != wanted || !canMeet(f, g)) continue;
@@ -177,7 +177,7 @@ struct Touching {
         }
   }
 
-  bool isOpen(const Front& f, const Front& g) const {
+  bool isOpen(const FacingFeature& f, const FacingFeature& g) const {
     if (f.family == Family::face) return a.solid().faces[static_cast<std::size_t>(f.index)].open;
     return b.solid().faces[static_cast<std::size_t>(g.index)].open;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,9 +45,9 @@ FeaturePair facing(const PlacedPiece& p, const Vec3& direction, GapKind with_ver
   return piece_is_a ? pairOf(kind, feature, face, sign) : pairOf(kind, face, feature, sign);
 }
 
-class Search {
+class WitnessSearch {
  public:
-  Search(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess) : a_(a), b_(b), guess_(guess) {
+  WitnessSearch(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess) : a_(a), b_(b), guess_(guess) {
     best_.separation = -std::numeric_limits<double>::infinity();
   }
 
@@ -236,13 +237,13 @@ Witness witnessAlong(const PlacedPiece& a, const PlacedPiece& b, const Vec3& n) 
   return w;
 }
 
-Witness findDirection(const PlacedPiece& a, const PlacedPiece& b) { return Search(a, b, Vec3::Zero()).byPointsAlone(); }
+Witness findDirection(const PlacedPiece& a, const PlacedPiece& b) { return WitnessSearch(a, b, Vec3::Zero()).byPointsAlone(); }
 
 Witness findWitness(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess) {
   if (b.halfSpace()) return againstPlane(a, b);
   if (a.halfSpace()) return swapped(againstPlane(b, a));
   if (a.piece->core == Piece::Core::point && b.piece->core == Piece::Core::point) return ballBall(a, b);
-  return Search(a, b, guess).run();
+  return WitnessSearch(a, b, guess).run();
 }
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/detail/dual_event.hpp"
 
 #include <algorithm>

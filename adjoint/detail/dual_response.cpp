@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "adjoint/detail/dual_rotation.hpp"
+#include "adjoint/errors.h"
 
 // The variational equations of flight_triaxial_sensitivity.cpp in dual numbers with K directions: M at the start of the
 // arc, the moments, the products of inertia. For a full symmetric A = J^-1, with B = dA of a column,
@@ -204,6 +207,7 @@ BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wante
   // (dM, eta) so far by the columns
   Columns dM = Columns::Zero(3, count), eta = Columns::Zero(3, count);
   for (Eigen::Index c = 0; c < 3; ++c) dM(c, c) = 1;
+  std::size_t made = 0;
   for (double done = 0; done < elapsed;) {
     steps.expand(M);
     const double h = std::min(elapsed - done, steps.step());
@@ -248,6 +252,9 @@ BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wante
     next_dM.rightCols(count - 3) += dM_step.rightCols(count - 3);
     eta = next_eta, dM = next_dM;
     M = M_end, R = R_end;
+    if (!last && (++made == TriaxialRotation::kMostSegments || !(done + h > done)))
+      throw NotComputable("the second derivative of a rotation takes more than " +
+                          std::to_string(TriaxialRotation::kMostSegments) + " series to follow");
     done = last ? elapsed : done + h;
   }
   BodyResponse out;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/detail/dual_rotation.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/detail/lanes.hpp"
 
 namespace carom::detail {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/detail/reach.hpp"
 
 #include <algorithm>

@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/impact/complementarity.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "adjoint/errors.h"
 
 namespace carom {
 
@@ -9,7 +12,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// An eigen-decomposition of numbers that are not finite ends nowhere.
+void requireComputable(const MatrixXd& A, const VectorXd& b) {
+  if (!A.allFinite() || !b.allFinite())
+    throw NotComputable("the effective masses of its contacts are beyond the range of doubles");
+}
+
+}  // namespace
+
 LeastNormSolve::LeastNormSolve(const MatrixXd& A, const VectorXd& b) {
+  requireComputable(A, b);
+  if (b.size() == 0) {  // no contact: no impulse
+    inverse = rest = A;
+    y = inverse_y = b;
+    return;
+  }
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
   const VectorXd& values = eigen.eigenvalues();  // in increasing order
   const MatrixXd& vectors = eigen.eigenvectors();
@@ -45,7 +64,7 @@ Contacts spread(const MatrixXd& A, const VectorXd& b, const VectorXd& y, Contact
   Contacts met;
   for (Index i = 0; i < b.size(); ++i)
     if (y[i] > 0 || std::abs(w[i]) <= 1e-9 * scale) met.push_back(static_cast<int>(i));
-  if (met.size() == active.size()) return active;
+  if (met.empty() || met.size() == active.size()) return active;
   const LeastNormSolve solve(A(met, met), b(met));
   if ((A(met, met) * solve.y + b(met)).cwiseAbs().maxCoeff() > 1e-9 * scale) return active;
   const double least = 1e-9 * solve.y.cwiseAbs().maxCoeff();
@@ -58,6 +77,8 @@ Contacts spread(const MatrixXd& A, const VectorXd& b, const VectorXd& y, Contact
 // impulse that would turn negative.
 std::vector<int> activeContacts(const MatrixXd& A, const VectorXd& b) {
   const Index n = b.size();
+  requireComputable(A, b);
+  if (n == 0) return {};
   const double tolerance = 1e-13 * b.cwiseAbs().maxCoeff();
   std::vector<bool> in(static_cast<std::size_t>(n), false);
   VectorXd y = VectorXd::Zero(n);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +7,8 @@
 namespace carom {
 
 /// y = -A^+ b for symmetric positive semidefinite A with b in its range, and its derivatives at constant rank:
-/// dy = -A^+ (db + dA y) + (1 - A A^+) dA A^+ y.
+/// dy = -A^+ (db + dA y) + (1 - A A^+) dA A^+ y. Throws NotComputable for numbers that are not finite; of no size it is
+/// empty.
 struct LeastNormSolve {
   Eigen::MatrixXd inverse, rest;  ///< A^+, 1 - A A^+
   Eigen::VectorXd y, inverse_y;
@@ -18,7 +20,7 @@ struct LeastNormSolve {
 
 /// Contacts, in increasing order, that have an impulse in the solution of y >= 0, A y + b >= 0, complementary, with A
 /// symmetric positive semidefinite (equation 4.3). Where redundant contacts leave a choice, the impulses
-/// are spread over all of them.
+/// are spread over all of them. Throws NotComputable for numbers that are not finite.
 std::vector<int> activeContacts(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 }  // namespace carom

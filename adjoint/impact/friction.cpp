@@ -1,18 +1,19 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/detail/single_laws.hpp"
 #include "adjoint/impact/law.h"
 
 namespace carom {
 namespace {
 
-using Terms = detail::FrictionTerms<double>;
+using FrictionNumbers = detail::FrictionTerms<double>;
 
-ImpactSolution solve(const ImpactProblem& problem) {
+ImpactSolution solveFrictionLaw(const ImpactProblem& problem) {
   const ContactSolution s = solveFriction(onlyContact(problem));
   return {s.P, s.mode, s.stick_slip_margin};
 }
 
-Eigen::VectorXd tangent(const ImpactProblem& problem, const ImpactProblemDerivative& dp) {
-  const Terms t(onlyContact(problem));
+Eigen::VectorXd frictionTangent(const ImpactProblem& problem, const ImpactProblemDerivative& dp) {
+  const FrictionNumbers t(onlyContact(problem));
   const Vec3 dn = dp.normal[0], du = dp.u;
   const Mat3 dK = dp.K;
   const double de = dp.pair[0].elasticity, dmu = dp.pair[0].friction, det = dp.pair[0].tangential_elasticity;
@@ -31,17 +32,17 @@ Eigen::VectorXd tangent(const ImpactProblem& problem, const ImpactProblemDerivat
   return de * t.P_I + t.e1 * dP_I + dkappa * t.d + t.kappa * dd;
 }
 
-void pullback(const ImpactProblem& problem, const Eigen::VectorXd& P_bar, ImpactProblemDerivative& bar) {
-  Terms(onlyContact(problem)).pullback(P_bar, bar);
+void frictionPullback(const ImpactProblem& problem, const Eigen::VectorXd& P_bar, ImpactProblemDerivative& bar) {
+  FrictionNumbers(onlyContact(problem)).pullback(P_bar, bar);
 }
 
 }  // namespace
 
 ContactSolution solveFriction(const ContactProblem& problem) {
-  const Terms t(problem);
+  const FrictionNumbers t(problem);
   return {t.impulse(), t.slides ? ImpactMode::slide : ImpactMode::stick, t.margin};
 }
 
-const ImpactLaw kFrictionLaw{"friction", solve, tangent, pullback};
+const ImpactLaw kFrictionLaw{"friction", solveFrictionLaw, frictionTangent, frictionPullback};
 
 }  // namespace carom

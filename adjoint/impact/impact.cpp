@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/impact/impact.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "adjoint/errors.h"
 
 namespace carom {
 
@@ -167,6 +170,14 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
 
 namespace {
 
+bool isFinite(const State& s) { return s.v.allFinite() && s.L.allFinite(); }
+
+void requireContacts(const Event& event) {
+  for (const Contact& c : event.contacts)
+    if (!(std::isfinite(c.at.gap) && c.at.point.allFinite() && c.impulse_normal.allFinite()))
+      throw NotComputable("its features give the contact no point or no normal");
+}
+
 void record(Contact& c, const Vec3& u, const Vec3& P) {
   c.approach = c.at.normal.dot(u);
   c.impulse = P;
@@ -200,14 +211,7 @@ void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector
   }
 }
 
-}  // namespace
-
-void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
-  after.clear();
-  if (event.contacts.size() == 1) {
-    solveSingle(event, models, after);
-    return;
-  }
+void solveJoint(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
   const ImpactAssembly assembly(event, models);
   const ImpactProblem& problem = assembly.problem();
   const ImpactSolution solution = lawFor(problem).solve(problem);
@@ -218,6 +222,20 @@ void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector
   }
   event.margins = marginsOf(event.contacts[0], problem.u.head<3>(), solution.stick_slip_margin);
   after = assembly.after(solution.P);
+}
+
+}  // namespace
+
+void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
+  after.clear();
+  requireContacts(event);
+  if (event.contacts.size() == 1) {
+    solveSingle(event, models, after);
+  } else {
+    solveJoint(event, models, after);
+  }
+  if (!std::all_of(after.begin(), after.end(), isFinite))
+    throw NotComputable("its impulses, or the velocities after it, are beyond the range of doubles");
 }
 
 }  // namespace carom

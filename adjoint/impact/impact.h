@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>
@@ -52,7 +53,8 @@ class ImpactAssembly {
   ImpactProblem problem_;
 };
 
-/// Fills in impulses, mode, approach and margins of an event and gives the states of its participants after it.
+/// Fills in impulses, mode, approach and margins of an event and gives the states of its participants after it. Throws
+/// NotComputable where these are not finite numbers.
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after);
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <cmath>
 
 #include "adjoint/detail/joint_law.hpp"
@@ -23,12 +24,12 @@ VectorXd tangentOf(const detail::DirectedSolve<double>& s, const ImpactProblem& 
   return dC * s.solve.y + C * s.solve.tangent(dA, db);
 }
 
-ImpactSolution solve(const ImpactProblem& p) {
+ImpactSolution solveJointLaw(const ImpactProblem& p) {
   const Branch b(p);
   return {b.P_N + b.kappa * b.d, ImpactMode::joint, b.limit < 0 ? b.margin : 1.0};
 }
 
-VectorXd tangent(const ImpactProblem& p, const ImpactProblemDerivative& dp) {
+VectorXd jointTangent(const ImpactProblem& p, const ImpactProblemDerivative& dp) {
   const Branch b(p);
   VectorXd dshare(static_cast<Index>(b.normal_active.size()));
   for (std::size_t c = 0; c < b.normal_active.size(); ++c)
@@ -63,12 +64,12 @@ VectorXd tangent(const ImpactProblem& p, const ImpactProblemDerivative& dp) {
   return dP_N + dkappa * b.d + b.kappa * dd;
 }
 
-void pullback(const ImpactProblem& p, const VectorXd& P_bar, ImpactProblemDerivative& bar) {
+void jointLawPullback(const ImpactProblem& p, const VectorXd& P_bar, ImpactProblemDerivative& bar) {
   detail::jointPullback<double>(p, P_bar, bar);
 }
 
 }  // namespace
 
-const ImpactLaw kJointLaw{"joint", solve, tangent, pullback};
+const ImpactLaw kJointLaw{"joint", solveJointLaw, jointTangent, jointLawPullback};
 
 }  // namespace carom

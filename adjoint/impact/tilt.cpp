@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/impact/tilt.h"
 
 #include "adjoint/detail/tilt_frame.hpp"

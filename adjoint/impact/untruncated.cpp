@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/impact/untruncated.h"
 
 #include <Eigen/Cholesky>
@@ -7,8 +8,8 @@
 namespace carom {
 namespace {
 
-struct Terms {
-  explicit Terms(const ContactProblem& p) : Kn(p.K * p.normal), u_n(p.normal.dot(p.u)), a(p.normal.dot(Kn)), K(p.K) {
+struct UntruncatedTerms {
+  explicit UntruncatedTerms(const ContactProblem& p) : Kn(p.K * p.normal), u_n(p.normal.dot(p.u)), a(p.normal.dot(Kn)), K(p.K) {
     P_I = -(u_n / a) * p.normal;
     P_II = -K.solve(p.u);
     e1 = 1 + p.pair.elasticity;
@@ -24,12 +25,12 @@ struct Terms {
 }  // namespace
 
 Vec3 untruncatedImpulse(const ContactProblem& problem) {
-  const Terms t(problem);
+  const UntruncatedTerms t(problem);
   return t.e1 * t.P_I + t.et1 * (t.P_II - t.P_I);
 }
 
 ContactProblemBar untruncatedImpulsePullback(const ContactProblem& problem, const Vec3& P_bar) {
-  const Terms t(problem);
+  const UntruncatedTerms t(problem);
   ContactProblemBar bar;
   bar.pair.elasticity = P_bar.dot(t.P_I);
   bar.pair.tangential_elasticity = P_bar.dot(t.P_II - t.P_I);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/shapes/kinds.h"
 
 namespace carom::shapes {
@@ -6,7 +7,7 @@ namespace {
 const Vec3& size(const Shape& s) { return std::get<Box>(s).size; }
 
 // V = x y z, I_x = (y^2 + z^2)/12 and so on
-SolidProperties properties(const Shape& s) {
+SolidProperties boxProperties(const Shape& s) {
   const double x = size(s).x(), y = size(s).y(), z = size(s).z();
   SolidProperties p;
   p.volume = x * y * z;
@@ -17,7 +18,8 @@ SolidProperties properties(const Shape& s) {
   return p;
 }
 
-SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+SolidProperties boxPropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  requireDimensions(d, 3);
   const double x = size(s).x(), y = size(s).y(), z = size(s).z(), dx = d[0], dy = d[1], dz = d[2];
   SolidProperties p;
   p.volume = dx * y * z + x * dy * z + x * y * dz;
@@ -36,10 +38,13 @@ ShapeKind boxKind() {
             return std::vector<std::string>{"x", "y", "z"};
           },
           [](const Shape& s) { return Eigen::VectorXd(size(s)); },
-          [](Shape& s, const Eigen::VectorXd& d) { std::get<Box>(s).size = d.head<3>(); },
+          [](Shape& s, const Eigen::VectorXd& d) {
+            requireDimensions(d, 3);
+            std::get<Box>(s).size = d.head<3>();
+          },
           alwaysSolid,
-          properties,
-          propertiesRate,
+          boxProperties,
+          boxPropertiesRate,
           [](const Shape& s) { return 0.5 * size(s).norm(); }};
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <numbers>
 
 #include "adjoint/detail/dual.hpp"
@@ -5,8 +6,6 @@
 
 namespace carom::shapes {
 namespace {
-
-const Capsule& get(const Shape& s) { return std::get<Capsule>(s); }
 
 // A cylinder and two half balls. With w = h + 4r/3:
 //   V   = pi r^2 w
@@ -42,13 +41,14 @@ SolidProperties solidOf(const Numbers<S>& n, const Pick& number) {
   return p;
 }
 
-SolidProperties properties(const Shape& s) {
-  return solidOf(Numbers<double>(get(s).radius, get(s).height), [](double x) { return x; });
+SolidProperties capsuleProperties(const Shape& s) {
+  return solidOf(Numbers<double>(as<Capsule>(s).radius, as<Capsule>(s).height), [](double x) { return x; });
 }
 
-SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+SolidProperties capsulePropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  requireDimensions(d, 2);
   using Number = detail::Dual<1>;
-  Number r = get(s).radius, h = get(s).height;
+  Number r = as<Capsule>(s).radius, h = as<Capsule>(s).height;
   r.rate[0] = d[0], h.rate[0] = d[1];
   return solidOf(Numbers<Number>(r, h), [](const Number& x) { return x.rate[0]; });
 }
@@ -61,16 +61,17 @@ ShapeKind capsuleKind() {
             return std::vector<std::string>{"radius", "height"};
           },
           [](const Shape& s) {
-            return dimensionsOf({get(s).radius, get(s).height});
+            return dimensionsOf({as<Capsule>(s).radius, as<Capsule>(s).height});
           },
           [](Shape& s, const Eigen::VectorXd& d) {
+            requireDimensions(d, 2);
             std::get<Capsule>(s).radius = d[0];
             std::get<Capsule>(s).height = d[1];
           },
           alwaysSolid,
-          properties,
-          propertiesRate,
-          [](const Shape& s) { return get(s).radius + get(s).height / 2; }};
+          capsuleProperties,
+          capsulePropertiesRate,
+          [](const Shape& s) { return as<Capsule>(s).radius + as<Capsule>(s).height / 2; }};
 }
 
 }  // namespace carom::shapes

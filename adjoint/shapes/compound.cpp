@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 
 #include "adjoint/detail/dual.hpp"
@@ -29,6 +30,7 @@ Eigen::VectorXd dimensions(const Shape& s) {
 }
 
 void setDimensions(Shape& s, const Eigen::VectorXd& values) {
+  requireDimensions(values, dimensions(s).size());
   Eigen::Index first = 0;
   for (CompoundPart& part : std::get<Compound>(s).parts) {
     const ShapeKind& kind = kindOf(part.shape);
@@ -123,7 +125,7 @@ SolidOf<S> combined(const Shape& s, const OfPart& of_part) {
   return p;
 }
 
-SolidProperties properties(const Shape& s) {
+SolidProperties compoundProperties(const Shape& s) {
   const SolidOf<double> sum = combined<double>(s, [](const Shape& part) {
     const SolidProperties solid = kindOf(part).properties(part);
     SolidOf<double> out{solid.volume, solid.center, solid.unit_inertia, {}};
@@ -149,7 +151,8 @@ Number withRate(double value, double rate) {
   return n;
 }
 
-SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& dimension_rates) {
+SolidProperties compoundPropertiesRate(const Shape& s, const Eigen::VectorXd& dimension_rates) {
+  requireDimensions(dimension_rates, dimensions(s).size());
   Eigen::Index first = 0;
   const SolidOf<Number> sum = combined<Number>(s, [&](const Shape& part) {
     const SolidProperties a = kindOf(part).properties(part);
@@ -185,7 +188,7 @@ double boundingRadius(const Shape& s) {
 }  // namespace
 
 ShapeKind compoundKind() {
-  return {"compound", names, dimensions, setDimensions, solid, properties, propertiesRate, boundingRadius};
+  return {"compound", names, dimensions, setDimensions, solid, compoundProperties, compoundPropertiesRate, boundingRadius};
 }
 
 }  // namespace carom::shapes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <cmath>
 #include <numbers>
 
@@ -6,12 +7,10 @@
 namespace carom::shapes {
 namespace {
 
-const Cylinder& get(const Shape& s) { return std::get<Cylinder>(s); }
-
 // V = pi r^2 h, I_x = I_y = r^2/4 + h^2/12, I_z = r^2/2
-SolidProperties properties(const Shape& s) {
+SolidProperties cylinderProperties(const Shape& s) {
   constexpr double pi = std::numbers::pi;
-  const double r = get(s).radius, h = get(s).height, x = r * r / 4 + h * h / 12;
+  const double r = as<Cylinder>(s).radius, h = as<Cylinder>(s).height, x = r * r / 4 + h * h / 12;
   SolidProperties p;
   p.volume = pi * r * r * h;
   p.unit_inertia = diagonal(x, x, r * r / 2);
@@ -20,9 +19,10 @@ SolidProperties properties(const Shape& s) {
   return p;
 }
 
-SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+SolidProperties cylinderPropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  requireDimensions(d, 2);
   constexpr double pi = std::numbers::pi;
-  const double r = get(s).radius, h = get(s).height, dr = d[0], dh = d[1], dx = r * dr / 2 + h * dh / 6;
+  const double r = as<Cylinder>(s).radius, h = as<Cylinder>(s).height, dr = d[0], dh = d[1], dx = r * dr / 2 + h * dh / 6;
   SolidProperties p;
   p.volume = pi * r * (2 * dr * h + r * dh);
   p.unit_inertia = diagonal(dx, dx, r * dr);
@@ -39,16 +39,17 @@ ShapeKind cylinderKind() {
             return std::vector<std::string>{"radius", "height"};
           },
           [](const Shape& s) {
-            return dimensionsOf({get(s).radius, get(s).height});
+            return dimensionsOf({as<Cylinder>(s).radius, as<Cylinder>(s).height});
           },
           [](Shape& s, const Eigen::VectorXd& d) {
+            requireDimensions(d, 2);
             std::get<Cylinder>(s).radius = d[0];
             std::get<Cylinder>(s).height = d[1];
           },
           alwaysSolid,
-          properties,
-          propertiesRate,
-          [](const Shape& s) { return std::hypot(get(s).radius, get(s).height / 2); }};
+          cylinderProperties,
+          cylinderPropertiesRate,
+          [](const Shape& s) { return std::hypot(as<Cylinder>(s).radius, as<Cylinder>(s).height / 2); }};
 }
 
 }  // namespace carom::shapes

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
+#include "adjoint/arguments.h"
 #include "adjoint/shape.h"
 
 namespace carom::shapes {
@@ -14,11 +16,22 @@ ShapeKind hullKind();
 ShapeKind meshKind();
 ShapeKind compoundKind();
 
+/// The shape as the kind that its row is for.
+template <class Kind>
+const Kind& as(const Shape& shape) {
+  return std::get<Kind>(shape);
+}
+
 /// A vector of dimensions.
 inline Eigen::VectorXd dimensionsOf(std::initializer_list<double> values) {
   Eigen::VectorXd d(static_cast<Eigen::Index>(values.size()));
   std::copy(values.begin(), values.end(), d.data());
   return d;
+}
+
+/// Throws InputError unless there is a number for each dimension.
+inline void requireDimensions(const Eigen::VectorXd& given, Eigen::Index count) {
+  checkCount("dimensions of a shape", "numbers", static_cast<std::size_t>(given.size()), static_cast<std::size_t>(count));
 }
 
 inline Mat3 diagonal(double x, double y, double z) { return Vec3(x, y, z).asDiagonal(); }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <limits>
 
 #include "adjoint/errors.h"
@@ -9,7 +10,7 @@ ShapeKind planeKind() {
   return {"plane",
           [](const Shape&) { return std::vector<std::string>{}; },
           [](const Shape&) { return Eigen::VectorXd(0); },
-          [](Shape&, const Eigen::VectorXd&) {},
+          [](Shape&, const Eigen::VectorXd& d) { requireDimensions(d, 0); },
           [](const Shape&) { return false; },
           [](const Shape&) -> SolidProperties {
             throw InputError("found the mass properties of a plane asked for, expected a shape with a volume");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "adjoint/shapes/scaled_surface.h"
 
 #include <algorithm>

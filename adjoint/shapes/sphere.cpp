@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <numbers>
 
 #include "adjoint/shapes/kinds.h"
@@ -5,11 +6,9 @@
 namespace carom::shapes {
 namespace {
 
-const Sphere& get(const Shape& s) { return std::get<Sphere>(s); }
-
 // V = 4/3 pi r^3, I = 2/5 r^2 about every axis
-SolidProperties properties(const Shape& s) {
-  const double r = get(s).radius, area = 4 * std::numbers::pi * r * r;
+SolidProperties sphereProperties(const Shape& s) {
+  const double r = as<Sphere>(s).radius, area = 4 * std::numbers::pi * r * r;
   SolidProperties p;
   p.volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
   p.unit_inertia = 0.4 * r * r * Mat3::Identity();
@@ -17,8 +16,9 @@ SolidProperties properties(const Shape& s) {
   return p;
 }
 
-SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
-  const double r = get(s).radius, dr = d[0];
+SolidProperties spherePropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
+  requireDimensions(d, 1);
+  const double r = as<Sphere>(s).radius, dr = d[0];
   SolidProperties p;
   p.volume = 4 * std::numbers::pi * r * r * dr;
   p.unit_inertia = 0.8 * r * dr * Mat3::Identity();
@@ -31,12 +31,15 @@ SolidProperties propertiesRate(const Shape& s, const Eigen::VectorXd& d) {
 ShapeKind sphereKind() {
   return {"sphere",
           [](const Shape&) { return std::vector<std::string>{"radius"}; },
-          [](const Shape& s) { return dimensionsOf({get(s).radius}); },
-          [](Shape& s, const Eigen::VectorXd& d) { std::get<Sphere>(s).radius = d[0]; },
+          [](const Shape& s) { return dimensionsOf({as<Sphere>(s).radius}); },
+          [](Shape& s, const Eigen::VectorXd& d) {
+            requireDimensions(d, 1);
+            std::get<Sphere>(s).radius = d[0];
+          },
           alwaysSolid,
-          properties,
-          propertiesRate,
-          [](const Shape& s) { return get(s).radius; }};
+          sphereProperties,
+          spherePropertiesRate,
+          [](const Shape& s) { return as<Sphere>(s).radius; }};
 }
 
 }  // namespace carom::shapes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Cells of a map with one outcome as boxes for gnuplot, neighbours in a row joined: x low, x high, y low, y high, in
 # powers of ten where an axis is logarithmic.
 #   awk -F, -v method=ODE -v outcome=missed -v xlog=1 -v ylog=0 -f boxes.awk MAP.csv

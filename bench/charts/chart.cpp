@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/charts/chart.h"
 
 #include <unistd.h>

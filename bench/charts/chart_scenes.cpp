@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/charts/chart_scenes.h"
 
 #include <cmath>

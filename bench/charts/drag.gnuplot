@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 width = 900
 height = 440
 load "style.gnuplot"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Restitution towards 0 and 1: a ball dropped from 1 m, at half of the time in which its bounces come to an end, or
 // after 5 s where they go on for longer; and once more when they have ended.
 

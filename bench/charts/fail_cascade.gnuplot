@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 methods = '"ODE" "Bullet" "MuJoCo" "carom"'
 titles = '"ODE" "Bullet" "MuJoCo" "carom (has no steps)"'
 xlog = 1

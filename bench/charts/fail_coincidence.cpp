@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two impacts that nearly fall together: a ball strikes two others, the second one a little later. However short the
 // time between the two, what happens is one impact after the other; at no time between them it is a matter of choice.
 

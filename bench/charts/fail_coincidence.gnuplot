@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 xstep = 2
 methods = '"ODE" "Bullet" "MuJoCo" "carom"'
 titles = '"ODE at 1e-3 s" "Bullet at 1e-3 s" "MuJoCo at 1e-3 s" "carom; light blue: solved as one, and says so"'

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Stick and slide: a ball without spin strikes a floor under gravity-free flight, at some angle and with some friction.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grazing angle against elasticity: a ball flies past a fixed one and just touches it.
 
 #include <cmath>

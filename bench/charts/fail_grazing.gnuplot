@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 methods = '"ODE" "Bullet" "MuJoCo" "carom gradient"'
 titles = '"ODE at 1e-3 s" "Bullet at 1e-3 s" "MuJoCo at 1e-3 s" "carom; light blue: motion right, gradient marked unreliable"'
 xlog = 1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Number of impacts: a ball flies among fixed ones, which scatter it. How fast small changes of its throw grow, how
 // soon engines have lost its path, and how often an edit, which moves the ball's place at the end by two centimetres,
 // succeeds by single and by multiple shooting.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mass ratio: a heavy ball drives a light one against a wall. The light one flies to and fro between them, faster and
 // faster, until the heavy one has turned round; all impacts are elastic. With masses 1 and 100^k the number of impacts
 // is the first k + 1 digits of pi (G. Galperin, Regular and Chaotic Dynamics 8, 2003).

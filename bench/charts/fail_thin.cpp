@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Spin against thinness: a spinning plate is thrown at a fixed plate as thin as itself.
 
 #include <cmath>

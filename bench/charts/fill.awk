@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # For fill_documents: FIGURES DOCUMENT. A line of FIGURES is a key, a tab and its text. Prints the document filled; says
 # what is wrong with its marks, by file and line, and ends with 1 then. tables: the folder of what NAME.table printed.
 BEGIN { stray = "found <!--/-->, the end of a figure, without a key that begins one" }

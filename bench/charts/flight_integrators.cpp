@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ways to carry the rotation of a free body: error of the orientation against time, for tops of many kinds; and how the
 // time grows with the angle that is turned in a flight.
 

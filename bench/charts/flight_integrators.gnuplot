@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 width = 1150
 height = 1150
 load "style.gnuplot"

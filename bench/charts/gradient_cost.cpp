@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a gradient costs, over what the simulation costs, as controls, impacts and bodies become more; and what memory
 // the motion and its linearisations take.
 

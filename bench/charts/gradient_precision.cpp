@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Error of derivatives against the time that they take: all states at the end by every number of the scene, by adjoint
 // and tangent passes, by central differences of carom and of engines of fixed steps, and by MuJoCo's own differences of
 // single steps; against differences in 50-digit arithmetic.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What exact second derivatives cost and what they spare: the same edits as nonlinear programs, from the start, solved
 // by Ipopt with exact second derivatives, with a secant update and with its own limited memory.
 

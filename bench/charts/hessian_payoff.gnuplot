@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 width = 1050
 height = 430
 load "style.gnuplot"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What it costs to model more than a scene needs: the tier of flight that carom picks against the next richer ones, the
 // law without friction against that with it, and events recorded or not. And what `carom info` says of scenes.
 

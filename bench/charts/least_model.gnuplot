@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 width = 900
 height = 620
 load "style.gnuplot"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Makes room for one legend below the plots of a multiplot; the next `plot NaN ... title` fills it.
 unset title
 unset border

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Draws a map in four panels. The caller sets `methods` and `titles` (of the panels), xlog, ylog, labels and ranges (in
 # powers of ten on a logarithmic axis), and may set `overlay`, plotted over every panel.
 width = 1000

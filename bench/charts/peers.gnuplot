@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # of the optional comparison, bench/peers/run
 width = 1150
 height = 800

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Read before every NAME.table and NAME.figures (see fill_documents): skips comments and headings, so that what follows
 # sees rows only, and gives them words. Cells are without commas. machine: the first line, what was measured on.
 FNR == 1 { named = 0; machine = substr($0, 3) }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Energy and angular momentum of free tops over many revolutions, by the ways of flight_integrators.cpp.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What all charts share; `csv` and `svg` are set by bench/charts/make.
 set terminal svg size width,height dynamic enhanced font "sans-serif,13" background "white"
 set output svg

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // State error at the end against wall time per simulated second: carom (as it is, and along a known impact sequence
 // with other models of flight) beside engines of fixed steps.
 

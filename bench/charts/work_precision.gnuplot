@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 width = 1000
 height = 900
 load "style.gnuplot"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/edits/best_known.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Solves a set of edits that the program makes itself, by several ways, and says how many of them were met, how fast,
 // and how small the changes are.
 //   edits_bench --tasks 300 --config search --failures

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/edits/outcome.h"
 
 #include <chrono>

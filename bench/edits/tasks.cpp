@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/edits/tasks.h"
 
 #include <Eigen/SVD>

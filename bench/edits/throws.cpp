@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/edits/throws.h"
 
 #include "ode_bridge/convex_hull.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "bench/edits/wanted.h"
 
 namespace carom::bench {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # peer: carom
 # builds: b=${BUILD:-build/release}; cmake --preset release -B "$b" -DCAROM_BENCH=ON && cmake --build "$b" -t carom_peer
 """carom itself, as a library: carom_peer.cpp, with the problems written as scene documents."""

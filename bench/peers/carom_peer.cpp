@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom on the work of its peers: reads a scene document, simulates it, reads numbers at the end and derives each by
 // every number of the scene in one adjoint pass; prints all, and the time of one simulation with its derivatives.
 //   carom_peer scene.json REPETITIONS BODY.QUANTITY.INDEX...   QUANTITY: position velocity angular_velocity rotation

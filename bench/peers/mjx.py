@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # peer: MJX
 # requires: jax==0.10.2 mujoco==4.0.0 mujoco-mjx==3.17.0
 # package: mujoco-mjx

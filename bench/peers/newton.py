@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # peer: Warp (Newton)
 # requires: warp-lang==1.19.0 newton==1.8.0 numpy==2.4.6
 # package: newton

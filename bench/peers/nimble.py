@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # peer: nimblephysics
 # environment: torch
 # requires: torch==1.13.1 numpy==1.26.4 nimblephysics==0.10.52.1

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What every peer's program shares: it times, and prints one answer a line in JSON, as soon as there is one."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The problems that every peer is given, their exact answers, and how an answer is judged.
 
 Peers read the numbers alone. The answers need mpmath and are computed by score.py: closed forms, or a Taylor series in

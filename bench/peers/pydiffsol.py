@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # peer: diffsol
 # requires: pydiffsol==0.6.2 numpy==2.4.6
 # package: pydiffsol

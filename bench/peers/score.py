@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Judges the answers of the peers and writes the CSV file: score.py ANSWERS_FOLDER OUT.csv MACHINE_LINE.
 
 ANSWERS_FOLDER has, for each peer that ran, PEER.jsonl (its answers, see peer.py), PEER.name, PEER.package and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Contacts that are damped springs which do not pull, with the restitution of a lone impact that is wanted.
 
 Restitution by damping ratio: T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # peer: torchdiffeq
 # environment: torch
 # requires: torch==1.13.1 numpy==1.26.4 scipy==1.17.1 torchdiffeq==0.2.5

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/controls/control_binding.h"
 
 #include <algorithm>
@@ -12,8 +13,10 @@ namespace {
 
 /// Lower bound of strictly positive numbers that are weighed linearly, relative to their start.
 constexpr double kSmallestFraction = 1e-6;
+/// Least weight, and the inverse of the largest: changes in the solver's measure, and their squares, stay numbers.
+constexpr double kLeastWeight = 1e-12;
 
-std::string allWords() {
+std::string controlWords() {
   std::vector<std::string> words;
   for (const ControlKind* kind : controlKinds()) words.push_back(kind->word);
   return listOf(words);
@@ -85,10 +88,11 @@ BoundControl bindControl(Scene& scene, const Control& control, const std::string
   bound.control = control;
   bound.kind = findControlKind(control.vary);
   if (!bound.kind) {
-    throw InputError(where + "/vary", "found '" + control.vary + "', expected one of " + allWords());
+    throw InputError(where + "/vary", "found '" + control.vary + "', expected one of " + controlWords());
   }
-  if (!(control.weight > 0) || !std::isfinite(control.weight)) {
-    throw InputError(where + "/weight", "found " + number(control.weight) + ", expected a number greater than 0");
+  if (!(control.weight >= kLeastWeight && control.weight <= 1 / kLeastWeight)) {
+    throw InputError(where + "/weight", "found " + number(control.weight) + ", expected a number from " +
+                                            number(kLeastWeight) + " to " + number(1 / kLeastWeight));
   }
   bound.owner = findOwner(scene, control, *bound.kind, where);
   if (bound.kind->owner == OwnerKind::impact) bound.cone = coneOf(control, where);

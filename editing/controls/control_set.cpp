@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "editing/controls/control_set.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "adjoint/arguments.h"
 #include "adjoint/errors.h"
 #include "editing/controls/control_binding.h"
 #include "editing/text.h"
@@ -23,6 +25,11 @@ double changeOf(const Variable& v, double value) {
   if (!v.logarithmic) return (value - v.start) / v.scale;
   if (value <= 0) return -std::numeric_limits<double>::infinity();
   return std::log(value / v.start) / v.scale;
+}
+
+/// One number a variable.
+void checkSize(const char* call, const Eigen::VectorXd& values, int size) {
+  checkCount(call, "numbers", static_cast<std::size_t>(values.size()), static_cast<std::size_t>(size));
 }
 
 }  // namespace
@@ -117,6 +124,8 @@ Eigen::VectorXd ControlSet::slots(int control, const Eigen::VectorXd& values) co
 }
 
 Scene ControlSet::sceneAt(const Eigen::VectorXd& values) const {
+  checkSize("sceneAt", values, size());
+  checkEntries("sceneAt", "a value of", values);
   Scene scene = written_;
   for (std::size_t c = 0; c < controls_.size(); ++c) {
     const BoundControl& bound = controls_[c];
@@ -126,6 +135,7 @@ Scene ControlSet::sceneAt(const Eigen::VectorXd& values) const {
 }
 
 Eigen::VectorXd ControlSet::gather(const SceneGradient& gradient, const Eigen::VectorXd& values) const {
+  checkSize("gather", values, size());
   Eigen::VectorXd out(size());
   int last = -1;
   Eigen::VectorXd of_control;
@@ -163,6 +173,8 @@ Eigen::VectorXd ControlSet::valueBends(const Eigen::VectorXd& changes) const {
 }
 
 SceneTangent ControlSet::scatter(const Eigen::VectorXd& rates, const Eigen::VectorXd& values) const {
+  checkSize("scatter", rates, size());
+  checkSize("scatter", values, size());
   SceneTangent tangent(start_);
   for (std::size_t c = 0; c < controls_.size(); ++c) {
     const BoundControl& bound = controls_[c];
@@ -176,6 +188,7 @@ SceneTangent ControlSet::scatter(const Eigen::VectorXd& rates, const Eigen::Vect
 }
 
 Eigen::VectorXd ControlSet::valuesOf(const Eigen::VectorXd& changes) const {
+  checkSize("valuesOf", changes, size());
   Eigen::VectorXd values(size());
   for (int i = 0; i < size(); ++i) {
     const Variable& v = variables_[i];
@@ -187,6 +200,7 @@ Eigen::VectorXd ControlSet::valuesOf(const Eigen::VectorXd& changes) const {
 }
 
 Eigen::VectorXd ControlSet::valueRates(const Eigen::VectorXd& changes) const {
+  checkSize("valueRates", changes, size());
   Eigen::VectorXd rates(size());
   for (int i = 0; i < size(); ++i) {
     const Variable& v = variables_[i];
@@ -208,7 +222,7 @@ Eigen::VectorXd ControlSet::upperChanges() const {
 }
 
 std::string ControlSet::describeVariable(int variable) const {
-  const Variable& v = variables_[variable];
+  const Variable& v = variables_[checkedIndex("describeVariable", "variable", variable, variables_.size())];
   const Control& control = controls_[v.control].control;
   if (v.component == "value") return carom::describe(control);
   std::string text = carom::describe(control);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Controls of what a body is: mass, principal moments, the dimensions of its shape.
 //
 // A derivative by one number holds all others as written, so the number that varies must itself be written: a body

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Controls of a material: elasticity in [0, 1], friction >= 0, tangential elasticity in [-1, 1].
 
 #include "editing/controls/control_families.h"

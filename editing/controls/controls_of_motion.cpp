@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Controls of how things start to move: position, orientation, velocity, angular velocity; and gravity.
 //
 // Orientation is a world rotation vector u applied on the left of the written orientation: R = exp([u]x) R_written. Its

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/controls/extended_controls.h"
 
 #include <algorithm>

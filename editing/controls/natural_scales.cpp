@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/controls/natural_scales.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/controls/validity_rows.h"
 
 #include "editing/controls/control_families.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -8,6 +9,9 @@
 #include "editing/controls/control_set.h"
 
 namespace carom {
+
+/// Validity is kept this far from its limit, so that what a solver's tolerance lets through is still valid.
+inline constexpr double kValidityMargin = 1e-7;
 
 /// What physics demands of several controls together, as dimensionless rows h(values) >= 0:
 ///  - moments of inertia that vary:  h_i = (I_j + I_k - I_i) / (sum of the moments at the start)

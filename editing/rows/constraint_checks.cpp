@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/constraint_checks.h"
 
 #include <cmath>
@@ -8,7 +9,7 @@
 namespace carom {
 namespace {
 
-std::string allWords() {
+std::string quantityWords() {
   std::vector<std::string> words;
   for (const QuantityKind* kind : quantityKinds()) words.push_back(kind->word);
   return listOf(words);
@@ -73,7 +74,7 @@ void checkNumbers(const Target& target, const QuantityKind& kind, const std::str
 
 const QuantityKind& checkedKind(const Target& target, const When& at, const std::string& where) {
   const QuantityKind* kind = findQuantityKind(target.quantity);
-  if (!kind) throw InputError(where, "found '" + target.quantity + "', expected one of " + allWords());
+  if (!kind) throw InputError(where, "found '" + target.quantity + "', expected one of " + quantityWords());
   const std::string place = where + "/" + target.quantity;
   checkNumbers(target, *kind, place);
   if (kind->only_at_impacts && at.impact == 0) {

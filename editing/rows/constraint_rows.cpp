@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/constraint_rows.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace carom {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Times of a span that are looked at for a start; what is chosen among them is only that.
 constexpr int kLooks = 64;
 

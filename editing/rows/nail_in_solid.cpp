@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/nail_in_solid.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/quantities.h"
 
 #include "adjoint/so3_rates.h"
@@ -113,14 +114,14 @@ const QuantityKind kTime{"time", 1, 1, true, true, false, &NaturalScales::time, 
 const QuantityKind kPoint{"point",      3,       3,         false,        false, true, &NaturalScales::length,
                           threeNumbers, pointOf, pointSeed, pointSeedRate};
 
-const QuantityKind* const kTable[] = {&kPosition, &kOrientation, &kVelocity, &kAngularVelocity, &kTime, &kPoint};
+const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation, &kVelocity, &kAngularVelocity, &kTime, &kPoint};
 
 }  // namespace
 
-std::span<const QuantityKind* const> quantityKinds() { return kTable; }
+std::span<const QuantityKind* const> quantityKinds() { return kQuantityTable; }
 
 const QuantityKind* findQuantityKind(const std::string& word) {
-  for (const QuantityKind* kind : kTable) {
+  for (const QuantityKind* kind : kQuantityTable) {
     if (word == kind->word) return kind;
   }
   return nullptr;

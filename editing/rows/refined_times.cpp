@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/refined_times.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 /// Each is 0.618 of the one before: together they take a span to below its rounding.
 constexpr int kSections = 75;
 /// Share of a span on either side of a time that is looked at, no less than the distance of the times compared before.
-constexpr double kReach = 1.0 / 64;
+constexpr double kShareOfSpan = 1.0 / 64;
 
 /// Sum of the squares of the residuals of the rows of one constraint; infinite where they do not exist.
 double missOf(const ConstraintSet& constraints, const RowValues& rows, int constraint) {
@@ -37,7 +38,7 @@ Eigen::VectorXd refinedTimes(const ConstraintSet& constraints, const Motion& mot
       return miss;
     };
     missAt(best);
-    const double reach = kReach * (free.to - free.from);
+    const double reach = kShareOfSpan * (free.to - free.from);
     double lo = std::max(free.from, best - reach), hi = std::min({free.to, motion.end, best + reach});
     double a = hi - golden * (hi - lo), b = lo + golden * (hi - lo);
     double miss_a = hi > lo ? missAt(a) : 0, miss_b = hi > lo ? missAt(b) : 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/region_rows.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ struct Stretch {
 };
 
 // A clearance at s, and its gradient by the place in the axes of the region.
-struct Candidate {
+struct PlaceOnWay {
   double value = std::numeric_limits<double>::infinity();
   double s = 0;
   Vec3 gradient = Vec3::Zero();
@@ -40,7 +41,7 @@ struct Candidate {
   Vec3 between = Vec3::Zero();  // of two faces: difference of their normals
 };
 
-void keepLower(Candidate& best, const Candidate& candidate) {
+void keepLower(PlaceOnWay& best, const PlaceOnWay& candidate) {
   if (candidate.value < best.value) best = candidate;
 }
 
@@ -53,8 +54,8 @@ std::vector<double> stationary(const Polynomial<N>& p, double lo, double hi) {
   return times;
 }
 
-Candidate leastToSphere(const Stretch& stretch, double radius, double margin, double side) {
-  Candidate best;
+PlaceOnWay leastToSphere(const Stretch& stretch, double radius, double margin, double side) {
+  PlaceOnWay best;
   for (double s : stationary<4>(stretch.squaredDistance(), stretch.lo, stretch.hi)) {
     const Vec3 y = stretch.placeAt(s);
     const double distance = y.norm();
@@ -75,9 +76,9 @@ Polynomial<2> faceDistance(const Stretch& stretch, const Vec3& half, int face) {
 }
 Vec3 faceNormal(int face) { return (face % 2 == 0 ? 1 : -1) * Vec3::Unit(face / 2); }
 
-Candidate leastToFace(const Stretch& stretch, const Vec3& half, double margin, int face) {
+PlaceOnWay leastToFace(const Stretch& stretch, const Vec3& half, double margin, int face) {
   const Polynomial<2> d = faceDistance(stretch, half, face);
-  Candidate best;
+  PlaceOnWay best;
   for (double s : stationary<2>(d, stretch.lo, stretch.hi))
     keepLower(best, {-valueAt<2>(d, s) - margin, s, -faceNormal(face)});
   return best;
@@ -85,7 +86,7 @@ Candidate leastToFace(const Stretch& stretch, const Vec3& half, double margin, i
 
 // The upper envelope of the distances to the six faces is least at an end, at the vertex of one of them, or where two
 // of them cross; there its derivative is the mean of theirs that is stationary in time.
-Candidate leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
+PlaceOnWay leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
   std::array<Polynomial<2>, 6> d;
   for (int f = 0; f < 6; ++f) d[static_cast<std::size_t>(f)] = faceDistance(stretch, half, f);
   const auto highest = [&](double s) {
@@ -94,7 +95,7 @@ Candidate leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
       if (valueAt<2>(d[static_cast<std::size_t>(f)], s) > valueAt<2>(d[static_cast<std::size_t>(best)], s)) best = f;
     return best;
   };
-  Candidate best;
+  PlaceOnWay best;
   const auto tryAt = [&](double s) {
     const int face = highest(s);
     keepLower(best, {valueAt<2>(d[static_cast<std::size_t>(face)], s) - margin, s, faceNormal(face)});
@@ -112,7 +113,7 @@ Candidate leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
         const double rate_f = valueAt<1>(derivativeOf<2>(d[f]), s), rate_g = valueAt<1>(derivativeOf<2>(d[g]), s);
         if (!(rate_f * rate_g < 0)) continue;  // the envelope goes on falling, or rising
         const double weight = rate_g / (rate_g - rate_f);
-        const Candidate crossing{
+        const PlaceOnWay crossing{
             value - margin, s,
             weight * faceNormal(static_cast<int>(f)) + (1 - weight) * faceNormal(static_cast<int>(g)), 0,
             faceNormal(static_cast<int>(f)) - faceNormal(static_cast<int>(g))};
@@ -123,7 +124,7 @@ Candidate leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
   return best;
 }
 
-Candidate least(const Stretch& stretch, const BoundRegion& bound, int component) {
+PlaceOnWay least(const Stretch& stretch, const BoundRegion& bound, int component) {
   const bool avoid = bound.region.side == Region::Side::avoid;
   if (const auto* sphere = std::get_if<Sphere>(&bound.region.shape))
     return leastToSphere(stretch, sphere->radius, bound.margin, avoid ? 1 : -1);
@@ -169,7 +170,7 @@ std::optional<Clearance> leastClearance(const Motion& motion, int body, const Bo
     if (end < bound.from || line.arcs[k].start() > bound.to) continue;
     const double from = std::max(bound.from, line.arcs[k].start()), to = std::min(bound.to, end);
     const Stretch stretch = stretchOf(line.arcs[k], bound.region, from, to);
-    const Candidate candidate = least(stretch, bound, component);
+    const PlaceOnWay candidate = least(stretch, bound, component);
     if (!(candidate.value < clearance.value)) continue;
     // the start of a later arc is the end of the one before
     if (candidate.s == stretch.lo && from > bound.from && clearance.value < std::numeric_limits<double>::infinity())

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/relative.h"
 
 namespace carom {

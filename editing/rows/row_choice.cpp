@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/row_choice.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/search/alternatives.h"
 
 #include "editing/search/sequence_search.h"

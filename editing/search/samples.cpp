@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/search/samples.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@ namespace carom {
 namespace {
 
 /// Half widths of boxes and lengths along free directions, natural scales; used in turn.
-constexpr double kReach[] = {0.1, 0.3, 1, 0.03, 0.5, 0.2, 3};
+constexpr double kSampleRadii[] = {0.1, 0.3, 1, 0.03, 0.5, 0.2, 3};
 /// Shares of a Gauss-Newton step; used in turn.
 constexpr double kShares[] = {1, 0.5, 1.5, 0.75, 0.25, 2};
 
@@ -40,13 +41,13 @@ Eigen::VectorXd inBox(const EvenPoints& points, int k, const Eigen::VectorXd& ce
 Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre) {
   Eigen::VectorXd x = centre;
   const int n = static_cast<int>(x.size()), turn = k / (2 * n);
-  x[(k / 2) % n] += (k % 2 ? -1 : 1) * inTurn(kReach, turn);
+  x[(k / 2) % n] += (k % 2 ? -1 : 1) * inTurn(kSampleRadii, turn);
   return x;
 }
 
 Eigen::VectorXd along(int k, const Surroundings& s) {
   Eigen::VectorXd x = s.at + inTurn(kShares, k) * s.step;
-  const double reach = inTurn(kReach, k / 2) * (k < 2 ? 0 : 1);  // the step itself first
+  const double reach = inTurn(kSampleRadii, k / 2) * (k < 2 ? 0 : 1);  // the step itself first
   if (s.free.cols() > 0) x += reach * (s.free * EvenPoints(s.free.cols()).onSphere(k));
   return x;
 }
@@ -90,7 +91,7 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
     const int kind = i % kinds, k = i / kinds;
     Eigen::VectorXd x;
     if (kind == 0) {
-      x = inBox(points, k, centre, inTurn(kReach, k), lower, upper);
+      x = inBox(points, k, centre, inTurn(kSampleRadii, k), lower, upper);
     } else if (kind == 1) {
       x = alone(k, centre);
     } else {

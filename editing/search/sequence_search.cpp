@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/search/sequence_search.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace carom {
 namespace {
 
-constexpr int kRounds = 8;
+constexpr int kSampleRounds = 8;
 constexpr int kSamples = 64;
 /// Of each group so many points, the nearest to the constraints, are looked at more closely.
 constexpr std::size_t kOfEachGroup = 2;
@@ -61,7 +62,7 @@ void SequenceSearch::forAll(std::size_t count, const Work& work) {
 
 bool SequenceSearch::round(Seek seek) {
   if (search_.problem().unknowns() == 0) return false;  // nowhere to go
-  if (round_ == kRounds || !search_.goesOn()) return false;
+  if (round_ == kSampleRounds || !search_.goesOn()) return false;
   const std::vector<EditPointPtr> points = sample();
   if (!reportBatch()) return false;
   const std::vector<EditPointPtr> landed = land(promising(points, seek), seek);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The differential updates of a gesture: steps from first derivatives, each tried by simulation.
 #include <algorithm>
 #include <cmath>
@@ -40,8 +41,6 @@ constexpr double kHardly = 0.99;
 constexpr double kNearer = 0.5;
 /// Steps from the best point, along a border, and from samples; samples of which the best is followed.
 constexpr int kSteps = 8, kStepsAlong = 5, kStepsElsewhere = 6, kBatch = 3;
-/// Validity is kept a little away from its limit.
-constexpr double kValidityMargin = 1e-7;
 
 }  // namespace
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A gesture on part of the scene: the bodies that can matter, with what came of it verified by a simulation of all.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gestures that solve: a body dragged about, a nail added.
 #include <algorithm>
 #include <cmath>

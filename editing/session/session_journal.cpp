@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/session/session_journal.h"
 
 #include "editing/controls/control_binding.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sentences about a gesture: what changed on the way, what stands in its way.
 #include <algorithm>
 #include <cmath>

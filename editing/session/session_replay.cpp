@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/session/session_replay.h"
 
 #include <algorithm>

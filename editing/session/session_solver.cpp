@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/session/session_solver.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace carom {
 namespace {
 
-/// An impact that is held may come later than at the start: so much of its time is simulated.
-constexpr double kMarginAfterLast = 1.25;
 /// From this share of the duration on all of it is simulated, so that the motion to show is there already.
 constexpr double kNearlyAll = 0.8;
 /// What a nail is worth against the goal while neither is met.

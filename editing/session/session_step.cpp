@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/session/session_step.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ constexpr double kRank = 1e-10;
 /// Singular values of the soft rows below this fraction of the largest move nothing.
 constexpr double kSoftRank = 1e-9;
 /// Bounds and rows that a step would cross are added one round after the other, so often at most.
-constexpr int kRounds = 12;
+constexpr int kActiveSetRounds = 12;
 /// A row within is crossed when it ends this far below 0.
 constexpr double kCrossed = 1e-12;
 /// Steps of a costless unknown count so much less than those of the others.
@@ -187,7 +188,7 @@ Step hierarchicalStep(const StepProblem& problem) {
   for (Eigen::Index i = 0; i < problem.within.size(); ++i)
     if (problem.within.r[i] < 0) active.push_back(i);
   Step step;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kActiveSetRounds; ++round) {
     step = solver.solve(free, fixed, active);
     const bool stopped = stopAtBounds(problem, step.d, free, fixed);
     if (!activate(problem, step.d, active) && !stopped) break;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What an update says: the motion, how far it is from what was asked for, and why.
 #include <algorithm>
 #include <cmath>

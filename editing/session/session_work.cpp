@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/session/session_work.h"
 
 #include <cmath>

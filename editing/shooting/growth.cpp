@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/shooting/growth.h"
 
 #include <algorithm>

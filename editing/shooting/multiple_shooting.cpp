@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/shooting/multiple_shooting.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace carom {
 namespace {
 
-constexpr int kPolishSteps = 15;
+constexpr int kShootingPolishSteps = 15;
 /// From about this growth on segments were seen to solve more places than the whole motion (docs/editing.md).
 constexpr double kLongMotion = 100;
 /// Segments are made so long that small changes grow by about this factor over each.
@@ -40,7 +41,7 @@ SolverResult solveProgram(EditSearch& search, ShootingProgram& program, int max_
 /// The motion that the controls of a solution really have, brought onto the constraints.
 EditPointPtr wholeMotion(EditSearch& search, const EditPoint& from, const SolverResult& result) {
   const EditPointPtr point = search.evaluate(result.x.head(search.problem().unknowns()));
-  return point ? projectOntoConstraints(search, point, kPolishSteps, &from.signature) : nullptr;
+  return point ? projectOntoConstraints(search, point, kShootingPolishSteps, &from.signature) : nullptr;
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/shooting/shooting_program.h"
 
 #include <algorithm>
@@ -11,10 +12,7 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t kRecentPoints = 3;
-/// As in single shooting: validity is kept a little away from its limit.
-constexpr double kValidityMargin = 1e-7;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kRecentShots = 3;
 
 bool holdsTime(const ConstraintSet& constraints, const Row& row) {
   return row.target >= 0 && row.name == "time" &&
@@ -132,7 +130,7 @@ ShootingProgram::Point* ShootingProgram::at(const Eigen::VectorXd& x) {
              [&](std::size_t s) { point.segments[s] = segments_.segments[s].evaluate(x); });
   if (std::any_of(point.segments.begin(), point.segments.end(), [](const SegmentPointPtr& p) { return !p; }))
     return nullptr;
-  if (recent_.size() == kRecentPoints) recent_.erase(recent_.begin());
+  if (recent_.size() == kRecentShots) recent_.erase(recent_.begin());
   recent_.push_back(std::move(point));
   return &recent_.back();
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/shooting/state_parts.h"
 
 #include <algorithm>

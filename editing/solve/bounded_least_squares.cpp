@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/bounded_least_squares.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/edit_program.h"
 
 #include <algorithm>
@@ -8,10 +9,6 @@
 
 namespace carom {
 namespace {
-
-/// Validity is kept a little away from its limit, so that what the solver's tolerance lets through is still valid.
-constexpr double kValidityMargin = 1e-7;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

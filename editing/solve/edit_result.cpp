@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/edit_result.h"
 
 #include <algorithm>

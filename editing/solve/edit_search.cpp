@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/edit_search.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace carom {
 namespace {
 
 constexpr std::size_t kRecentPoints = 4;
-/// An impact that is held may come later than at the start: so much of its time is simulated at first.
-constexpr double kMarginAfterLast = 1.25;
 /// No number is followed further than this, in natural scales: where constraints stand against each other steps may
 /// lead to any speed and spin, and so to motions of any cost.
 constexpr double kFarthest = 1e3;

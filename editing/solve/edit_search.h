@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <chrono>
@@ -11,6 +12,9 @@
 
 /// Points, and how one is improved. Internal to editing/.
 namespace carom {
+
+/// An impact that is held may come later than at the start: so much of its time is simulated at first.
+inline constexpr double kMarginAfterLast = 1.25;
 
 /// One evaluated point of a search.
 struct EditPoint {

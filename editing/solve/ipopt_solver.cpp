@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/ipopt_solver.h"
 
 #include <IpIpoptApplication.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/linear_reach.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ LinearReach::LinearReach(const EditSearch& search, EditPoint& point) {
   lower = search.lower() - point.changes, upper = search.upper() - point.changes;
   for (Index j = 0; j < n && j < problem.controls.size(); ++j) {
     const Variable& v = problem.controls.variables()[static_cast<std::size_t>(j)];
-    const double reach = kReach * problem.controls.controls()[static_cast<std::size_t>(v.control)].control.weight;
+    const double reach = kLargestStep * problem.controls.controls()[static_cast<std::size_t>(v.control)].control.weight;
     lower[j] = std::clamp(lower[j], -reach, 0.0), upper[j] = std::clamp(upper[j], 0.0, reach);
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>
@@ -8,7 +9,7 @@
 namespace carom {
 
 /// No number is followed further than this from the point, in natural scales.
-inline constexpr double kReach = 10;
+inline constexpr double kLargestStep = 10;
 
 /// The rows of a point as linear functions of a step, within bounds. All dimensionless.
 struct LinearReach {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/nonlinear_program.h"
 
 namespace carom {

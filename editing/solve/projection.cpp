@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/solve/projection.h"
 
 #include <Eigen/Cholesky>
@@ -11,7 +12,7 @@ namespace {
 /// Validity rows nearer than this to their limit are held at it.
 constexpr double kActiveValidity = 1e-6;
 /// Steps across the border of an impact sequence that may make things worse at first.
-constexpr int kLeaps = 8;
+constexpr int kProjectionLeaps = 8;
 /// Where rounding leaves nothing to improve.
 constexpr double kExact = 1e-14;
 /// Steps of a free time count so much less than those of a control.
@@ -175,7 +176,7 @@ EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int m
     EditPointPtr full, next;
     if (damping <= kLeastDamping) next = descend(search, *point, smallestStep(search, *point), signature, full);
     // At the border of two impact sequences the violation may have a kink that no descent leaves.
-    const bool may_leap = !signature && full && leaps < kLeaps && full->signature != point->signature;
+    const bool may_leap = !signature && full && leaps < kProjectionLeaps && full->signature != point->signature;
     if (!next && may_leap) next = full, ++leaps;
     // Where even a short way along the undamped step is too far, the rows are nearly dependent.
     const bool nearly_met = point->violation <= search.options().tolerance;

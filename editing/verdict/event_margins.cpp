@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/verdict/event_margins.h"
 
 #include <cmath>

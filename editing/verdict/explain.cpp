@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/verdict/explain.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ struct Explanation {
         if (!std::isfinite(bound) || !(std::abs(y - bound) <= 1e-7 * (1 + std::abs(bound)))) continue;
         WhyNot::AtBound at{v.control, problem.controls.describeVariable(j), upper ? v.upper : v.lower, upper, 0, 0};
         LinearReach freed = reach;
-        (upper ? freed.upper : freed.lower)[j] = upper ? kReach : -kReach;
+        (upper ? freed.upper : freed.lower)[j] = upper ? kLargestStep : -kLargestStep;
         const LinearReach::Nearest now = freed.nearest(freed.allRows());
         at.removes = outOfReach() ? share(nearest.off, now.off) : 0;
         at.change = now.step[j] * problem.rates(point.changes)[j];
@@ -94,7 +95,7 @@ struct Explanation {
     const Eigen::Index n = reach.J.cols();
     for (const Candidate& c : candidates) {
       LinearReach extended = reach;
-      const Eigen::VectorXd far = Eigen::VectorXd::Constant(c.lower.size(), kReach);
+      const Eigen::VectorXd far = Eigen::VectorXd::Constant(c.lower.size(), kLargestStep);
       extended.extend(c.columns, c.lower.cwiseMax(-far).cwiseMin(0), c.upper.cwiseMin(far).cwiseMax(0));
       const LinearReach::Nearest now = extended.nearest(extended.allRows());
       WhyNot::Help help{c.control, c.name, share(nearest.off, now.off), 0, false, false, false};

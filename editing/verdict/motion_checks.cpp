@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/verdict/motion_checks.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the meshes of the example scenes.
 //   make_assets FOLDER           writes mug.obj, cup.obj and pin.obj there
 //   make_assets --check FOLDER   tells whether the files there are what it would write

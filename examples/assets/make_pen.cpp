@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: MIT
 // Makes the scene of many balls in a pen.
-//   make_pen 500 pen_500.json
+//   make_pen 500 examples/scenes/pen_500.json
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -45,6 +46,8 @@ Body wall(const std::string& name, const Vec3& size, const Vec3& position) {
 
 Document pen(int count) {
   Document document;
+  document.name = std::to_string(count) + " balls in a pen";
+  document.schema = "formats/scene.schema.json";  // from the repository's folder, where this is run
   document.duration = 1;
   Scene& scene = document.scene;
   scene.materials.push_back({.name = "rubber", .elasticity = 0.98, .friction = 0.05});

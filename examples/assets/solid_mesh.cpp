@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "examples/assets/solid_mesh.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Private to formats/*.cpp.
 #pragma once
 

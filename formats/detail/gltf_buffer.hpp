@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ struct Accessor;
 
 namespace carom {
 
-/// Appends arrays to the one buffer of a model and returns the index of the accessor of each. Vertices and indices that
+/// Appends arrays to the one buffer of a model and returns the index of the accessor of each. Vectors and rotations are
+/// given in our axes, z up, and stored in glTF's, y up (gltf_frame.hpp). Vertices and indices that
 /// are there already, as those of equal bodies, are used again. Throws InputError, with `what` as the place, for a
 /// number that is not finite as a float.
 class GltfBuffer {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct TriangleMesh {
 
 /// Mesh of a shape in its own axes: round shapes inscribed, hulls and meshes as they are, compounds part by part (parts
 /// that overlap stay apart). Round surfaces and shallow edges have smooth normals, others flat ones. A plane becomes a
-/// square of the given half width in x and z about the origin, facing +y (as glTF's implicit plane).
+/// square of the given half width in x and y about the origin, facing +z, whatever its normal: that is its node's turn.
 TriangleMesh meshOf(const Shape& shape, double plane_half_width);
 
 /// Adds the faces of a hull or mesh, coordinates times `scale`.

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Private to formats/*.cpp. What a glTF file says about physics (KHR_physics_rigid_bodies, KHR_implicit_shapes), in its
-// own words and axes: y up, round shapes along y, every node in the axes of its parent.
+// own words but in our axes: z up, for the axes of every node too (gltf_frame.hpp), so that round shapes lie along z and
+// planes face z. Every node is in the axes of its parent.
 #pragma once
 
 #include <optional>
@@ -14,15 +16,15 @@
 
 namespace carom::gltf {
 
-/// A capsule or cylinder along y. Heights of capsules are between the centres of their ends.
+/// A capsule or cylinder along z. Heights of capsules are between the centres of their ends.
 struct Tapered {
   bool capsule = false;
-  double height = 0.5, bottom = 0.25, top = 0.25;  ///< m; radii at -y and +y
+  double height = 0.5, bottom = 0.25, top = 0.25;  ///< m; radii at -z and +z
 };
 
-/// A plane through the origin that faces +y; infinite where it has no size.
+/// A plane through the origin that faces +z; infinite where it has no size.
 struct Sheet {
-  std::optional<double> size_x, size_z;  ///< m
+  std::optional<double> size_x, size_y;  ///< m
   bool double_sided = false;
 };
 
@@ -93,6 +95,8 @@ inline constexpr double kSame = 1e-12;
 /// compared by name. The nodes' own names and poses are not compared.
 bool samePhysics(const PhysicsNode& a, const std::vector<FileMaterial>& materials_a, const PhysicsNode& b,
                  const std::vector<FileMaterial>& materials_b);
+/// Whether they are in the same place and turned alike. An infinite plane may lie anywhere in itself.
+bool samePlace(const PhysicsNode& a, const PhysicsNode& b);
 bool sameMaterial(const Material& a, const Material& b);
 
 }  // namespace carom::gltf

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <map>
@@ -18,8 +19,8 @@ namespace carom {
 /// Where the surfaces of a scene are in a file: indices of meshes.
 using SurfaceMeshes = std::map<const Surface*, int>;
 
-/// A body as glTF has it, in our axes (the file's root node turns them): the node at the shape's origin with the
-/// motion, if it moves, and its collider; colliders that need a place, a turn or a scale of their own are below it.
+/// A body as glTF has it, in our axes: the node at the shape's origin (that of a plane: on it, facing along it) with the
+/// motion, if it moves, and its collider; colliders that need a pose or a scale of their own are below it.
 /// Materials are numbered as in the scene; the one after the last stands for bodies that name none.
 gltf::PhysicsNode physicsNodeOf(const Scene& scene, int body, const BodyModel& model, const SurfaceMeshes& meshes);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Private to formats/*.cpp: the parts of readPhysics.
 #pragma once
 

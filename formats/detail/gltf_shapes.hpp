@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Private to formats/*.cpp.
 #pragma once
 
@@ -13,7 +14,7 @@ class Model;
 
 namespace carom::gltf {
 
-/// Turn from the axes of our shape (round shapes along z, planes facing z) to those of the collider's node.
+/// Turn from the axes of our shape to those of the collider's node: half a turn for a plane that is mirrored over.
 Quat axesOf(const ColliderShape& shape, const Mat3& stretch);
 
 /// Shapes of colliders, scaled by the stretch of their nodes. Surfaces are made once for all who use them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Private to formats/*.cpp: a .hpp is not installed, so that no public header shows a JSON type.
 #pragma once
 
@@ -30,11 +31,17 @@ std::string describe(const Json& value);
 /// The text with blanks in place of control characters: names from files stand in messages of one line.
 std::string oneLine(std::string text);
 
-/// The member of `known` that `word` is most likely a misspelling of; empty when none is near.
-std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
 /// "a, b, c"
 std::string listed(const std::vector<std::string>& words);
+/// What `word`, none of them, most likely should have been: "; did you mean \"b\"?", or nothing.
+std::string hintFor(std::string_view word, const std::vector<std::string>& known);
+/// Both: "a, b, c; did you mean \"b\"?"
+std::string expectedOf(std::string_view word, const std::vector<std::string>& known);
 
 [[noreturn]] void fail(const std::string& where, const std::string& found, const std::string& expected);
+
+/// The document begins with the member `name` with the value 1. To be asked first of all: a document of another version
+/// may break every other rule.
+void requireVersion(const Json& document, const std::string& name);
 
 }  // namespace carom::detail

@@ -1,29 +1,51 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/detail/svg_canvas.hpp"
 
 namespace carom {
 
-/// Finds free places for labels in a panel: beside their anchors, away from marks and other labels, and where it can be
-/// from paths. The first come are served best.
+/// Where a label is: never on another one, on a mark or on a leader line, and within its panel.
+struct PlacedLabel {
+  PixelBox box;
+  Vec2 baseline;                                ///< start of the line of text
+  std::optional<std::pair<Vec2, Vec2>> leader;  ///< a line from the mark to the words, where they stand apart
+};
+
+/// Finds free places for labels in a panel: as near to their marks as can be, and where there is a choice not on paths.
+/// The first come are served best. The cost of a label does not depend on how many there are.
 class LabelPlacer {
  public:
-  explicit LabelPlacer(const PixelBox& panel) : panel_(panel) {}
+  explicit LabelPlacer(const PixelBox& panel);
 
-  void avoid(const PixelBox& mark) { taken_.push_back(mark); }
-  void avoidIfPossible(const Vec2& point) { points_.push_back(point); }
+  /// Nothing may be written on a mark.
+  void avoid(const PixelBox& mark);
+  /// Something is drawn here that words would hide.
+  void avoidIfPossible(const Vec2& point);
+  void avoidIfPossible(const PixelBox& box);
 
-  /// Baseline start of a line of text beside a mark of the given radius; the place is taken from then on.
-  Vec2 place(const Vec2& anchor, double radius, const std::string& words, double font_size);
+  /// A place for bold words beside a mark of the given radius, which is taken from then on; nothing if there is none.
+  /// What is large has several anchors.
+  std::optional<PlacedLabel> place(const std::vector<Vec2>& anchors, double radius, const std::string& words,
+                                   double font_size);
 
  private:
-  double costOf(const PixelBox& box) const;
+  std::optional<PlacedLabel> labelAt(const PixelBox& box, const Vec2& anchor, double radius) const;
+  void take(const PlacedLabel& label);
+  bool isFree(const PixelBox& box) const;
+  bool leaderIsFree(const Vec2& from, const Vec2& to, const Vec2& anchor, double radius) const;
+  double inkUnder(const PixelBox& box) const;
   PixelBox panel_;
   std::vector<PixelBox> taken_;
-  std::vector<Vec2> points_;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> taken_near_;  // by squares of the panel
+  int ink_columns_, ink_rows_;
+  std::vector<char> ink_;  // whether something is drawn in each small square
 };
 
 }  // namespace carom

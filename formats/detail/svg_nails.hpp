@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -23,6 +24,7 @@ struct NailMark {
   std::string label;                  ///< such as "book at 1.2 s"
   Vec3 target = Vec3::Zero();         ///< nailed place, NaN where free; where the body is, when no place is nailed
   bool nails_position = false;        ///< of the body or one of its points
+  std::optional<Vec3> place;          ///< the nailed place, free components from the motion; none where it has none
   std::optional<AllowedBox> allowed;  ///< where a component of the place has a range, or its axes are another body's
   std::optional<Quat> orientation;    ///< nailed, to world
   std::optional<Vec3> pose_origin;    ///< where the nailed pose is drawn: the target, free components from the motion

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -15,5 +16,9 @@ struct Silhouette {
 
 /// Of any shape but a plane, at the pose x, q.
 Silhouette silhouetteOf(const Shape& shape, const Vec3& x, const Quat& q, const View& view);
+/// The area alone, its border off by at most `tolerance` pixels; holes and parts smaller than that are left out.
+std::string silhouetteArea(const Shape& shape, const Vec3& x, const Quat& q, const View& view, double tolerance);
+/// The convex hull of the area, which takes few characters whatever the shape.
+std::string silhouetteHull(const Shape& shape, const Vec3& x, const Quat& q, const View& view, double tolerance);
 
 }  // namespace carom

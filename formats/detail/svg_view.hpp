@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -34,7 +35,22 @@ struct View {
 /// The part of a convex polygon where normal . p <= offset.
 std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, const Vec2& normal, double offset);
 
-/// SVG path data of the path of a body's centre of mass; arcs of flight are parabolas, which SVG draws exactly.
-std::string pathData(const Motion& motion, int body, const View& view);
+/// SVG path data of the path of a body's centre of mass: off by at most `tolerance` pixels, which is more than
+/// 2 kPathRounding. Arcs of flight that are seen as curves are parabolas, which SVG draws exactly; of flat ones the ends
+/// are joined, and thinned out.
+std::string pathData(const Motion& motion, int body, const View& view, double tolerance);
+
+/// A place of a path with the time that it stands for.
+struct PathSample {
+  Vec2 pixel;
+  double seconds = 0;
+};
+
+/// Places along the path of a body, each in the middle of an equal share of its arc's time: in the mean at most `step`
+/// pixels apart, and no more than `most` of them (but one an arc).
+std::vector<PathSample> samplesOfPath(const Motion& motion, int body, const View& view, double step, double most);
+
+/// The length of a path in pixels; of curved arcs rather too long.
+double lengthOfPath(const Motion& motion, int body, const View& view);
 
 }  // namespace carom

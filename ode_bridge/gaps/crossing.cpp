@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps/crossing.hpp"
 
 namespace carom::gaps {

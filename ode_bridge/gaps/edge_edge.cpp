@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps/rows.hpp"
 
 // phi = n.w - r_1 - r_2, w = Q_1 - Q_2, c = d_1 x d_2, n = +-c/|c|; the nearest point of edge 2 is Q_2 + t_2 d_2 with

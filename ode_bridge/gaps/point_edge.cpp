@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps/rows.hpp"
 
 // phi = |w| - r_1 - r_2, w = (1 - d d^T)(P - Q), n = w/|w|, p = P - r_1 n.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps/rows.hpp"
 
 // phi = N.(P - Q) - r, n = N, p = P - r n; N = -direction of the face for sign < 0, which is the back of a sheet.

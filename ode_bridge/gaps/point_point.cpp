@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps/rows.hpp"
 
 // phi = |w| - r_1 - r_2, w = P - Q, n = w/|w|, p = Q + r_2 n.

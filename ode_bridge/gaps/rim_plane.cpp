@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps/rows.hpp"
 
 // phi = N.(C - Q) - rho |d x N|, n = N, p = C + rho u, u = -(N - d d.N)/|N - d d.N|; N = -direction of the face for

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/gaps/rows.hpp"
 
 // u = (1 - d d^T)(P - C)/|..|, p = C + rho u, w = p - P, phi = |w| - r, n = w/|w|.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -161,12 +162,12 @@ double chosenTheta(const RimBeforeRim<double>& rims, int sign) {
 }
 
 template <class S>
-struct Crossing {
+struct RimCrossing {
   CurvePoint<S> of_first, of_second;
 };
 
 template <class S>
-Crossing<S> nearest(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
+RimCrossing<S> nearestOnRims(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
   const bool first_moves = f.rim < g.rim;
   const FeatureOf<S>&moving = first_moves ? f : g, &still = first_moves ? g : f;
   const RimBeforeRim<S> rims(moving, still, alongBoth<S>(f, g));
@@ -182,13 +183,13 @@ Crossing<S> nearest(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
 }  // namespace
 
 ContactPoint rimRim(const WorldFeature& f, const WorldFeature& g, int sign) {
-  const Crossing<double> c = nearest<double>(f, g, sign);
+  const RimCrossing<double> c = nearestOnRims<double>(f, g, sign);
   return sharpCrossing(c.of_first, c.of_second, sign);
 }
 
 template <class S>
 JacobianOf<S> rimRimJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
-  const Crossing<S> c = nearest<S>(f, g, sign);
+  const RimCrossing<S> c = nearestOnRims<S>(f, g, sign);
   return sharpCrossingJacobian(c.of_first, c.of_second, sign);
 }
 CAROM_GAP_JACOBIAN(rimRimJacobian);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/solids/parts.h"
 
 namespace carom::solids {

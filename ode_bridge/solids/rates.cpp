@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/solids/solid.h"
 
 namespace carom {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ode_bridge/solids/solid.h"
 
 #include "adjoint/body_model.h"

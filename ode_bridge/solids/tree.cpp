@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +9,6 @@
 namespace carom::solids {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUp = 1 + 4 * std::numeric_limits<double>::epsilon();  // outweighs the rounding of a distance
 
 struct Ball {

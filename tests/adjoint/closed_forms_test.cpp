@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 // The closed forms of docs/equations.md section 8 for balls on planes and against each other.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "tests/adjoint/tolerances.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -11,8 +13,6 @@ namespace carom {
 namespace {
 
 using namespace test;
-
-constexpr double kState = 1e-12, kDerivative = 1e-9;
 
 /// A ball over a floor, y up.
 Scene ballOverFloor(double radius, double height, double velocity, double elasticity, double gravity) {

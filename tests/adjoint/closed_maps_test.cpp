@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The closed forms of docs/equations.md section 8 for a rod, and the laws that every motion keeps: masses have no
 // scale, and the elastic map from start to end keeps volume.
 
@@ -8,6 +9,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "tests/adjoint/tolerances.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -15,8 +17,6 @@ namespace carom {
 namespace {
 
 using namespace test;
-
-constexpr double kState = 1e-12, kDerivative = 1e-9;
 
 // A vertex at r = (r_x, r_z) from the centre of mass falls from rest at height h:
 // v- = -sqrt(2 g (h + r_z)), P = -(1 + e) v-/(1/m + r_x^2/I), v+ = v- + P/m, omega_y+ = -r_x P/I.

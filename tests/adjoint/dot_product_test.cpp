@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Equation 5.5: the tangent and the adjoint pass are each other's transpose, <J u, w> = <u, J^T w>, for every control,
 // impact law, flight tier and pair of features. Errors are relative to the sums of absolute products.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The closed form of free rotation by elliptic functions: the functions against those of the standard library, the
 // rotation against the series, and where there is none.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Impacts of every kind of shape: gradients against differences of high order, the transpose of equation 5.5, bodies in
 // reverse order, and, where a shape touches the floor with swept points, the same motion with those.
 

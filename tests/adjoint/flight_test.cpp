@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Free rotation: the tiers against each other and against Jacobi's closed form, and the choice of the tier.
 
 #include <gtest/gtest.h>

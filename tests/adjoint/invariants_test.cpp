@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every motion and every derivative keeps, whatever the scene: no reference is needed.
 
 #include <gtest/gtest.h>

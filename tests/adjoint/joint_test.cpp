@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 // Contacts of one instant are solved together (equation 4.3): landings and chains whose answer is known.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "tests/adjoint/tolerances.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -11,8 +13,6 @@ namespace carom {
 namespace {
 
 using namespace test;
-
-constexpr double kState = 1e-12, kDerivative = 1e-9;
 
 Body slab() { return makeBox("slab", {0.4, 0.3, 0.2}, {0, 0, 0.8}, {1, 0.5, -2}); }
 

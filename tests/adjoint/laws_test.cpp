@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Impact laws on their own, on random problems: energy, tangent against central differences, pullback against tangent;
 // and the tilt of the normal. A new law adds a row.
 

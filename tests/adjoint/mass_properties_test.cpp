@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mass properties of every shape against closed forms, and their rates against differences of high order.
 
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include <numbers>
 
 #include "adjoint/errors.h"
+#include "tests/adjoint/shapes.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 #include "tests/support/solids.h"
@@ -14,19 +16,12 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = std::numbers::pi;
-
 SolidProperties propertiesOf(const Shape& s) { return kindOf(s).properties(s); }
 
 Mat3 diagonal(double x, double y, double z) { return Vec3(x, y, z).asDiagonal(); }
-Mat3 turned(const Quat& q, const Mat3& m) { return q.toRotationMatrix() * m * q.toRotationMatrix().transpose(); }
 
 Mesh meshOf(const Triangles& t, double scale = 1) { return {t.surface(), scale, ""}; }
 Hull hullOf(const Triangles& t, double scale = 1) { return {t.surface(), scale, ""}; }
-
-CompoundPart part(const Shape& shape, const Vec3& x = Vec3::Zero(), const Quat& q = Quat::Identity()) {
-  return {shape, x, q};
-}
 
 // Every kind that has a volume, plain and nested.
 struct Named {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies whose centre of mass or principal axes are not their shape's: what they get for a model, where they are, and
 // that both passes agree on their derivatives (against 50 digits in tests/reference).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // adjoint/ needs no collision library: a ContactSource for balls over one horizontal floor, written here in full.
 
 #include <gtest/gtest.h>

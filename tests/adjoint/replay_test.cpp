@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Motions along a given impact sequence: the same bits at the scene they were taken from, what `simulate` gives beside
 // it, derivatives beyond the edges of features, and a status for each way in which a sequence cannot be followed.
 
@@ -25,7 +26,7 @@ Replay replayed(const Motion& like, const Scene& scene, double duration) {
 }
 
 /// Every number of every arc and impact, to the last bit.
-void expectSameBits(const Motion& found, const Motion& expected) {
+void expectSameArcsAndEvents(const Motion& found, const Motion& expected) {
   EXPECT_EQ(found.signature(), expected.signature());
   EXPECT_EQ(found.status, expected.status);
   EXPECT_EQ(found.end, expected.end);
@@ -67,7 +68,7 @@ TEST(Replay, SameSceneGivesTheSameBits) {
     ASSERT_TRUE(same.complete) << same.why_not;
     EXPECT_FALSE(same.order_changed || same.mode_changed);
     EXPECT_EQ(same.left_out, 0u);
-    expectSameBits(same.motion, like);
+    expectSameArcsAndEvents(same.motion, like);
   }
 }
 
@@ -78,7 +79,7 @@ TEST(Replay, SameSceneGivesTheSameBitsForAllShapesAndLaws) {
     const Motion like = play(scene, 3, row.impacts);
     const Replay same = replayed(like, scene, 3);
     ASSERT_TRUE(same.complete) << same.why_not;
-    expectSameBits(same.motion, like);
+    expectSameArcsAndEvents(same.motion, like);
   }
   for (const ShapePair& pair : pairsThatMeet())
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -87,7 +88,7 @@ TEST(Replay, SameSceneGivesTheSameBitsForAllShapesAndLaws) {
       const Motion like = play(t.scene, t.duration, 8);
       const Replay same = replayed(like, t.scene, t.duration);
       ASSERT_TRUE(same.complete) << same.why_not;
-      expectSameBits(same.motion, like);
+      expectSameArcsAndEvents(same.motion, like);
     }
 }
 
@@ -251,7 +252,7 @@ TEST(ReplayStatus, OrderOfDifferentBodies) {
   const Replay r = replayed(like, scene(1.3, 1.1), 0.6);
   ASSERT_TRUE(r.complete) << r.why_not;
   EXPECT_TRUE(r.order_changed);
-  expectSameBits(replayed(r.motion, scene(1.3, 1.1), 0.6).motion, r.motion);
+  expectSameArcsAndEvents(replayed(r.motion, scene(1.3, 1.1), 0.6).motion, r.motion);
   const Motion expected = play(scene(1.3, 1.1), 0.6);
   EXPECT_EQ(r.motion.signature(), expected.signature());
   expectTransposed(r.motion, 2);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Second derivatives without a reference: their matrix over scene numbers and reading times is symmetric (but for
 // turns, which do not commute), the gradient found on the way is the gradient, and closed forms hold.
 

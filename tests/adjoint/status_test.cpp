@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a motion ends when it cannot go on: a status, a sentence, and never a hang.
 
 #include <gtest/gtest.h>

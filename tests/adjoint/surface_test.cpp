@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces made of triangles: normals, edges and integrals against solids that are known; what is refused, and where.
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <numbers>
 
 #include "adjoint/errors.h"
+#include "tests/adjoint/shapes.h"
 #include "tests/support/compare.h"
 #include "tests/support/exact/vector.h"
 #include "tests/support/scenes.h"
@@ -20,15 +22,10 @@ using namespace test;
 using Real = boost::multiprecision::cpp_bin_float_100;
 using Exact = exact::Vec<Real>;
 
-const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
-constexpr double kPi = std::numbers::pi;
-
 Mat3 boxInertia(const Vec3& d) {
   const Vec3 q = d.cwiseAbs2() / 12;
   return Vec3(q.y() + q.z(), q.x() + q.z(), q.x() + q.y()).asDiagonal();
 }
-
-Mat3 turned(const Quat& q, const Mat3& m) { return q.toRotationMatrix() * m * q.toRotationMatrix().transpose(); }
 
 TEST(Surface, BoxOfTriangles) {
   const Vec3 size(0.3, 0.7, 1.1);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Products of differences to twice the digits, against a hundred digits.
 
 #include "adjoint/two_part.h"

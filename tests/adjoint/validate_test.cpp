@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scenes that are not physically meaningful are refused, with the place: one row a mistake.
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <limits>
 
 #include "adjoint/errors.h"
+#include "tests/adjoint/shapes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/solids.h"
 
@@ -13,8 +15,6 @@ namespace carom {
 namespace {
 
 using namespace test;
-
-const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
 Scene sound() {
   Scene s = makeScene({0, 0, -9.81}, 0.5, 0.3,
@@ -35,9 +35,6 @@ Mesh openMesh() {
 }
 Hull boxHull(double scale) { return {boxTriangles({1, 1, 1}).surface(), scale, ""}; }
 
-CompoundPart part(const Shape& shape, const Vec3& position = Vec3::Zero(), const Quat& q = Quat::Identity()) {
-  return {shape, position, q};
-}
 Compound nested(int levels) {
   Compound c{{part(Sphere{0.1})}};
   for (int i = 1; i < levels; ++i) c = Compound{{part(c)}};
@@ -206,9 +203,26 @@ std::vector<Mistake> mistakes() {
          s.bodies[1].shape = Compound{{part(Sphere{1}), part(openMesh())}};
        }},
       {"/bodies/1/shape", [](Scene& s) { s.bodies[1].shape = needle(); }},
-      {"/bodies/2/shape",
+      {"/bodies/2/shape/cylinder/radius",
        [](Scene& s) {
          s.bodies[2].shape = Cylinder{1e-200, 1};
+       }},
+      {"/bodies/2/shape/sphere/radius", [](Scene& s) { s.bodies[2].shape = Sphere{5e-324}; }},
+      {"/bodies/2/shape/box/size/1",
+       [](Scene& s) {
+         s.bodies[2].shape = Box{{1, 9e-31, 1}};
+       }},
+      {"/bodies/2/shape/hull/scale", [](Scene& s) { s.bodies[2].shape = boxHull(1e-31); }},
+      {"/bodies/2/shape",
+       [](Scene& s) {
+         s.bodies[2].shape = Sphere{1e-20};
+         s.bodies[2].density = 1e-100;
+       }},
+      {"/bodies/1/mass", [](Scene& s) { s.bodies[1].mass = 1e-160; }},
+      {"/bodies/2/density", [](Scene& s) { s.bodies[2].density = 1e-160; }},
+      {"/bodies/2/inertia",
+       [](Scene& s) {
+         s.bodies[2].inertia = Inertia::fromMoments({1e-160, 1, 1});
        }},
       {"/bodies/1/center_of_mass/2", [](Scene& s) { s.bodies[1].center_of_mass = Vec3(0, 0, kNan); }},
       {"/bodies/1/shape/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/"

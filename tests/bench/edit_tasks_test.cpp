@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tasks of edits_bench: what they promise of themselves.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Spans, ranges, other bodies' axes and regions, from a document through every command.
 #include <gtest/gtest.h>
 

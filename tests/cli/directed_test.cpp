@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the directed scenes of the README's gallery show: the command solves each, exactly and as it should look.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Broken input, wrong usage, and outcomes that are not a success: exit codes, and who says what where.
 #include <gtest/gtest.h>
 
@@ -263,8 +264,16 @@ TEST(Options, ChangeWhatIsExported) {
     words.insert(words.end(), extra.begin(), extra.end());
     return runJson(words)["bytes"].get<int>();
   };
-  EXPECT_NE(bytes({"--profile", "blender"}, "a.glb"), bytes({"--profile", "web"}, "b.glb"));
-  EXPECT_LT(bytes({"--profile", "blender"}, "a.glb"), bytes({"--profile", "blender", "--fps", "60"}, "b.glb"));
+  const int plain = bytes({}, "a.glb");
+  EXPECT_EQ(bytes({"--keys", "linear"}, "b.glb"), plain);
+  EXPECT_LT(bytes({"--keys", "cubic"}, "b.glb"), plain);
+  EXPECT_LT(bytes({"--tolerance", "0.002"}, "b.glb"), plain);
+  EXPECT_LT(plain, bytes({"--fps", "240"}, "b.glb"));
+  EXPECT_LT(plain, bytes({"--camera"}, "b.glb"));
+  EXPECT_LT(plain, bytes({"--light"}, "b.glb"));
+  EXPECT_LT(plain, bytes({"--ghosts", "0.1"}, "b.glb"));
+  EXPECT_LT(plain, bytes({"--nails"}, "b.glb"));
+  EXPECT_LT(4 * plain / 3, bytes({}, "b.py"));
   EXPECT_LT(bytes({"--fps", "10"}, "a.csv"), bytes({"--fps", "100"}, "b.csv"));
   EXPECT_LT(bytes({}, "a.svg"), bytes({"--before", scene}, "b.svg"));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the scenes of the README's gallery show: each motion is known to its end, and what it is there for comes about.
 #include <gtest/gtest.h>
 

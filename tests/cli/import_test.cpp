@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // carom import: answers, files beside the document, errors, and what is written over.
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include "formats/import_gltf.h"
 #include "formats/scene_json.h"
 #include "tests/cli/run_command.h"
+#include "tests/test_paths.h"
 
 namespace carom::test {
 namespace {
@@ -64,7 +66,9 @@ TEST(Import, ReadsWhatExportWrites) {
     EXPECT_EQ(run.code, 0) << name;
     EXPECT_EQ(run.err, "") << name;
     if (readText(scenePath(name)).find("\"file\"") == std::string::npos) {  // mesh files are written afresh
-      EXPECT_EQ(writeDocument(readDocument(output)), writeDocument(readDocument(scenePath(name)))) << name;
+      Document document = readDocument(scenePath(name));
+      document.schema.clear();  // where an editor finds it beside that file
+      EXPECT_EQ(writeDocument(readDocument(output)), writeDocument(document)) << name;
     }
     for (const char* command : {"simulate", "gradient"})
       EXPECT_EQ(runCommand({command, output, "--json"}).out, runCommand({command, scenePath(name), "--json"}).out)

@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: MIT
 #include "tests/cli/run_command.h"
+#include "tests/test_paths.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -36,8 +38,10 @@ struct TemporaryFolder {
 
 }  // namespace
 
+std::string commandPath() { return CAROM_COMMAND; }
+
 CommandRun runCommand(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{CAROM_COMMAND};
+  std::vector<std::string> words{commandPath()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -92,9 +96,11 @@ std::string temporaryPath(const std::string& name) {
   return folder.path + "/" + name;
 }
 
+void writeText(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
 std::string writeTemporary(const std::string& name, const std::string& text) {
   const std::string path = temporaryPath(name);
-  std::ofstream(path, std::ios::binary) << text;
+  writeText(path, text);
   return path;
 }
 

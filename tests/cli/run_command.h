@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,9 @@ struct CommandRun {
   int code = -1;  ///< exit code; -1 - signal where a signal ended it
   std::string out, err;
 };
+
+/// Where the built command is.
+std::string commandPath();
 
 /// Runs the built command as a process of its own.
 CommandRun runCommand(const std::vector<std::string>& arguments);
@@ -26,6 +30,7 @@ std::vector<std::string> sceneNames();
 std::string scenePath(const std::string& name);
 
 std::string readText(const std::string& path);
+void writeText(const std::string& path, const std::string& text);
 /// A new path in a folder of this run of the tests.
 std::string temporaryPath(const std::string& name);
 /// Writes a file under temporaryPath(name) and gives its path.

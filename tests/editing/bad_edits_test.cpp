@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edits that cannot be: each ends with a status and a sentence, and nothing is lost.
 #include <gtest/gtest.h>
 
@@ -17,8 +18,6 @@ namespace carom {
 namespace {
 
 using namespace testing_scenes;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string allOf(const WhyNot& why) {
   std::string text;
@@ -232,6 +231,40 @@ TEST(BadEdits, TargetsThatAreNoNumbers) {
               e.nail("ball", 0.5).position({INFINITY, 0, 0});
             }).find("infinite"),
             std::string::npos);
+}
+
+TEST(BadEdits, OptionsThatMakeNoSense) {
+  const Scene scene = floorAndWall();
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 0.6);
+  edit.vary(velocity("ball"));
+  edit.nail("ball", 0.5).position({1, any, any});
+  const std::pair<const char*, std::function<void(EditOptions&)>> wrong[] = {
+      {"/options/max_iterations: found -1", [](EditOptions& o) { o.max_iterations = -1; }},
+      {"/options/time_budget_seconds: found nan", [](EditOptions& o) { o.time_budget_seconds = kNaN; }},
+      {"/options/time_budget_seconds: found -2", [](EditOptions& o) { o.time_budget_seconds = -2; }},
+      {"/options/tolerance: found 0", [](EditOptions& o) { o.tolerance = 0; }},
+      {"/options/tolerance: found nan", [](EditOptions& o) { o.tolerance = kNaN; }},
+      {"/options/tolerance: found inf", [](EditOptions& o) { o.tolerance = INFINITY; }},
+      {"/options/alternatives: found 0", [](EditOptions& o) { o.alternatives = 0; }},
+      {"/options/threads: found -1", [](EditOptions& o) { o.threads = -1; }},
+  };
+  for (const auto& [sentence, spoil] : wrong) {
+    EditOptions options;
+    spoil(options);
+    try {
+      edit.solve(options);
+      ADD_FAILURE() << sentence;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with(sentence)) << error.what();
+    }
+  }
+  const EditProblem problem = edit.problem();
+  EXPECT_THROW(problem.controls.sceneAt(Eigen::VectorXd::Zero(2)), InputError) << "of three";
+  EXPECT_THROW(problem.controls.sceneAt(Eigen::VectorXd::Constant(3, kNaN)), InputError);
+  EXPECT_THROW(problem.controls.valuesOf(Eigen::VectorXd::Zero(4)), InputError);
+  EXPECT_THROW(problem.controls.describeVariable(3), InputError);
+  EXPECT_THROW(evaluateByAdjoint(problem, Eigen::VectorXd::Zero(2)), InputError);
 }
 
 TEST(BadEdits, ExplanationsCanBeLeftOut) {

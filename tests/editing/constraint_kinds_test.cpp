@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Constraints beyond a number at a time: ranges, seen from another body, at some time of a span, regions.
 
 #include <gtest/gtest.h>

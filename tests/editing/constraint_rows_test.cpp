@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rows of constraints, and the Jacobian of all of them by every kind of control, by adjoint and by tangent.
 
 #include "editing/rows/constraint_rows.h"
@@ -19,15 +20,6 @@ namespace carom {
 namespace {
 
 using namespace testing_scenes;
-
-const double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<Constraint> everyQuantity() {
-  return {{"box", 0.4, {{"position", {1, any, 2}}, {"orientation", {1, 0, 0, 0}}, {"velocity", {0, 0, any}}}},
-          {"box",
-           nthImpact(2, "floor"),
-           {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}}};
-}
 
 TEST(ConstraintSet, EveryQuantityIsTested) {
   for (const QuantityKind* kind : quantityKinds()) {
@@ -156,14 +148,14 @@ TEST(Jacobian, LessDetailGivesTheSame) {
   }
 }
 
-struct Mistake {
+struct BadConstraint {
   const char* name;
   Constraint constraint;
   const char* where;
   const char* says;
 };
 
-const Mistake kMistakes[] = {
+const BadConstraint kBadConstraints[] = {
     {"body", {"bix", 0.4, {{"position", {0, 0, 0}}}}, "/constraints/0/body", "bix"},
     {"with", {"box", nthImpact(1, "wall"), {{"position", {0, 0, 0}}}}, "/constraints/0/at/with", "wall"},
     {"word", {"box", 0.4, {{"place", {0, 0, 0}}}}, "/constraints/0", "expected one of position"},
@@ -180,7 +172,7 @@ const Mistake kMistakes[] = {
     {"nothing", {"box", 0.4, {}}, "/constraints/0", "no number to hold"},
 };
 
-class ConstraintMistake : public testing::TestWithParam<Mistake> {};
+class ConstraintMistake : public testing::TestWithParam<BadConstraint> {};
 
 TEST_P(ConstraintMistake, IsNamed) {
   try {
@@ -192,7 +184,7 @@ TEST_P(ConstraintMistake, IsNamed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, ConstraintMistake, testing::ValuesIn(kMistakes),
+INSTANTIATE_TEST_SUITE_P(Table, ConstraintMistake, testing::ValuesIn(kBadConstraints),
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST(EditProblem, DurationMustBePositive) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "editing/rows/dependence.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whole edits, against closed forms where there are any.
 
 #include "editing/edit.h"

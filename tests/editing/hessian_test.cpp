@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Second derivatives of an edit's rows against differences of their exact first derivatives, for every control, every
 // quantity, rows relative to another body, free times and regions. The first derivatives' own test in 50 digits stands
 // in tests/reference; here it is that nothing is left out on the way to the unknowns.
@@ -69,13 +70,6 @@ Eigen::VectorXd someUnknowns(const EditProblem& problem, double away) {
     y[problem.controls.size() + k] = 0.55 * (free.to - free.from) / free.scale;
   }
   return y;
-}
-
-std::vector<Constraint> everyQuantity() {
-  return {{"box", 0.4, {{"position", {1, any, 2}}, {"orientation", {1, 0, 0, 0}}, {"velocity", {0, 0, any}}}},
-          {"box",
-           nthImpact(2, "floor"),
-           {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}}};
 }
 
 TEST(Hessian, OfEveryQuantityByEveryControl) {

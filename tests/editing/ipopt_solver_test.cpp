@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // The solver adapter alone: small programs with known answers, and everything that can go wrong in one.
 
+#include "adjoint/types.h"
 #include "editing/solve/ipopt_solver.h"
 
 #include <gtest/gtest.h>
@@ -13,10 +15,12 @@
 #include <thread>
 #include <vector>
 
+#include "tests/editing/scenes.h"
+
 namespace carom {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing_scenes::kInfinity;
 
 Eigen::VectorXd vec(std::initializer_list<double> values) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(values.size()));

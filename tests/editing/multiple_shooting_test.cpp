@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edits in segments, against the same edits taken whole.
 
 #include "editing/shooting/multiple_shooting.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What nails of the C++ API ask for, and what results say of it.
 
 #include "editing/nail.h"
@@ -17,8 +18,6 @@ namespace {
 
 using namespace testing_scenes;
 using Numbers = std::vector<double>;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Numbers with the free ones as 99.
 Numbers shown(Numbers numbers) {

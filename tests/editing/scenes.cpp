@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/editing/scenes.h"
 
 namespace carom::testing_scenes {
@@ -69,6 +70,13 @@ std::vector<Control> everyControl() {
           size("box"),
           tilt("box", 1),
           gravity()};
+}
+
+std::vector<Constraint> everyQuantity() {
+  return {{"box", 0.4, {{"position", {1, any, 2}}, {"orientation", {1, 0, 0, 0}}, {"velocity", {0, 0, any}}}},
+          {"box",
+           nthImpact(2, "floor"),
+           {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}}};
 }
 
 }  // namespace carom::testing_scenes

@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "adjoint/scene.h"
 #include "editing/edit.h"
@@ -22,5 +25,10 @@ Scene thrownBox();
 
 /// One control of every kind, for a scene with a body "box" of material "felt".
 std::vector<Control> everyControl();
+/// Constraints on every quantity of that body, at a time and at its second impact.
+std::vector<Constraint> everyQuantity();
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace carom::testing_scenes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edits that need other impacts than those of the start: what is found, what is said of it, and that neither depends on
 // the number of threads.
 

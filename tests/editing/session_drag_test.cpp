@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Drags: that the motion shown is true, that it follows, what stays as it was, and where it cannot follow.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Undo and redo, nails coming and going, bad input, and the same bits every time.
 #include <gtest/gtest.h>
 

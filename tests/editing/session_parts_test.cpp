@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Drags in scenes of many bodies, of which few matter: what is worked out with those alone is true of all.
 #include <gtest/gtest.h>
 

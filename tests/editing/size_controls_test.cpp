@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The control `size` of every shape's dimensions, by their names, up to edits that vary them.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rotation vectors against 100-digit arithmetic and against their definitions.
 
 #include "adjoint/so3.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
@@ -122,7 +123,7 @@ TEST(DisplayMesh, TheOriginFollowsItsPathAboutTheCentreOfMass) {
   const Document document = documentOfAllShapes(false);
   const Motion motion = handMotion(document.scene, document.duration, {});
   const std::string path = temporaryPath("all.glb");
-  exportGltf(path, document, motion);
+  exportGltf(path, document, motion, {GltfKeys::cubic});
   tinygltf::Model model;
   std::string error, warning;
   ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, path)) << error;
@@ -139,7 +140,7 @@ TEST(DisplayMesh, TheOriginFollowsItsPathAboutTheCentreOfMass) {
     };
     const auto vector = [&](std::size_t k) {
       const auto v = vectorAt(model, sampler.output, static_cast<std::uint32_t>(k));
-      return Vec3(v[0], v[1], v[2]);
+      return Vec3(v[0], -v[2], v[1]);
     };
     const std::string& name = model.nodes.at(static_cast<std::size_t>(channel.target_node)).name;
     for (std::size_t k = 0; k + 1 < times.count; ++k)

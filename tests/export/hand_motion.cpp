@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/export/hand_motion.h"
 
 #include <gtest/gtest.h>

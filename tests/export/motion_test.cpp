@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -18,6 +19,7 @@ TEST(ExportMotion, TheExtensionChoosesTheFormat) {
   };
   EXPECT_EQ(start("m.glb").substr(0, 4), "glTF");
   EXPECT_EQ(start("m.gltf").substr(0, 1), "{");
+  EXPECT_EQ(start("m.py"), "# A m");
   EXPECT_EQ(start("m.csv"), "time ");
   EXPECT_EQ(start("m.svg"), "<?xml");
   EXPECT_EQ(start("M.SVG"), "<?xml");
@@ -48,7 +50,7 @@ TEST(ExportMotion, AnOldFileIsReplaced) {
   const std::string first = contentOf(path);
   exportMotion(path, handDocument(), motion);
   EXPECT_EQ(contentOf(path), first);
-  EXPECT_EQ(exportExtensions().size(), 4u);
+  EXPECT_EQ(exportExtensions().size(), 5u);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <regex>
 
 #include "formats/export_svg.h"
 #include "tests/export/hand_motion.h"
+#include "tests/export/svg_reader.h"
 
 namespace carom::export_tests {
 namespace {
@@ -14,58 +16,41 @@ int count(const std::string& text, const std::string& part) {
   return n;
 }
 
-// Every tag is closed in order, attributes are quoted, and no bare < or & stands in text.
-void expectWellFormed(const std::string& xml) {
-  static const std::regex tag("<(\\?[^<>]*\\?|/?[A-Za-z][\\w]*(?:\\s+[\\w:-]+=\"[^\"<]*\")*\\s*/?)>");
-  static const std::regex bare("&(?!(amp|lt|gt|quot|#\\d+);)");
-  std::vector<std::string> open;
-  std::string text_between;
-  std::sregex_iterator it(xml.begin(), xml.end(), tag);
-  std::size_t end_of_last = 0;
-  for (; it != std::sregex_iterator(); ++it) {
-    text_between += xml.substr(end_of_last, static_cast<std::size_t>(it->position()) - end_of_last);
-    end_of_last = static_cast<std::size_t>(it->position() + it->length());
-    const std::string body = (*it)[1];
-    const std::string name = std::regex_replace(body, std::regex("^/|[\\s/].*$"), "");
-    if (body.front() == '?' || body.back() == '/') continue;
-    if (body.front() != '/') {
-      open.push_back(name);
-      continue;
-    }
-    ASSERT_FALSE(open.empty()) << "nothing to close for " << body;
-    ASSERT_EQ(body.substr(1), open.back());
-    open.pop_back();
-  }
-  text_between += xml.substr(end_of_last);
-  EXPECT_TRUE(open.empty());
-  EXPECT_EQ(text_between.find_first_of("<>"), std::string::npos) << text_between.substr(0, 400);
-  EXPECT_FALSE(std::regex_search(xml, bare));
-}
-
 std::string svgOf(const Document& document, const Motion& motion, const Motion* before = nullptr) {
-  const std::string path = temporaryPath("m.svg");
-  exportSvg(path, document, motion, before);
-  return contentOf(path);
+  return drawnSvg(document, motion, before);
 }
 
 TEST(ExportSvg, IsWellFormedAndHoldsNoNan) {
   const Motion motion = handMotion(), before = handMotion(handDocument().scene, 1.2, {});
   const std::string svg = svgOf(handDocument(), motion, &before);
-  expectWellFormed(svg);
+  expectGoodPicture(svg);
   EXPECT_FALSE(std::regex_search(svg, std::regex("\\b(nan|inf)\\b", std::regex::icase)));
-  EXPECT_NE(svg.find("viewBox=\"0 0 1000 "), std::string::npos);
+  EXPECT_NE(svg.find("viewBox=\"0 0 800 "), std::string::npos);
   EXPECT_NE(svg.find("ball &lt;1&gt;"), std::string::npos);
 }
 
 TEST(ExportSvg, EachViewMarksEveryImpactOnce) {
   const Motion motion = handMotion();
-  const std::string svg = svgOf(handDocument(), motion);
-  const std::size_t side = svg.find("id=\"view-side\""), top = svg.find("id=\"view-top\"");
-  ASSERT_NE(side, std::string::npos);
-  ASSERT_NE(top, std::string::npos);
-  const int events = static_cast<int>(motion.events.size());
-  EXPECT_EQ(count(svg.substr(side, top - side), "class=\"impact\""), events);
-  EXPECT_EQ(count(svg.substr(top), "class=\"impact\""), events);
+  const SvgPicture picture(svgOf(handDocument(), motion));
+  EXPECT_EQ(picture.ofClass("impact", "side").size(), motion.events.size());
+  EXPECT_EQ(picture.ofClass("impact", "top").size(), motion.events.size());
+}
+
+TEST(ExportSvg, ReadersOfScreensGetATitleAndADescription) {
+  const Motion motion = handMotion();
+  const std::string svg = svgOf(handDocument(), motion, &motion);
+  EXPECT_EQ(count(svg, "role=\"img\" aria-labelledby=\"title desc\""), 1);
+  EXPECT_EQ(count(svg, "<title id=\"title\">"), 1);
+  EXPECT_EQ(count(svg, "of 3 moving bodies with 3 impacts in 1.2 seconds, and of the motion before the edit, with 2 nails."), 1);
+}
+
+// The file is made for 800 pixels across; nothing in it is smaller than what a browser shows as small print.
+TEST(ExportSvg, NoTextIsSmall) {
+  const SvgPicture picture(svgOf(handDocument(), handMotion()));
+  for (int i = 0; i < static_cast<int>(picture.elements().size()); ++i) {
+    if (picture.elements()[static_cast<std::size_t>(i)].name != "text") continue;
+    EXPECT_GE(std::stod(picture.inherited(i, "font-size")), 12);
+  }
 }
 
 TEST(ExportSvg, ANailIsAHoopAndAFreeComponentALine) {
@@ -96,7 +81,7 @@ TEST(ExportSvg, ARangeIsABarOrAnAreaWithItsHoopWithin) {
   height.min = {any, any, 0.3}, height.max = {any, any, 0.8};
   document.constraints = {{"book", 1.1, {height}}};
   const std::string bar = svgOf(document, handMotion());
-  expectWellFormed(bar);
+  expectGoodPicture(bar);
   EXPECT_EQ(count(sideOf(bar), "class=\"nail-range\""), 1);
   EXPECT_EQ(count(topOf(bar), "class=\"nail-range\""), 0);  // it lies along the line of sight
   EXPECT_EQ(hoopsOf(sideOf(bar)).size(), 1u);
@@ -106,7 +91,7 @@ TEST(ExportSvg, ARangeIsABarOrAnAreaWithItsHoopWithin) {
   document.constraints[0].targets[0].min = {any, 0, any};
   document.constraints[0].targets[0].max = {any, 0.5, 0.8};
   const std::string areas = svgOf(document, handMotion());  // without ends on some sides
-  expectWellFormed(areas);
+  expectGoodPicture(areas);
   EXPECT_EQ(count(sideOf(areas), "class=\"nail-range\""), 1);
   EXPECT_EQ(count(topOf(areas), "class=\"nail-range\""), 1);
 }
@@ -142,7 +127,7 @@ TEST(ExportSvg, ANailSeenFromAnotherBodyIsDrawnInTheWorld) {
   // A free component is the motion's own, along the axes of the other body.
   document.constraints = {{"book", 0.6, {{"position", {any, -0.2, 0.3}}}, "top"}};
   const std::string free = svgOf(document, motion);
-  expectWellFormed(free);
+  expectGoodPicture(free);
   EXPECT_EQ(hoopsOf(free).size(), 2u);
   EXPECT_EQ(count(free, "class=\"nail-range\""), 2);
 }
@@ -158,7 +143,7 @@ TEST(ExportSvg, RegionsAreOutlinesWithinTheFrame) {
                    .during = {{0.2, 0.8}}}};
   document.constraints = {kept};
   const std::string svg = svgOf(document, handMotion());
-  expectWellFormed(svg);
+  expectGoodPicture(svg);
   for (const std::string& view : {sideOf(svg), topOf(svg)}) {
     EXPECT_EQ(count(view, "class=\"avoid\""), 1);
     EXPECT_EQ(count(view, "class=\"inside\""), 1);
@@ -180,11 +165,11 @@ TEST(ExportSvg, ThinAndEmptyMotionsAreDrawnAsWell) {
   Document document = handDocument();
   document.constraints.clear();
   document.scene.bodies.resize(2);
-  expectWellFormed(svgOf(document, handMotion(document.scene, 1, {})));  // nothing moves
+  expectGoodPicture(svgOf(document, handMotion(document.scene, 1, {})));  // nothing moves
   document = handDocument();
-  expectWellFormed(svgOf(document, handMotion(document.scene, 0, {})));  // no time passes
+  expectGoodPicture(svgOf(document, handMotion(document.scene, 0, {})));  // no time passes
   document.scene.bodies[2].velocity = {0, 3, 0};
-  expectWellFormed(svgOf(document, handMotion(document.scene, 5, {})));  // along y
+  expectGoodPicture(svgOf(document, handMotion(document.scene, 5, {})));  // along y
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "formats/gltf_reader.h"
-#include "tests/formats/mesh_texts.h"
+#include "tests/formats/gltf_json.h"
 
 namespace carom {
 namespace {
@@ -12,9 +13,11 @@ namespace {
 using Json = nlohmann::json;
 using formats_test::base64;
 using formats_test::bytesOf;
+using formats_test::setBuffer;
+using formats_test::tetrahedronDocument;
 using formats_test::tetrahedronGltf;
 
-struct Broken {
+struct BrokenMesh {
   const char* name;
   std::function<void(Json&)> break_it;
   std::string where;
@@ -35,16 +38,10 @@ void expectRefused(const std::string& bytes, const std::string& where, const std
   }
 }
 
-Json document() { return Json::parse(tetrahedronGltf(true)); }
-
-void setBuffer(Json& json, const std::string& bytes) {
-  json["buffers"][0] = {{"uri", "data:;base64," + base64(bytes)}, {"byteLength", bytes.size()}};
-}
-
 Json& primitive(Json& json) { return json["meshes"][0]["primitives"][0]; }
 
 TEST(BrokenGltf, brokenDocuments) {
-  const Broken all[] = {
+  const BrokenMesh all[] = {
       {"version", [](Json& j) { j["asset"]["version"] = "1.0"; }, "/asset/version", {"\"1.0\"", "\"2.0\""}},
       {"noAsset", [](Json& j) { j.erase("asset"); }, "", {"no member \"asset\""}},
       {"sceneIndex", [](Json& j) { j["scene"] = 1; }, "/scene", {"found 1", "index into scenes", "there are 1"}},
@@ -257,9 +254,9 @@ TEST(BrokenGltf, brokenDocuments) {
        {"an array"}},
       {"nodeNumber", [](Json& j) { j["nodes"][0] = 3; }, "/nodes/0", {"found 3", "an object"}},
   };
-  for (const Broken& broken : all) {
+  for (const BrokenMesh& broken : all) {
     SCOPED_TRACE(broken.name);
-    Json json = document();
+    Json json = tetrahedronDocument();
     broken.break_it(json);
     expectRefused(json.dump(), broken.where, broken.fragments);
   }
@@ -302,7 +299,7 @@ TEST(BrokenGltf, brokenContainers) {
 }
 
 TEST(BrokenGltf, manyVerticesOfNothing) {
-  Json json = document();
+  Json json = tetrahedronDocument();
   json["accessors"][0].erase("bufferView");
   json["accessors"][0]["count"] = 2000000000;
   primitive(json).erase("indices");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/formats/broken_documents.h"
 
 namespace carom::formats_test {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/gltf_reader.h"
 
 #include <gtest/gtest.h>
@@ -5,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "adjoint/surface.h"
-#include "tests/formats/mesh_texts.h"
+#include "tests/formats/gltf_json.h"
 
 namespace carom {
 namespace {
@@ -13,17 +14,13 @@ namespace {
 using Json = nlohmann::json;
 using formats_test::base64;
 using formats_test::bytesOf;
+using formats_test::setBuffer;
+using formats_test::tetrahedronDocument;
 using formats_test::tetrahedronGltf;
 
 using Triangles = std::vector<std::array<int, 3>>;
 
 TriangleSoup read(const std::string& bytes) { return parseGltfMesh(bytes, "/nonexistent"); }
-
-Json document() { return Json::parse(tetrahedronGltf(true)); }
-
-void setBuffer(Json& json, const std::string& bytes) {
-  json["buffers"][0] = {{"uri", "data:;base64," + base64(bytes)}, {"byteLength", bytes.size()}};
-}
 
 // glTF's y is our z, its z our -y.
 const std::vector<Vec3> kTetrahedron{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
@@ -47,7 +44,7 @@ TEST(GltfReader, indicesOfEverySize) {
                                bytesOf(std::vector<std::uint32_t>(order.begin(), order.end()))};
   const int types[] = {5121, 5123, 5125};
   for (std::size_t k = 0; k < 3; ++k) {
-    Json json = document();
+    Json json = tetrahedronDocument();
     setBuffer(json, positions + bytes[k]);
     json["bufferViews"][1]["byteLength"] = bytes[k].size();
     json["accessors"][1]["componentType"] = types[k];
@@ -56,7 +53,7 @@ TEST(GltfReader, indicesOfEverySize) {
 }
 
 TEST(GltfReader, withoutIndices) {
-  Json json = document();
+  Json json = tetrahedronDocument();
   json["meshes"][0]["primitives"][0].erase("indices");
   json["accessors"][0]["count"] = 3;
   const TriangleSoup geometry = read(json.dump());
@@ -65,7 +62,7 @@ TEST(GltfReader, withoutIndices) {
 }
 
 TEST(GltfReader, stripsAndFans) {
-  Json json = document();
+  Json json = tetrahedronDocument();
   json["meshes"][0]["primitives"][0]["mode"] = 5;
   json["accessors"][1]["count"] = 5;  // 0 2 1 0 1: the last two have a corner twice
   EXPECT_EQ(read(json.dump()).triangles, (Triangles{{0, 2, 1}, {2, 0, 1}}));
@@ -79,7 +76,7 @@ TEST(GltfReader, stridedViewsWithOffsets) {
   for (const Vec3& v : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
     numbers.insert(numbers.end(), {7, float(v.x()), float(v.y()), float(v.z()), 8});
   const std::string order = bytesOf(std::vector<std::uint16_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
-  Json json = document();
+  Json json = tetrahedronDocument();
   setBuffer(json, bytesOf(numbers) + order);
   json["bufferViews"][0] = {{"buffer", 0}, {"byteOffset", 8}, {"byteLength", 80}, {"byteStride", 20}};
   json["accessors"][0]["byteOffset"] = 4;
@@ -90,7 +87,7 @@ TEST(GltfReader, stridedViewsWithOffsets) {
 TEST(GltfReader, sparseAccessors) {
   const std::string bytes = formats_test::tetrahedronBytes() + bytesOf(std::vector<std::uint16_t>{1, 3}) +
                             bytesOf(std::vector<float>{2, 0, 0, 0, 0, 5});
-  Json json = document();
+  Json json = tetrahedronDocument();
   setBuffer(json, bytes);
   json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 72}, {"byteLength", 4}});
   json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 76}, {"byteLength", 24}});
@@ -102,7 +99,7 @@ TEST(GltfReader, sparseAccessors) {
 }
 
 TEST(GltfReader, nodesTransform) {
-  Json json = document();
+  Json json = tetrahedronDocument();
   json["nodes"] = Json::parse(R"([
     { "children": [1, 2], "translation": [10, 20, 30] },
     { "mesh": 0, "rotation": [0, 0, 0.70710678118654757, 0.70710678118654757], "scale": [2, 1, 1] },
@@ -120,7 +117,7 @@ TEST(GltfReader, nodesTransform) {
 }
 
 TEST(GltfReader, onlyTheDefaultScene) {
-  Json json = document();
+  Json json = tetrahedronDocument();
   json["nodes"].push_back({{"mesh", 0}, {"translation", {1, 0, 0}}});
   json["scenes"].push_back({{"nodes", {1}}});
   EXPECT_EQ(read(json.dump()).vertices[0], Vec3(0, 0, 0));
@@ -131,7 +128,7 @@ TEST(GltfReader, onlyTheDefaultScene) {
 }
 
 TEST(GltfReader, verticesThatNoTriangleUsesAreLeftOut) {
-  Json json = document();
+  Json json = tetrahedronDocument();
   json["accessors"][1]["count"] = 3;
   const TriangleSoup geometry = read(json.dump());
   EXPECT_EQ(geometry.vertices.size(), 3u);
@@ -139,7 +136,7 @@ TEST(GltfReader, verticesThatNoTriangleUsesAreLeftOut) {
 }
 
 TEST(GltfReader, whatIsNotGeometryDoesNotMatter) {
-  Json json = document();
+  Json json = tetrahedronDocument();
   json["images"] = {{{"uri", "missing.png"}}, {{"bufferView", 99}}, 7};
   json["textures"] = {{{"source", 99}}};
   json["materials"] = {{{"pbrMetallicRoughness", "none"}}};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Journals of sessions as documents: what is written is read back, plays to the same bits, and bad ones are refused.
 #include "formats/journal_json.h"
 
@@ -68,13 +69,13 @@ TEST(Journal, ReadsBackAsItWasAndPlaysTheSame) {
   parseDocument(writeDocument(end), "end");
 }
 
-struct Broken {
+struct BrokenJournal {
   const char *from, *to, *where, *message;
 };
 
 TEST(Journal, BadOnesAreRefused) {
   const std::string good = writeJournal({recorded(), ""});
-  const Broken cases[] = {
+  const BrokenJournal cases[] = {
       {"\"carom_journal\": 1", "\"carom_journal\": 2", "/carom_journal", "expected 1"},
       {"\"carom_journal\": 1,", "", "", "no member \"carom_journal\""},
       {"\"carom\": 1", "\"carom\": 7", "/scene/carom", "found 7"},
@@ -92,7 +93,7 @@ TEST(Journal, BadOnesAreRefused) {
       {"{ \"vary\": \"orientation\", \"body\": \"box\" }", "{ \"vary\": \"colour\", \"body\": \"box\" }",
        "/gestures/1/controls/2/vary", "colour"},
   };
-  for (const Broken& broken : cases) {
+  for (const BrokenJournal& broken : cases) {
     SCOPED_TRACE(broken.to);
     std::string text = good;
     const std::size_t at = text.find(broken.from);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/formats/mesh_texts.h"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "formats/result_json.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/formats/same_documents.h"
 
 #include <gtest/gtest.h>
@@ -60,6 +61,7 @@ void expectSameBody(const Body& a, const Body& b) {
   EXPECT_EQ(a.material, b.material);
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.density, b.density);
+  EXPECT_EQ(a.notes, b.notes);
   expectSameShape(a.shape, b.shape, a.name + " shape");
   ASSERT_EQ(a.center_of_mass, b.center_of_mass);
   ASSERT_EQ(a.inertia.source, b.inertia.source);
@@ -107,6 +109,7 @@ void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(m.tangential_elasticity, n.tangential_elasticity);
     EXPECT_EQ(m.combine_elasticity, n.combine_elasticity);
     EXPECT_EQ(m.combine_friction, n.combine_friction);
+    EXPECT_EQ(m.notes, n.notes);
   }
   ASSERT_EQ(a.bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < a.bodies.size(); ++i) expectSameBody(a.bodies[i], b.bodies[i]);
@@ -130,6 +133,7 @@ void expectSameEdit(const Document& a, const Document& b) {
     EXPECT_EQ(c.min, d.min);
     EXPECT_EQ(c.max, d.max);
     EXPECT_EQ(c.weight, d.weight);
+    EXPECT_EQ(c.notes, d.notes);
   }
   ASSERT_EQ(a.constraints.size(), b.constraints.size());
   for (std::size_t i = 0; i < a.constraints.size(); ++i) {
@@ -140,6 +144,7 @@ void expectSameEdit(const Document& a, const Document& b) {
     EXPECT_EQ(c.at.with, d.at.with);
     EXPECT_EQ(c.at.span, d.at.span);
     EXPECT_EQ(c.relative_to, d.relative_to);
+    EXPECT_EQ(c.notes, d.notes);
     ASSERT_EQ(c.targets.size(), d.targets.size());
     for (std::size_t k = 0; k < c.targets.size(); ++k) {
       EXPECT_EQ(c.targets[k].quantity, d.targets[k].quantity);
@@ -160,6 +165,9 @@ void expectSameEdit(const Document& a, const Document& b) {
 void expectRoundTrip(const Document& document, const std::string& name) {
   const std::string text = writeDocument(document);
   const Document again = parseDocument(text, name, document.folder);
+  EXPECT_EQ(again.schema, document.schema);
+  EXPECT_EQ(again.name, document.name);
+  EXPECT_EQ(again.notes, document.notes);
   EXPECT_EQ(again.duration, document.duration);
   expectSameScene(document.scene, again.scene);
   expectSameEdit(document, again);

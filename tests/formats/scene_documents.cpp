@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: MIT
 #include "tests/formats/scene_documents.h"
+#include "tests/test_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -26,10 +28,10 @@ std::vector<std::string> exampleScenes() {
 const std::string& documentWithEverything() {
   static const std::string text = R"({
   "carom": 1,
-  "gravity": [0.1, -0.2, -9.81],
+  "gravity": [0.1, -0.2, -9.81], "$schema": "https://example.org/schemas/scene.schema.json", "name": "Everything \"quoted\" é", "notes": "one line\nand another",
   "duration": 2.5,
   "materials": {
-    "wood": { "elasticity": 0.6, "friction": 0.3, "tangential_elasticity": -0.25 },
+    "wood": { "elasticity": 0.6, "friction": 0.3, "tangential_elasticity": -0.25, "notes": "old oak" },
     "felt": {
       "elasticity": 0.45, "friction": 0, "tangential_elasticity": 0.5,
       "combine": { "elasticity": "minimum", "friction": "multiply" }
@@ -43,7 +45,7 @@ const std::string& documentWithEverything() {
       "shape": { "box": { "size": [0.1, 2, 0.3] } } },
     { "name": "ball", "fixed": false, "density": 700.5, "material": "a/b~c \"quoted\" é",
       "shape": { "sphere": { "radius": 0.1 } }, "position": [0, 0, 3] },
-    { "name": "book", "mass": 0.4, "inertia": [0.0011, 0.0012, 0.0019], "material": "felt",
+    { "name": "book", "notes": "the one with the torn cover", "mass": 0.4, "inertia": [0.0011, 0.0012, 0.0019], "material": "felt",
       "shape": { "box": { "size": [0.21, 0.15, 0.03] } },
       "position": [1, 2, 3.3], "orientation": [0.5, -0.5, 0.5, -0.5],
       "velocity": [2.2, 1e-7, -2.5e8], "angular_velocity": [0.1, 0.2, 0.30000000000000004] },
@@ -76,7 +78,7 @@ const std::string& documentWithEverything() {
     { "vary": "velocity", "body": "book", "min": -4 },
     { "vary": "angular_velocity", "body": "book", "max": [1, 2, 3] },
     { "vary": "elasticity", "material": "felt", "min": 0.2, "max": 0.9 },
-    { "vary": "friction", "material": "wood" },
+    { "vary": "friction", "material": "wood", "notes": "by wax" },
     { "vary": "tangential_elasticity", "material": "felt" },
     { "vary": "mass", "body": "ball" },
     { "vary": "inertia", "body": "book" },
@@ -90,7 +92,7 @@ const std::string& documentWithEverything() {
   "constraints": [
     { "body": "book", "at": 1.4, "position": [1.9, null, 1.7], "orientation": [0.8, 0, 0.6, 0] },
     { "body": "book", "at": { "impact": 3, "with": "floor" }, "position": [2.5, 0.1, null], "time": 1.25 },
-    { "body": "ball", "at": { "impact": 1 }, "velocity": [null, null, 0], "angular_velocity": [0, 0, 1] },
+    { "body": "ball", "notes": "spins", "at": { "impact": 1 }, "velocity": [null, null, 0], "angular_velocity": [0, 0, 1] },
     { "body": "crate", "at": 0, "point": { "body_point": [0.5, 0, 0], "world": [null, 1, 2] } },
     { "body": "hat", "at": { "between": [0.31, 1.9] }, "relative_to": "crate",
       "position": [{ "min": -0.3, "max": 0.75 }, { "max": 4.5 }, null], "velocity": [0.11, { "min": -7.5 }, null] },

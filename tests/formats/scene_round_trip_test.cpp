@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -43,6 +44,13 @@ TEST(SceneRoundTrip, membersAreRead) {
   const Document d = parseDocument(documentWithEverything(), "everything");
   EXPECT_EQ(d.scene.gravity, Vec3(0.1, -0.2, -9.81));
   EXPECT_EQ(d.duration, 2.5);
+  EXPECT_EQ(d.schema, "https://example.org/schemas/scene.schema.json");
+  EXPECT_EQ(d.name, "Everything \"quoted\" é");
+  EXPECT_EQ(d.notes, "one line\nand another");
+  EXPECT_EQ(d.scene.materials[0].notes, "old oak");
+  EXPECT_EQ(d.scene.bodies[3].notes, "the one with the torn cover");
+  EXPECT_EQ(d.controls[5].notes, "by wax");
+  EXPECT_EQ(d.constraints[2].notes, "spins");
   ASSERT_EQ(d.scene.materials.size(), 3u);
   EXPECT_EQ(d.scene.materials[0].name, "wood");
   EXPECT_EQ(d.scene.materials[0].tangential_elasticity, -0.25);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scene documents whose shapes come from mesh files.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files that are not possible: one sentence with the file, the place, what was found and what was expected.
 #include <gtest/gtest.h>
 
@@ -17,10 +18,6 @@ struct Broken {
   const char* message;        ///< a part of it
 };
 std::ostream& operator<<(std::ostream& out, const Broken& row) { return out << row.name; }
-
-json& shapesOf(json& file) { return file["extensions"]["KHR_implicit_shapes"]["shapes"]; }
-json& materialOf(json& file) { return file["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"][0]; }
-json& ballMotion(json& file) { return physicsOf(file, 1)["motion"]; }
 
 class BrokenFile : public testing::TestWithParam<Broken> {};
 

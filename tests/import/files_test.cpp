@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every sample file: import, save, read, simulate, derivatives, and the way through an export.
 #include <gtest/gtest.h>
 

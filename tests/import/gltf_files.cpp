@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/import/gltf_files.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 
 #include "adjoint/errors.h"
 #include "adjoint/motion.h"
-#include "formats/export_gltf.h"
+#include "tests/test_paths.h"
 
 namespace carom::import_tests {
 
@@ -81,6 +82,14 @@ json plainDocument() {
 json& physicsOf(json& document, int node) {
   return document["nodes"][static_cast<std::size_t>(node)]["extensions"]["KHR_physics_rigid_bodies"];
 }
+json& shapesOf(json& document) { return document["extensions"]["KHR_implicit_shapes"]["shapes"]; }
+json& materialOf(json& document) { return document["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"][0]; }
+json& ballMotion(json& document) { return physicsOf(document, 1)["motion"]; }
+
+const Body& bodyIn(const Imported& imported, const std::string& name) {
+  const Scene& scene = imported.document.scene;
+  return scene.bodies[static_cast<std::size_t>(bodyIndex(scene, name))];
+}
 
 namespace {
 
@@ -109,7 +118,7 @@ void stripExtras(json& value) {
     for (json& item : value) stripExtras(item);
 }
 
-void exportFreeFlight(const std::string& path, const Document& document) {
+void exportFreeFlight(const std::string& path, const Document& document, const GltfOptions& options) {
   const Scene& scene = document.scene;
   Motion motion;
   motion.scene = std::make_shared<const Scene>(scene);
@@ -124,7 +133,7 @@ void exportFreeFlight(const std::string& path, const Document& document) {
                                             startState(scene.bodies[i], (*models)[i]));
     motion.world_lines[i].arcs.back().extendTo(motion.end);
   }
-  exportGltf(path, document, motion);
+  exportGltf(path, document, motion, options);
 }
 
 std::string messageOf(const std::function<void()>& function) {

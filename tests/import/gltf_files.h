@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <functional>
@@ -5,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/export_gltf.h"
 #include "formats/import_gltf.h"
 
 namespace carom::import_tests {
@@ -27,6 +29,12 @@ Imported importJson(const nlohmann::json& document);
 nlohmann::json plainDocument();
 /// Extension KHR_physics_rigid_bodies of a node, made where it is missing.
 nlohmann::json& physicsOf(nlohmann::json& document, int node);
+/// Of plainDocument(): its shapes, its first material, the ball's motion.
+nlohmann::json& shapesOf(nlohmann::json& document);
+nlohmann::json& materialOf(nlohmann::json& document);
+nlohmann::json& ballMotion(nlohmann::json& document);
+
+const Body& bodyIn(const Imported& imported, const std::string& name);
 
 /// The document as binary glTF; its first buffer becomes the binary chunk.
 std::string binaryOf(nlohmann::json document, const std::string& buffer);
@@ -35,7 +43,7 @@ std::string binaryOf(nlohmann::json document, const std::string& buffer);
 void stripExtras(nlohmann::json& value);
 
 /// Writes a document as glTF with a motion of 0.1 s in free flight, whatever may be in the way.
-void exportFreeFlight(const std::string& path, const Document& document);
+void exportFreeFlight(const std::string& path, const Document& document, const GltfOptions& options = {});
 
 /// The message of the error that a function throws; fails the test when it throws none.
 std::string messageOf(const std::function<void()>& function);

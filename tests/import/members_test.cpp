@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every member means: samples of this folder and small changes of them, against values worked out by hand.
 #include <gtest/gtest.h>
 
@@ -11,11 +12,6 @@ namespace {
 using nlohmann::json;
 using test::expectEntries;
 
-const Body& bodyIn(const Imported& imported, const std::string& name) {
-  const Scene& scene = imported.document.scene;
-  return scene.bodies[static_cast<std::size_t>(bodyIndex(scene, name))];
-}
-
 template <class Kind>
 const Kind& shapeIn(const Imported& imported, const std::string& name) {
   return std::get<Kind>(bodyIn(imported, name).shape);
@@ -25,15 +21,15 @@ Mat3 turnOf(const Body& body) { return body.orientation.toRotationMatrix(); }
 
 /// glTF's axes in ours: x to x, y to z, z to -y.
 Mat3 zUp() { return (Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished(); }
-/// Ours from theirs for shapes along z here and along y there.
-Mat3 alongY() { return zUp().transpose(); }
+/// A turn in a file's axes, of axes that are turned along: the same turn of ours.
+Mat3 zUp(const Mat3& turn) { return zUp() * turn * zUp().transpose(); }
 
 constexpr double kTight = 1e-15;
 
 TEST(Members, EveryKindOfShape) {
   const Imported sample = importGltf(samplePath("shapes.gltf"));
   EXPECT_EQ(sample.document.scene.bodies.size(), 13u);
-  EXPECT_EQ(shapeIn<Box>(sample, "Box").size, Vec3(0.5, 0.8, 0.3));
+  EXPECT_EQ(shapeIn<Box>(sample, "Box").size, Vec3(0.5, 0.3, 0.8));
   EXPECT_EQ(shapeIn<Capsule>(sample, "Capsule").radius, 0.2);
   EXPECT_EQ(shapeIn<Capsule>(sample, "Capsule").height, 0.5);
   EXPECT_EQ(shapeIn<Cylinder>(sample, "Cylinder").height, 0.7);
@@ -54,8 +50,8 @@ TEST(Members, YUpBecomesZUp) {
   const Imported sample = importGltf(samplePath("shapes.gltf"));
   const Body& box = bodyIn(sample, "Box");
   EXPECT_EQ(box.position, Vec3(-3, -1, 2));
-  expectEntries(turnOf(box), zUp(), kTight, "box");
-  expectEntries(turnOf(bodyIn(sample, "Capsule")), zUp() * alongY(), kTight, "capsule");
+  expectEntries(turnOf(box), Mat3(Mat3::Identity()), kTight, "box");
+  expectEntries(turnOf(bodyIn(sample, "Capsule")), Mat3(Mat3::Identity()), kTight, "capsule");
   EXPECT_EQ(bodyIn(sample, "Capsule").angular_velocity, Vec3(0, 0, 3));
   const Body& cylinder = bodyIn(sample, "Cylinder");  // a quarter turn about z: its axis lies along -x
   expectEntries(Vec3(turnOf(cylinder).col(2)), Vec3(-1, 0, 0), kTight, "axis");
@@ -71,25 +67,25 @@ TEST(Members, NodesBelowAMotionAreParts) {
   const Body& car = bodyIn(sample, "Car");
   const auto& parts = std::get<Compound>(car.shape).parts;
   EXPECT_EQ(car.mass, 3);
-  expectEntries(parts[2].position, Vec3(0.3, 0, -0.25), kTight, "third wheel");
-  // The wheel's axis is turned from y to z, which is the axis of our cylinders.
-  expectEntries(parts[2].orientation.toRotationMatrix(), Mat3(Mat3::Identity()), kTight, "third wheel");
+  expectEntries(parts[2].position, Vec3(0.3, 0.25, 0), kTight, "third wheel");
+  // The wheel's axis is turned from y to z, which is across here.
+  expectEntries(Vec3(parts[2].orientation.toRotationMatrix().col(2)), Vec3(0, -1, 0), kTight, "third wheel");
   EXPECT_EQ(std::get<Cylinder>(parts[2].shape).radius, 0.12);
   EXPECT_EQ(std::get<Hull>(parts[4].shape).surface->vertices.size(), 10u);
-  EXPECT_NEAR(modelOf(car).center.y(), 0.11, 0.02) << "the roof is above the wheels, along the node's y";
+  EXPECT_NEAR(modelOf(car).center.z(), 0.11, 0.02) << "the roof is above the wheels";
 }
 
 TEST(Members, MassCentreAndInertia) {
   const Imported sample = importGltf(samplePath("shapes.gltf"));
   const Body& bracket = bodyIn(sample, "Bracket");
   EXPECT_EQ(bracket.mass, 1.5);
-  EXPECT_EQ(*bracket.center_of_mass, Vec3(0.25, 0.25, 0));
+  EXPECT_EQ(*bracket.center_of_mass, Vec3(0.25, 0, 0.25));
   // Principal axes turned by twice atan(0.6 / 0.8) about z.
   const double c = 0.28, s = 0.96;
   Mat3 expected;
   expected << c * c * 0.05 + s * s * 0.06, c * s * (0.05 - 0.06), 0, c * s * (0.05 - 0.06), s * s * 0.05 + c * c * 0.06,
       0, 0, 0, 0.07;
-  expectEntries(bracket.inertia.matrix(), expected, 1e-15, "inertia");
+  expectEntries(bracket.inertia.matrix(), zUp(expected), 1e-15, "inertia");
   const Body& box = bodyIn(sample, "Box");
   EXPECT_EQ(box.inertia.source, Inertia::Source::derived);
   EXPECT_FALSE(box.center_of_mass.has_value());
@@ -141,15 +137,15 @@ TEST(Members, MaterialsWithTheirRules) {
 
 TEST(Members, ScaleGoesIntoTheShape) {
   const Imported sample = importGltf(samplePath("materials.gltf"));
-  EXPECT_EQ(shapeIn<Box>(sample, "Slope").size, Vec3(6, 0.3, 6));
+  EXPECT_EQ(shapeIn<Box>(sample, "Slope").size, Vec3(6, 6, 0.3));
   EXPECT_EQ(shapeIn<Sphere>(sample, "Heavy ball").radius, 0.9 * 0.125);
-  expectEntries(shapeIn<Box>(sample, "Soap").size, Vec3(0.21, 0.070000004, 0.14), 1e-15, "soap");
+  expectEntries(shapeIn<Box>(sample, "Soap").size, Vec3(0.21, 0.14, 0.070000004), 1e-15, "soap");
 
   const Imported shapes = importGltf(samplePath("shapes.gltf"));
   Vec3 low = Vec3::Constant(1e9), high = -low;
   for (const Vec3& v : shapeIn<Mesh>(shapes, "Ground").surface->vertices)
     low = low.cwiseMin(v), high = high.cwiseMax(v);
-  expectEntries(Vec3(high - low), Vec3(4 * 1.8, (high - low).y(), 3 * 1.4), 1e-6, "ground");
+  expectEntries(Vec3(high - low), Vec3(4 * 1.8, 3 * 1.4, (high - low).z()), 1e-6, "ground");
 }
 
 TEST(Members, ScaleAboveABodyStretchesItsPartsAndItsCentre) {
@@ -166,9 +162,9 @@ TEST(Members, ScaleAboveABodyStretchesItsPartsAndItsCentre) {
   const Body& body = bodyIn(imported, "ball");
   const auto& parts = std::get<Compound>(body.shape).parts;
   EXPECT_EQ(body.position, Vec3(0, 0, 4));
-  EXPECT_EQ(parts[0].position, Vec3(1, 2, 3));
-  EXPECT_EQ(std::get<Box>(parts[0].shape).size, Vec3(1, 2, 3));
-  expectEntries(*body.center_of_mass, Vec3(0.1, 0.4, 0.9), 1e-15, "centre of mass");
+  EXPECT_EQ(parts[0].position, Vec3(1, -3, 2));
+  EXPECT_EQ(std::get<Box>(parts[0].shape).size, Vec3(1, 3, 2));
+  expectEntries(*body.center_of_mass, Vec3(0.1, -0.9, 0.4), 1e-15, "centre of mass");
 }
 
 TEST(Members, NegativeScaleMirrorsMeshesAndSizesOthers) {
@@ -181,12 +177,12 @@ TEST(Members, NegativeScaleMirrorsMeshesAndSizesOthers) {
   writeTemporary("shapes.bin", contentOf(samplePath("shapes.bin")));
   file["buffers"][0]["uri"] = "shapes.bin";
   const Imported imported = importJson(file);
-  EXPECT_EQ(shapeIn<Box>(imported, "Box").size, Vec3(0.5, 1.6, 0.3 * 3));
+  EXPECT_EQ(shapeIn<Box>(imported, "Box").size, Vec3(0.5, 0.3 * 3, 1.6));
   const Surface& surface = *shapeIn<Mesh>(imported, "Bracket").surface;
   EXPECT_TRUE(surface.closed);
   EXPECT_NEAR(surface.volume, 0.06, 1e-7) << "inside out it would be refused";  // (0.12 + 0.08) * 0.3
   EXPECT_LT(surface.center.x(), 0);
-  EXPECT_EQ(*bodyIn(imported, "Bracket").center_of_mass, Vec3(-0.25, 0.25, 0));
+  EXPECT_EQ(*bodyIn(imported, "Bracket").center_of_mass, Vec3(-0.25, 0, 0.25));
 }
 
 TEST(Members, AMirroredPlaneFacesTheOtherWay) {
@@ -247,7 +243,7 @@ TEST(Members, AMotionBelowAMotionIsABodyOfItsOwn) {
 TEST(Members, TheOlderForm) {
   const Imported imported = importGltf(samplePath("older.gltf"));
   EXPECT_TRUE(imported.report.warnings.empty()) << listOf(imported.report);
-  EXPECT_EQ(shapeIn<Box>(imported, "Floor").size, Vec3(4, 0.2, 4));
+  EXPECT_EQ(shapeIn<Box>(imported, "Floor").size, Vec3(4, 4, 0.2));
   EXPECT_EQ(shapeIn<Hull>(imported, "Tetrahedron").surface->vertices.size(), 4u);
   EXPECT_NEAR(shapeIn<Hull>(imported, "Tetrahedron").surface->volume, 0.4 * 0.5 * 0.3 / 6, 1e-9);
   EXPECT_EQ(shapeIn<Sphere>(imported, "Ball").radius, 0.2);

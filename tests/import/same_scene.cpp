@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/import/same_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A document with surfaces made in memory, and the mesh files beside it.
 #include <gtest/gtest.h>
 

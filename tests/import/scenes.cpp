@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/import/scenes.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is not supported is named, with its node, and the rest is read.
 #include <gtest/gtest.h>
 
@@ -18,9 +19,6 @@ struct LeftOut {
 std::ostream& operator<<(std::ostream& out, const LeftOut& row) { return out << row.name; }
 
 json sphereShape() { return {{"type", "sphere"}, {"sphere", {{"radius", 0.1}}}}; }
-json& shapesOf(json& file) { return file["extensions"]["KHR_implicit_shapes"]["shapes"]; }
-json& materialOf(json& file) { return file["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"][0]; }
-json& ballMotion(json& file) { return physicsOf(file, 1)["motion"]; }
 
 /// Node 2, below the scene or below another node.
 void addNode(json& file, const json& node, int parent = -1) {

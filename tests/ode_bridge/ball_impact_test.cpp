@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Closed-form impacts of balls against the same roots in extended precision; and the cheap look ahead never says no
 // where they meet.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Convex hulls: known solids, what every hull keeps, points that are hard on rounding, what is refused.
 
 #include "ode_bridge/convex_hull.h"
@@ -19,7 +20,7 @@ namespace {
 
 using namespace test;
 
-const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+const double kNotANumber = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
 double sizeOf(const std::vector<Vec3>& points) {
   Vec3 low = points[0], high = low;
@@ -221,7 +222,7 @@ std::vector<BadPoints> badPoints() {
   }
   return {{"none", {}, {"0 points", "four or more"}},
           {"three", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {"3 points", "four or more"}},
-          {"notANumber", cube(3, {0, kNan, 0}), {"point 3", "nan", "finite"}},
+          {"notANumber", cube(3, {0, kNotANumber, 0}), {"point 3", "nan", "finite"}},
           {"infinite", cube(7, {0, 0, kInf}), {"point 7", "inf", "finite"}},
           {"huge", cube(0, {-1e300, 0, 0}), {"point 0", "e+300", "at most 1e9"}},
           {"equal", std::vector<Vec3>(9, Vec3(1, 2, 3)), {"9 points", "at one place", "span a volume"}},

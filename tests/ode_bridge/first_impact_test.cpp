@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // First impacts whose time is known in closed form, for every pair of shapes and features: with a fixed and with a
 // flying partner, seen from any direction, in either order of the bodies.
 

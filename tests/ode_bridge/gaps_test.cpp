@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The smooth gaps between frozen features: Jacobians against central differences, and what every gap must keep.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Passes that just touch or just do not, bodies that fly side by side, and bodies that overlap or touch at the start.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Neighbour lists never miss a pair whose swept bounds meet: against brute force, over random flights, impacts and
 // sizes.
 

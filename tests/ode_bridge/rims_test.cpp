@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rims before edges and rims: the places of nearest approach against a search in extended precision, and the ends of
 // what is defined.
 

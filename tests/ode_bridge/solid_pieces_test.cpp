@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The convex pieces of solids, and the tree of balls about them.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/ode_bridge/solid_rows.h"
 
 #include "ode_bridge/convex_hull.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Motions of so many bodies that neighbours are listed in windows: the same impacts as when everyone is everyone's
 // neighbour; and paths without events.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,6 @@ namespace carom::pairs {
 namespace {
 
 constexpr int kShots = 10000, kBlocks = 4;
-constexpr int kMostFailures = 5;
 constexpr double kBox = 0.01, kPlate = 0.001;
 
 struct Shot {

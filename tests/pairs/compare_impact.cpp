@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/pairs/compare_impact.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <map>
@@ -21,6 +22,7 @@ Found firstFound(const Scene& scene, double duration);
 
 inline constexpr double kTimeTolerance = 1e-12;  // s
 inline constexpr double kPlaceTolerance = 1e-9;  // m; and 1 for normals
+inline constexpr int kMostFailures = 5;          // of a test, which then stops
 
 /// Compares what was found with the brute-force answer, over many throws.
 class Agreement {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/pairs/distance.h"
 
 #include <algorithm>
@@ -9,9 +10,7 @@
 namespace carom::pairs {
 namespace {
 
-constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
-
-bool isHalfSpace(const Piece& piece) { return piece.kind == Piece::Kind::half_space; }
+constexpr Real kTouchingBalls = 1e-15L;  // m; balls farther apart than this, which rounding cannot take away, part
 
 class Least final : public Collector {
  public:
@@ -27,14 +26,28 @@ class Within final : public Collector {
   void add(const Candidate& c) override { all.push_back(c); }
 };
 
-Real ballGap(const Placed& A, std::size_t i, const Placed& B, std::size_t j) {
+bool nearerThan(const Solid::Ball& a, const Solid::Ball& b, Real distance) {
+  const Real reach = a.radius + b.radius + distance;
+  const Vector between = a.centre - b.centre;
+  return reach > 0 && dot(between, between) < reach * reach;
+}
+
+bool ballsWithin(const Placed& A, std::size_t i, const Placed& B, std::size_t j, Real distance) {
   const auto &a = A.balls()[i], &b = B.balls()[j];
   const auto height = [](const Piece& half_space, const Solid::Ball& ball) {
     return dot(half_space.faces[0].normal, ball.centre - half_space.points[0]) - ball.radius;
   };
-  if (isHalfSpace(A.pieces()[i])) return height(A.pieces()[i], b);
-  if (isHalfSpace(B.pieces()[j])) return height(B.pieces()[j], a);
-  return norm(a.centre - b.centre) - a.radius - b.radius;
+  if (isHalfSpace(A.pieces()[i])) return height(A.pieces()[i], b) < distance;
+  if (isHalfSpace(B.pieces()[j])) return height(B.pieces()[j], a) < distance;
+  return nearerThan(a, b, distance);
+}
+
+// The pieces whose balls are nearer to the ball of all of the other solid.
+std::vector<std::size_t> nearTo(const Solid::Ball& whole, const Placed& A, Real distance) {
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < A.balls().size(); ++i)
+    if (nearerThan(A.balls()[i], whole, distance)) near.push_back(i);
+  return near;
 }
 
 }  // namespace
@@ -59,7 +72,7 @@ Distance distanceOf(const Placed& A, const Placed& B, const Known& known) {
       least = here.cutoff, result.nearest = here.best, direction = proof.normal;
   };
   const auto mayBeNearer = [&](std::size_t i, std::size_t j) {
-    if (!(ballGap(A, i, B, j) < least)) return false;
+    if (!ballsWithin(A, i, B, j, least)) return false;
     const Piece &a = A.pieces()[i], &b = B.pieces()[j];
     if (isHalfSpace(a) || isHalfSpace(b)) return true;
     if (direction && slab(a, b, *direction) > least) return false;
@@ -68,44 +81,42 @@ Distance distanceOf(const Placed& A, const Placed& B, const Known& known) {
   };
   const std::size_t first = known.hint ? known.hint->a.piece : 0, second = known.hint ? known.hint->b.piece : 0;
   look(first, second);
-  for (std::size_t i = 0; i < A.pieces().size(); ++i)
-    for (std::size_t j = 0; j < B.pieces().size(); ++j)
-      if ((i != first || j != second) && mayBeNearer(i, j)) look(i, j);
+  for (const auto& [i, j] : piecesWithin(A, B, least))
+    if ((i != first || j != second) && mayBeNearer(i, j)) look(i, j);
   return result;
 }
 
-std::vector<Candidate> nearestOfPiecesWithin(const Placed& A, const Placed& B, Real distance) {
-  std::vector<Candidate> all;
-  for (std::size_t i = 0; i < A.pieces().size(); ++i)
-    for (std::size_t j = 0; j < B.pieces().size(); ++j) {
-      if (!(ballGap(A, i, B, j) < distance)) continue;
-      Least here;
-      here.cutoff = distance;
-      enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), here);
-      if (here.best.a.piece >= 0) all.push_back(here.best);
-    }
-  return all;
+std::vector<std::pair<std::size_t, std::size_t>> piecesWithin(const Placed& A, const Placed& B, Real distance) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  const std::vector<std::size_t> of_b = nearTo(A.whole(), B, distance);
+  for (const std::size_t i : nearTo(B.whole(), A, distance))
+    for (const std::size_t j : of_b)
+      if (ballsWithin(A, i, B, j, distance)) pairs.emplace_back(i, j);
+  return pairs;
+}
+
+std::optional<Candidate> nearestOfPieces(const Placed& A, std::size_t i, const Placed& B, std::size_t j,
+                                         Real distance) {
+  Least here;
+  here.cutoff = distance;
+  enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), here);
+  if (here.best.a.piece < 0) return {};
+  return here.best;
 }
 
 bool provenApart(const Placed& A, const Placed& B) {
-  for (std::size_t i = 0; i < A.pieces().size(); ++i)
-    for (std::size_t j = 0; j < B.pieces().size(); ++j) {
-      if (ballGap(A, i, B, j) > 0) continue;
-      Least here;
-      here.cutoff = kInfinite;
-      enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), here);
-      if (here.best.a.piece < 0 || !(separationOf(A, B, here.best).width > 0)) return false;
-    }
+  for (const auto& [i, j] : piecesWithin(A, B, kTouchingBalls)) {
+    const std::optional<Candidate> nearest = nearestOfPieces(A, i, B, j, kInfinite);
+    if (!nearest || !(separationOf(A, B, *nearest).width > 0)) return false;
+  }
   return true;
 }
 
 std::vector<Candidate> candidatesWithin(const Placed& A, const Placed& B, Real distance) {
   Within found;
   found.cutoff = distance;
-  for (std::size_t i = 0; i < A.pieces().size(); ++i)
-    for (std::size_t j = 0; j < B.pieces().size(); ++j)
-      if (ballGap(A, i, B, j) < distance)
-        enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), found);
+  for (const auto& [i, j] : piecesWithin(A, B, distance))
+    enumerate(A.pieces()[i], static_cast<int>(i), B.pieces()[j], static_cast<int>(j), found);
   return found.all;
 }
 

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tests/pairs/solid.h"
@@ -38,7 +40,10 @@ bool provenApart(const Placed& A, const Placed& B);
 
 /// All locally nearest feature pairs within a distance.
 std::vector<Candidate> candidatesWithin(const Placed& A, const Placed& B, Real distance);
-/// The nearest features of every two pieces within a distance.
-std::vector<Candidate> nearestOfPiecesWithin(const Placed& A, const Placed& B, Real distance);
+
+/// Pieces of A and B, by number, whose balls are nearer than a distance; no others are.
+std::vector<std::pair<std::size_t, std::size_t>> piecesWithin(const Placed& A, const Placed& B, Real distance);
+/// The nearest features of two pieces, if they are within a distance.
+std::optional<Candidate> nearestOfPieces(const Placed& A, std::size_t i, const Placed& B, std::size_t j, Real distance);
 
 }  // namespace carom::pairs

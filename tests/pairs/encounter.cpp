@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/pairs/encounter.h"
 
 #include <algorithm>
@@ -14,14 +15,11 @@ constexpr Real kRounding = 1e-15L;  // m, generous for distances in long double
 constexpr Real kAmple = 0.02L;      // m between the whole bodies' balls: no need to look at their features
 constexpr Real kFine = 1e-7L;       // m: below, sharp features that meet at their ends have no provable distance
 constexpr Real kLongest = 0.1L;     // s, that frozen features are followed
-constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
 constexpr Real kShort = 0.99L;     // of a safe step, so that none ends in the contact itself
 constexpr long kMostSteps = 4000;  // of one encounter; a pass that takes more is next to grazing
 constexpr Real kGrazing = 0.01L;   // least n.u / |u|
 constexpr Real kSlow = 1e-3L;      // m/s, least n.u
 constexpr Real kParallel = 1e-3L;  // least sine between two curves that cross, or a rim's axis and a normal
-
-bool isHalfSpace(const Solid& solid) { return solid.pieces[0].kind == Piece::Kind::half_space; }
 
 Vector tangentAt(const Feature& f, const Vector& p) {
   return f.kind == FeatureKind::circle ? unit(cross(f.along, p - f.at)) : f.along;
@@ -96,15 +94,24 @@ Drift Encounter::driftOf(const Side& side) {
 
 // A time for which slabs stay open between all pieces: those farther apart than any point can move, and the others by
 // the first-order motion of their points and a bound on what it leaves out.
-Real Encounter::longStep(Real distance) const {
+Real Encounter::longStep(Real distance, const Candidate& nearest) const {
   const Drift a = driftOf(a_), b = driftOf(b_);
   const Real bend = a.bend + b.bend + norm(a.g - b.g);
   Real h = std::min(std::sqrt(2 * distance / (bend + 1e-9L)), kLongest);
   if (h < 2 * safeStep(distance)) return 0;
-  for (const Candidate& c : nearestOfPiecesWithin(a_.placed, b_.placed, travelIn(h))) {
-    const Piece &p = a_.placed.pieces()[c.a.piece], &q = b_.placed.pieces()[c.b.piece];
-    const Separation apart = separationOf(a_.placed, b_.placed, c);
-    while (!(slabAfter(p, a, q, b, apart.normal, h) > kRounding)) {
+  const Vector across_gap = unit(nearest.p - nearest.q);
+  for (const auto& [i, j] : piecesWithin(a_.placed, b_.placed, travelIn(h))) {
+    const Piece &p = a_.placed.pieces()[i], &q = b_.placed.pieces()[j];
+    // The bound is concave in h: a slab that is open now and then stays open between.
+    const auto parts = [&](const Vector& n) { return slabAfter(p, a, q, b, n, h) > kRounding; };
+    const auto partsFromNow = [&](const Vector& n) { return parts(n) && slab(p, q, n) > kRounding; };
+    // Most pieces are parted by what parts the nearest ones, or along the line between their middles.
+    const Vector middles = a_.placed.balls()[i].centre - b_.placed.balls()[j].centre;
+    if (!isHalfSpace(p) && !isHalfSpace(q) && (partsFromNow(across_gap) || partsFromNow(unit(middles)))) continue;
+    const std::optional<Candidate> c = nearestOfPieces(a_.placed, i, b_.placed, j, travelIn(h));
+    if (!c) continue;
+    const Separation apart = separationOf(a_.placed, b_.placed, *c);
+    while (!parts(apart.normal)) {
       h /= 2;
       if (h < 1e-12L) return 0;
     }
@@ -169,7 +176,7 @@ std::optional<FirstImpact> Encounter::firstImpact(Real until, bool patient) {
     }
     if (step > kMostSteps) return doubtful("a pass next to grazing");
     const Real plain = kShort * safeStep(safe);
-    const Real forward = patient || safe > kNear ? plain : std::max(plain, longStep(safe));
+    const Real forward = patient || safe > kNear ? plain : std::max(plain, longStep(safe, hint));
     known = {};
     if (distance < kInfinite) known = {&hint, distance + travelIn(forward) + kRounding};
     t += forward;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -69,7 +70,7 @@ class Encounter {
   Real ballGap() const;
   Real safeStep(Real distance) const;
   static Drift driftOf(const Side& side);
-  Real longStep(Real distance) const;
+  Real longStep(Real distance, const Candidate& nearest) const;
   Real speed() const;
   Real travelIn(Real h) const;
   FirstImpact impactOf(const Candidate& nearest, Real now);

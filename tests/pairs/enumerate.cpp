@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/pairs/enumerate.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ void rimsOnHalfSpace(const Piece& cylinder, int i, const Piece& half_space, int 
 }
 
 void segmentsOnSegments(const Piece& a, int i, const Piece& b, int j, Collector& out) {
-  const std::vector<Piece::Edge> first = segmentsOf(a), second = segmentsOf(b);
+  const std::vector<Piece::Edge>&first = segmentsOf(a), &second = segmentsOf(b);
   struct Held {
     Vector p, d, middle;
     Real half;
@@ -47,7 +48,8 @@ void segmentsOnSegments(const Piece& a, int i, const Piece& b, int j, Collector&
     const Vector p = piece.points[e.from], d = piece.points[e.to] - p;
     return Held{p, d, p + 0.5L * d, norm(d) / 2};
   };
-  std::vector<Held> held;
+  static thread_local std::vector<Held> held;  // kept, as this runs for millions of triangles
+  held.clear();
   for (const Piece::Edge& e : second) held.push_back(hold(b, e));
   const Real radius = a.radius + b.radius;
   for (int k = 0; k < static_cast<int>(first.size()); ++k) {
@@ -69,9 +71,9 @@ void segmentsOnSegments(const Piece& a, int i, const Piece& b, int j, Collector&
 
 }  // namespace
 
-std::vector<Piece::Edge> segmentsOf(const Piece& piece) {
-  if (piece.edges.empty()) return {{0, 0}};
-  return piece.edges;
+const std::vector<Piece::Edge>& segmentsOf(const Piece& piece) {
+  static const std::vector<Piece::Edge> lone_point = {{0, 0}};
+  return piece.edges.empty() ? lone_point : piece.edges;
 }
 
 FeatureId onSegment(int piece, const Piece::Edge& edge, int index, Real parameter) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>
@@ -29,7 +30,7 @@ struct SegmentPair {
 SegmentPair nearestOnSegments(const Vector& p, const Vector& d, const Vector& q, const Vector& e);
 
 /// Edges of a piece; a lone point is an edge of no length.
-std::vector<Piece::Edge> segmentsOf(const Piece& piece);
+const std::vector<Piece::Edge>& segmentsOf(const Piece& piece);
 /// The end of an edge, or the edge, at a parameter.
 FeatureId onSegment(int piece, const Piece::Edge& edge, int index, Real parameter);
 /// Whether a point lies over a face, seen along its normal.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 
@@ -160,7 +161,7 @@ void rimOnCylinder(const Round& a, int rim, const Round& b, bool swapped, Collec
 
 void enumerateCylinder(const Piece& other, int i, const Piece& cylinder, int j, bool swapped, Collector& out) {
   const Round round(cylinder, j);
-  const std::vector<Piece::Edge> edges = segmentsOf(other);
+  const std::vector<Piece::Edge>& edges = segmentsOf(other);
   for (int k = 0; k < static_cast<int>(edges.size()); ++k)
     segmentOnCylinder(other, i, edges[k], k, round, swapped, out);
   rimsOnFaces(other, i, round, swapped, out);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/pairs/replay.h"
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/pairs/separation.h"
 
 #include <algorithm>
@@ -5,8 +6,6 @@
 
 namespace carom::pairs {
 namespace {
-
-bool isHalfSpace(const Piece& piece) { return piece.kind == Piece::Kind::half_space; }
 
 // Largest m . (p - from) of the points that a piece is made of, its radius left out unless it is a cylinder's.
 Real farthest(const Piece& piece, const Vector& m, const Vector& from) {

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "tests/support/exact/touch.h"
@@ -17,6 +19,8 @@ using Touch = exact::Touch<Real>;
 using exact::FeatureId;
 using exact::FeatureKind;
 
+inline constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
+
 /// A shape as a union of convex pieces, each in a ball.
 struct Solid {
   struct Ball {
@@ -31,6 +35,9 @@ struct Solid {
   /// Radius about a point of the shape's axes that holds all of it.
   Real reachFrom(const Vector& p) const;
 };
+
+inline bool isHalfSpace(const Piece& piece) { return piece.kind == Piece::Kind::half_space; }
+inline bool isHalfSpace(const Solid& solid) { return isHalfSpace(solid.pieces[0]); }
 
 /// A solid with all its points in the world.
 class Placed {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,7 +15,6 @@ namespace carom::pairs {
 namespace {
 
 constexpr int kImpacts = 200;  // of each ordered pair
-constexpr int kMostFailures = 5;
 
 class Throws : public testing::TestWithParam<test::ShapePair> {
  protected:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/random/brute_force.h"
 
 #include <algorithm>

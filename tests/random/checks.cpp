@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/random/checks.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/random/impact_law.h"
 
 #include <Eigen/LU>

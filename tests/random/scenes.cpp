@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/random/scenes.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -11,7 +12,7 @@ namespace carom::brute {
 namespace {
 
 constexpr Real kTime = 1e-9L;       // s
-constexpr Real kRounding = 1e-15L;  // m, of what positions in double leave open of a gap
+constexpr Real kPositionRounding = 1e-15L;  // m, of what positions in double leave open of a gap
 constexpr Real kTie = 1e-9L;        // m
 constexpr Real kVelocity = 1e-10L;  // relative to the larger of 1 and the speed
 constexpr Real kFlight = 1e-11L;    // the same, and m, rad
@@ -91,7 +92,7 @@ class SequenceCheck {
     const Real t = event.time, gap = std::abs(brute_.separationAt(a, b, t).value);
     findings_.worst_gap = std::max(findings_.worst_gap, gap);
     if (!(gap <= kTie)) fail("bodies", a, "and", b, "are", gap, "m from touching");
-    const Real rate = std::abs(approach(a, b, t)), open = kRounding / std::max(rate, Real(1e-30L));
+    const Real rate = std::abs(approach(a, b, t)), open = kPositionRounding / std::max(rate, Real(1e-30L));
     const auto touch = brute_.lookAt(a, b, t + std::max(kTime, open));
     if (touch && std::abs(*touch - t) <= kTime) {
       findings_.worst_time = std::max(findings_.worst_time, std::abs(*touch - t));
@@ -99,7 +100,7 @@ class SequenceCheck {
     }
     if (event.contacts.size() > 1) return false;  // one of those that join the instant may only rest against the other
     if (touch && std::abs(*touch - t) <= open) return false;
-    if (!touch && !brute_.hasParted(a, b) && gap <= kRounding)
+    if (!touch && !brute_.hasParted(a, b) && gap <= kPositionRounding)
       return false;  // a bounce lower than the start's rounding
     if (touch)
       fail("bodies", a, "and", b, "meet at t =", *touch, ", off by", *touch - t, "s; approach", rate);

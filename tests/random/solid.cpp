@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/random/solid.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/cases.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The reference itself against the closed forms of docs/equations.md section 8, before anything is held to it.
 
 #include <gtest/gtest.h>

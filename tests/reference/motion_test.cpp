@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The product against the reference, on every row of the table of cases, in both orders of the bodies.
 
 #include <gtest/gtest.h>
@@ -15,11 +16,6 @@
 
 namespace carom::reference {
 namespace {
-
-constexpr double kStateTolerance = 1e-12;    ///< of the component, at least of 1
-constexpr double kTimeTolerance = 1e-13;     ///< s
-constexpr double kGradientTolerance = 1e-9;  ///< of the column's scale
-constexpr double kSmallestScale = 1e-2;      ///< of a column; so that columns that are exactly zero can be compared
 
 Vec3 turnBetween(const Quat& from, const Quat& to) {
   const Quat d = to * from.conjugate();

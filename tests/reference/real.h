@@ -1,14 +1,24 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/mpfr.hpp>
 
 #include "adjoint/types.h"
 
 namespace carom::reference {
 
-/// 50 decimal digits (168 bits). Expression templates are off: `auto` and ?: mean what they seem to mean.
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+/// 50 decimal digits (168 bits), rounded to nearest. Expression templates are off: `auto` and ?: mean what they seem to
+/// mean.
+using Real =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
+                                  boost::multiprecision::et_off>;
+
+/// sum += a b, each rounded; `product` is scratch. The operators copy their numbers, which costs as much again.
+inline void addProduct(Real& sum, Real& product, const Real& a, const Real& b) {
+  mpfr_mul(product.backend().data(), a.backend().data(), b.backend().data(), MPFR_RNDN);
+  mpfr_add(sum.backend().data(), sum.backend().data(), product.backend().data(), MPFR_RNDN);
+}
 
 /// A vector of three numbers.
 struct RVec {

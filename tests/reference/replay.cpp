@@ -1,16 +1,14 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/replay.h"
 
+#include "tests/reference/differences.h"
 #include "tests/reference/knobs.h"
 #include "tests/reference/world_lines.h"
 
 namespace carom::reference {
 namespace {
 
-/// Half the width of the central differences. Their error is its square, 1e-32, times a third derivative; that of the
-/// arithmetic 1e-40 (the series) divided by it.
-const Real kNudge("1e-16");
-
-struct Instant {
+struct FlightTime {
   int flight;
   Real time;
 };
@@ -21,19 +19,12 @@ BodyState roundedState(const RealState& s) {
   return {s.position.rounded(), quaternionOf(s.R), s.velocity.rounded(), s.spin.rounded()};
 }
 
-/// Vector of the small rotation that takes R_0 to R_1.
-RVec rotationBetween(const RMat& R_0, const RMat& R_1) {
-  RVec sum;
-  for (int j = 0; j < 3; ++j) sum = sum + cross(R_0.column[j], R_1.column[j]);
-  return (Real(1) / 2) * sum;
-}
-
-/// The twelve (and the time) differences between two states, divided by the width 2 h.
-std::array<Real, 13> realDifference(const RealState& lo, const RealState& hi, const Real& dtime, const Real& h) {
-  const Real f = 1 / (2 * h);
+/// The twelve (and the time) differences between two states, divided by the width h.
+std::array<Real, 13> difference(const RealState& from, const RealState& to, const Real& dtime, const Real& h) {
+  const Real f = 1 / h;
   std::array<Real, 13> out{};
-  const RVec parts[] = {hi.position - lo.position, rotationBetween(lo.R, hi.R), hi.velocity - lo.velocity,
-                        hi.spin - lo.spin};
+  const RVec parts[] = {to.position - from.position, rotationBetween(from.R, to.R), to.velocity - from.velocity,
+                        to.spin - from.spin};
   for (int p = 0; p < 4; ++p) {
     for (int c = 0; c < 3; ++c) out[3 * p + c] = f * parts[p][c];
   }
@@ -41,15 +32,50 @@ std::array<Real, 13> realDifference(const RealState& lo, const RealState& hi, co
   return out;
 }
 
-std::array<double, 13> difference(const RealState& lo, const RealState& hi, const Real& dtime) {
-  const std::array<Real, 13> exact = realDifference(lo, hi, dtime, kNudge);
-  std::array<double, 13> out{};
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<double>(exact[i]);
-  return out;
+/// A scene that is near another one, replayed along the impacts of that.
+struct Nearby {
+  WorldLines lines;
+  std::vector<FrozenImpact> impacts;
+
+  Nearby(SceneNumbers numbers, const WorldLines& known, const std::vector<FrozenImpact>& known_impacts,
+         ImpactTimes times)
+      : lines(std::move(numbers), &known), impacts(known_impacts) {
+    for (FrozenImpact& f : impacts) lines.apply(f, times, false);
+  }
+};
+
+FlightTime flightTimeOf(const WorldLines& lines, const std::vector<FrozenImpact>& impacts, const Row& row) {
+  if (row.event < 0) return {lines.flightAt(row.body, row.time), Real(row.time)};
+  const FrozenImpact& f = impacts[row.event];
+  if (row.body != f.a && row.body != f.b) throw std::invalid_argument("the body takes no part in the event");
+  return {row.body == f.a ? f.flight_a : f.flight_b, f.time};
 }
 
-/// The same for second differences, which divide the error of the arithmetic twice.
-const Real kSecondNudge("1e-11");
+bool sameMoment(const Row& a, const Row& b) { return a.body == b.body && a.event == b.event && a.time == b.time; }
+
+/// Differences of two replays, one for each row; what is read at a time is read `later` after it in both.
+std::vector<Real> differences(const WorldLines& from, const std::vector<FrozenImpact>& impacts, const Nearby& to,
+                              const std::vector<Row>& rows, const Real& later, const Real& h) {
+  std::vector<Real> column;
+  std::array<Real, 13> all{};
+  const Row* last = nullptr;
+  for (const Row& row : rows) {
+    if (!last || !sameMoment(*last, row)) {
+      FlightTime at[2] = {flightTimeOf(from, impacts, row), flightTimeOf(to.lines, to.impacts, row)};
+      if (row.event < 0) at[0].time += later, at[1].time += later;
+      all = difference(from.stateAt(row.body, at[0].flight, at[0].time),
+                       to.lines.stateAt(row.body, at[1].flight, at[1].time), at[1].time - at[0].time, h);
+      last = &row;
+    }
+    column.push_back(all[row.component]);
+  }
+  return column;
+}
+
+SceneNumbers nudged(SceneNumbers numbers, const Knob& knob, const Real& change) {
+  knobKinds()[knob.kind].nudge(numbers, knob.index, knob.component, change);
+  return numbers;
+}
 
 }  // namespace
 
@@ -60,13 +86,6 @@ struct Reference::Data {
   std::vector<std::string> features;
 
   explicit Data(const Scene& scene) : numbers(numbersOf(scene)), lines(numbers) {}
-
-  Instant instantOf(const std::vector<FrozenImpact>& at, const Row& row) const {
-    if (row.event < 0) return {lines.flightAt(row.body, row.time), Real(row.time)};
-    const FrozenImpact& f = at[row.event];
-    if (row.body != f.a && row.body != f.b) throw std::invalid_argument("the body takes no part in the event");
-    return {row.body == f.a ? f.flight_a : f.flight_b, f.time};
-  }
 };
 
 Reference::Reference(const Scene& scene, const Sequence& sequence) : data_(std::make_unique<Data>(scene)) {
@@ -92,75 +111,41 @@ BodyState Reference::stateAt(int body, double t) const {
   return roundedState(data_->lines.stateAt(body, data_->lines.flightAt(body, t), t));
 }
 BodyState Reference::stateBefore(int event, int body) const {
-  const Instant at = data_->instantOf(data_->impacts, {body, event, 0, 0});
+  const FlightTime at = flightTimeOf(data_->lines, data_->impacts, {body, event, 0, 0});
   return roundedState(data_->lines.stateAt(body, at.flight, at.time));
 }
 
 std::vector<double> Reference::derivative(const Knob& knob, const std::vector<Row>& rows, ImpactTimes times) const {
   const Data& d = *data_;
-  std::vector<FrozenImpact> impacts[2] = {d.impacts, d.impacts};
-  std::vector<WorldLines> lines;
-  for (int side : {0, 1}) {
-    SceneNumbers numbers = d.numbers;
-    knobKinds()[knob.kind].nudge(numbers, knob.index, knob.component, side == 0 ? -kNudge : kNudge);
-    lines.emplace_back(std::move(numbers), &d.lines);
-    for (FrozenImpact& f : impacts[side]) lines[side].apply(f, times, false);
-  }
+  const Nearby there(nudged(d.numbers, knob, kNudge), d.lines, d.impacts, times);
   std::vector<double> column;
-  std::array<double, 13> all{};
-  const Row* last = nullptr;
-  for (const Row& row : rows) {
-    if (!last || last->body != row.body || last->event != row.event || last->time != row.time) {
-      RealState s[2];
-      for (int side : {0, 1}) {
-        const Instant at = d.instantOf(impacts[side], row);
-        s[side] = lines[side].stateAt(row.body, at.flight, at.time);
-      }
-      all = difference(s[0], s[1], row.event < 0 ? Real(0) : impacts[1][row.event].time - impacts[0][row.event].time);
-      last = &row;
-    }
-    column.push_back(all[row.component]);
-  }
+  for (const Real& exact : differences(d.lines, d.impacts, there, rows, 0, kNudge))
+    column.push_back(static_cast<double>(exact));
   return column;
 }
 
-std::vector<double> Reference::secondDerivative(const std::vector<double>& direction, double dtime, const Knob& knob,
-                                                const std::vector<Row>& rows) const {
+std::vector<std::vector<double>> Reference::secondDerivatives(const std::vector<double>& direction, double dtime,
+                                                              const std::vector<Knob>& knobs,
+                                                              const std::vector<Row>& rows) const {
   const Data& d = *data_;
-  const Real& h = kSecondNudge;
-  std::vector<std::array<Real, 13>> sides[2];
-  for (int along : {-1, 1}) {
+  std::vector<std::vector<Real>> low;
+  std::vector<std::vector<double>> columns(knobs.size());
+  for (const Real& h : {Real(-kAlong), kAlong}) {
     SceneNumbers moved = d.numbers;
-    std::size_t k = 0;
+    std::size_t n = 0;
     for (const KnobKind& kind : knobKinds())
       for (int index = 0; index < kind.count(d.numbers); ++index)
-        for (int component : kind.components(d.numbers, index))
-          kind.nudge(moved, index, component, along * h * direction[k++]);
-    std::vector<FrozenImpact> impacts[2] = {d.impacts, d.impacts};
-    std::vector<WorldLines> lines;
-    for (int side : {0, 1}) {
-      SceneNumbers numbers = moved;
-      knobKinds()[knob.kind].nudge(numbers, knob.index, knob.component, side == 0 ? -h : h);
-      lines.emplace_back(std::move(numbers), &d.lines);
-      for (FrozenImpact& f : impacts[side]) lines[side].apply(f, ImpactTimes::follow, false);
-    }
-    for (const Row& row : rows) {
-      RealState s[2];
-      for (int side : {0, 1}) {
-        Instant at = d.instantOf(impacts[side], row);
-        if (row.event < 0) at.time += along * h * dtime;
-        s[side] = lines[side].stateAt(row.body, at.flight, at.time);
-      }
-      const Real later = row.event < 0 ? Real(0) : impacts[1][row.event].time - impacts[0][row.event].time;
-      sides[along > 0].push_back(realDifference(s[0], s[1], later, h));
+        for (int component : kind.components(d.numbers, index)) kind.nudge(moved, index, component, h * direction[n++]);
+    const Nearby here(moved, d.lines, d.impacts, ImpactTimes::follow);
+    for (std::size_t k = 0; k < knobs.size(); ++k) {
+      const Nearby there(nudged(moved, knobs[k], kBeside), here.lines, here.impacts, ImpactTimes::follow);
+      std::vector<Real> exact = differences(here.lines, here.impacts, there, rows, h * dtime, kBeside);
+      if (h < 0) low.push_back(std::move(exact));
+      for (std::size_t i = 0; i < rows.size() && h > 0; ++i)
+        columns[k].push_back(static_cast<double>(Real((exact[i] - low[k][i]) / (2 * h))));
     }
   }
-  std::vector<double> column;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto c = static_cast<std::size_t>(rows[i].component);
-    column.push_back(static_cast<double>((sides[1][i][c] - sides[0][i][c]) / (2 * h)));
-  }
-  return column;
+  return columns;
 }
 
 std::vector<Knob> knobsOf(const Scene& scene) {
@@ -203,15 +188,12 @@ std::vector<Rotation> freeRotation(const Vec3& inertia, const Quat& q, const Vec
   Mat3 Rotation::*const blocks[] = {&Rotation::dtheta_dtheta, &Rotation::dtheta_dL, &Rotation::dtheta_dI};
   for (int block = 0; block < 3; ++block) {
     for (int c = 0; c < 3; ++c) {
-      std::vector<FreeRotation> ends;
-      for (const Real& nudge : {Real(-kNudge), kNudge}) {
-        const RVec change = axisVector(c, nudge);
-        ends.emplace_back(block == 2 ? I + change : I, block == 0 ? rotationBy(change) * R : R,
-                          block == 1 ? momentum + change : momentum);
-      }
+      const RVec change = axisVector(c, kNudge);
+      FreeRotation there(block == 2 ? I + change : I, block == 0 ? rotationBy(change) * R : R,
+                         block == 1 ? momentum + change : momentum);
       for (std::size_t i = 0; i < times.size(); ++i) {
-        const RVec turn = rotationBetween(ends[0].orientationAt(times[i]), ends[1].orientationAt(times[i]));
-        (out[i].*blocks[block]).col(c) = ((1 / (2 * kNudge)) * turn).rounded();
+        const RVec turn = rotationBetween(nominal.orientationAt(times[i]), there.orientationAt(times[i]));
+        (out[i].*blocks[block]).col(c) = ((1 / kNudge) * turn).rounded();
       }
     }
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <memory>
@@ -61,13 +62,15 @@ class Reference {
   Vec3 impulse(int event) const;  ///< on body a
   BodyState stateAt(int body, double t) const;
   BodyState stateBefore(int event, int body) const;
-  /// d(rows)/d(knob) by central differences in the same arithmetic; far below double rounding.
+  /// d(rows)/d(knob) by differences in the same arithmetic; their error is far below double rounding.
   std::vector<double> derivative(const Knob& knob, const std::vector<Row>& rows,
                                  ImpactTimes times = ImpactTimes::follow) const;
-  /// The rate of `derivative(knob, rows)` as all knobs of the scene change along `direction` (one number a knob) and
-  /// the times of rows that are read at a time at the rate `dtime`: by central differences of central differences.
-  std::vector<double> secondDerivative(const std::vector<double>& direction, double dtime, const Knob& knob,
-                                       const std::vector<Row>& rows) const;
+  /// For each of some knobs, the rate of `derivative(knob, rows)` as all knobs of the scene change along `direction`
+  /// (one number a knob of knobsOf) and the times of rows that are read at a time at the rate `dtime`: by central
+  /// differences of differences.
+  std::vector<std::vector<double>> secondDerivatives(const std::vector<double>& direction, double dtime,
+                                                     const std::vector<Knob>& knobs,
+                                                     const std::vector<Row>& rows) const;
 
  private:
   struct Data;

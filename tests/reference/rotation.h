@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cmath>
@@ -45,8 +46,9 @@ class FreeRotation {
   RVec spinAt(const RMat& R) const { return R * times(D_, transposeTimes(R, L_)); }
 
  private:
-  static constexpr int kOrder = 44;
-  static constexpr double kTolerance = 1e-40;
+  // Half of ln(1/tolerance) to all of it: there a second of flight costs the fewest products of coefficients.
+  static constexpr int kOrder = 36;
+  static constexpr double kTolerance = 1e-32;
 
   struct Segment {
     Real start, length;
@@ -64,18 +66,19 @@ class FreeRotation {
     const RVec rate{speed_ * (D_[2] - D_[1]), speed_ * (D_[0] - D_[2]), speed_ * (D_[1] - D_[0])};
     const RVec Du0 = times(D_, s.u0);
     const Real twice_energy = dot(s.u0, Du0);
-    std::array<Real, kOrder + 1> denominator, f;
+    std::array<Real, kOrder + 1> minus_denominator, f;
+    Real scratch;
     for (int k = 0; k <= kOrder; ++k) {
-      denominator[k] = dot(s.u0, s.u[k]);
+      minus_denominator[k] = -dot(s.u0, s.u[k]);
       f[k] = dot(Du0, s.u[k]);
-      if (k == 0) denominator[0] += 1, f[0] += twice_energy;
-      for (int j = 1; j <= k; ++j) f[k] -= denominator[j] * f[k - j];
-      f[k] /= denominator[0];
+      if (k == 0) minus_denominator[0] -= 1, f[0] += twice_energy;
+      for (int j = 1; j <= k; ++j) addProduct(f[k], scratch, minus_denominator[j], f[k - j]);
+      f[k] /= -minus_denominator[0];
       if (k == kOrder) break;
       RVec sum;
       for (int j = 0; j <= k; ++j) {
         const RVec &p = s.u[j], &q = s.u[k - j];
-        sum[0] += p[1] * q[2], sum[1] += p[2] * q[0], sum[2] += p[0] * q[1];
+        for (int i = 0; i < 3; ++i) addProduct(sum[i], scratch, p[(i + 1) % 3], q[(i + 2) % 3]);
       }
       s.u[k + 1] = (Real(1) / (k + 1)) * times(rate, sum);
       s.psi[k + 1] = speed_ * f[k] / (k + 1);

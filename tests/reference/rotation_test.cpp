@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Free rotation: the reference against independent statements about it, then Arc against the reference.
 
 #include <gtest/gtest.h>

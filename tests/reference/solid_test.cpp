@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mass properties of shapes and their rates by every dimension, against sums and differences in 50 digits.
 
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@ namespace {
 
 using test::Random;
 
-constexpr double kTolerance = 1e-13;  ///< of the volume, the extent, its square; rates by a dimension that far
-const Real kNudge("1e-16");
+constexpr double kSolidTolerance = 1e-13;  ///< of the volume, the extent, its square; rates by a dimension that far
+const Real kHalfWidth("1e-16");
 
 Shape randomShape(Random& random, int kind) {
   const auto size = [&] { return std::exp(random.in(-2, 1)); };
@@ -92,14 +93,14 @@ TEST(Solids, PropertiesAndRates) {
       for (Real& size : part.size) {
         ASSERT_LT(d, found.rates.size());
         const Real at = size;
-        size = at + kNudge;
+        size = at + kHalfWidth;
         const auto high = flat(solidOf(parts));
-        size = at - kNudge;
+        size = at - kHalfWidth;
         const auto low = flat(solidOf(parts));
         size = at;
         const auto rate = flat(found.rates[d]);
         for (std::size_t i = 0; i < 13; ++i) {
-          const double wanted = static_cast<double>(Real((high[i] - low[i]) / (2 * kNudge)));
+          const double wanted = static_cast<double>(Real((high[i] - low[i]) / (2 * kHalfWidth)));
           keepWorst(worst_rate, std::abs(rate[i] - wanted) * dimensions[static_cast<Eigen::Index>(d)] / scale(i));
         }
         ++d;
@@ -107,8 +108,8 @@ TEST(Solids, PropertiesAndRates) {
     EXPECT_EQ(d, found.rates.size());
   }
   std::cout << "worst property " << worst << ", worst rate " << worst_rate << '\n';
-  EXPECT_LE(worst, kTolerance);
-  EXPECT_LE(worst_rate, kTolerance);
+  EXPECT_LE(worst, kSolidTolerance);
+  EXPECT_LE(worst_rate, kSolidTolerance);
 }
 
 }  // namespace

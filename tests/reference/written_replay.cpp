@@ -1,12 +1,15 @@
+// SPDX-License-Identifier: MIT
 #include "tests/reference/written_replay.h"
 
+#include "tests/reference/differences.h"
 #include "tests/reference/impact.h"
 #include "tests/reference/rotation.h"
 
 namespace carom::reference {
 namespace {
 
-const Real kNudge("1e-16");
+/// The rotations of the flights of a replay.
+using Rotations = std::vector<std::shared_ptr<FreeRotation>>;
 
 struct Point {
   RVec at;  // in the axes of the shape
@@ -37,8 +40,13 @@ std::vector<Point> pointsOf(const std::vector<PartNumbers>& parts) {
 
 class Throw {
  public:
-  explicit Throw(const ThrowNumbers& n)
-      : n_(n), model_(modelOf(n.body)), points_(pointsOf(n.body.parts)), normal_(n.floor.orientation * n.floor.normal) {
+  /// Rotations that are equal to `known` ones are shared with them, since their series are the dear part.
+  Throw(const ThrowNumbers& n, const Rotations& known)
+      : n_(n),
+        known_(known),
+        model_(modelOf(n.body)),
+        points_(pointsOf(n.body.parts)),
+        normal_(n.floor.orientation * n.floor.normal) {
     const RMat R = n.body.orientation * model_.principal.axes;
     const RVec L = R * times(model_.principal.moments, transposeTimes(R, n.body.spin));
     begin(0, n.body.position + n.body.orientation * model_.center, n.body.velocity, R, L);
@@ -48,6 +56,7 @@ class Throw {
     const Moment m = momentAt(t);
     return {m.x - m.R_WG * model_.center, m.v, m.spin, m.R_WG, t};
   }
+  const Rotations& rotations() const { return rotations_; }
 
   // Newton on the gap, whose rate is n.u.
   Real timeOf(const PointImpact& impact) {
@@ -83,13 +92,17 @@ class Throw {
 
   void begin(const Real& t, const RVec& x, const RVec& v, const RMat& R, const RVec& L) {
     start_ = t, x_ = x, v_ = v;
-    rotation_ = std::make_unique<FreeRotation>(model_.principal.moments, R, L);
+    auto rotation = std::make_shared<FreeRotation>(model_.principal.moments, R, L);
+    const std::size_t k = rotations_.size();
+    if (k < known_.size() && known_[k]->sameAs(*rotation)) rotation = known_[k];
+    rotations_.push_back(rotation);
   }
 
   Moment momentAt(const Real& t) {
     const Real s = t - start_;
-    const RMat R = rotation_->orientationAt(s);
-    return {x_ + s * v_ + (s * s / 2) * n_.body.gravity, v_ + s * n_.body.gravity, rotation_->spinAt(R), R,
+    FreeRotation& rotation = *rotations_.back();
+    const RMat R = rotation.orientationAt(s);
+    return {x_ + s * v_ + (s * s / 2) * n_.body.gravity, v_ + s * n_.body.gravity, rotation.spinAt(R), R,
             R * transpose(model_.principal.axes)};
   }
 
@@ -109,19 +122,63 @@ class Throw {
   }
 
   const ThrowNumbers& n_;
+  const Rotations& known_;
   RealModel model_;
   std::vector<Point> points_;
   RVec normal_;
   Real start_;
   RVec x_, v_;
-  std::unique_ptr<FreeRotation> rotation_;
+  Rotations rotations_;
 };
 
-RVec rotationBetween(const RMat& R_0, const RMat& R_1) {
-  RVec sum;
-  for (int j = 0; j < 3; ++j) sum = sum + cross(R_0.column[j], R_1.column[j]);
-  return (Real(1) / 2) * sum;
+struct Followed {
+  std::vector<WrittenState> states;
+  Rotations rotations;
+};
+
+Followed replayNear(const ThrowNumbers& numbers, const std::vector<PointImpact>& impacts, const Real& end, bool decide,
+                    const Rotations& known) {
+  Followed out;
+  Throw run(numbers, known);
+  for (const PointImpact& impact : impacts) {
+    const Real t = run.timeOf(impact);
+    out.states.push_back(run.stateAt(t));
+    run.strike(impact, t, decide);
+  }
+  out.states.push_back(run.stateAt(end));
+  out.rotations = run.rotations();
+  return out;
 }
+
+/// A throw followed, to take differences from.
+struct Base {
+  ThrowNumbers numbers;
+  std::vector<PointImpact> impacts;  ///< at the exact times
+  Real end;
+  Followed followed;
+
+  Base(const ThrowNumbers& n, const std::vector<PointImpact>& near, const Real& at_end, const Rotations& known)
+      : numbers(n), impacts(near), end(at_end), followed(replayNear(n, near, at_end, false, known)) {
+    for (std::size_t k = 0; k < impacts.size(); ++k) impacts[k].time = followed.states[k].time;
+  }
+
+  /// The changes of the 13 numbers of every state by a nudge of h.
+  std::vector<std::array<Real, 13>> changes(const ThrowKnob& knob, const Real& h) const {
+    ThrowNumbers nudged = numbers;
+    knob.nudge(nudged, h);
+    const std::vector<WrittenState> ends = replayNear(nudged, impacts, end, false, followed.rotations).states;
+    std::vector<std::array<Real, 13>> out;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const WrittenState &from = followed.states[k], &to = ends[k];
+      const RVec parts[] = {to.position - from.position, rotationBetween(from.R, to.R), to.velocity - from.velocity,
+                            to.spin - from.spin};
+      std::array<Real, 13>& d = out.emplace_back();
+      for (int i = 0; i < 12; ++i) d[static_cast<std::size_t>(i)] = parts[i / 3][i % 3];
+      d[12] = to.time - from.time;
+    }
+    return out;
+  }
+};
 
 }  // namespace
 
@@ -134,15 +191,7 @@ ThrowNumbers throwNumbers(const Scene& scene, int body, int floor) {
 
 std::vector<WrittenState> replay(const ThrowNumbers& numbers, const std::vector<PointImpact>& impacts, const Real& end,
                                  bool decide) {
-  std::vector<WrittenState> states;
-  Throw run(numbers);
-  for (const PointImpact& impact : impacts) {
-    const Real t = run.timeOf(impact);
-    states.push_back(run.stateAt(t));
-    run.strike(impact, t, decide);
-  }
-  states.push_back(run.stateAt(end));
-  return states;
+  return replayNear(numbers, impacts, end, decide, {}).states;
 }
 
 std::vector<ThrowKnob> throwKnobs(const ThrowNumbers& numbers, int body, int floor) {
@@ -210,60 +259,44 @@ ThrowKnob inertiaOfMass() {
           [](SceneDerivative&) -> double& { throw std::logic_error("no number of a scene"); }};
 }
 
-std::vector<Eigen::Matrix<double, 13, 1>> replayDerivative(const ThrowNumbers& numbers,
-                                                           const std::vector<PointImpact>& impacts, const Real& end,
-                                                           const ThrowKnob& knob) {
-  std::vector<WrittenState> ends[2];
-  for (int side : {0, 1}) {
-    ThrowNumbers nudged = numbers;
-    knob.nudge(nudged, side ? kNudge : Real(-kNudge));
-    ends[side] = replay(nudged, impacts, end, false);
+std::vector<MomentRates> replayDerivatives(const ThrowNumbers& numbers, const std::vector<PointImpact>& impacts,
+                                           const Real& end, const std::vector<ThrowKnob>& knobs) {
+  const Base base(numbers, impacts, end, {});
+  std::vector<MomentRates> columns;
+  for (const ThrowKnob& knob : knobs) {
+    MomentRates& column = columns.emplace_back();
+    for (const auto& change : base.changes(knob, kNudge)) {
+      Eigen::Matrix<double, 13, 1>& d = column.emplace_back();
+      for (std::size_t i = 0; i < 13; ++i)
+        d[static_cast<Eigen::Index>(i)] = static_cast<double>(Real(change[i] / kNudge));
+    }
   }
-  std::vector<Eigen::Matrix<double, 13, 1>> out;
-  const Real f = 1 / (2 * kNudge);
-  for (std::size_t k = 0; k < ends[0].size(); ++k) {
-    const WrittenState &lo = ends[0][k], &hi = ends[1][k];
-    Eigen::Matrix<double, 13, 1> d;
-    d << (f * (hi.position - lo.position)).rounded(), (f * rotationBetween(lo.R, hi.R)).rounded(),
-        (f * (hi.velocity - lo.velocity)).rounded(), (f * (hi.spin - lo.spin)).rounded(),
-        static_cast<double>(f * (hi.time - lo.time));
-    out.push_back(d);
-  }
-  return out;
+  return columns;
 }
 
-std::vector<Eigen::Matrix<double, 13, 1>> replaySecondDerivative(const ThrowNumbers& numbers,
-                                                                 const std::vector<PointImpact>& impacts,
-                                                                 const Real& end, const std::vector<ThrowKnob>& knobs,
-                                                                 const std::vector<double>& direction,
-                                                                 const ThrowKnob& knob) {
-  const Real h("1e-11");
-  const Real f = 1 / (4 * h * h);
-  std::vector<Eigen::Matrix<Real, 13, 1>> sum;
-  for (int along : {-1, 1}) {
+std::vector<MomentRates> replaySecondDerivatives(const ThrowNumbers& numbers, const std::vector<PointImpact>& impacts,
+                                                 const Real& end, const std::vector<ThrowKnob>& knobs,
+                                                 const std::vector<double>& direction,
+                                                 const std::vector<ThrowKnob>& columns_of) {
+  const Base base(numbers, impacts, end, {});
+  std::vector<std::vector<std::array<Real, 13>>> low;
+  std::vector<MomentRates> columns(columns_of.size());
+  for (const Real& h : {Real(-kAlong), kAlong}) {
     ThrowNumbers moved = numbers;
-    for (std::size_t k = 0; k < knobs.size(); ++k) knobs[k].nudge(moved, along * h * direction[k]);
-    std::vector<WrittenState> ends[2];
-    for (int side : {0, 1}) {
-      ThrowNumbers nudged = moved;
-      knob.nudge(nudged, side ? h : Real(-h));
-      ends[side] = replay(nudged, impacts, end, false);
-    }
-    sum.resize(ends[0].size(), Eigen::Matrix<Real, 13, 1>::Zero());
-    for (std::size_t k = 0; k < sum.size(); ++k) {
-      const WrittenState &lo = ends[0][k], &hi = ends[1][k];
-      const RVec parts[] = {hi.position - lo.position, rotationBetween(lo.R, hi.R), hi.velocity - lo.velocity,
-                            hi.spin - lo.spin};
-      for (int i = 0; i < 12; ++i) sum[k][i] += along * parts[i / 3][i % 3];
-      sum[k][12] += along * (hi.time - lo.time);
+    for (std::size_t k = 0; k < knobs.size(); ++k) knobs[k].nudge(moved, h * direction[k]);
+    const Base here(moved, base.impacts, end, base.followed.rotations);
+    for (std::size_t c = 0; c < columns_of.size(); ++c) {
+      auto changes = here.changes(columns_of[c], kBeside);
+      if (h < 0) low.push_back(std::move(changes));
+      for (std::size_t k = 0; k < changes.size() && h > 0; ++k) {
+        Eigen::Matrix<double, 13, 1>& d = columns[c].emplace_back();
+        for (std::size_t i = 0; i < 13; ++i)
+          d[static_cast<Eigen::Index>(i)] =
+              static_cast<double>(Real((changes[k][i] - low[c][k][i]) / (2 * kBeside * h)));
+      }
     }
   }
-  std::vector<Eigen::Matrix<double, 13, 1>> out;
-  for (const auto& numbers_of : sum) {
-    Eigen::Matrix<double, 13, 1>& d = out.emplace_back();
-    for (Eigen::Index i = 0; i < 13; ++i) d[i] = static_cast<double>(f * numbers_of[i]);
-  }
-  return out;
+  return columns;
 }
 
 }  // namespace carom::reference

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <functional>
@@ -28,7 +29,7 @@ ThrowNumbers throwNumbers(const Scene& scene, int body, int floor);
 struct PointImpact {
   int point = 0;
   ImpactMode mode = ImpactMode::frictionless;
-  double time = 0;
+  Real time = 0;
 };
 
 /// State as people write it.
@@ -55,17 +56,18 @@ std::vector<ThrowKnob> throwKnobs(const ThrowNumbers& numbers, int body, int flo
 /// the rest, so the whole is to be held to this size and not to its own, which is 0.
 ThrowKnob inertiaOfMass();
 
-/// d(position, rotation vector, velocity, angular velocity, time) of the states of `replay`, by central differences in
-/// the same arithmetic.
-std::vector<Eigen::Matrix<double, 13, 1>> replayDerivative(const ThrowNumbers& numbers,
-                                                           const std::vector<PointImpact>& impacts, const Real& end,
-                                                           const ThrowKnob& knob);
+/// d(position, rotation vector, velocity, angular velocity, time) of each of the states of `replay`.
+using MomentRates = std::vector<Eigen::Matrix<double, 13, 1>>;
 
-/// The rate of `replayDerivative` as all knobs change along `direction`, one number each: differences of differences.
-std::vector<Eigen::Matrix<double, 13, 1>> replaySecondDerivative(const ThrowNumbers& numbers,
-                                                                 const std::vector<PointImpact>& impacts,
-                                                                 const Real& end, const std::vector<ThrowKnob>& knobs,
-                                                                 const std::vector<double>& direction,
-                                                                 const ThrowKnob& knob);
+/// By each of the knobs, by differences in the same arithmetic.
+std::vector<MomentRates> replayDerivatives(const ThrowNumbers& numbers, const std::vector<PointImpact>& impacts,
+                                           const Real& end, const std::vector<ThrowKnob>& knobs);
+
+/// The rates of the derivatives by `columns_of` as all `knobs` change along `direction`, one number each: by central
+/// differences of differences.
+std::vector<MomentRates> replaySecondDerivatives(const ThrowNumbers& numbers, const std::vector<PointImpact>& impacts,
+                                                 const Real& end, const std::vector<ThrowKnob>& knobs,
+                                                 const std::vector<double>& direction,
+                                                 const std::vector<ThrowKnob>& columns_of);
 
 }  // namespace carom::reference

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where methods fail (docs/charts.md), what this program does is stated: the right answer, or that it has none.
 
 #include <gtest/gtest.h>

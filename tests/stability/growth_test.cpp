@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small changes that grow over many impacts: the gradient stays exact while it grows, and says what an edit can rest
 // on.
 

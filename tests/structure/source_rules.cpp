@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/structure/source_rules.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include "tests/structure/source_rules.h"
+#include "tests/test_paths.h"
 
 namespace carom::structure {
 namespace {

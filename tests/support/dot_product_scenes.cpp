@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/dot_product_scenes.h"
 
 #include <cmath>
@@ -8,13 +9,13 @@ namespace carom::test {
 namespace {
 
 const Vec3 kGravity(0.2, -0.1, -9.81);
-const Quat kTurned = Quat(0.8, 0.3, -0.4, 0.2).normalized();
+const Quat kAskew = Quat(0.8, 0.3, -0.4, 0.2).normalized();
 
 Body floorPlane() { return makePlane("floor", Vec3::UnitZ(), 0); }
 
 Body thrownBox() {
   Body b = makeBox("box", {0.3, 0.2, 0.1}, {0, 0, 0.6}, {1, 0.3, -1});
-  b.orientation = kTurned;
+  b.orientation = kAskew;
   b.angular_velocity = {2, -3, 1};
   return b;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/offset_scenes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/solids.h"
 
 #include <cmath>

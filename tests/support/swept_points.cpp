@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/swept_points.h"
 
 #include <algorithm>

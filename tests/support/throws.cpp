@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/throws.h"
 
 #include <cmath>

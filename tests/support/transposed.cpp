@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/transposed.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Simulations in parallel are, to the last bit, what they are alone, whatever ran before in the process. Run under
 // ThreadSanitizer by the preset `thread`.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/threads/scenes.h"
 
 #include "tests/support/scenes.h"

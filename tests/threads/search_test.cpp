@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The search across impact sequences on several threads. Under ThreadSanitizer by the preset `thread`; the same bits on
 // any number of threads are held by tests/editing/sequence_test.cpp.
 

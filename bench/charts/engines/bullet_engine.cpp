@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>

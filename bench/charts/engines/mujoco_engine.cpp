@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <mujoco/mujoco.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/brute/flight.h"
 
 #include <cmath>

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editing/session.h"
+#include "formats/journal_json.h"
+
+namespace carom::test {
+
+/// A ball that bounces on a floor is dragged once.
+SessionJournal shortSession();
+
+}  // namespace carom::test
