@@ -30,6 +30,7 @@ Inertia Inertia::fromMatrix(const Mat3& matrix) {
   Mat3 axes = solver.eigenvectors();
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   inertia.axes = Quat(axes).normalized();
+  inertia.axes.coeffs().array() += 0.0;  // no negative zeros: a file in other axes does not keep them
   return inertia;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/detail/json.hpp"
+#include "formats/detail/schema_acceptance.hpp"
 
 namespace carom::detail {
 
@@ -47,22 +48,28 @@ Json withScene(Json journal) {
   return journal;
 }
 
-struct Schema {
-  explicit Schema(Json rules) : tree(std::move(rules)) {
+const Json& schemaOf(DocumentKind kind) {
+  static const Json scene = Json::parse(kSceneSchema);
+  if (kind == DocumentKind::scene) return scene;
+  static const Json journal = withScene(Json::parse(kJournalSchema));
+  return journal;
+}
+
+/// What says where a document breaks a schema.
+struct Checker {
+  explicit Checker(const Json& tree) {
     const nlohmann::json plain = tree;
     valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), checker);
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), compiled);
   }
-
-  Json tree;                 // for what the messages say
-  valijson::Schema checker;  // for whether and where the document breaks it
+  valijson::Schema compiled;
 };
 
-const Schema& schemaOf(DocumentKind kind) {
-  static const Schema scene(Json::parse(kSceneSchema));
-  if (kind == DocumentKind::scene) return scene;
-  static const Schema journal(withScene(Json::parse(kJournalSchema)));
-  return journal;
+const valijson::Schema& checkerOf(DocumentKind kind) {
+  static const Checker scene(schemaOf(DocumentKind::scene));
+  if (kind == DocumentKind::scene) return scene.compiled;
+  static const Checker journal(schemaOf(DocumentKind::journal));
+  return journal.compiled;
 }
 
 const Json* memberOf(const Json* object, const char* name) {
@@ -184,11 +191,12 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
 }  // namespace
 
 void requireSchema(const Json& document, DocumentKind kind) {
-  const Schema& schema = schemaOf(kind);
+  const Json& schema = schemaOf(kind);
+  if (keepsSchema(document, schema)) return;
   const nlohmann::json plain = document;
   valijson::Validator validator;
   valijson::ValidationResults results;
-  if (validator.validate(schema.checker, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
+  if (validator.validate(checkerOf(kind), valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
 
   // Causes are reported before what follows from them, and outer alternatives before inner ones: so the first error
   // counts, unless a later one lies deeper inside the same place.
@@ -200,7 +208,7 @@ void requireSchema(const Json& document, DocumentKind kind) {
     if (first || inside) deepest = path;
     first = false;
   }
-  TreePlace place{&document, &schema.tree, "", &schema.tree};
+  TreePlace place{&document, &schema, "", &schema};
   for (std::size_t i = 1; i < deepest.size(); ++i)  // the first is the document itself
     if (!step(place, deepest[i])) break;
   explain(place);

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "editing/solve/ipopt_solver.h"
 
-#include <IpIpoptApplication.hpp>
-#include <IpSolveStatistics.hpp>
-#include <IpTNLP.hpp>
+#include <IpStdCInterface.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <string>
+#include <vector>
 
 namespace carom {
 namespace {
-
-using Ipopt::Index;
-using Ipopt::Number;
 
 constexpr Number kIpoptInfinity = 2e19;  // beyond Ipopt's nlp_upper_bound_inf
 
@@ -27,13 +26,51 @@ bool expired(const SolverOptions& options) {
   return options.deadline && std::chrono::steady_clock::now() >= *options.deadline;
 }
 
-/// A NonlinearProgram as Ipopt sees it.
-class Adapter final : public Ipopt::TNLP {
+/// Ipopt's C interface. The library is opened when the first program is solved: it brings a dozen others along, whose
+/// relocation would cost every process more time than a small simulation.
+struct IpoptLibrary {
+  decltype(&CreateIpoptProblem) create = nullptr;
+  decltype(&FreeIpoptProblem) free = nullptr;
+  decltype(&AddIpoptStrOption) add_text = nullptr;
+  decltype(&AddIpoptNumOption) add_number = nullptr;
+  decltype(&AddIpoptIntOption) add_integer = nullptr;
+  decltype(&SetIntermediateCallback) set_callback = nullptr;
+  decltype(&IpoptSolve) solve = nullptr;
+  std::string error;  ///< why it cannot be used; empty if it can
+
+  IpoptLibrary() {
+    const std::string path = CAROM_IPOPT_LIBRARY;  // as it was found when carom was built, else wherever it is now
+    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) handle = dlopen(path.substr(path.rfind('/') + 1).c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) {
+      error = "Ipopt, which solves edits, could not be opened: " + std::string(dlerror());
+      return;
+    }
+    find(handle, "CreateIpoptProblem", create), find(handle, "FreeIpoptProblem", free);
+    find(handle, "AddIpoptStrOption", add_text), find(handle, "AddIpoptNumOption", add_number);
+    find(handle, "AddIpoptIntOption", add_integer), find(handle, "SetIntermediateCallback", set_callback);
+    find(handle, "IpoptSolve", solve);
+  }
+
+ private:
+  template <class Function>
+  void find(void* handle, const char* name, Function& function) {
+    function = reinterpret_cast<Function>(dlsym(handle, name));
+    if (function == nullptr) error = "Ipopt, which solves edits, has no function " + std::string(name) + ".";
+  }
+};
+
+const IpoptLibrary& ipoptLibrary() {
+  static const IpoptLibrary library;
+  return library;
+}
+
+/// A NonlinearProgram as Ipopt sees it; the functions below are given to it with the adapter as their last argument.
+class Adapter {
  public:
-  Adapter(NonlinearProgram& program, const SolverOptions& options, SolverResult& result)
+  Adapter(NonlinearProgram& program, const SolverOptions& options)
       : program_(program),
         options_(options),
-        result_(result),
         n_(program.variables()),
         m_(program.constraints()),
         jacobian_places_(program.jacobianPlaces()) {
@@ -42,107 +79,96 @@ class Adapter final : public Ipopt::TNLP {
 
   bool outOfTime() const { return out_of_time_; }
   std::exception_ptr thrown() const { return thrown_; }
+  int iterations() const { return iterations_; }
 
-  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag, IndexStyleEnum& index_style) override {
-    n = n_, m = m_;
-    nnz_jac_g = static_cast<Index>(jacobian_places_.size());
-    nnz_h_lag = static_cast<Index>(hessian_places_.size());
-    index_style = C_STYLE;
-    return true;
-  }
-
-  bool get_bounds_info(Index, Number* x_l, Number* x_u, Index, Number* g_l, Number* g_u) override {
+  IpoptProblem createProblem(const IpoptLibrary& ipopt) {
     const NonlinearProgram::Bounds bounds = program_.bounds();
-    copyBounds(bounds.x_lower, x_l), copyBounds(bounds.x_upper, x_u);
-    copyBounds(bounds.g_lower, g_l), copyBounds(bounds.g_upper, g_u);
-    return true;
-  }
-
-  bool get_starting_point(Index, bool, Number* x, bool, Number* z_L, Number* z_U, Index, bool init_lambda,
-                          Number* lambda) override {
-    Eigen::Map<Eigen::VectorXd>(x, n_) = program_.start();
-    static_cast<void>(z_L), static_cast<void>(z_U);
-    if (init_lambda) std::fill(lambda, lambda + m_, 0);
-    return true;
-  }
-
-  bool eval_f(Index, const Number* x, bool, Number& f) override {
-    return evaluate([&] { return program_.objective(point(x), f) && std::isfinite(f); });
-  }
-
-  bool eval_grad_f(Index, const Number* x, bool, Number* df) override {
-    return evaluate([&] {
-      if (!program_.gradient(point(x), vector_) || !vector_.allFinite()) return false;
-      Eigen::Map<Eigen::VectorXd>(df, n_) = vector_;
-      return true;
-    });
-  }
-
-  bool eval_g(Index, const Number* x, bool, Index, Number* g) override {
-    return evaluate([&] {
-      if (!program_.constraintValues(point(x), vector_) || !vector_.allFinite()) return false;
-      Eigen::Map<Eigen::VectorXd>(g, m_) = vector_;
-      return true;
-    });
-  }
-
-  bool eval_jac_g(Index, const Number* x, bool, Index, Index entries, Index* rows, Index* columns,
-                  Number* values) override {
-    if (!values) return copyPlaces(jacobian_places_, rows, columns);
-    return evaluate([&] {
-      if (!program_.jacobianEntries(point(x), vector_) || !vector_.allFinite()) return false;
-      Eigen::Map<Eigen::VectorXd>(values, entries) = vector_;
-      return true;
-    });
-  }
-
-  bool eval_h(Index, const Number* x, bool, Number factor, Index, const Number* lambda, bool, Index entries,
-              Index* rows, Index* columns, Number* values) override {
-    if (!values) return copyPlaces(hessian_places_, rows, columns);
-    return evaluate([&] {
-      const Eigen::VectorXd multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m_);
-      if (!program_.hessianEntries(point(x), factor, multipliers, vector_) || !vector_.allFinite()) return false;
-      Eigen::Map<Eigen::VectorXd>(values, entries) = vector_;
-      return true;
-    });
-  }
-
-  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number objective, Number inf_pr, Number, Number,
-                             Number, Number, Number, Number, Index, const Ipopt::IpoptData*,
-                             Ipopt::IpoptCalculatedQuantities*) override {
-    if (expired(options_)) {
-      out_of_time_ = true;
-      return false;
-    }
-    try {
-      return program_.iteration({iteration, objective, inf_pr});
-    } catch (...) {
-      thrown_ = std::current_exception();
-      return false;
-    }
-  }
-
-  void finalize_solution(Ipopt::SolverReturn, Index, const Number* x, const Number*, const Number*, Index,
-                         const Number*, const Number* lambda, Number objective, const Ipopt::IpoptData*,
-                         Ipopt::IpoptCalculatedQuantities*) override {
-    result_.x = point(x);
-    if (m_ > 0) result_.multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m_);
-    result_.objective = objective;
+    std::vector<Number> x_lower = limits(bounds.x_lower), x_upper = limits(bounds.x_upper);
+    std::vector<Number> g_lower = limits(bounds.g_lower), g_upper = limits(bounds.g_upper);
+    // Rows without any entry need one: Ipopt refuses an empty Jacobian.
+    if (m_ > 0 && jacobian_places_.empty()) jacobian_places_.push_back({0, 0}), empty_jacobian_ = true;
+    IpoptProblem problem = ipopt.create(n_, x_lower.data(), x_upper.data(), m_, g_lower.data(), g_upper.data(),
+                                        static_cast<Index>(jacobian_places_.size()),
+                                        static_cast<Index>(hessian_places_.size()), kCStyle, objective,
+                                        constraintValues, gradient, jacobian, hessian);
+    if (problem != nullptr) ipopt.set_callback(problem, iteration);
+    return problem;
   }
 
  private:
+  static constexpr Index kCStyle = 0;  // indices from 0
+
+  static Adapter& self(UserDataPtr data) { return *static_cast<Adapter*>(data); }
   Eigen::VectorXd point(const Number* x) const { return Eigen::Map<const Eigen::VectorXd>(x, n_); }
 
-  static void copyBounds(const Eigen::VectorXd& from, Number* to) {
-    for (Eigen::Index i = 0; i < from.size(); ++i) to[i] = std::clamp(from[i], -kIpoptInfinity, kIpoptInfinity);
+  static Bool objective(Index, Number* x, Bool, Number* value, UserDataPtr data) {
+    Adapter& a = self(data);
+    return a.evaluate([&] { return a.program_.objective(a.point(x), *value) && std::isfinite(*value); });
   }
 
-  static bool copyPlaces(const std::vector<NonlinearProgram::Place>& places, Index* rows, Index* columns) {
+  static Bool gradient(Index n, Number* x, Bool, Number* values, UserDataPtr data) {
+    Adapter& a = self(data);
+    return a.evaluate([&] { return a.program_.gradient(a.point(x), a.vector_) && a.copyVector(n, values); });
+  }
+
+  static Bool constraintValues(Index, Number* x, Bool, Index m, Number* values, UserDataPtr data) {
+    Adapter& a = self(data);
+    return a.evaluate([&] { return a.program_.constraintValues(a.point(x), a.vector_) && a.copyVector(m, values); });
+  }
+
+  static Bool jacobian(Index, Number* x, Bool, Index, Index entries, Index* rows, Index* columns, Number* values,
+                       UserDataPtr data) {
+    Adapter& a = self(data);
+    if (values == nullptr) return copyPlaces(a.jacobian_places_, rows, columns);
+    if (a.empty_jacobian_) return *values = 0, TRUE;
+    return a.evaluate(
+        [&] { return a.program_.jacobianEntries(a.point(x), a.vector_) && a.copyVector(entries, values); });
+  }
+
+  static Bool hessian(Index, Number* x, Bool, Number factor, Index m, Number* lambda, Bool, Index entries, Index* rows,
+                      Index* columns, Number* values, UserDataPtr data) {
+    Adapter& a = self(data);
+    if (values == nullptr) return copyPlaces(a.hessian_places_, rows, columns);
+    return a.evaluate([&] {
+      const Eigen::VectorXd multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m);
+      return a.program_.hessianEntries(a.point(x), factor, multipliers, a.vector_) && a.copyVector(entries, values);
+    });
+  }
+
+  static Bool iteration(Index, Index count, Number objective, Number inf_pr, Number, Number, Number, Number, Number,
+                        Number, Index, UserDataPtr data) {
+    Adapter& a = self(data);
+    a.iterations_ = count;
+    if (expired(a.options_)) {
+      a.out_of_time_ = true;
+      return FALSE;
+    }
+    try {
+      return a.program_.iteration({count, objective, inf_pr});
+    } catch (...) {
+      a.thrown_ = std::current_exception();
+      return FALSE;
+    }
+  }
+
+  static std::vector<Number> limits(const Eigen::VectorXd& bounds) {
+    std::vector<Number> limits;
+    for (const double bound : bounds) limits.push_back(std::clamp(bound, -kIpoptInfinity, kIpoptInfinity));
+    return limits;
+  }
+
+  static Bool copyPlaces(const std::vector<NonlinearProgram::Place>& places, Index* rows, Index* columns) {
     for (const NonlinearProgram::Place& place : places) *rows++ = place.row, *columns++ = place.column;
+    return TRUE;
+  }
+
+  bool copyVector(Index size, Number* values) const {
+    if (!vector_.allFinite()) return false;
+    Eigen::Map<Eigen::VectorXd>(values, size) = vector_;
     return true;
   }
 
-  /// Ipopt takes a refused point calmly, an exception not: it ends the whole solve.
+  /// Ipopt takes a refused point calmly; an exception must not pass through it.
   template <class Evaluation>
   bool evaluate(Evaluation evaluation) {
     if (expired(options_)) {
@@ -158,39 +184,40 @@ class Adapter final : public Ipopt::TNLP {
 
   NonlinearProgram& program_;
   const SolverOptions& options_;
-  SolverResult& result_;
   Index n_, m_;
   std::vector<NonlinearProgram::Place> jacobian_places_, hessian_places_;
+  bool empty_jacobian_ = false;
   Eigen::VectorXd vector_;
+  int iterations_ = 0;
   bool out_of_time_ = false;
   std::exception_ptr thrown_;
 };
 
 struct Outcome {
-  Ipopt::ApplicationReturnStatus code;
+  ApplicationReturnStatus code;
   SolverStatus status;
   const char* message;
 };
 
 constexpr Outcome kOutcomes[] = {
-    {Ipopt::Solve_Succeeded, SolverStatus::converged, "The solver converged."},
-    {Ipopt::Solved_To_Acceptable_Level, SolverStatus::acceptable, "The solver converged to its looser tolerance."},
-    {Ipopt::Feasible_Point_Found, SolverStatus::converged, "The solver found a feasible point."},
-    {Ipopt::Infeasible_Problem_Detected, SolverStatus::infeasible,
+    {Solve_Succeeded, SolverStatus::converged, "The solver converged."},
+    {Solved_To_Acceptable_Level, SolverStatus::acceptable, "The solver converged to its looser tolerance."},
+    {Feasible_Point_Found, SolverStatus::converged, "The solver found a feasible point."},
+    {Infeasible_Problem_Detected, SolverStatus::infeasible,
      "The solver stopped where the violation cannot be made smaller nearby."},
-    {Ipopt::Search_Direction_Becomes_Too_Small, SolverStatus::no_progress, "The solver's steps became too small."},
-    {Ipopt::Diverging_Iterates, SolverStatus::no_progress, "The solver's points ran away."},
-    {Ipopt::User_Requested_Stop, SolverStatus::stopped, "The solver was stopped."},
-    {Ipopt::Maximum_Iterations_Exceeded, SolverStatus::iteration_limit, "The solver reached its limit of iterations."},
-    {Ipopt::Maximum_CpuTime_Exceeded, SolverStatus::out_of_time, "The solver ran out of time."},
-    {Ipopt::Restoration_Failed, SolverStatus::no_progress, "The solver could not come nearer to the constraints."},
-    {Ipopt::Error_In_Step_Computation, SolverStatus::no_progress, "The solver could not compute a step."},
-    {Ipopt::Not_Enough_Degrees_Of_Freedom, SolverStatus::too_few_variables,
+    {Search_Direction_Becomes_Too_Small, SolverStatus::no_progress, "The solver's steps became too small."},
+    {Diverging_Iterates, SolverStatus::no_progress, "The solver's points ran away."},
+    {User_Requested_Stop, SolverStatus::stopped, "The solver was stopped."},
+    {Maximum_Iterations_Exceeded, SolverStatus::iteration_limit, "The solver reached its limit of iterations."},
+    {Maximum_CpuTime_Exceeded, SolverStatus::out_of_time, "The solver ran out of time."},
+    {Restoration_Failed, SolverStatus::no_progress, "The solver could not come nearer to the constraints."},
+    {Error_In_Step_Computation, SolverStatus::no_progress, "The solver could not compute a step."},
+    {Not_Enough_Degrees_Of_Freedom, SolverStatus::too_few_variables,
      "There are more equations than numbers that vary."},
-    {Ipopt::Invalid_Number_Detected, SolverStatus::cannot_evaluate, "The start could not be evaluated."},
+    {Invalid_Number_Detected, SolverStatus::cannot_evaluate, "The start could not be evaluated."},
 };
 
-void explain(Ipopt::ApplicationReturnStatus code, SolverResult& result) {
+void explain(ApplicationReturnStatus code, SolverResult& result) {
   result.status = SolverStatus::failed;
   result.message = "The solver failed (Ipopt status " + std::to_string(static_cast<int>(code)) + ").";
   for (const Outcome& outcome : kOutcomes) {
@@ -198,39 +225,62 @@ void explain(Ipopt::ApplicationReturnStatus code, SolverResult& result) {
   }
 }
 
-void setOptions(const NonlinearProgram& program, const SolverOptions& o, Ipopt::OptionsList& ipopt) {
-  ipopt.SetIntegerValue("print_level", 0);
-  ipopt.SetStringValue("sb", "yes");
-  ipopt.SetStringValue("linear_solver", "mumps");
-  ipopt.SetStringValue("hessian_approximation", program.hasHessian() ? "exact" : "limited-memory");
-  ipopt.SetStringValue("nlp_scaling_method", "none");  // programs are dimensionless
-  ipopt.SetIntegerValue("max_iter", o.max_iterations);
-  ipopt.SetNumericValue("tol", o.tolerance);
-  ipopt.SetNumericValue("constr_viol_tol", o.constraint_tolerance);
-  ipopt.SetNumericValue("acceptable_tol", 100 * o.tolerance);
-  ipopt.SetNumericValue("acceptable_constr_viol_tol", 100 * o.constraint_tolerance);
-  ipopt.SetNumericValue("bound_relax_factor", 0);  // bounds are physical
-  ipopt.SetNumericValue("mu_init", o.barrier);
-  ipopt.SetNumericValue("bound_push", o.bound_push);
-  ipopt.SetNumericValue("bound_frac", o.bound_push);
-  ipopt.SetNumericValue("slack_bound_push", o.bound_push);
-  ipopt.SetNumericValue("slack_bound_frac", o.bound_push);
-  ipopt.SetIntegerValue("min_refinement_steps", 0);
+/// What a solve is done with: copies of the words, because the C interface takes them as char*.
+class Options {
+ public:
+  Options(const IpoptLibrary& ipopt, IpoptProblem problem) : ipopt_(ipopt), problem_(problem) {}
+  void text(std::string name, std::string value) { ipopt_.add_text(problem_, name.data(), value.data()); }
+  void number(std::string name, double value) { ipopt_.add_number(problem_, name.data(), value); }
+  void integer(std::string name, int value) { ipopt_.add_integer(problem_, name.data(), value); }
+
+ private:
+  const IpoptLibrary& ipopt_;
+  IpoptProblem problem_;
+};
+
+void setOptions(const NonlinearProgram& program, const SolverOptions& o, Options ipopt) {
+  ipopt.text("option_file_name", "");  // no ipopt.opt of the current folder
+  ipopt.integer("print_level", 0);
+  ipopt.text("sb", "yes");
+  ipopt.text("linear_solver", "mumps");
+  ipopt.text("hessian_approximation", program.hasHessian() ? "exact" : "limited-memory");
+  ipopt.text("nlp_scaling_method", "none");  // programs are dimensionless
+  ipopt.integer("max_iter", o.max_iterations);
+  ipopt.number("tol", o.tolerance);
+  ipopt.number("constr_viol_tol", o.constraint_tolerance);
+  ipopt.number("acceptable_tol", 100 * o.tolerance);
+  ipopt.number("acceptable_constr_viol_tol", 100 * o.constraint_tolerance);
+  ipopt.number("bound_relax_factor", 0);  // bounds are physical
+  ipopt.number("mu_init", o.barrier);
+  ipopt.number("bound_push", o.bound_push);
+  ipopt.number("bound_frac", o.bound_push);
+  ipopt.number("slack_bound_push", o.bound_push);
+  ipopt.number("slack_bound_frac", o.bound_push);
+  ipopt.integer("min_refinement_steps", 0);
 }
 
 SolverResult solveLocked(NonlinearProgram& program, const SolverOptions& options) {
   SolverResult result;
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
-  setOptions(program, options, *application->Options());
-  if (application->Initialize("") != Ipopt::Solve_Succeeded) {
+  const IpoptLibrary& ipopt = ipoptLibrary();
+  if (!ipopt.error.empty()) {
+    result.message = ipopt.error;
+    return result;
+  }
+  Adapter adapter(program, options);
+  const std::unique_ptr<IpoptProblemInfo, decltype(ipopt.free)> problem(adapter.createProblem(ipopt), ipopt.free);
+  if (!problem) {
     result.message = "Ipopt could not be started.";
     return result;
   }
-  Ipopt::SmartPtr<Adapter> adapter = new Adapter(program, options, result);
-  explain(application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(adapter))), result);
-  if (IsValid(application->Statistics())) result.iterations = application->Statistics()->IterationCount();
-  if (adapter->thrown()) std::rethrow_exception(adapter->thrown());
-  if (adapter->outOfTime()) result.status = SolverStatus::out_of_time, result.message = "The solver ran out of time.";
+  setOptions(program, options, Options(ipopt, problem.get()));
+  result.x = program.start();
+  result.multipliers = Eigen::VectorXd::Zero(program.constraints());
+  const auto code = ipopt.solve(problem.get(), result.x.data(), nullptr, &result.objective, result.multipliers.data(),
+                                nullptr, nullptr, &adapter);
+  explain(code, result);
+  result.iterations = adapter.iterations();
+  if (adapter.thrown()) std::rethrow_exception(adapter.thrown());
+  if (adapter.outOfTime()) result.status = SolverStatus::out_of_time, result.message = "The solver ran out of time.";
   return result;
 }
 
