@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "adjoint/elementary.h"
+
 namespace carom {
 
 // Every step takes k to (1 - k')/(1 + k'), until k^2 is below the rounding and the functions are circular.
@@ -31,12 +33,13 @@ double EllipticModulus::incompleteF(double x, double y) const {
     x = next_x / size, y = next_y / size;
     half *= 0.5;
   }
-  return half * shrinking_ * (std::atan2(y, x) + 2 * M_PI * turns);
+  return half * shrinking_ * (elementary::atan2(y, x) + 2 * M_PI * turns);
 }
 
 EllipticModulus::Functions EllipticModulus::at(double u) const {
   u /= shrinking_;
-  double sn = std::sin(u), cn = std::cos(u), dn = 1;
+  auto [sn, cn] = elementary::sincos(u);
+  double dn = 1;
   for (std::size_t i = count_; i-- > 0;) {
     const double k1 = steps_[i].k1, square = k1 * sn * sn, below = 1 / (1 + square);
     cn *= dn * below;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/elementary.h"
+
 namespace carom {
 namespace {
 
@@ -68,11 +70,12 @@ std::optional<EllipticRotation> EllipticRotation::of(const Vec3& inverse_inertia
 void EllipticRotation::prepareTheta(double tan_eta) {
   const double K = modulus_.completeK(), K1 = complement_.completeK(), eta = complement_.incompleteF(1, tan_eta);
   circular_ = K <= K1;
-  const double quarter = circular_ ? K : K1, nome = std::exp(-M_PI * (circular_ ? K1 / K : K / K1));
+  const double quarter = circular_ ? K : K1, nome = elementary::exp(-M_PI * (circular_ ? K1 / K : K / K1));
   scale_ = 0.5 * M_PI / quarter;
   const double y = scale_ * eta;
   // sines and cosines of odd multiples of y, then those of even ones; sums of positive products keep their digits
-  const double sine = circular_ ? std::sinh(y) : std::sin(y), cosine = circular_ ? std::cosh(y) : std::cos(y);
+  const double sine = circular_ ? elementary::sinh(y) : elementary::sin(y);
+  const double cosine = circular_ ? elementary::cosh(y) : elementary::cos(y);
   const double sign = circular_ ? 1 : -1;
   const double sine2 = 2 * sine * cosine, cosine2 = cosine * cosine + sign * sine * sine;
   const auto advance = [&](double& sn, double& cn) {
@@ -110,7 +113,7 @@ Quat EllipticRotation::relative(double t) const {
   // theta_1 by Chebyshev's recurrences
   double re = 0, im = 0;
   if (circular_) {
-    const double sine = std::sin(scale_ * reduced), cosine = std::cos(scale_ * reduced);
+    const auto [sine, cosine] = elementary::sincos(scale_ * reduced);
     const double twice = 2 * (cosine * cosine - sine * sine);
     double s_before = -sine, s = sine, c_before = cosine, c = cosine;
     for (std::size_t n = 0; n < kTerms; ++n) {
@@ -119,17 +122,17 @@ Quat EllipticRotation::relative(double t) const {
       s_before = s, s = s_next, c_before = c, c = c_next;
     }
   } else {
-    const double b = scale_ * reduced, grow = std::exp(b), grow2 = grow * grow;
+    const double b = scale_ * reduced, grow = elementary::exp(b), grow2 = grow * grow;
     double up = 0.5 * grow, down = 0.5 / grow;
-    const double sinh_b = std::abs(b) < 0.5 ? std::sinh(b) : up - down;
+    const double sinh_b = std::abs(b) < 0.5 ? elementary::sinh(b) : up - down;
     for (std::size_t n = 0; n < kTerms; ++n) {
       re += re_[n] * (up + down), im += im_[n] * (n == 0 ? sinh_b : up - down);
       up *= grow2, down /= grow2;
     }
   }
-  const double psi = A2_ * t + turn_per_half_period_ * half_periods, c = std::cos(psi), s = std::sin(psi);
+  const auto [s, c] = elementary::sincos(A2_ * t + turn_per_half_period_ * half_periods);  // of psi
   // psi + arg theta_1 less the azimuth of M
-  const double x = re * M.x() + im * M.y(), y = im * M.x() - re * M.y(), size = std::hypot(x, y);
+  const double x = re * M.x() + im * M.y(), y = im * M.x() - re * M.y(), size = elementary::hypot(x, y);
   const Quat spin = aboutZ((x * c - y * s) / size, (x * s + y * c) / size);
   const Quat swing(1 + M.z(), M.y(), -M.x(), 0);
   return (spin * swing).normalized() * axes_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "adjoint/arguments.h"
+#include "adjoint/elementary.h"
 #include "adjoint/errors.h"
 
 namespace carom {
@@ -27,10 +28,10 @@ using SeriesLanes = std::array<double, 4>;
 double logRadius(const std::array<SeriesLanes, K + 1>& c) {
   const auto from = [&](std::size_t k) {
     const double size = c[k][0] * c[k][0] + c[k][1] * c[k][1] + c[k][2] * c[k][2] + c[k][3] * c[k][3];
-    if (size > 1e-290 && size < 1e300) return -0.5 * std::log(size) / static_cast<double>(k);
+    if (size > 1e-290 && size < 1e300) return -0.5 * elementary::log(size) / static_cast<double>(k);
     double largest = 0;  // of a spin below 1e-7 or above 5e7 rad/s, whose squares leave the range of doubles
     for (double x : c[k]) largest = std::max(largest, std::abs(x));
-    return largest > 0 ? -std::log(largest) / static_cast<double>(k) : 50.0;
+    return largest > 0 ? -elementary::log(largest) / static_cast<double>(k) : 50.0;
   };
   return std::min(from(K), from(K - 1));
 }
@@ -97,7 +98,7 @@ TriaxialRotation::Segment TriaxialRotation::makeSegment(double start, const Quat
   }
   // e^-2 of the radius makes the last term 4e-18 of the whole, and leaves room for the variations, whose terms are
   // larger
-  s.length = shortBinary(std::exp(logRadius(s.u_psi) - 2));
+  s.length = shortBinary(elementary::exp(logRadius(s.u_psi) - 2));
   return s;
 }
 
@@ -107,8 +108,9 @@ Quat TriaxialRotation::orientationIn(const Segment& s, double h) {
   for (std::size_t k = K; k-- > 0;)
     for (std::size_t i = 0; i < 4; ++i) sum[i] = sum[i] * h + s.u_psi[k][i];
   const Vec3 u0(s.u_psi[0][0], s.u_psi[0][1], s.u_psi[0][2]), u(sum[0], sum[1], sum[2]);
-  const Vec3 twist = std::sin(0.5 * sum[3]) * u0, swing = u.cross(u0);  // the inverse swing, from u to u(0)
-  return (s.q * (Quat(std::cos(0.5 * sum[3]), twist.x(), twist.y(), twist.z()) *
+  const auto [sine, cosine] = elementary::sincos(0.5 * sum[3]);
+  const Vec3 twist = sine * u0, swing = u.cross(u0);  // the inverse swing, from u to u(0)
+  return (s.q * (Quat(cosine, twist.x(), twist.y(), twist.z()) *
                  Quat(1 + u0.dot(u), swing.x(), swing.y(), swing.z())))
       .normalized();
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "adjoint/elementary.h"
 #include "adjoint/errors.h"
 #include "adjoint/flight_triaxial.h"
 
@@ -128,9 +129,9 @@ double variationStep(const Variations<N>& v, double momentum, double largest_D) 
     Columns<N> square = (v.along[k] / momentum).square();
     for (std::size_t i = 0; i < 3; ++i) square += v.dM[k][i].square();
     const double share = (square / size.square()).maxCoeff();
-    if (share > 0) log_step = std::min(log_step, (-0.5 * std::log(share) - 33.2) / static_cast<double>(k));
+    if (share > 0) log_step = std::min(log_step, (-0.5 * elementary::log(share) - 33.2) / static_cast<double>(k));
   }
-  return std::exp(log_step);
+  return elementary::exp(log_step);
 }
 
 // The turn below which eta comes from its own equation, because dM - lambda would be a difference of nearly equal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/simulate.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +11,25 @@
 #include "adjoint/simulator.h"
 
 namespace carom {
+namespace {
+
+// Eigen cuts products of large matrices into blocks by the caches that it finds, and so orders their sums. Everything
+// that is computed with begins with a motion; from then on the caches are these ones.
+void fixMatrixBlocks() {
+  static const bool fixed = [] {
+    Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
+    return true;
+  }();
+  static_cast<void>(fixed);
+}
+
+}  // namespace
 
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options) {
   checkDuration("simulate", duration);
   if (!options.asked.empty()) checkCount("simulate", "bodies asked for", options.asked.size(), scene.bodies.size());
   validate(scene);
+  fixMatrixBlocks();
   return Simulator(scene, contacts, duration, options).run();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "adjoint/elementary.h"
 #include "adjoint/so3.h"
 
 namespace carom {
@@ -20,9 +21,9 @@ inline Mat3 leftJacobianRate(const Vec3& u, const Vec3& du) {
       c[k] = sum / factorial;
     }
   } else {
-    const double a = std::sqrt(x), half_sine = std::sin(0.5 * a);
+    const double a = std::sqrt(x), half_sine = elementary::sin(0.5 * a);
     c[2] = 2 * half_sine * half_sine / x;
-    c[3] = (a - std::sin(a)) / (a * x);
+    c[3] = (a - elementary::sin(a)) / (a * x);
     c[4] = (0.5 - c[2]) / x;
     c[5] = (1.0 / 6 - c[3]) / x;
   }

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "adjoint/body_model.h"
+#include "adjoint/elementary.h"
 #include "adjoint/errors.h"
 #include "adjoint/validation.h"
 
@@ -37,7 +38,7 @@ void fail(const Place& where, const std::string& found, const std::string& expec
 void requireFinite(const Place& where, double value, double largest) {
   if (!(std::abs(value) <= largest))
     fail(where, text(value),
-         "a finite number of magnitude at most 1e" + std::to_string(std::lround(std::log10(largest))));
+         "a finite number of magnitude at most 1e" + std::to_string(std::lround(elementary::log10(largest))));
 }
 
 void requireFinite(const Place& where, const Vec3& value) {

@@ -6,6 +6,7 @@ set(carom_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 
 install(TARGETS carom_adjoint carom_ode_bridge carom_editing carom_formats EXPORT caromTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS carom_c_functions EXPORT caromTargets OBJECTS DESTINATION ${CMAKE_INSTALL_LIBDIR}/carom)
 if(TARGET carom)
   install(TARGETS carom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/elementary.h"
+
 namespace carom {
 namespace {
 
@@ -215,7 +217,7 @@ void Neighbours::chooseReach(double t) {
       all = {all.low.cwiseMin(x), all.high.cwiseMax(x)};
     }
     const Vec3 size = (all.high - all.low).cwiseMax(2 * radius);
-    const double spacing = std::cbrt(size.prod() / static_cast<double>(moving_));
+    const double spacing = elementary::cbrt(size.prod() / static_cast<double>(moving_));
     // a box of half size h has about (4 h / spacing)^3 neighbours; on the mean half of the reach is in use
     reach_ = std::max(2 * (0.6 * spacing - radius), 0.25 * radius);
     return;
@@ -224,7 +226,7 @@ void Neighbours::chooseReach(double t) {
   for (std::size_t i = 0; i < extents_.size(); ++i) total += lists_[i].size();
   const double length = static_cast<double>(total) / static_cast<double>(moving_);
   // a list is as long as a box of about reach + radius is large
-  const double factor = std::clamp(std::cbrt(kListLength / std::max(length, 0.1)), 0.5, 2.0);
+  const double factor = std::clamp(elementary::cbrt(kListLength / std::max(length, 0.1)), 0.5, 2.0);
   reach_ = std::max(factor * (reach_ + radius) - radius, 0.1 * radius);
 }
 

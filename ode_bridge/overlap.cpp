@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adjoint/elementary.h"
 #include "ode_bridge/leaf_pairs.h"
 
 namespace carom {
@@ -19,7 +20,7 @@ double solidAngle(const Solid& solid, const SolidFace& face, const Vec3& p) {
   const Vec3 a = vertexOf(solid, face.first) - p, b = vertexOf(solid, face.first + 1) - p,
              c = vertexOf(solid, face.first + 2) - p;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  return 2 * elementary::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 // Whether a closed mesh goes around p (solid's axes), by the sum of the solid angles of its triangles.

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "adjoint/elementary.h"
+
 // Internal to the libraries: not installed, and no public header includes it.
 
 namespace carom::detail {
@@ -88,8 +90,14 @@ struct Dual {
     return a.chain(root, 0.5 / root);
   }
   friend Dual abs(const Dual& a) { return a.value < 0 ? -a : a; }
-  friend Dual sin(const Dual& a) { return a.chain(std::sin(a.value), std::cos(a.value)); }
-  friend Dual cos(const Dual& a) { return a.chain(std::cos(a.value), -std::sin(a.value)); }
+  friend Dual sin(const Dual& a) {
+    const auto [sine, cosine] = elementary::sincos(a.value);
+    return a.chain(sine, cosine);
+  }
+  friend Dual cos(const Dual& a) {
+    const auto [sine, cosine] = elementary::sincos(a.value);
+    return a.chain(cosine, -sine);
+  }
 };
 
 inline double valueOf(double x) { return x; }

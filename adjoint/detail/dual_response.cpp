@@ -4,6 +4,7 @@
 #include <string>
 
 #include "adjoint/detail/dual_rotation.hpp"
+#include "adjoint/elementary.h"
 #include "adjoint/errors.h"
 
 // The variational equations of flight_triaxial_sensitivity.cpp in dual numbers with K directions: M at the start of the
@@ -141,9 +142,9 @@ struct Steps {
           compare(ratesOf(dM[c][k], i).squaredNorm(), along[c][k].rate[i],
                   of_column * (i < 3 ? 1 / size_M : largest_D));
       }
-      if (share > 0) log_step = std::min(log_step, (-0.5 * std::log(share) - 33.2) / static_cast<double>(k));
+      if (share > 0) log_step = std::min(log_step, (-0.5 * elementary::log(share) - 33.2) / static_cast<double>(k));
     }
-    return std::exp(log_step);
+    return elementary::exp(log_step);
   }
 
   template <class Series>

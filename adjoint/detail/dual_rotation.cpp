@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "adjoint/elementary.h"
+
 namespace carom::detail {
 namespace {
 
@@ -20,11 +22,12 @@ std::array<double, 6> stumpff(double x) {
     }
     return c;
   }
-  const double a = std::sqrt(x), half_sine = std::sin(0.5 * a);
-  c[0] = std::cos(a);
-  c[1] = std::sin(a) / a;
+  const double a = std::sqrt(x), half_sine = elementary::sin(0.5 * a);
+  const auto [sine, cosine] = elementary::sincos(a);
+  c[0] = cosine;
+  c[1] = sine / a;
   c[2] = 2 * half_sine * half_sine / x;
-  c[3] = (a - std::sin(a)) / (a * x);
+  c[3] = (a - sine) / (a * x);
   c[4] = (0.5 - c[2]) / x;
   c[5] = (1.0 / 6 - c[3]) / x;
   return c;

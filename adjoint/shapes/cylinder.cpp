@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adjoint/elementary.h"
 #include "adjoint/shapes/kinds.h"
 
 namespace carom::shapes {
@@ -49,7 +50,7 @@ ShapeKind cylinderKind() {
           alwaysSolid,
           cylinderProperties,
           cylinderPropertiesRate,
-          [](const Shape& s) { return std::hypot(as<Cylinder>(s).radius, as<Cylinder>(s).height / 2); }};
+          [](const Shape& s) { return elementary::hypot(as<Cylinder>(s).radius, as<Cylinder>(s).height / 2); }};
 }
 
 }  // namespace carom::shapes

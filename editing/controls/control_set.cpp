@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "adjoint/arguments.h"
+#include "adjoint/elementary.h"
 #include "adjoint/errors.h"
 #include "editing/controls/control_binding.h"
 #include "editing/text.h"
@@ -24,7 +25,7 @@ bool sameOwner(const BoundControl& a, const BoundControl& b) {
 double changeOf(const Variable& v, double value) {
   if (!v.logarithmic) return (value - v.start) / v.scale;
   if (value <= 0) return -std::numeric_limits<double>::infinity();
-  return std::log(value / v.start) / v.scale;
+  return elementary::log(value / v.start) / v.scale;
 }
 
 /// One number a variable.
@@ -194,7 +195,7 @@ Eigen::VectorXd ControlSet::valuesOf(const Eigen::VectorXd& changes) const {
     const Variable& v = variables_[i];
     const double change = changes[i] * v.scale;
     // The clamp takes away what rounding adds to a bound.
-    values[i] = std::clamp(v.logarithmic ? v.start * std::exp(change) : v.start + change, v.lower, v.upper);
+    values[i] = std::clamp(v.logarithmic ? v.start * elementary::exp(change) : v.start + change, v.lower, v.upper);
   }
   return values;
 }
@@ -204,7 +205,7 @@ Eigen::VectorXd ControlSet::valueRates(const Eigen::VectorXd& changes) const {
   Eigen::VectorXd rates(size());
   for (int i = 0; i < size(); ++i) {
     const Variable& v = variables_[i];
-    rates[i] = v.logarithmic ? v.scale * v.start * std::exp(changes[i] * v.scale) : v.scale;
+    rates[i] = v.logarithmic ? v.scale * v.start * elementary::exp(changes[i] * v.scale) : v.scale;
   }
   return rates;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "adjoint/elementary.h"
+
 namespace carom {
 namespace {
 
@@ -56,8 +58,8 @@ Eigen::VectorXd along(int k, const Surroundings& s) {
 
 EvenPoints::EvenPoints(Eigen::Index dimensions) : steps_(2 * dimensions), dimensions_(dimensions) {
   double g = 1.5;
-  for (int i = 0; i < 60; ++i) g = std::pow(1 + g, 1.0 / (static_cast<double>(steps_.size()) + 1));
-  for (Eigen::Index j = 0; j < steps_.size(); ++j) steps_[j] = std::pow(g, -static_cast<double>(j + 1));
+  for (int i = 0; i < 60; ++i) g = elementary::pow(1 + g, 1.0 / (static_cast<double>(steps_.size()) + 1));
+  for (Eigen::Index j = 0; j < steps_.size(); ++j) steps_[j] = elementary::pow(g, -static_cast<double>(j + 1));
 }
 
 Eigen::VectorXd EvenPoints::inCube(int k) const {
@@ -76,7 +78,7 @@ Eigen::VectorXd EvenPoints::onSphere(int k) const {
       const double phase = 0.5 + (k + 1) * steps_[i];
       return phase - std::floor(phase);
     };
-    x[j] = std::sqrt(-2 * std::log(1 - even(2 * j))) * std::cos(2 * std::numbers::pi * even(2 * j + 1));
+    x[j] = std::sqrt(-2 * elementary::log(1 - even(2 * j))) * elementary::cos(2 * std::numbers::pi * even(2 * j + 1));
   }
   const double length = x.norm();
   return length > 0 ? Eigen::VectorXd(x / length) : x;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adjoint/adjoint.h"
+#include "adjoint/elementary.h"
 #include "adjoint/seed.h"
 #include "editing/controls/natural_scales.h"
 
@@ -28,7 +29,7 @@ double growthOf(const Motion& motion, const EditProblem& problem, const RowValue
     for (const StateSeed& seed : seeds) {
       const NaturalScales scales = naturalScales(scene, seed.body);
       const double t = readPlace(motion, seed.body, seed.at).time;
-      const double flown = std::hypot(1, t / scales.time);
+      const double flown = elementary::hypot(1, t / scales.time);
       free += norm(scales, flown * (seed.position + seed.center_of_mass), flown * seed.orientation, seed.velocity,
                    seed.angular_velocity);
       free += flown * scales.time * std::abs(seed.time);

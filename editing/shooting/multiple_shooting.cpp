@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/elementary.h"
 #include "editing/shooting/growth.h"
 #include "editing/shooting/shooting_program.h"
 #include "editing/solve/edit_solution.h"
@@ -24,8 +25,8 @@ constexpr double kGrowthOfSegment = 10;
 constexpr double kNodeTolerance = 1e-11;
 
 int impactsOfSegment(int impacts, double growth) {
-  const double of_one = std::log(std::max(growth, 1.0)) / std::max(impacts, 1);
-  const double enough = of_one > 0 ? std::log(kGrowthOfSegment) / of_one : impacts;
+  const double of_one = elementary::log(std::max(growth, 1.0)) / std::max(impacts, 1);
+  const double enough = of_one > 0 ? elementary::log(kGrowthOfSegment) / of_one : impacts;
   return std::max(1, static_cast<int>(std::min(enough, 0.5 * impacts)));
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "adjoint/body_geometry.h"
+#include "adjoint/elementary.h"
 #include "adjoint/impact/untruncated.h"
 #include "editing/text.h"
 #include "editing/verdict/event_bars.h"
@@ -185,8 +186,9 @@ class MarginReader {
                                const Eigen::VectorXd& by_2, EventMargin& m) {
     const auto at = [&](double angle) {
       EventMargin one = m;
-      one.value = radius - std::cos(angle) * along;
-      one.gradient = cone - std::cos(angle) * by_1 - std::sin(angle) * by_2;
+      const auto [sine, cosine] = elementary::sincos(angle);
+      one.value = radius - cosine * along;
+      one.gradient = cone - cosine * by_1 - sine * by_2;
       return one;
     };
     constexpr double kStep = 2 * std::numbers::pi / kDirections;

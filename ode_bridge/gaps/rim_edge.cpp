@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "adjoint/elementary.h"
 #include "ode_bridge/gaps/crossing.hpp"
 
 // The line of the edge is X(s) = C + q + s e, q its foot of the perpendicular from C. The distance of X from the rim,
@@ -60,7 +61,7 @@ double minimum(const LineBeforeRim<double>& line, int branch) {
   const double kappa = std::sqrt(kappa2), k = std::sqrt(k2), reach = rho * kappa, middle = -line.y0 / kappa2;
   double half = 0, drop = 0;
   if (rho * kappa2 > k) {
-    const double a = std::cbrt(rho * kappa2 * k2);
+    const double a = elementary::cbrt(rho * kappa2 * k2);
     half = std::sqrt(std::max(0.0, a * a - k2)) / kappa;
     drop = a > 0 ? rho * kappa2 * half / a : reach;
   }

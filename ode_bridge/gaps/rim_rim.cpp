@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "adjoint/elementary.h"
 #include "ode_bridge/gaps/crossing.hpp"
 
 // In the frame p = d_1 x d_2/|..| along the line of both planes, v = d x p in each plane: the points of the smaller rim
@@ -20,13 +21,13 @@ template <class S>
 struct Turn {
   S c, s;  // cos and sin of theta
   explicit Turn(const S& theta) {
-    using std::cos, std::sin;
+    using elementary::cos, elementary::sin;
     c = cos(theta), s = sin(theta);
   }
   Turn() = default;
 };
 
-double hypotenuse(double x, double y) { return std::hypot(x, y); }
+double hypotenuse(double x, double y) { return elementary::hypot(x, y); }
 Rate4 hypotenuse(const Rate4& x, const Rate4& y) { return sqrt(x * x + y * y); }
 
 template <class S>

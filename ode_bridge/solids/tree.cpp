@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "adjoint/elementary.h"
 #include "ode_bridge/solids/parts.h"
 
 namespace carom::solids {
@@ -117,7 +118,7 @@ double coreReach(const Solid& solid, const Piece& piece, const Vec3& center) {
   if (piece.core == Piece::Core::cylinder) {
     const Vec3 to = piece.center - center;
     const double along = std::abs(piece.axis.dot(to)), across = piece.axis.cross(to).norm();
-    return kUp * std::hypot(along + piece.half_length, across + piece.rho);
+    return kUp * elementary::hypot(along + piece.half_length, across + piece.rho);
   }
   double largest = 0;
   for (int i = 0; i < piece.points.count; ++i)

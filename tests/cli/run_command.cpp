@@ -40,8 +40,10 @@ struct TemporaryFolder {
 
 std::string commandPath() { return CAROM_COMMAND; }
 
-CommandRun runCommand(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{commandPath()};
+CommandRun runCommand(const std::vector<std::string>& arguments) { return runProgram(commandPath(), arguments); }
+
+CommandRun runProgram(const std::string& path, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -16,7 +16,9 @@ struct CommandRun {
 /// Where the built command is.
 std::string commandPath();
 
-/// Runs the built command as a process of its own.
+/// Runs a program as a process of its own.
+CommandRun runProgram(const std::string& path, const std::vector<std::string>& arguments);
+/// Runs the built command so.
 CommandRun runCommand(const std::vector<std::string>& arguments);
 
 /// Runs it with --json, expects the exit code, and one JSON document alone on standard output.

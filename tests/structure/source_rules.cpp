@@ -60,6 +60,42 @@ const std::vector<Confined>& confinedLibraries() {
   return rows;
 }
 
+// Functions whose last digit is not the same on every machine: of the C library and the standard one, called with or
+// without std::, and Eigen's that call them. adjoint/elementary.h has others.
+const std::vector<std::regex>& inexactFunctions() {
+  static const std::string names =
+      "(a?(sin|cos|tan)h?|atan2|sincos|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?|[tl]gamma)";
+  static const std::vector<std::regex> rows = {
+      std::regex("(\\bstd|[^\\w])::" + names + "[fl]?\\b"),                                  // std::sin, ::sin
+      std::regex("\\bstd::(polar|arg|complex|(normal|exponential|gamma|cauchy)_distribution)\\b"),
+      std::regex("(\\.|->)" + names + "\\("),                                                 // array().sin()
+      std::regex("\\b(AngleAxis[fd]?|Rotation2D[fd]?|slerp|angularDistance|eulerAngles|computeDirect)\\b")};
+  return rows;
+}
+// Without std:: the compiler may take the C library's; `using elementary::sin` makes it ours.
+const std::regex& unqualifiedCall() {
+  static const std::regex call(
+      "(\\breturn|\\s:\\s|[=(,+*/{}?;<>&|!\\[-])\\s*"
+      "(a?(sin|cos|tan)h?|atan2|sincos|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot)\\(");
+  return call;
+}
+
+std::string withoutComments(const std::string& text) { return std::regex_replace(text, std::regex("//[^\n]*"), ""); }
+
+std::vector<std::string> inexactCalls(const std::string& path, const std::string& text) {
+  static const std::regex kept("(adjoint|ode_bridge|editing)/.*"), own("adjoint/elementary(/.*|\\.h)");
+  std::vector<std::string> found;
+  if (!std::regex_match(path, kept) || std::regex_match(path, own)) return found;
+  const std::string code = withoutComments(text);
+  std::vector<std::regex> rules = inexactFunctions();
+  if (code.find("using elementary::") == std::string::npos) rules.push_back(unqualifiedCall());
+  for (const std::regex& rule : rules) {
+    for (std::sregex_iterator it(code.begin(), code.end(), rule), end; it != end; ++it)
+      found.push_back(path + " has " + it->str() + ", whose bits differ by machine; adjoint/elementary.h has its like");
+  }
+  return found;
+}
+
 std::string folderOf(const std::string& path) { return path.substr(0, path.find('/')); }
 
 bool contains(const std::vector<std::string>& list, const std::string& item) {
@@ -119,6 +155,8 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
       found.push_back(path + " includes " + include + "; " + folder + "/ must not know " + target + "/");
     }
   }
+  const auto inexact = inexactCalls(path, text);
+  found.insert(found.end(), inexact.begin(), inexact.end());
   const auto lines = std::count(text.begin(), text.end(), '\n');
   if (lines > kLongestFile) {
     found.push_back(path + " has " + std::to_string(lines) + " lines; the most is " + std::to_string(kLongestFile));

@@ -17,7 +17,8 @@ Sources readSources(const std::filesystem::path& root);
 /// The files that the text includes, as written, comments left out.
 std::vector<std::string> includesOf(const std::string& text);
 
-/// What the layering forbids in one file, a sentence each: who may include whom, and the longest file.
+/// What the layering forbids in one file, a sentence each: who may include whom, where functions whose bits differ by
+/// machine may be called, and the longest file.
 std::vector<std::string> violations(const std::string& path, const std::string& text);
 
 /// All of them, and what can only be seen in all files together: Ipopt in exactly one file.

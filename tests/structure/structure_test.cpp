@@ -71,6 +71,45 @@ TEST(Structure, IncludesAreReadAsTheCompilerReadsThem) {
   EXPECT_EQ(includesOf(text), (std::vector<std::string>{"a.h", "b/c.h"}));
 }
 
+// Functions whose bits differ by machine.
+struct PlantedCall {
+  const char* path;
+  const char* line;
+  bool allowed;
+};
+
+class InexactRule : public testing::TestWithParam<PlantedCall> {};
+
+TEST_P(InexactRule, JudgesOneLine) {
+  const PlantedCall& row = GetParam();
+  EXPECT_EQ(violations(row.path, std::string("#pragma once\n") + row.line + "\n").empty(), row.allowed)
+      << row.path << " with " << row.line;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, InexactRule,
+    testing::Values(
+        PlantedCall{"adjoint/arc.cpp", "y = std::sin(x);", false},
+        PlantedCall{"adjoint/so3.h", "y = std::cos(x);", false},
+        PlantedCall{"ode_bridge/gaps/rim.cpp", "y = std::cbrt(x);", false},
+        PlantedCall{"ode_bridge/gaps.cpp", "return std::hypot(x, y);", false},
+        PlantedCall{"editing/edit.cpp", "y = std::pow(x, 2);", false},
+        PlantedCall{"editing/edit.cpp", "y = 1 + ::log1p(x);", false},
+        PlantedCall{"editing/edit.cpp", "using std::exp;", false},
+        PlantedCall{"editing/edit.cpp", "y = exp(x);", false},
+        PlantedCall{"editing/edit.cpp", "return -sin(x);", false},
+        PlantedCall{"editing/edit.cpp", "using elementary::sin; y = sin(x);", true},
+        PlantedCall{"adjoint/arc.cpp", "y = elementary::sin(x);", true},
+        PlantedCall{"adjoint/arc.cpp", "y = std::sqrt(x) + std::floor(x) + std::fma(x, x, x) + std::fmod(x, y);", true},
+        PlantedCall{"adjoint/arc.cpp", "double sine(double x);  // std::sin(x)", true},
+        PlantedCall{"adjoint/arc.cpp", "friend Dual sin(const Dual& a);", true},
+        PlantedCall{"adjoint/arc.cpp", "R = Eigen::AngleAxisd(a, axis);", false},
+        PlantedCall{"adjoint/arc.cpp", "q = p.slerp(t, r);", false},
+        PlantedCall{"adjoint/arc.cpp", "v = w.array().exp();", false},
+        PlantedCall{"adjoint/elementary/circular.cpp", "y = std::sin(x);", true},
+        PlantedCall{"formats/svg.cpp", "y = std::sin(x);", true},
+        PlantedCall{"tests/a.cpp", "y = std::sin(x);", true}));
+
 TEST(Structure, LongFilesAreFound) {
   std::string text;
   for (int i = 0; i < 450; ++i) text += "int x;\n";
