@@ -125,7 +125,7 @@ Exit check(const std::string& scene, Output& out) {
     if (result.passed) out.text() << out.styled(Look::good, result.message) << '\n';
   }
   if (result.passed) return Exit::done;
-  Output::fail(result.message);
+  out.fail(result.message);
   return Exit::check_failed;
 }
 

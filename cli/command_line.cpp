@@ -40,7 +40,7 @@ constexpr const char* kFooter =
 /// One error of a run, on the channel that was asked for.
 Exit report(bool json, Exit code, const std::string& line, const std::string& message, const std::string& file = "",
             const std::string& pointer = "") {
-  Output::fail(line);
+  Output::printError(line);
   if (json) std::cout << errorJson(message, file, pointer) << std::flush;
   return code;
 }

@@ -168,7 +168,7 @@ Exit edit(const EditArguments& options, Output& out) {
     for (const std::string& file : files) sayWritten(out, file);
   }
   if (result.solved()) return Exit::done;
-  Output::fail(describeFailure(result, options.output));
+  out.fail(describeFailure(result, options.output));
   return Exit::not_solved;
 }
 

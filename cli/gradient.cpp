@@ -3,10 +3,12 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <memory>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
 #include "cli/table.h"
 #include "cli/units.h"
 #include "formats/gradient_json.h"
@@ -66,11 +68,13 @@ Exit gradient(const GradientArguments& options, Output& out) {
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   RowsAndJacobian result;
+  std::optional<Progress> progress(std::in_place, out, "differentiating");
   result.motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
   result.rows = requireRows(loaded.path, problem, result.motion);
   // The adjoint pass walks the impacts that each row depends on, and so knows the margins.
   result.jacobian = jacobianByAdjoint(problem, values, result.motion, result.rows, &result.reliability);
   if (options.method == "tangent") result.jacobian = jacobianByTangent(problem, values, result.motion, result.rows);
+  progress.reset();
 
   const Reliability reliability = judge(problem, result.reliability);
   if (out.json()) {

@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
 #include "cli/streams.h"
 #include "formats/import_gltf.h"
 #include "formats/status_json.h"
@@ -45,7 +46,10 @@ Exit importScene(const ImportArguments& options, Output& out) {
   if (std::filesystem::equivalent(options.input, options.output, error))
     throw UsageError("-o " + options.output + ": found the file that is read, expected another one");
   if (isStandard(options.output)) out.reserveForContent();
-  Imported imported = importFrom(options.input);
+  Imported imported = [&] {
+    const Progress progress(out, "reading");
+    return importFrom(options.input);
+  }();
   if (options.duration) imported.document.duration = *options.duration;
   const std::vector<std::string> meshes = saveImported(out, options.output, imported.document);
   addOverlap(imported);

@@ -32,7 +32,7 @@ void Output::warn(const std::string& sentence) const {
   std::cerr << (hasColours(Stream::error) ? coloured(Look::warning, head) : head) << ' ' << sentence << '\n';
 }
 
-void Output::fail(const std::string& sentence) {
+void Output::printError(const std::string& sentence) {
   const std::string head = "carom:";
   std::cerr << (hasColours(Stream::error) ? coloured(Look::bad, head) : head) << ' ' << sentence << '\n';
 }
@@ -45,6 +45,7 @@ void Output::finish() {
   }
   if (content_) std::cout << *content_;
   std::cout.flush();
+  for (const std::string& sentence : failures_) printError(sentence);
   if (!std::cout) throw InputError("standard output", "cannot be written");
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "adjoint/types.h"
 #include "cli/terminal.h"
@@ -49,8 +50,10 @@ class Output {
 
   /// "carom: warning: ..." on standard error, but not with --quiet.
   void warn(const std::string& sentence) const;
-  /// "carom: ..." on standard error: what went wrong.
-  static void fail(const std::string& sentence);
+  /// What went wrong: on standard error, below all that standard output says of it.
+  void fail(std::string sentence) { failures_.push_back(std::move(sentence)); }
+  /// "carom: ..." on standard error, at once.
+  static void printError(const std::string& sentence);
   /// Writes standard output. Throws InputError when that cannot be done.
   void finish();
 
@@ -61,6 +64,7 @@ class Output {
   std::string document_;
   std::optional<std::string> content_;
   std::ostringstream text_;
+  std::vector<std::string> failures_;
 };
 
 /// What a held number is to be: `target`, or where the limits differ "in [0.2, 0.9]", ">= 0.2", "<= 0.9".

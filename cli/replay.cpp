@@ -85,7 +85,7 @@ Exit replay(const ReplayArguments& options, Output& out) {
   if (same) return Exit::done;
   for (std::size_t i = 0; i < played.size(); ++i)
     for (const std::string& difference : played[i].differences)
-      Output::fail(name + ": /gestures/" + std::to_string(i) + ": " + difference);
+      out.fail(name + ": /gestures/" + std::to_string(i) + ": " + difference);
   return Exit::check_failed;
 }
 

@@ -2,10 +2,12 @@
 // carom validate: whether a document can be simulated and edited.
 #include <CLI/App.hpp>
 #include <memory>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
 #include "formats/status_json.h"
 
 namespace carom::cli {
@@ -13,6 +15,7 @@ namespace {
 
 /// Everything that other commands could refuse, up to constraints that the motion does not have.
 void checkEdit(const Output& out, Loaded& loaded) {
+  std::optional<Progress> progress(std::in_place, out, "checking");
   const Document& document = loaded.document;
   const EditProblem problem = inFile(loaded.path, [&] {
     return EditProblem(document.scene, loaded.contacts, document.duration, document.controls, document.constraints);
@@ -21,6 +24,7 @@ void checkEdit(const Output& out, Loaded& loaded) {
   const Eigen::VectorXd values = problem.controls.startValues();
   const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
   requireRows(loaded.path, problem, motion);
+  progress.reset();
   for (const std::string& note : problem.controls.notes()) out.warn(note);
 }
 

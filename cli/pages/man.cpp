@@ -47,6 +47,12 @@ std::string paragraph(const std::string& text) {
   return ".PP\n.nf\n" + roff(text) + "\n.fi\n";
 }
 
+/// What follows a heading is a paragraph without being told.
+std::string withoutBreak(const std::string& text) {
+  const std::string macro = ".PP\n";
+  return text.starts_with(macro) ? text.substr(macro.size()) : text;
+}
+
 std::string bold(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + roff(text) + "\\fR"; }
 
@@ -87,7 +93,8 @@ std::string manPage(const DeclaredProgram& program) {
   std::string text = ".\\\" Written by `carom man` from the text of --help.\n.TH " + title + " 1 \"\" \"" +
                      program.name + " " + program.version + "\" \"User Commands\"\n";
   text += ".SH NAME\n" + program.name + " \\- " + roff(purpose) + "\n.SH SYNOPSIS\n";
-  for (const DeclaredCommand& command : program.commands) text += synopsis(program.name, command) + ".br\n";
+  for (const DeclaredCommand& command : program.commands)
+    text += (&command == &program.commands.front() ? "" : ".br\n") + synopsis(program.name, command);
   text += ".SH DESCRIPTION\n" + roff(program.introduction) + "\n.SH OPTIONS\n";
   text += describedOptions(program.options, false);
   text += describedOptions(program.commands.front().options, true);
@@ -100,7 +107,7 @@ std::string manPage(const DeclaredProgram& program) {
   std::string notes, exits;
   for (const std::string& part : paragraphs(program.details))
     (part.starts_with("Exit codes") ? exits : notes) += paragraph(part);
-  return text + ".SH NOTES\n" + notes + ".SH EXIT STATUS\n" + exits;
+  return text + ".SH NOTES\n" + withoutBreak(notes) + ".SH EXIT STATUS\n" + withoutBreak(exits);
 }
 
 }  // namespace carom::cli

@@ -156,7 +156,7 @@ TEST(Man, RoffTakesIt) {
     EXPECT_NE(shown.find("carom edit scene.json -o - | carom export - --format svg"), std::string::npos) << shown;
   }
   if (hasProgram("mandoc")) {
-    const CommandRun run = runShell("mandoc -T lint -W warning '" + path + "'");
+    const CommandRun run = runShell("mandoc -T lint -W error '" + path + "'");
     EXPECT_EQ(run.code, 0) << run.out;
   }
   for (const char c : readText(path)) ASSERT_TRUE(c == '\n' || (c >= ' ' && c <= '~'));

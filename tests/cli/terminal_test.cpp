@@ -85,6 +85,7 @@ TEST(Failures, AreSaidOnce) {
   const std::size_t first = seen.find(message);
   ASSERT_NE(first, std::string::npos) << seen;
   EXPECT_EQ(seen.find(message, first + 1), std::string::npos) << seen;
+  EXPECT_LT(seen.find("certificate:"), first) << "the failure is not below the tables: " << seen;
 }
 
 }  // namespace
