@@ -2,13 +2,14 @@
 // carom check: the derivatives by adjoint and by tangent, beside differences over a sweep of steps.
 #include <CLI/App.hpp>
 #include <algorithm>
-#include <iostream>
 #include <memory>
 
 #include "cli/check_differences.h"
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/table.h"
 
 namespace carom::cli {
 namespace {
@@ -47,7 +48,7 @@ void printSteps(Output& out, const EditProblem& problem, const DerivativeCheck& 
                any_compared ? out.number(check.columns[static_cast<std::size_t>(worst)][s].disagreement) : "-",
                any_compared ? problem.controls.describeVariable(worst) : "-"});
   }
-  table.print(out.text());
+  table.print(out);
 }
 
 void printColumns(Output& out, const EditProblem& problem, const DerivativeCheck& check) {
@@ -64,7 +65,7 @@ void printColumns(Output& out, const EditProblem& problem, const DerivativeCheck
     table.row({problem.controls.describeVariable(j), out.number(check.steps[s]),
                out.number(check.columns[c][s].disagreement), check.columns[c][s].scheme});
   }
-  table.print(out.text());
+  table.print(out);
 }
 
 void printSequences(Output& out, const EditProblem& problem, const DerivativeCheck& check) {
@@ -97,8 +98,8 @@ void printEntry(Output& out, const EditProblem& problem, const DerivativeCheck& 
   out.text() << "Worst entry, adjoint against " << other_name << ": " << out.number(entry.disagreement)
              << " of its column's scale\n  " << problem.constraints.describeRow(entry.row) << " by "
              << problem.controls.describeVariable(entry.column) << ": "
-             << Output(false, 17).number(check.by_adjoint(entry.row, entry.column)) << " against "
-             << Output(false, 17).number(other(entry.row, entry.column)) << '\n';
+             << Output::full(check.by_adjoint(entry.row, entry.column)) << " against "
+             << Output::full(other(entry.row, entry.column)) << '\n';
 }
 
 Exit check(const std::string& scene, Output& out) {
@@ -109,7 +110,7 @@ Exit check(const std::string& scene, Output& out) {
   requireRows(loaded.path, problem, motion);
   DerivativeCheck result;
   {
-    Progress progress;
+    Progress progress(out, "checking");
     result = checkDerivatives(problem, values, [&](const std::string& text) { progress.show(text); });
   }
   if (out.json()) {
@@ -121,13 +122,14 @@ Exit check(const std::string& scene, Output& out) {
     out.text() << '\n';
     printEntry(out, problem, result, "tangent", result.adjoint_tangent, result.by_tangent);
     printEntry(out, problem, result, "differences", result.differences, result.by_differences);
-    out.text() << result.message << '\n';
+    if (result.passed) out.text() << out.styled(Look::good, result.message) << '\n';
   }
-  if (!result.passed) std::cerr << "carom: " << result.message << '\n';
-  return result.passed ? Exit::done : Exit::check_failed;
+  if (result.passed) return Exit::done;
+  out.fail(result.message);
+  return Exit::check_failed;
 }
 
-Action declare(CLI::App& app) {
+Action declareCheck(CLI::App& app) {
   const auto scene = std::make_shared<std::string>();
   addScene(app, *scene);
   return [scene](Output& out) { return check(*scene, out); };
@@ -145,6 +147,6 @@ const Command kCheckCommand{
     "Examples:\n"
     "  carom check scene.json\n"
     "  carom check scene.json --json | jq .worst_differences",
-    declare};
+    declareCheck};
 
 }  // namespace carom::cli

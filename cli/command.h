@@ -30,12 +30,13 @@ struct Command {
   const char* name;
   const char* summary;               ///< one line
   const char* examples;              ///< the end of its --help: what it answers, and how it is called
-  Action (*declare)(CLI::App& app);  ///< adds its options to `app`; --json and --digits are there already
+  Action (*declare)(CLI::App& app);  ///< adds its options to `app`; --json, --digits and --quiet are there already
+  bool answers = true;               ///< has those three options; otherwise it only writes a text
 };
 
 std::span<const Command* const> commands();
 
 extern const Command kSimulateCommand, kGradientCommand, kCheckCommand, kEditCommand, kExportCommand, kImportCommand,
-    kValidateCommand, kInfoCommand, kReplayCommand;
+    kValidateCommand, kInfoCommand, kReplayCommand, kCompletionCommand, kManCommand;
 
 }  // namespace carom::cli

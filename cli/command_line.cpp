@@ -9,6 +9,7 @@
 
 #include "carom/version.h"
 #include "cli/command.h"
+#include "cli/pages/declared.h"
 #include "formats/format_error.h"
 #include "formats/status_json.h"
 
@@ -29,19 +30,17 @@ constexpr const char* kFooter =
     "\n"
     "carom COMMAND --help explains a command, with examples. With --json every command prints one\n"
     "JSON document on standard output, for errors as well; warnings and progress go to standard error.\n"
+    "- stands for standard input where a document is read, and for standard output after -o; what is\n"
+    "printed for people then goes to standard error. Output is in colour on a terminal, unless NO_COLOR\n"
+    "is set.\n"
     "\n"
     "Exit codes: 0 done, 1 error in the input or the files, 2 wrong usage,\n"
     "            3 the edit did not converge or is infeasible, 4 a check failed.";
 
-struct Settings {
-  bool json = false;
-  int digits = 6;
-};
-
 /// One error of a run, on the channel that was asked for.
 Exit report(bool json, Exit code, const std::string& line, const std::string& message, const std::string& file = "",
             const std::string& pointer = "") {
-  std::cerr << "carom: " << line << '\n';
+  Output::printError(line);
   if (json) std::cout << errorJson(message, file, pointer) << std::flush;
   return code;
 }
@@ -55,7 +54,7 @@ Exit reportInput(bool json, const InputError& error, const std::string& file) {
 
 Exit perform(const Action& action, const Settings& settings) {
   try {
-    Output output(settings.json, settings.digits);
+    Output output(settings);
     const Exit code = action(output);
     output.finish();
     return code;
@@ -72,11 +71,22 @@ Exit perform(const Action& action, const Settings& settings) {
   }
 }
 
+/// One empty line between groups of options, not two.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, name, mode), "\n\n\n", "\n\n");
+  }
+};
+
 void addSettings(CLI::App& app, Settings& settings) {
-  app.add_flag("--json", settings.json, "Print one JSON document, numbers to full precision");
+  app.add_flag("--json", settings.json, "Print one JSON document, numbers to full precision")
+      ->group(kCommonOptions);
   app.add_option("--digits", settings.digits, "Significant digits of numbers in text, 6 if not given")
       ->check(CLI::Range(1, 17))
-      ->type_name("N");
+      ->type_name("N")
+      ->group(kCommonOptions);
+  app.add_flag("-q,--quiet", settings.quiet, "Print nothing for people but errors")->group(kCommonOptions);
 }
 
 std::string noCommand(int argc, const char* const* argv) {
@@ -90,13 +100,14 @@ int runCommandLine(int argc, const char* const* argv) {
   CLI::App app(kIntroduction, "carom");
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("carom ") + kVersion, "Print the version and end");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.get_formatter()->column_width(30);
   Settings settings;
   Action action;
   for (const Command* command : commands()) {
     CLI::App* sub = app.add_subcommand(command->name, command->summary);
     sub->footer(command->examples);
-    addSettings(*sub, settings);
+    if (command->answers) addSettings(*sub, settings);
     sub->final_callback([&action, run = command->declare(*sub)] { action = run; });
   }
   app.require_subcommand(1);

@@ -6,7 +6,8 @@ namespace carom::cli {
 std::span<const Command* const> commands() {
   static constexpr const Command* kTable[] = {&kSimulateCommand, &kGradientCommand, &kCheckCommand,
                                               &kEditCommand,     &kReplayCommand,   &kExportCommand,
-                                              &kImportCommand,   &kValidateCommand, &kInfoCommand};
+                                              &kImportCommand,   &kValidateCommand, &kInfoCommand,
+                                              &kCompletionCommand, &kManCommand};
   return kTable;
 }
 

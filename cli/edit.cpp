@@ -3,20 +3,22 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
+#include "cli/table.h"
+#include "cli/units.h"
 #include "editing/edit.h"
 #include "formats/edit_json.h"
-#include "formats/scene_json.h"
 
 namespace carom::cli {
 namespace {
 
-struct Options {
+struct EditArguments {
   std::string scene, output;
   int iterations = EditOptions{}.max_iterations;
   double seconds = EditOptions{}.time_budget_seconds;
@@ -26,19 +28,19 @@ struct Options {
 };
 
 void printNumbers(Output& out, const std::vector<ChangedNumber>& changed) {
-  Table table({"control", ">before", "", ">after", ">change"});
+  Table table({"control", ">before", "", ">after", ">change", "unit"});
   for (const ChangedNumber& number : changed)
     table.row({number.name, out.number(number.before), "->", out.number(number.after),
-               out.number(number.after - number.before)});
-  if (!table.empty()) table.print(out.text());
+               out.number(number.after - number.before), unitOf(number.name)});
+  if (!table.empty()) table.print(out);
 }
 
 void printResiduals(Output& out, const EditResult& result) {
-  Table table({"held", ">value", ">target", ">error"});
+  Table table({"held", ">value", ">target", ">error", "unit"});
   for (const HeldNumber& number : result.residuals)
     table.row({number.name, out.number(number.value), describeWanted(out, number.target, number.lower, number.upper),
-               out.number(number.error)});
-  if (!table.empty()) table.print(out.text());
+               out.number(number.error), unitOf(number.name)});
+  if (!table.empty()) table.print(out);
   for (const MetTime& met : result.times) out.text() << "  " << met.name << ": at " << out.number(met.time) << " s\n";
 }
 
@@ -50,13 +52,12 @@ void printLines(Output& out, const char* heading, const std::vector<std::string>
 
 void printCertificate(Output& out, const Certificate& certificate) {
   if (!certificate.taken) return;
-  const Output brief(false, 3);
-  out.text() << "  certificate: energy drifts by " << brief.number(certificate.energy_drift) << " and grows by "
-             << brief.number(certificate.energy_gain) << " at impacts";
+  out.text() << "  certificate: energy drifts by " << Output::brief(certificate.energy_drift) << " and grows by "
+             << Output::brief(certificate.energy_gain) << " at impacts";
   if (certificate.deepest_penetration)
-    out.text() << ", bodies overlap by " << brief.number(*certificate.deepest_penetration) << " m";
+    out.text() << ", bodies overlap by " << Output::brief(*certificate.deepest_penetration) << " m";
   out.text() << ", derivatives pass " << counted(certificate.reliability.events, "impact") << " with a margin of "
-             << brief.number(certificate.reliability.smallest_margin) << '\n';
+             << Output::brief(certificate.reliability.smallest_margin) << '\n';
   if (!certificate.signature_event.empty()) out.text() << "  nearest change: " << certificate.signature_event << '\n';
 }
 
@@ -65,7 +66,7 @@ void printResult(Output& out, const EditResult& result) {
   out.text() << '\n';
   printResiduals(out, result);
   out.text() << '\n'
-             << counted(result.iterations, "iteration") << ", " << Output(false, 3).number(result.milliseconds)
+             << counted(result.iterations, "iteration") << ", " << Output::brief(result.milliseconds)
              << " ms, largest error " << out.number(result.residual) << '\n';
   if (result.sequence_before == result.sequence_after) {
     printLines(out, "  impacts, before and after:", result.sequence_before);
@@ -75,7 +76,7 @@ void printResult(Output& out, const EditResult& result) {
   }
   printCertificate(out, result.certificate);
   if (!result.why_not.sentences.empty()) printLines(out, "  why not:", result.why_not.sentences);
-  out.text() << nameOf(result.status) << ": " << result.message << '\n';
+  if (result.solved()) out.text() << out.styled(Look::good, nameOf(result.status)) << ": " << result.message << '\n';
 }
 
 void printAlternatives(Output& out, const EditResult& result) {
@@ -98,22 +99,23 @@ std::string fileOfSolution(const std::string& output, std::size_t number) {
 }
 
 /// Writes the solutions; the files that were written.
-std::vector<std::string> save(const Document& document, const EditResult& result, const std::string& output) {
+std::vector<std::string> saveSolutions(Output& out, const Document& document, const EditResult& result,
+                                       const std::string& output) {
   if (output.empty() || !result.solved()) return {};
   std::vector<std::string> files;
   const auto write = [&](const Scene& scene) {
     Document edited = document;
     edited.scene = scene;
     files.push_back(fileOfSolution(output, files.size() + 1));
-    saveDocument(files.back(), edited);
+    saveSceneTo(out, files.back(), edited);
   };
   write(result.scene);
   for (const EditAlternative& other : result.alternatives) write(other.scene);
   return files;
 }
 
-EditResult solve(Loaded& loaded, const Options& options) {
-  Progress progress;
+EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options) {
+  Progress progress(out, "solving");
   EditOptions edit_options;
   edit_options.max_iterations = options.iterations;
   edit_options.time_budget_seconds = options.seconds;
@@ -124,9 +126,8 @@ EditResult solve(Loaded& loaded, const Options& options) {
                                                            : Shooting::automatic;
   if (options.same_sequence) edit_options.sequence = SequencePolicy::stay;
   edit_options.progress = [&](const EditProgress& at) {
-    const Output numbers(false, 3);
-    progress.show("iteration " + std::to_string(at.iteration) + ", largest error " + numbers.number(at.violation) +
-                  " of the natural scales, change " + numbers.number(at.objective));
+    progress.show("iteration " + std::to_string(at.iteration) + ", largest error " + Output::brief(at.violation) +
+                  " of the natural scales, change " + Output::brief(at.objective));
     return true;
   };
   const Document& document = loaded.document;
@@ -143,27 +144,38 @@ EditResult solve(Loaded& loaded, const Options& options) {
   });
 }
 
-Exit edit(const Options& options, Output& out) {
+/// What went wrong, and what follows for the file.
+std::string describeFailure(const EditResult& result, const std::string& output) {
+  const std::string sentence = std::string(nameOf(result.status)) + ": " + result.message;
+  if (output.empty()) return sentence;
+  return sentence + " " + (isStandard(output) ? "Nothing" : output) + " was " + (isStandard(output) ? "" : "not ") +
+         "written.";
+}
+
+Exit edit(const EditArguments& options, Output& out) {
+  if (isStandard(options.output)) {
+    if (options.alternatives > 1) throw UsageError("--alternatives needs a file for each solution, not -o -");
+    out.reserveForContent();
+  }
   Loaded loaded(options.scene);
-  const EditResult result = solve(loaded, options);
-  const std::vector<std::string> files = save(loaded.document, result, options.output);
+  const EditResult result = solve(out, loaded, options);
+  const std::vector<std::string> files = saveSolutions(out, loaded.document, result, options.output);
   if (out.json()) {
     out.document(editJson(result, files));
   } else {
     printResult(out, result);
     printAlternatives(out, result);
-    for (const std::string& file : files) out.text() << "Written: " << file << '\n';
+    for (const std::string& file : files) sayWritten(out, file);
   }
   if (result.solved()) return Exit::done;
-  std::cerr << "carom: " << result.message << '\n';
-  if (!options.output.empty()) std::cerr << "carom: " << options.output << " was not written\n";
+  out.fail(describeFailure(result, options.output));
   return Exit::not_solved;
 }
 
-Action declare(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+Action declareEdit(CLI::App& app) {
+  const auto options = std::make_shared<EditArguments>();
   addScene(app, options->scene);
-  app.add_option("-o,--output", options->output, "Write the scene with its new values here")->type_name("OUT.json");
+  app.add_option("-o,--output", options->output, "Write the scene with its new values here; - for standard output")->type_name("OUT.json");
   app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
@@ -199,9 +211,10 @@ const Command kEditCommand{
     "Examples:\n"
     "  carom edit scene.json\n"
     "  carom edit scene.json -o edited.json && carom export edited.json -o edited.glb\n"
+    "  carom edit scene.json -o - | carom export - --format svg -o edited.svg\n"
     "  carom edit scene.json --json | jq .changed\n"
     "  carom edit scene.json --same-sequence --seconds 2\n"
     "  carom edit scene.json --alternatives 3 -o edited.json",
-    declare};
+    declareEdit};
 
 }  // namespace carom::cli

@@ -11,41 +11,53 @@
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
 #include "formats/export_motion.h"
 #include "formats/status_json.h"
+#include "formats/write_file.h"
 
 namespace carom::cli {
 namespace {
 
-struct Options {
-  std::string scene, output, before, keys;
+struct ExportArguments {
+  std::string scene, output, format, before, keys;
   std::optional<double> frames_per_second, tolerance, light, ghosts;
   bool camera = false, nails = false;
 };
 
-std::string extensionOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
+/// The words of --format: the extensions without their dots.
+std::vector<std::string> formats() {
+  std::vector<std::string> words = exportExtensions();
+  for (std::string& word : words) word.erase(0, 1);
+  return words;
+}
+
+/// The word that is given, or else the one that the name of the file ends with.
+std::string formatOf(const ExportArguments& options) {
+  if (!options.format.empty()) return options.format;
+  const std::vector<std::string> known = exportExtensions();
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  if (isStandard(options.output)) throw UsageError("-o - needs --format, one of " + list);
+  std::string extension = std::filesystem::path(options.output).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  return extension;
+  if (std::find(known.begin(), known.end(), extension) == known.end())
+    throw UsageError("-o " + options.output + ": found the extension '" + extension + "', expected one of " + list);
+  return extension.substr(1);
 }
 
 /// Options that the chosen format does not have would be lost in silence.
-void requireSense(const Options& options) {
-  const std::string extension = extensionOf(options.output);
-  const std::vector<std::string> known = exportExtensions();
-  if (std::find(known.begin(), known.end(), extension) == known.end()) {
-    std::string list;
-    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-    throw UsageError("-o " + options.output + ": found the extension '" + extension + "', expected one of " + list);
-  }
-  if (!options.before.empty() && extension != ".svg") throw UsageError("--before is only for .svg");
-  if (options.frames_per_second && extension == ".svg")
-    throw UsageError("--fps is only for .glb, .gltf, .py and .csv");
-  if (options.keys == "cubic" && extension == ".py")
+void requireSense(const ExportArguments& options, const std::string& format) {
+  if (isStandard(options.scene) && isStandard(options.before))
+    throw UsageError("--before -: standard input is read once, for the scene");
+  if (!options.before.empty() && format != "svg") throw UsageError("--before is only for .svg");
+  if (options.frames_per_second && format == "svg") throw UsageError("--fps is only for .glb, .gltf, .py and .csv");
+  if (options.keys == "cubic" && format == "py")
     throw UsageError("--keys cubic is only for .glb and .gltf: Blender drops the tangents of cubic keys");
   if (options.keys == "cubic" && options.tolerance) throw UsageError("--tolerance needs --keys linear");
-  if (extension == ".glb" || extension == ".gltf" || extension == ".py") return;
+  if (format == "glb" || format == "gltf" || format == "py") return;
   const std::pair<const char*, bool> given[] = {{"--keys", !options.keys.empty()},
                                                 {"--tolerance", options.tolerance.has_value()},
                                                 {"--camera", options.camera},
@@ -56,7 +68,22 @@ void requireSense(const Options& options) {
     if (is_given) throw UsageError(std::string(name) + " is only for .glb, .gltf and .py");
 }
 
-GltfOptions gltfOptionsOf(const Options& options) {
+/// Keeps standard output for the file, where it is to go there.
+void reserveOutput(const ExportArguments& options, const std::string& format, Output& out) {
+  if (!isStandard(options.output)) return;
+  if (format == "glb" && isTerminal(Stream::out))
+    throw UsageError("-o -: found a terminal, which a binary .glb file would upset, expected a file or a pipe");
+  out.reserveForContent();
+}
+
+/// What stands above a picture.
+std::string titleOf(const ExportArguments& options, const Document& document) {
+  if (!isStandard(options.output)) return std::filesystem::path(options.output).stem().string();
+  if (!document.name.empty()) return document.name;
+  return isStandard(options.scene) ? "motion" : std::filesystem::path(options.scene).stem().string();
+}
+
+GltfOptions gltfOptionsOf(const ExportArguments& options) {
   GltfOptions out;
   if (options.keys == "cubic") out.keys = GltfKeys::cubic;
   out.frames_per_second = options.frames_per_second.value_or(out.frames_per_second);
@@ -68,41 +95,60 @@ GltfOptions gltfOptionsOf(const Options& options) {
   return out;
 }
 
-Exit exportScene(const Options& options, Output& out) {
-  requireSense(options);
+/// Writes the file; how many bytes it has.
+std::size_t writeExport(const ExportArguments& options, const std::string& format, const Loaded& loaded,
+                        const Motion& motion, const ExportOptions& export_options, Output& out) {
+  const Progress progress(out, "writing " + format);
+  const std::string name = isStandard(options.output) ? "<stdout>" : options.output;
+  try {
+    std::string bytes =
+        motionText(format, titleOf(options, loaded.document), loaded.document, motion, export_options);
+    const std::size_t size = bytes.size();
+    if (isStandard(options.output))
+      out.content(std::move(bytes));
+    else
+      writeFile(options.output, bytes);
+    return size;
+  } catch (const InputError& error) {
+    throw FormatError(name, error.where() == name ? "" : error.where(), error.message());
+  }
+}
+
+Exit exportScene(const ExportArguments& options, Output& out) {
+  const std::string format = formatOf(options);
+  requireSense(options, format);
+  reserveOutput(options, format, out);
   Loaded loaded(options.scene);
-  const Motion motion = loaded.simulate();
+  const Motion motion = loaded.simulate(out);
   ExportOptions export_options;
   export_options.gltf = gltfOptionsOf(options);
   export_options.csv_rate = options.frames_per_second.value_or(export_options.csv_rate);
   std::optional<Motion> before;
   if (!options.before.empty()) {
     Loaded earlier(options.before);
-    before = earlier.simulate();
+    before = earlier.simulate(out);
     export_options.before = &*before;
   }
-  try {
-    exportMotion(options.output, loaded.document, motion, export_options);
-  } catch (const InputError& error) {
-    throw FormatError(options.output, error.where() == options.output ? "" : error.where(), error.message());
-  }
-  warnIfEnded(motion);
-  const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(options.output));
-  if (out.json()) {
+  const std::size_t bytes = writeExport(options, format, loaded, motion, export_options, out);
+  warnIfEnded(out, motion);
+  if (out.json())
     out.document(exportJson(options.output, bytes, motion));
-  } else {
-    out.text() << "Written: " << options.output << " (" << out.number(motion.end) << " s, "
-               << counted(static_cast<long long>(motion.events.size()), "impact") << ", " << bytes << " bytes)\n";
-  }
+  else
+    sayWritten(out, options.output,
+               " (" + out.number(motion.end) + " s, " + counted(static_cast<long long>(motion.events.size()), "impact") +
+                   ", " + std::to_string(bytes) + " bytes)");
   return Exit::done;
 }
 
-Action declare(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+Action declareExport(CLI::App& app) {
+  const auto options = std::make_shared<ExportArguments>();
   addScene(app, options->scene);
-  app.add_option("-o,--output", options->output, "The file to write: .glb, .gltf, .py, .csv or .svg")
+  app.add_option("-o,--output", options->output, "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output")
       ->required()
       ->type_name("FILE");
+  app.add_option("--format", options->format, "What to write, where the name of the file does not say it")
+      ->check(CLI::IsMember(formats()))
+      ->type_name("FORMAT");
   app.add_option("--fps", options->frames_per_second, "Frames a second (24), or rows (.csv: 60)")
       ->check(positiveNumber())
       ->type_name("N");
@@ -122,7 +168,7 @@ Action declare(CLI::App& app) {
       ->check(positiveNumber())
       ->type_name("S");
   app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
-  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg)")->type_name("OLD.json");
+  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")->type_name("OLD.json");
   return [options](Output& out) { return exportScene(*options, out); };
 }
 
@@ -142,7 +188,8 @@ const Command kExportCommand{
     "Examples:\n"
     "  carom export scene.json -o motion.glb\n"
     "  carom export scene.json -o motion.py --camera --light --ghosts 0.1 --nails\n"
-    "  carom export edited.json -o both.svg --before scene.json",
-    declare};
+    "  carom export edited.json -o both.svg --before scene.json\n"
+    "  carom export scene.json --format csv -o - | head",
+    declareExport};
 
 }  // namespace carom::cli

@@ -3,16 +3,20 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <memory>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/table.h"
+#include "cli/units.h"
 #include "formats/gradient_json.h"
 
 namespace carom::cli {
 namespace {
 
-struct Options {
+struct GradientArguments {
   std::string scene, method = "adjoint";
 };
 
@@ -28,56 +32,62 @@ Reliability judge(const EditProblem& problem, const std::vector<Reliability>& ro
 
 void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorXd& values,
                    const RowsAndJacobian& result, const Reliability& reliability) {
-  out.text() << "Derivative of every number that is held (rows) by every number that may vary (columns), SI units\n";
-  Table columns({"column", "control", ">value"});
+  out.text() << "Derivative of every number that is held (rows) by every number that may vary (columns), "
+                "the row's unit by the column's\n";
+  Table columns({"column", "control", ">value", "unit"});
   for (int j = 0; j < problem.controls.size(); ++j)
-    columns.row({std::to_string(j + 1), problem.controls.describeVariable(j), out.number(values[j])});
+    columns.row({std::to_string(j + 1), problem.controls.describeVariable(j), out.number(values[j]),
+                 unitOf(problem.controls.describeVariable(j))});
   out.text() << '\n';
-  columns.print(out.text());
+  columns.print(out);
 
-  std::vector<std::string> headings{"held", ">value", ">target"};
+  std::vector<std::string> headings{"held", ">value", ">target", "unit"};
   for (int j = 0; j < problem.controls.size(); ++j) headings.push_back(">by " + std::to_string(j + 1));
   Table rows(headings);
   for (int i = 0; i < problem.constraints.size(); ++i) {
     const Row& row = problem.constraints.rows()[static_cast<std::size_t>(i)];
     std::vector<std::string> cells{problem.constraints.describeRow(i), out.number(result.rows.values[i]),
-                                   describeWanted(out, row.wanted, row.lower, row.upper)};
+                                   describeWanted(out, row.wanted, row.lower, row.upper), unitOf(row.name)};
     for (int j = 0; j < problem.controls.size(); ++j) cells.push_back(out.number(result.jacobian(i, j)));
     rows.row(cells);
   }
   out.text() << '\n';
-  rows.print(out.text());
+  rows.print(out);
   for (int k = 0; k < problem.times(); ++k)
     out.text() << "  of " << problem.constraints.describeConstraint(problem.constraints.freeTimes()[k].constraint)
                << ": at " << out.number(result.rows.times[k]) << " s, where it is nearest\n";
-  out.text() << (reliability.reliable ? "\nReliable: no impact on the way is near a place where derivatives stop.\n"
-                                      : "\nNot reliable.\n");
+  out.text() << '\n'
+             << (reliability.reliable ? out.styled(Look::good, "Reliable") + ": no impact on the way is near a place "
+                                                                             "where derivatives stop.\n"
+                                      : out.styled(Look::warning, "Not reliable.") + '\n');
   if (!reliability.message.empty()) out.text() << reliability.message << '\n';
 }
 
-Exit gradient(const Options& options, Output& out) {
+Exit gradient(const GradientArguments& options, Output& out) {
   Loaded loaded(options.scene);
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   RowsAndJacobian result;
+  std::optional<Progress> progress(std::in_place, out, "differentiating");
   result.motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
   result.rows = requireRows(loaded.path, problem, result.motion);
   // The adjoint pass walks the impacts that each row depends on, and so knows the margins.
   result.jacobian = jacobianByAdjoint(problem, values, result.motion, result.rows, &result.reliability);
   if (options.method == "tangent") result.jacobian = jacobianByTangent(problem, values, result.motion, result.rows);
+  progress.reset();
 
   const Reliability reliability = judge(problem, result.reliability);
   if (out.json()) {
     out.document(gradientJson(problem, values, result, reliability.reliable, reliability.message));
-    if (!reliability.reliable) Output::warn("the gradient is not reliable: " + reliability.message);
+    if (!reliability.reliable) out.warn("the gradient is not reliable: " + reliability.message);
   } else {
     printGradient(out, problem, values, result, reliability);
   }
   return Exit::done;
 }
 
-Action declare(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+Action declareGradient(CLI::App& app) {
+  const auto options = std::make_shared<GradientArguments>();
   addScene(app, options->scene);
   app.add_option("--method", options->method, "adjoint: one reverse pass a row; tangent: one forward pass a control")
       ->check(CLI::IsMember({"adjoint", "tangent"}))
@@ -98,6 +108,6 @@ const Command kGradientCommand{
     "  carom gradient scene.json\n"
     "  carom gradient scene.json --json | jq .jacobian\n"
     "  carom gradient scene.json --method tangent",
-    declare};
+    declareGradient};
 
 }  // namespace carom::cli

@@ -8,13 +8,15 @@
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
 #include "formats/import_gltf.h"
 #include "formats/status_json.h"
 
 namespace carom::cli {
 namespace {
 
-struct Options {
+struct ImportArguments {
   std::string input, output;
   std::optional<double> duration;
 };
@@ -28,32 +30,46 @@ void addOverlap(Imported& imported) {
   }
 }
 
-Exit importScene(const Options& options, Output& out) {
+/// Writes the document; the files of meshes beside it.
+std::vector<std::string> saveImported(Output& out, const std::string& path, const Document& document) {
+  if (!isStandard(path)) return saveWithMeshes(path, document);
+  try {
+    saveSceneTo(out, path, document);
+  } catch (const FormatError& error) {
+    throw FormatError(error.file(), error.where(), error.message() + "; with the name of a file after -o it has them");
+  }
+  return {};
+}
+
+Exit importScene(const ImportArguments& options, Output& out) {
   std::error_code error;
   if (std::filesystem::equivalent(options.input, options.output, error))
     throw UsageError("-o " + options.output + ": found the file that is read, expected another one");
-  Imported imported = importGltf(options.input);
+  if (isStandard(options.output)) out.reserveForContent();
+  Imported imported = [&] {
+    const Progress progress(out, "reading");
+    return importFrom(options.input);
+  }();
   if (options.duration) imported.document.duration = *options.duration;
-  const std::vector<std::string> meshes = saveWithMeshes(options.output, imported.document);
+  const std::vector<std::string> meshes = saveImported(out, options.output, imported.document);
   addOverlap(imported);
-  for (const std::string& warning : imported.report.warnings) Output::warn(warning);
+  for (const std::string& warning : imported.report.warnings) out.warn(warning);
   if (out.json()) {
     out.document(importJson(options.output, imported, meshes));
     return Exit::done;
   }
   const auto count = [](std::size_t number, const char* noun) { return counted(static_cast<long long>(number), noun); };
   const Scene& scene = imported.document.scene;
-  out.text() << "Written: " << options.output << " (" << scene.bodies.size()
-             << (scene.bodies.size() == 1 ? " body, " : " bodies, ") << count(scene.materials.size(), "material");
-  if (!meshes.empty()) out.text() << ", " << count(meshes.size(), "mesh file");
-  out.text() << ")\n";
+  std::string details = countedBodies(scene.bodies.size()) + ", " + count(scene.materials.size(), "material");
+  if (!meshes.empty()) details += ", " + count(meshes.size(), "mesh file");
+  sayWritten(out, options.output, " (" + details + ")");
   return Exit::done;
 }
 
-Action declare(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.add_option("file", options->input, "The file to read: .glb or .gltf")->required()->type_name("M.glb");
-  app.add_option("-o,--output", options->output, "The scene document to write")->required()->type_name("S.json");
+Action declareImport(CLI::App& app) {
+  const auto options = std::make_shared<ImportArguments>();
+  app.add_option("file", options->input, "The file to read: .glb or .gltf; - for standard input")->required()->type_name("M.glb");
+  app.add_option("-o,--output", options->output, "The scene document to write; - for standard output")->required()->type_name("S.json");
   app.add_option("--duration", options->duration, "Seconds to simulate, 1 if neither this nor the file says it")
       ->check(positiveNumber())
       ->type_name("T");
@@ -73,6 +89,6 @@ const Command kImportCommand{
     "Examples:\n"
     "  carom import course.glb -o course.json\n"
     "  carom import course.gltf -o course.json --duration 3 --json",
-    declare};
+    declareImport};
 
 }  // namespace carom::cli

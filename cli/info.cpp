@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/table.h"
 #include "formats/export_motion.h"
 #include "formats/info_json.h"
 #include "formats/json_writer.h"
@@ -97,7 +98,7 @@ void printBodies(Output& out, const Scene& scene, const ScenePlan& plan) {
     const BodyPlan& body = plan.plan.bodies[i];
     table.row({scene.bodies[i].name, nameOf(body.tier), body.why, nameOf(body.derivative_tier), body.derivative_why});
   }
-  table.print(out.text());
+  table.print(out);
 }
 
 void printShapes(Output& out, const Scene& scene) {
@@ -108,7 +109,7 @@ void printShapes(Output& out, const Scene& scene) {
     table.row({body.name, kindOf(body.shape).name, body.fixed ? "fixed" : out.number(model.mass),
                body.fixed ? "" : out.vector(model.center), body.fixed ? "" : out.vector(model.inertia)});
   }
-  table.print(out.text());
+  table.print(out);
 }
 
 // Pairs of the same materials have the same law and coefficients.
@@ -143,7 +144,7 @@ Exit describeScene(const std::string& path, Output& out) {
     out.document(infoJson(loaded.document.scene, plan));
     return Exit::done;
   }
-  out.text() << path << ": " << (plan.name.empty() ? "" : quotedText(plan.name) + ", ") << out.number(plan.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
+  out.text() << loaded.path << ": " << (plan.name.empty() ? "" : quotedText(plan.name) + ", ") << out.number(plan.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
              << counted(plan.rows, "number") << " held\n";
   printNotes(out, loaded.document);
   printShapes(out, loaded.document.scene);
@@ -181,7 +182,7 @@ Exit describeProgram(Output& out) {
   return Exit::done;
 }
 
-Action declare(CLI::App& app) {
+Action declareInfo(CLI::App& app) {
   const auto scene = std::make_shared<std::string>();
   addScene(app, *scene, false);
   return [scene](Output& out) { return scene->empty() ? describeProgram(out) : describeScene(*scene, out); };
@@ -198,6 +199,6 @@ const Command kInfoCommand{
     "Examples:\n"
     "  carom info scene.json\n"
     "  carom info --json",
-    declare};
+    declareInfo};
 
 }  // namespace carom::cli

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "adjoint/simulate.h"
-#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
 #include "editing/rows/refined_times.h"
 #include "formats/json_writer.h"
-#include "formats/scene_json.h"
 
 namespace carom::cli {
 
@@ -60,14 +60,17 @@ std::string describeMissing(const Motion& motion, const Constraint& constraint) 
 }  // namespace
 
 Loaded::Loaded(const std::string& file)
-    : path(file), document(readDocument(file)), contacts(inFile(file, [&] { return OdeContacts(document.scene); })) {}
+    : path(nameOfInput(file)),
+      document(readSceneFrom(file)),
+      contacts(inFile(path, [&] { return OdeContacts(document.scene); })) {}
 
-Motion Loaded::simulate() {
+Motion Loaded::simulate(const Output& out) {
+  const Progress progress(out, "simulating");
   return inFile(path, [&] { return carom::simulate(document.scene, contacts, document.duration); });
 }
 
-void warnIfEnded(const Motion& motion) {
-  if (motion.status != MotionStatus::complete) Output::warn("the motion ended early: " + motion.message);
+void warnIfEnded(const Output& out, const Motion& motion) {
+  if (motion.status != MotionStatus::complete) out.warn("the motion ended early: " + motion.message);
 }
 
 EditProblem derivativeProblem(Loaded& loaded) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "cli/output.h"
 #include "editing/jacobian.h"
 #include "formats/document.h"
 #include "formats/format_error.h"
@@ -24,18 +25,19 @@ auto inFile(const std::string& path, Function function) {
 
 /// A scene document that is ready to be simulated.
 struct Loaded {
-  /// Throws FormatError: the file cannot be read, the document is not valid, bodies overlap at the start.
-  explicit Loaded(const std::string& path);
+  /// Of a file, or of standard input ("-"). Throws FormatError: the file cannot be read, the document is not valid,
+  /// bodies overlap at the start.
+  explicit Loaded(const std::string& file);
 
-  std::string path;
+  std::string path;  ///< as errors call it
   Document document;
   OdeContacts contacts;
 
-  Motion simulate();
+  Motion simulate(const Output& out);
 };
 
 /// A warning for people when the motion ended before its duration.
-void warnIfEnded(const Motion& motion);
+void warnIfEnded(const Output& out, const Motion& motion);
 
 /// The rows and controls of a document at the scene as written: bounds are checked, then left out, so that derivatives
 /// are those of what is written. Throws FormatError: nothing varies, nothing is held, or either is not possible.

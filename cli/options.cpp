@@ -8,7 +8,7 @@
 namespace carom::cli {
 
 void addScene(CLI::App& app, std::string& path, bool required) {
-  app.add_option("scene", path, "The scene document")->required(required)->type_name("S.json");
+  app.add_option("scene", path, "The scene document; - for standard input")->required(required)->type_name("S.json");
 }
 
 CLI::Validator positiveNumber() {

@@ -11,7 +11,7 @@ class Validator;
 /// Options that several commands have.
 namespace carom::cli {
 
-/// Adds the scene document as the positional argument of a command.
+/// Adds the scene document as the positional argument of a command; "-" is standard input.
 void addScene(CLI::App& app, std::string& path, bool required = true);
 
 /// Accepts finite numbers greater than 0.

@@ -1,39 +1,70 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "adjoint/types.h"
+#include "cli/terminal.h"
 
 namespace carom::cli {
 
-/// What a command says. Standard output gets either text for people or, with --json, one document; it is written when
-/// the command is done, so that a command that fails leaves it empty. Warnings and progress go to standard error.
+/// Options that every command has.
+struct Settings {
+  bool json = false, quiet = false;
+  int digits = 6;
+};
+
+/// What a command says. Standard output gets either text for people, or with --json one document, or with `-o -` the
+/// content of a file; it is written when the command is done, so that a command that fails leaves it empty. Text that
+/// gives way to a file, warnings and progress go to standard error.
 class Output {
  public:
-  Output(bool json, int digits) : json_(json), digits_(digits) {}
+  explicit Output(const Settings& settings) : settings_(settings) {}
 
-  bool json() const { return json_; }
+  bool json() const { return settings_.json; }
+  bool quiet() const { return settings_.quiet; }
+  /// Whether text for people is coloured.
+  bool colours() const { return hasColours(content_ ? Stream::error : Stream::out); }
+
   /// The document that --json asks for.
   void document(std::string json) { document_ = std::move(json); }
-  /// Text for people; dropped with --json.
+  /// Standard output is for the content of a file. Before any text. Throws UsageError with --json.
+  void reserveForContent();
+  void content(std::string bytes) { content_ = std::move(bytes); }
+  /// Text for people; dropped with --json and --quiet.
   std::ostream& text() { return text_; }
+  /// The text in colour where people see colours.
+  std::string styled(Look look, const std::string& text) const { return colours() ? coloured(look, text) : text; }
+
   /// For people, with as many digits as they asked for; "-" where there is no number.
-  std::string number(double value) const;
+  std::string number(double value) const { return numberOf(settings_.digits, value); }
+  /// The same with three digits, where more mean nothing.
+  static std::string brief(double value) { return numberOf(3, value); }
+  /// With all digits.
+  static std::string full(double value) { return numberOf(17, value); }
   /// "1, 0, 0"
   std::string vector(const Vec3& value) const;
 
-  static void warn(const std::string& sentence);
+  /// "carom: warning: ..." on standard error, but not with --quiet.
+  void warn(const std::string& sentence) const;
+  /// What went wrong: on standard error, below all that standard output says of it.
+  void fail(std::string sentence) { failures_.push_back(std::move(sentence)); }
+  /// "carom: ..." on standard error, at once.
+  static void printError(const std::string& sentence);
   /// Writes standard output. Throws InputError when that cannot be done.
   void finish();
 
  private:
-  bool json_;
-  int digits_;
+  static std::string numberOf(int digits, double value);
+
+  Settings settings_;
   std::string document_;
+  std::optional<std::string> content_;
   std::ostringstream text_;
+  std::vector<std::string> failures_;
 };
 
 /// What a held number is to be: `target`, or where the limits differ "in [0.2, 0.9]", ">= 0.2", "<= 0.9".
@@ -41,33 +72,7 @@ std::string describeWanted(const Output& out, double target, double lower, doubl
 
 /// "1 impact", "3 impacts".
 std::string counted(long long count, const std::string& noun);
-
-/// Rows of text in aligned columns. Columns whose heading starts with '>' stand to the right, without that sign.
-class Table {
- public:
-  explicit Table(std::vector<std::string> headings);
-  void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-  bool empty() const { return rows_.size() == 1; }
-  void print(std::ostream& out) const;
-
- private:
-  std::vector<bool> right_;
-  std::vector<std::vector<std::string>> rows_;  // the headings first
-};
-
-/// One line on standard error that is written over again and again; silent where that is not a terminal.
-class Progress {
- public:
-  Progress();
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void show(const std::string& line);
-
- private:
-  bool terminal_;
-  bool shown_ = false;
-  double next_ = 0;  // s, so that a fast loop does not only write
-};
+/// "1 body", "3 bodies".
+std::string countedBodies(std::size_t count);
 
 }  // namespace carom::cli

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: MIT
 // carom replay: plays the journal of an edit session again.
 #include <CLI/App.hpp>
-#include <iostream>
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/progress.h"
+#include "cli/streams.h"
+#include "cli/table.h"
+#include "cli/units.h"
 #include "editing/session/session_replay.h"
 #include "formats/journal_json.h"
-#include "formats/scene_json.h"
 
 namespace carom::cli {
 namespace {
 
-struct Options {
+struct ReplayArguments {
   std::string journal, output;
 };
+
+/// "size of 'cup', 0.scale" has its component at the end; that of an orientation is one of a quaternion.
+std::string unitOfNumber(const std::string& name) {
+  if (name.ends_with(".scale") || name.ends_with(", scale") || name.starts_with("orientation")) return "";
+  return unitOf(name);
+}
 
 std::string describe(const SessionGesture& gesture) {
   std::string text = nameOf(gesture.kind);
@@ -26,27 +34,29 @@ std::string describe(const SessionGesture& gesture) {
 }
 
 void print(Output& out, const SessionJournal& journal, const std::vector<ReplayedGesture>& played) {
-  Table table({">gesture", "", ">updates", ">slowest, ms", "reached", ">distance, m", ">nails, error", "as recorded"});
+  Table table({">gesture", "", ">updates", ">slowest [ms]", "reached", ">distance [m]", ">nails, error [SI]", "as recorded"});
   for (std::size_t i = 0; i < played.size(); ++i) {
     const ReplayedGesture& gesture = played[i];
     table.row({std::to_string(i), describe(journal.gestures[i]), std::to_string(gesture.updates),
-               Output(false, 3).number(gesture.slowest_milliseconds), gesture.update.reached ? "yes" : "no",
+               Output::brief(gesture.slowest_milliseconds), gesture.update.reached ? "yes" : "no",
                out.number(gesture.update.distance), out.number(gesture.update.nail_error),
                gesture.differences.empty() ? "yes" : "no"});
   }
-  if (!table.empty()) table.print(out.text());
+  if (!table.empty()) table.print(out);
   for (std::size_t i = 0; i < played.size(); ++i)
     if (!played[i].update.message.empty()) out.text() << "gesture " << i << ": " << played[i].update.message << '\n';
 }
 
-Exit replay(const Options& options, Output& out) {
-  const JournalDocument document = readJournal(options.journal);
-  OdeContacts contacts = inFile(options.journal, [&] { return OdeContacts(document.journal.scene); });
+Exit replay(const ReplayArguments& options, Output& out) {
+  if (isStandard(options.output)) out.reserveForContent();
+  const JournalDocument document = readJournalFrom(options.journal);
+  const std::string name = nameOfInput(options.journal);
+  OdeContacts contacts = inFile(name, [&] { return OdeContacts(document.journal.scene); });
   std::vector<ReplayedGesture> played;
   bool same = true;
-  inFile(options.journal, [&] {
+  inFile(name, [&] {
     SessionReplay replay(document.journal, contacts);
-    Progress progress;
+    Progress progress(out, "replaying");
     while (!replay.done()) {
       progress.show("gesture " + std::to_string(played.size()) + " of " +
                     std::to_string(document.journal.gestures.size()));
@@ -56,30 +66,33 @@ Exit replay(const Options& options, Output& out) {
     if (!options.output.empty()) {
       Document end = documentOf(replay.session(), document.folder);
       end.name = document.name, end.notes = document.notes;
-      saveDocument(options.output, end);
+      saveSceneTo(out, options.output, end);
     }
     if (out.json()) {
-      out.document(replayJson(options.journal, document.journal, played, replay.session(), options.output));
+      out.document(replayJson(name, document.journal, played, replay.session(), options.output));
       return;
     }
     print(out, document.journal, played);
-    Table numbers({"number", ">value"});
+    Table numbers({"number", ">value", "unit"});
     for (const SessionNumber& number : sessionNumbers(replay.session().scene(), replay.session().controls()))
-      numbers.row({number.name, out.number(number.value)});
-    if (!numbers.empty()) numbers.print(out.text() << '\n');
-    if (!options.output.empty()) out.text() << "Written: " << options.output << '\n';
+      numbers.row({number.name, out.number(number.value), unitOfNumber(number.name)});
+    if (!numbers.empty()) {
+      out.text() << '\n';
+      numbers.print(out);
+    }
+    if (!options.output.empty()) sayWritten(out, options.output);
   });
   if (same) return Exit::done;
   for (std::size_t i = 0; i < played.size(); ++i)
     for (const std::string& difference : played[i].differences)
-      std::cerr << "carom: " << options.journal << ": /gestures/" << i << ": " << difference << '\n';
+      out.fail(name + ": /gestures/" + std::to_string(i) + ": " + difference);
   return Exit::check_failed;
 }
 
-Action declare(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.add_option("journal", options->journal, "The journal of an edit session")->required()->type_name("J.json");
-  app.add_option("-o,--output", options->output, "Write the scene at its end here")->type_name("OUT.json");
+Action declareReplay(CLI::App& app) {
+  const auto options = std::make_shared<ReplayArguments>();
+  app.add_option("journal", options->journal, "The journal of an edit session; - for standard input")->required()->type_name("J.json");
+  app.add_option("-o,--output", options->output, "Write the scene at its end here; - for standard output")->type_name("OUT.json");
   return [options](Output& out) { return replay(*options, out); };
 }
 
@@ -95,6 +108,6 @@ const Command kReplayCommand{
     "  carom replay session.json\n"
     "  carom replay session.json -o edited.json && carom export edited.json -o edited.glb\n"
     "  carom replay session.json --json | jq '.gestures[] | select(.reached | not)'",
-    declare};
+    declareReplay};
 
 }  // namespace carom::cli

@@ -1,44 +1,33 @@
 // SPDX-License-Identifier: MIT
 // carom simulate: every impact, and states at the times asked for.
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "adjoint/simulate.h"
 #include "cli/command.h"
+#include "cli/impacts.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/table.h"
 #include "formats/json_writer.h"
 #include "formats/result_json.h"
 
 namespace carom::cli {
 namespace {
 
-struct Options {
+struct SimulateArguments {
   std::string scene;
   std::vector<double> at;
+  bool impacts = false;
 };
 
-std::string contactNames(const Motion& motion, const Event& event) {
-  std::string names;
-  for (const Contact& contact : event.contacts) {
-    const auto nameAt = [&](int body) { return motion.scene->bodies[static_cast<std::size_t>(body)].name; };
-    names += (names.empty() ? "" : " + ") + nameAt(contact.a) + "-" + nameAt(contact.b);
-  }
-  return names;
-}
+constexpr std::size_t kMostStates = 50;  // of bodies, at the end of a motion that was not asked for
 
-void printEvents(Output& out, const Motion& motion) {
-  if (motion.events.empty()) return;
-  Table table({">", ">time [s]", "bodies", "mode", "point [m]", "normal", ">elasticity", ">margin"});
-  for (std::size_t i = 0; i < motion.events.size(); ++i) {
-    const Event& event = motion.events[i];
-    const Contact& first = event.contacts.front();
-    table.row({std::to_string(i + 1), out.number(event.time), contactNames(motion, event), nameOf(event.mode),
-               out.vector(first.at.point), out.vector(first.at.normal), out.number(first.pair.elasticity),
-               out.number(event.margins.smallest())});
-  }
-  table.print(out.text());
+std::size_t movingBodies(const Scene& scene) {
+  return static_cast<std::size_t>(
+      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return !body.fixed; }));
 }
 
 void printStates(Output& out, const Motion& motion, double time) {
@@ -52,18 +41,29 @@ void printStates(Output& out, const Motion& motion, double time) {
                out.number(state.orientation.w()) + ", " + out.vector(state.orientation.vec()),
                out.vector(state.velocity), out.vector(state.angular_velocity)});
   }
-  table.print(out.text());
+  table.print(out);
 }
 
-void printMotion(Output& out, const Motion& motion, const std::vector<double>& at) {
+void printEnd(Output& out, const Motion& motion) {
+  const std::size_t moving = movingBodies(*motion.scene);
+  if (moving <= kMostStates) return printStates(out, motion, motion.end);
+  out.text() << "--at " << numberText(motion.end) << " prints the state of the " << moving
+             << " moving bodies at the end.\n";
+}
+
+void printMotion(Output& out, const Motion& motion, const SimulateArguments& arguments) {
   out.text() << counted(static_cast<long long>(motion.events.size()), "impact") << " in " << out.number(motion.end)
              << " s";
   if (motion.status != MotionStatus::complete)
-    out.text() << "; the motion ends there (" << nameOf(motion.status) << "): " << motion.message;
+    out.text() << "; " << out.styled(Look::warning, "the motion ends there") << " (" << nameOf(motion.status)
+               << "): " << motion.message;
   out.text() << '\n';
-  printEvents(out, motion);
-  if (at.empty()) printStates(out, motion, motion.end);
-  for (const double time : at) printStates(out, motion, time);
+  if (arguments.impacts || motion.events.size() <= kMostListed)
+    printImpacts(out, motion);
+  else
+    printImpactSummary(out, motion);
+  if (arguments.at.empty()) printEnd(out, motion);
+  for (const double time : arguments.at) printStates(out, motion, time);
 }
 
 void requireReached(const Motion& motion, double time) {
@@ -73,21 +73,22 @@ void requireReached(const Motion& motion, double time) {
                                ", expected one in [0, " + numberText(motion.end) + "]" + why);
 }
 
-Action declare(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+Action declareSimulate(CLI::App& app) {
+  const auto options = std::make_shared<SimulateArguments>();
   addScene(app, options->scene);
   app.add_option("--at", options->at, "A time to print the state at [s]; may be given more than once")
       ->allow_extra_args(false)
       ->type_name("T");
+  app.add_flag("--impacts", options->impacts, "List all impacts, where more than 50 are summed up otherwise");
   return [options](Output& out) {
     Loaded loaded(options->scene);
-    const Motion motion = loaded.simulate();
+    const Motion motion = loaded.simulate(out);
     for (const double time : options->at) requireReached(motion, time);
     if (out.json()) {
       out.document(motionJson(motion, options->at));
-      warnIfEnded(motion);
+      warnIfEnded(out, motion);
     } else {
-      printMotion(out, motion, options->at);
+      printMotion(out, motion, *options);
     }
     return Exit::done;
   };
@@ -98,14 +99,16 @@ Action declare(CLI::App& app) {
 const Command kSimulateCommand{
     "simulate", "Simulate a scene: every impact, and states at any time",
     "Prints every impact (time, bodies, contact point and normal, mode, and the margin to where\n"
-    "derivatives stop) and the state at the end of the motion, or at the times asked for.\n"
+    "derivatives stop) and the state at the end of the motion, or at the times asked for. Of more than\n"
+    "50 impacts it prints how many there are by mode, pair and body instead, if not --impacts.\n"
     "A motion that cannot be continued ends early: the answer says where, when and why.\n"
     "\n"
     "Examples:\n"
     "  carom simulate scene.json\n"
     "  carom simulate scene.json --at 0.5 --at 1\n"
     "  carom simulate scene.json --at 1 --digits 17\n"
+    "  carom simulate scene.json --impacts | grep floor\n"
     "  carom simulate scene.json --json | jq .events",
-    declare};
+    declareSimulate};
 
 }  // namespace carom::cli

@@ -2,17 +2,20 @@
 // carom validate: whether a document can be simulated and edited.
 #include <CLI/App.hpp>
 #include <memory>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
+#include "cli/progress.h"
 #include "formats/status_json.h"
 
 namespace carom::cli {
 namespace {
 
 /// Everything that other commands could refuse, up to constraints that the motion does not have.
-void checkEdit(Loaded& loaded) {
+void checkEdit(const Output& out, Loaded& loaded) {
+  std::optional<Progress> progress(std::in_place, out, "checking");
   const Document& document = loaded.document;
   const EditProblem problem = inFile(loaded.path, [&] {
     return EditProblem(document.scene, loaded.contacts, document.duration, document.controls, document.constraints);
@@ -21,28 +24,29 @@ void checkEdit(Loaded& loaded) {
   const Eigen::VectorXd values = problem.controls.startValues();
   const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
   requireRows(loaded.path, problem, motion);
-  for (const std::string& note : problem.controls.notes()) Output::warn(note);
+  progress.reset();
+  for (const std::string& note : problem.controls.notes()) out.warn(note);
 }
 
 Exit validate(const std::string& path, Output& out) {
   Loaded loaded(path);
-  checkEdit(loaded);
+  checkEdit(out, loaded);
   const Document& document = loaded.document;
   const std::string message = "The document is valid.";
   if (out.json()) {
-    out.document(validateJson(path, document, message));
+    out.document(validateJson(loaded.path, document, message));
   } else {
     const auto count = [](const auto& items, const char* noun) {
       return counted(static_cast<long long>(items.size()), noun);
     };
-    const std::size_t bodies = document.scene.bodies.size();
-    out.text() << path << ": valid: " << bodies << (bodies == 1 ? " body, " : " bodies, ")
-               << count(document.controls, "control") << ", " << count(document.constraints, "constraint") << '\n';
+    out.text() << loaded.path << ": " << out.styled(Look::good, "valid") << ": "
+               << countedBodies(document.scene.bodies.size()) << ", " << count(document.controls, "control") << ", "
+               << count(document.constraints, "constraint") << '\n';
   }
   return Exit::done;
 }
 
-Action declare(CLI::App& app) {
+Action declareValidate(CLI::App& app) {
   const auto scene = std::make_shared<std::string>();
   addScene(app, *scene);
   return [scene](Output& out) { return validate(*scene, out); };
@@ -59,6 +63,6 @@ const Command kValidateCommand{
     "Examples:\n"
     "  carom validate scene.json\n"
     "  carom validate scene.json --json",
-    declare};
+    declareValidate};
 
 }  // namespace carom::cli

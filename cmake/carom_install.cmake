@@ -10,6 +10,13 @@ install(TARGETS carom_c_functions EXPORT caromTargets OBJECTS DESTINATION ${CMAK
 if(TARGET carom)
   install(TARGETS carom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
+# The pages that the command writes when it is built, where man and the shells look for them.
+if(CAROM_PAGES)
+  install(FILES ${CAROM_PAGES}/carom.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${CAROM_PAGES}/carom.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME carom)
+  install(FILES ${CAROM_PAGES}/_carom DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+  install(FILES ${CAROM_PAGES}/carom.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
 foreach(folder adjoint ode_bridge editing formats)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/carom
     FILES_MATCHING PATTERN "*.h")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -DSOURCE=... -DBUILD=... -DWORK=... -DCOMPILER=... -P try_installed.cmake
 # Does what somebody does who finds carom installed: installs the build BUILD under WORK, builds examples/consumer and the
-# C++ program of the README against it, word for word, and runs both.
+# C++ program of the README against it, word for word, and runs both. What goes with the command is there, too.
 
 function(run)
   execute_process(COMMAND ${ARGV} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
@@ -13,6 +13,19 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+
+foreach(page man/man1/carom.1 bash-completion/completions/carom zsh/site-functions/_carom
+    fish/vendor_completions.d/carom.fish)
+  if(NOT EXISTS ${WORK}/installed/share/${page})
+    message(FATAL_ERROR "share/${page} was not installed")
+  endif()
+  file(READ ${WORK}/installed/share/${page} text)
+  foreach(word simulate completion shooting alternatives)
+    if(NOT text MATCHES ${word})
+      message(FATAL_ERROR "share/${page} does not name ${word}")
+    endif()
+  endforeach()
+endforeach()
 
 file(READ ${SOURCE}/README.md readme)
 if(NOT readme MATCHES "```cpp\n(#include[^`]*)```")

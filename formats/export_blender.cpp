@@ -83,15 +83,19 @@ std::string inLines(const std::string& text) {
 
 }  // namespace
 
-void exportBlender(const std::string& path, const Document& document, const Motion& motion,
-                   const GltfOptions& options) {
+std::string blenderText(const Document& document, const Motion& motion, const GltfOptions& options) {
   const std::string encoded = base64(gltfText(document, motion, options, true));
   std::string script = kHead;
   script += "FRAMES_PER_SECOND = " + numberText(options.frames_per_second) + "\n";
   script += "LAST_FRAME = " + std::to_string(lastFrame(motion.end, options.frames_per_second)) + "\n";
   script += kBody;
   script += "GLB = '''\n" + inLines(encoded) + "'''\n\nshow()\n";
-  writeFile(path, script);
+  return script;
+}
+
+void exportBlender(const std::string& path, const Document& document, const Motion& motion,
+                   const GltfOptions& options) {
+  writeFile(path, blenderText(document, motion, options));
 }
 
 }  // namespace carom

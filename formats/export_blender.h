@@ -13,4 +13,7 @@ namespace carom {
 void exportBlender(const std::string& path, const Document& document, const Motion& motion,
                    const GltfOptions& options = {});
 
+/// The same as a text.
+std::string blenderText(const Document& document, const Motion& motion, const GltfOptions& options = {});
+
 }  // namespace carom

@@ -114,7 +114,7 @@ void appendRow(std::string& out, const Motion& motion, const CsvRow& row) {
 
 }  // namespace
 
-void exportCsv(const std::string& path, const Document&, const Motion& motion, double rate) {
+std::string csvText(const Motion& motion, double rate) {
   if (!(rate > 0 && rate <= 1e6))
     throw InputError("csv rate", "found " + std::to_string(rate) + ", expected a number of rows a second up to 1e6");
   const double rows = rate * motion.end * static_cast<double>(motion.scene->bodies.size());
@@ -123,7 +123,11 @@ void exportCsv(const std::string& path, const Document&, const Motion& motion, d
                                      " rows, expected one that makes at most " + std::to_string(kMostRows));
   std::string out = kColumns;
   for (const CsvRow& row : rowsOf(motion, rate)) appendRow(out, motion, row);
-  writeFile(path, out);
+  return out;
+}
+
+void exportCsv(const std::string& path, const Document&, const Motion& motion, double rate) {
+  writeFile(path, csvText(motion, rate));
 }
 
 }  // namespace carom

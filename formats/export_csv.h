@@ -14,4 +14,7 @@ namespace carom {
 /// file cannot be written (naming the path).
 void exportCsv(const std::string& path, const Document& document, const Motion& motion, double rate = 60);
 
+/// The same as a text.
+std::string csvText(const Motion& motion, double rate = 60);
+
 }  // namespace carom

@@ -9,32 +9,41 @@
 #include "formats/export_blender.h"
 #include "formats/export_csv.h"
 #include "formats/export_svg.h"
+#include "formats/write_file.h"
 
 namespace carom {
 namespace {
 
-using Exporter = void (*)(const std::string&, const Document&, const Motion&, const ExportOptions&);
+struct Exported {
+  const std::string& title;
+  const Document& document;
+  const Motion& motion;
+  const ExportOptions& options;
+};
 
-void writeGltf(const std::string& path, const Document& document, const Motion& motion, const ExportOptions& options) {
-  exportGltf(path, document, motion, options.gltf);
-}
-void writeBlender(const std::string& path, const Document& document, const Motion& motion,
-                  const ExportOptions& options) {
-  exportBlender(path, document, motion, options.gltf);
-}
-void writeCsv(const std::string& path, const Document& document, const Motion& motion, const ExportOptions& options) {
-  exportCsv(path, document, motion, options.csv_rate);
-}
-void writeSvg(const std::string& path, const Document& document, const Motion& motion, const ExportOptions& options) {
-  exportSvg(path, document, motion, options.before);
-}
+std::string glb(const Exported& e) { return gltfText(e.document, e.motion, e.options.gltf, true); }
+std::string gltf(const Exported& e) { return gltfText(e.document, e.motion, e.options.gltf, false); }
+std::string blender(const Exported& e) { return blenderText(e.document, e.motion, e.options.gltf); }
+std::string csv(const Exported& e) { return csvText(e.motion, e.options.csv_rate); }
+std::string svg(const Exported& e) { return svgText(e.title, e.document, e.motion, e.options.before); }
 
 struct Format {
   const char* extension;
-  Exporter write;
+  std::string (*text)(const Exported&);
 };
-constexpr Format kFormats[] = {
-    {".glb", writeGltf}, {".gltf", writeGltf}, {".py", writeBlender}, {".csv", writeCsv}, {".svg", writeSvg}};
+constexpr Format kFormats[] = {{".glb", glb}, {".gltf", gltf}, {".py", blender}, {".csv", csv}, {".svg", svg}};
+
+const Format* findFormat(const std::string& extension) {
+  for (const Format& format : kFormats)
+    if (extension == format.extension) return &format;
+  return nullptr;
+}
+
+std::string listOfFormats(std::size_t without) {
+  std::string list;
+  for (const Format& format : kFormats) list += std::string(list.empty() ? "" : ", ") + (format.extension + without);
+  return list;
+}
 
 }  // namespace
 
@@ -43,11 +52,19 @@ void exportMotion(const std::string& path, const Document& document, const Motio
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  for (const Format& format : kFormats)
-    if (extension == format.extension) return format.write(path, document, motion, options);
-  std::string expected;
-  for (const Format& format : kFormats) expected += std::string(expected.empty() ? "" : ", ") + format.extension;
-  throw InputError(path, "found the extension '" + extension + "', expected one of " + expected);
+  const Format* const format = findFormat(extension);
+  if (format == nullptr)
+    throw InputError(path, "found the extension '" + extension + "', expected one of " + listOfFormats(0));
+  const std::string title = std::filesystem::path(path).stem().string();
+  writeFile(path, format->text({title, document, motion, options}));
+}
+
+std::string motionText(const std::string& format, const std::string& title, const Document& document,
+                       const Motion& motion, const ExportOptions& options) {
+  const Format* const found = findFormat("." + format);
+  if (found == nullptr)
+    throw InputError("format", "found '" + format + "', expected one of " + listOfFormats(1));
+  return found->text({title, document, motion, options});
 }
 
 std::vector<std::string> exportExtensions() {

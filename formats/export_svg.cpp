@@ -117,7 +117,7 @@ std::string countedWords(std::size_t count, const std::string& word, const std::
   return std::to_string(count) + " " + (count == 1 ? word : plural.empty() ? word + "s" : plural);
 }
 
-void exportSvg(const std::string& path, const Document& document, const Motion& motion, const Motion* before) {
+std::string svgText(const std::string& heading, const Document& document, const Motion& motion, const Motion* before) {
   Picture picture{motion, before, nailsOf(document, motion), regionsOf(document)};
   const std::vector<View> views = layOutViews(picture, kWidth, kTitleHeight);
   picture.paths = planPaths(motion, views, nailedBodies(picture), kPathBytes);
@@ -132,7 +132,7 @@ void exportSvg(const std::string& path, const Document& document, const Motion& 
   for (const View& view : views)
     legend_top = std::max(legend_top, view.panel.y + view.panel.height + kAxisRoom + 6);
   const double legend_width = kWidth - 2 * kSideMargin;
-  const std::string title = ellipsized(std::filesystem::path(path).stem().string(), kLongestTitle);
+  const std::string title = ellipsized(heading, kLongestTitle);
   SvgCanvas canvas(kWidth, legend_top + legend.height(legend_width) + 12, title, descriptionOf(picture));
   addDefinitions(canvas, views, picture);
   canvas.text({kSideMargin, 31}, title, {{"font-size", "21"}, {"font-weight", "700"}});
@@ -146,7 +146,11 @@ void exportSvg(const std::string& path, const Document& document, const Motion& 
     canvas.close();
   }
   legend.draw(canvas, {kSideMargin, legend_top}, legend_width);
-  writeFile(path, canvas.finish());
+  return canvas.finish();
+}
+
+void exportSvg(const std::string& path, const Document& document, const Motion& motion, const Motion* before) {
+  writeFile(path, svgText(std::filesystem::path(path).stem().string(), document, motion, before));
 }
 
 }  // namespace carom

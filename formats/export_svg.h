@@ -19,4 +19,8 @@ inline constexpr std::size_t kMostSvgBytes = 500'000;
 /// InputError naming the path or the body. The same motion gives the same file.
 void exportSvg(const std::string& path, const Document& document, const Motion& motion, const Motion* before = nullptr);
 
+/// The same as a text, with this title.
+std::string svgText(const std::string& title, const Document& document, const Motion& motion,
+                    const Motion* before = nullptr);
+
 }  // namespace carom

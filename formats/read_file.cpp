@@ -14,6 +14,18 @@ namespace {
   throw FormatError(path, "", "found " + found + ", expected at most " + std::to_string(limit) + " bytes");
 }
 
+// A pipe has no size before it is read.
+std::string readAll(std::istream& in, const std::string& name, std::size_t expected, std::size_t limit) {
+  std::string text;
+  text.reserve(expected);
+  std::string block(std::size_t{1} << 16, '\0');
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    text.append(block, 0, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > limit) failTooLarge(name, "more", limit);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string readFile(const std::string& path, const std::string& what, std::size_t limit) {
@@ -29,15 +41,11 @@ std::string readFile(const std::string& path, const std::string& what, std::size
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FormatError(path, "", "found a file that cannot be opened, expected one that may be read");
-  // A pipe has no size before it is read.
-  std::string text;
-  text.reserve(size);
-  std::string block(std::size_t{1} << 16, '\0');
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    text.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > limit) failTooLarge(path, "more", limit);
-  }
-  return text;
+  return readAll(in, path, size, limit);
+}
+
+std::string readStream(std::istream& in, const std::string& name, std::size_t limit) {
+  return readAll(in, name, 0, limit);
 }
 
 }  // namespace carom

@@ -73,12 +73,20 @@ Document readDocument(const std::string& path) {
   return parseDocument(readFile(path, "a scene document", kLargestDocument), path, detail::folderOf(path));
 }
 
-void saveDocument(const std::string& path, const Document& document) try {
+std::string writeDocumentIn(const std::string& folder, const Document& document) {
   Document moved = document;
-  detail::moveTo(detail::folderOf(path), moved);
-  const std::string text = writeDocument(moved);
-  parseDocument(text, path, moved.folder);
-  writeFile(path, text);
+  detail::moveTo(folder, moved);
+  std::string text = writeDocument(moved);
+  try {
+    parseDocument(text, "", moved.folder);
+  } catch (const FormatError& error) {
+    throw InputError(error.where(), error.message());
+  }
+  return text;
+}
+
+void saveDocument(const std::string& path, const Document& document) try {
+  writeFile(path, writeDocumentIn(detail::folderOf(path), document));
 } catch (const FormatError&) {
   throw;
 } catch (const InputError& error) {

@@ -53,7 +53,7 @@ std::string typed(std::string line) {
 Lines commandsOf(const std::string& page) {
   Lines found;
   const std::regex code(
-      "```[^`]*```|`(carom (?:simulate|edit|replay|gradient|check|export|import|info|validate) [^`]+)`");
+      "```[^`]*```|`(carom (?:simulate|edit|replay|gradient|check|export|import|info|validate|completion|man) [^`]+)`");
   for (auto match = std::sregex_iterator(page.begin(), page.end(), code); match != std::sregex_iterator(); ++match) {
     if ((*match)[1].matched) {
       found.push_back(typed((*match)[1]));

@@ -21,6 +21,16 @@ CommandRun runProgram(const std::string& path, const std::vector<std::string>& a
 /// Runs the built command so.
 CommandRun runCommand(const std::vector<std::string>& arguments);
 
+/// Runs a line of sh in which `carom` is the built command.
+CommandRun runShell(const std::string& line);
+
+/// Which streams of a process are a terminal.
+enum class Terminal { out, error, all };
+/// Runs the command on a terminal of 120 columns; the other streams are files. What the terminal got is in `out`, or,
+/// with Terminal::error, in `err`. `variables` ("NO_COLOR=1") are set besides.
+CommandRun runOnTerminal(Terminal terminal, const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& variables = {});
+
 /// Runs it with --json, expects the exit code, and one JSON document alone on standard output.
 nlohmann::json runJson(std::vector<std::string> arguments, int code = 0);
 

@@ -26,6 +26,18 @@ TEST(ExportMotion, TheExtensionChoosesTheFormat) {
   EXPECT_EQ(start("m.GLB").substr(0, 4), "glTF");
 }
 
+TEST(ExportMotion, TextsAreWhatFilesHold) {
+  const Motion motion = handMotion();
+  for (const std::string& extension : exportExtensions()) {
+    const std::string path = temporaryPath("text" + extension);
+    exportMotion(path, handDocument(), motion);
+    EXPECT_EQ(motionText(extension.substr(1), "text", handDocument(), motion), contentOf(path)) << extension;
+  }
+  EXPECT_NE(motionText("svg", "A title", handDocument(), motion).find(">A title<"), std::string::npos);
+  for (const char* format : {"", "obj", ".glb", "GLB"})
+    EXPECT_THROW(motionText(format, "text", handDocument(), motion), InputError) << format;
+}
+
 TEST(ExportMotion, ErrorsNameThePathAndLeaveNothingBehind) {
   const Motion motion = handMotion();
   const std::string folder = temporaryPath("folder");

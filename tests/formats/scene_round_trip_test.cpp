@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <sstream>
 
 #include "formats/json_writer.h"
+#include "formats/read_file.h"
 #include "formats/scene_json.h"
 #include "tests/formats/same_documents.h"
 #include "tests/formats/scene_documents.h"
@@ -316,6 +318,19 @@ TEST_F(SceneFile, whatCannotBeSavedLeavesTheOldFile) {
   EXPECT_THROW(saveDocument(path("scene.json"), d), FormatError);
   EXPECT_EQ(textOf(path("scene.json")), before);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
+}
+
+TEST(ReadStream, readsAllUpToALimit) {
+  std::istringstream text("0123456789");
+  EXPECT_EQ(readStream(text, "<stdin>", 10), "0123456789");
+  EXPECT_EQ(readStream(text, "<stdin>", 10), "");  // there is no more
+  std::istringstream longer("0123456789");
+  try {
+    readStream(longer, "<stdin>", 9);
+    FAIL() << "read";
+  } catch (const FormatError& error) {
+    EXPECT_STREQ(error.what(), "<stdin>: found more, expected at most 9 bytes");
+  }
 }
 
 TEST_F(SceneFile, folderThatDoesNotExist) {

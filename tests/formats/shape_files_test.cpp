@@ -171,6 +171,16 @@ TEST_F(ShapeFiles, namesFollowTheDocumentToAnotherFolder) {
   EXPECT_EQ(meshOf(readDocument(path("meshes/saved.json")), 0).file, "cube.obj");
 }
 
+TEST_F(ShapeFiles, aTextForAnotherFolderIsWhatIsSavedThere) {
+  const Document d = documentWith({R"("mesh": { "file": "meshes/cube.obj" })"});
+  fs::create_directories(folder_ / "out");
+  saveDocument(path("out/saved.json"), d);
+  EXPECT_EQ(writeDocumentIn(path("out"), d), formats_test::textOf(path("out/saved.json")));
+  Document impossible = d;
+  impossible.scene.bodies[0].mass = -1;
+  EXPECT_THROW(writeDocumentIn(path("out"), impossible), InputError);
+}
+
 TEST_F(ShapeFiles, namesFollowThroughALinkedFolder) {
   const Document d = documentWith({R"("mesh": { "file": "meshes/cube.obj" })"});
   fs::create_directories(folder_ / "far" / "away");

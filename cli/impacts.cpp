@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "cli/impacts.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "cli/table.h"
+
+namespace carom::cli {
+namespace {
+
+constexpr std::size_t kMostRows = 10;  // of pairs, and of bodies
+
+const std::string& nameOfBody(const Motion& motion, int body) {
+  return motion.scene->bodies[static_cast<std::size_t>(body)].name;
+}
+
+std::string pairName(const Motion& motion, const std::pair<int, int>& pair) {
+  return nameOfBody(motion, pair.first) + "-" + nameOfBody(motion, pair.second);
+}
+
+class ImpactTable {
+ public:
+  ImpactTable() : table_({">", ">time [s]", "bodies", "mode", "point [m]", "normal", ">elasticity", ">margin"}) {}
+
+  void add(const Output& out, const Motion& motion, std::size_t index) {
+    const Event& event = motion.events[index];
+    const Contact& first = event.contacts.front();
+    std::string names;
+    for (const Contact& contact : event.contacts)
+      names += (names.empty() ? "" : " + ") + pairName(motion, {contact.a, contact.b});
+    table_.row({std::to_string(index + 1), out.number(event.time), names, nameOf(event.mode),
+                out.vector(first.at.point), out.vector(first.at.normal), out.number(first.pair.elasticity),
+                out.number(event.margins.smallest())});
+  }
+  void print(Output& out) const { table_.print(out); }
+
+ private:
+  Table table_;
+};
+
+/// Impacts that have something in common.
+struct Tally {
+  std::size_t count = 0;
+  double first = 0, last = 0;  // s
+
+  void add(double time) {
+    if (count++ == 0) first = time;
+    last = time;
+  }
+};
+
+/// The largest first; those of one size in the order of the scene.
+template <class Key>
+std::vector<std::pair<Key, Tally>> ranked(const std::map<Key, Tally>& tallies) {
+  std::vector<std::pair<Key, Tally>> rows(tallies.begin(), tallies.end());
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto& a, const auto& b) { return a.second.count > b.second.count; });
+  return rows;
+}
+
+/// One row a tally, the first of them only; `name` gives the first cell of a row.
+template <class Key, class Name>
+void printTallies(Output& out, const std::string& title, const char* heading, const std::map<Key, Tally>& tallies,
+                  Name name) {
+  const auto rows = ranked(tallies);
+  const std::size_t shown = std::min(rows.size(), kMostRows);
+  out.text() << '\n'
+             << title;
+  if (shown < rows.size()) out.text() << ", the first " << shown << " of " << rows.size();
+  out.text() << ":\n";
+  Table table({heading, ">impacts", ">first [s]", ">last [s]"});
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Tally& tally = rows[i].second;
+    table.row({name(rows[i].first), std::to_string(tally.count), out.number(tally.first), out.number(tally.last)});
+  }
+  table.print(out);
+}
+
+std::size_t nearestToTheEdge(const std::vector<Event>& events) {
+  const auto less = [](const Event& a, const Event& b) { return a.margins.smallest() < b.margins.smallest(); };
+  return static_cast<std::size_t>(std::min_element(events.begin(), events.end(), less) - events.begin());
+}
+
+}  // namespace
+
+void printImpacts(Output& out, const Motion& motion) {
+  if (motion.events.empty()) return;
+  ImpactTable table;
+  for (std::size_t i = 0; i < motion.events.size(); ++i) table.add(out, motion, i);
+  table.print(out);
+}
+
+void printImpactSummary(Output& out, const Motion& motion) {
+  std::map<ImpactMode, Tally> modes;
+  std::map<std::pair<int, int>, Tally> pairs;
+  std::map<int, Tally> bodies;
+  for (const Event& event : motion.events) {
+    modes[event.mode].add(event.time);
+    for (const Participant& participant : event.participants) bodies[participant.body].add(event.time);
+    std::vector<std::pair<int, int>> met;  // bodies that touch in several places meet once
+    for (const Contact& contact : event.contacts) met.emplace_back(contact.a, contact.b);
+    std::sort(met.begin(), met.end());
+    met.erase(std::unique(met.begin(), met.end()), met.end());
+    for (const auto& pair : met) pairs[pair].add(event.time);
+  }
+  printTallies(out, "Impacts by mode", "mode", modes, [](ImpactMode mode) { return std::string(nameOf(mode)); });
+  printTallies(out, "Pairs that meet most often", "bodies", pairs,
+               [&](const auto& pair) { return pairName(motion, pair); });
+  printTallies(out, "Moving bodies with most impacts", "body", bodies,
+               [&](int body) { return nameOfBody(motion, body); });
+  out.text() << "\nThe first impact, the one nearest to where derivatives stop, and the last:\n";
+  std::vector<std::size_t> chosen{0, nearestToTheEdge(motion.events), motion.events.size() - 1};
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  ImpactTable table;
+  for (const std::size_t index : chosen) table.add(out, motion, index);
+  table.print(out);
+  out.text() << "--impacts lists all of them.\n";
+}
+
+}  // namespace carom::cli

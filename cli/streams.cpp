@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "cli/streams.h"
+
+#include <iostream>
+
+#include "cli/loading.h"
+#include "formats/mesh_file.h"
+#include "formats/read_file.h"
+#include "formats/scene_json.h"
+
+namespace carom::cli {
+namespace {
+
+constexpr const char* kInput = "<stdin>";
+constexpr const char* kOutput = "<stdout>";
+constexpr const char* kHere = ".";  // the folder that file names are relative to
+
+std::string readInput(std::size_t limit) { return readStream(std::cin, kInput, limit); }
+
+}  // namespace
+
+bool isStandard(const std::string& path) { return path == "-"; }
+
+std::string nameOfInput(const std::string& path) { return isStandard(path) ? kInput : path; }
+
+Document readSceneFrom(const std::string& path) {
+  if (!isStandard(path)) return readDocument(path);
+  return parseDocument(readInput(kLargestDocument), kInput, kHere);
+}
+
+JournalDocument readJournalFrom(const std::string& path) {
+  if (!isStandard(path)) return readJournal(path);
+  return parseJournal(readInput(kLargestJournal), kInput, kHere);
+}
+
+Imported importFrom(const std::string& path) {
+  if (!isStandard(path)) return importGltf(path);
+  return inFile(kInput, [] { return parseGltfScene(readInput(kLargestMeshFile), kHere); });
+}
+
+void saveSceneTo(Output& out, const std::string& path, const Document& document) {
+  if (isStandard(path))
+    out.content(inFile(kOutput, [&] { return writeDocumentIn(kHere, document); }));
+  else
+    saveDocument(path, document);
+}
+
+void sayWritten(Output& out, const std::string& path, const std::string& details) {
+  if (!isStandard(path)) out.text() << "Written: " << path << details << '\n';
+}
+
+}  // namespace carom::cli
