@@ -9,6 +9,7 @@
 
 #include "adjoint/body_model.h"
 #include "carom/version.h"
+#include "cli/build_facts.h"
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
@@ -154,14 +155,15 @@ Exit describeScene(const std::string& path, Output& out) {
 }
 
 ProgramInfo programInfo() {
+  const BuildFacts facts = buildFacts();
   ProgramInfo info;
   info.version = kVersion;
-  info.build = CAROM_BUILD_TYPE;
-  info.compiler = CAROM_COMPILER;
+  info.build = facts.type;
+  info.compiler = facts.compiler;
   info.libraries = {{"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                                   std::to_string(EIGEN_MINOR_VERSION)},
-                    {"Open Dynamics Engine", CAROM_ODE_VERSION},
-                    {"Ipopt", CAROM_IPOPT_VERSION},
+                    {"Open Dynamics Engine", facts.ode},
+                    {"Ipopt", facts.ipopt},
                     {"CLI11", CLI11_VERSION}};
   info.exports = exportExtensions();
   return info;
