@@ -22,7 +22,8 @@
 namespace carom::cli {
 namespace {
 
-constexpr std::size_t kMostPairs = 6;  // named in a line of text; --json has all
+constexpr std::size_t kMostPairs = 6;    // named in a line of text; --json has all
+constexpr std::size_t kMostBodies = 50;  // of a table; --json has all
 
 const char* wordOf(Combine rule) {
   constexpr const char* kWords[] = {"average", "minimum", "maximum", "product"};
@@ -92,25 +93,33 @@ void printNotes(Output& out, const Document& document) {
     if (!body.notes.empty()) out.text() << indented("'" + body.name + "': " + body.notes);
 }
 
+void sayMoreBodies(Output& out, const Scene& scene) {
+  if (scene.bodies.size() > kMostBodies)
+    out.text() << "  and " << scene.bodies.size() - kMostBodies << " more; --json has all\n";
+}
+
 void printBodies(Output& out, const Scene& scene, const ScenePlan& plan) {
   out.text() << "\nBodies, with the flight model that is exact for what the " << plan.asked << " asks:\n";
   Table table({"body", "motion", "because", "derivatives", "because"});
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(scene.bodies.size(), kMostBodies); ++i) {
     const BodyPlan& body = plan.plan.bodies[i];
     table.row({scene.bodies[i].name, nameOf(body.tier), body.why, nameOf(body.derivative_tier), body.derivative_why});
   }
   table.print(out);
+  sayMoreBodies(out, scene);
 }
 
 void printShapes(Output& out, const Scene& scene) {
   out.text() << "\nShapes, and mass properties in their axes:\n";
   Table table({"body", "shape", ">mass [kg]", "centre of mass [m]", "principal moments [kg m^2]"});
-  for (const Body& body : scene.bodies) {
+  for (std::size_t i = 0; i < std::min(scene.bodies.size(), kMostBodies); ++i) {
+    const Body& body = scene.bodies[i];
     const BodyModel model = body.fixed ? BodyModel() : modelOf(body);
     table.row({body.name, kindOf(body.shape).name, body.fixed ? "fixed" : out.number(model.mass),
                body.fixed ? "" : out.vector(model.center), body.fixed ? "" : out.vector(model.inertia)});
   }
   table.print(out);
+  sayMoreBodies(out, scene);
 }
 
 // Pairs of the same materials have the same law and coefficients.
