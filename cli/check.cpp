@@ -6,6 +6,7 @@
 
 #include "cli/check_differences.h"
 #include "cli/command.h"
+#include "cli/impacts.h"
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -13,6 +14,11 @@
 
 namespace carom::cli {
 namespace {
+
+struct CheckArguments {
+  std::string scene;
+  bool impacts = false;
+};
 
 constexpr std::size_t kMostDifferences = 20;  // sequences that differ, in text; --json has all
 
@@ -68,10 +74,9 @@ void printColumns(Output& out, const EditProblem& problem, const DerivativeCheck
   table.print(out);
 }
 
-void printSequences(Output& out, const EditProblem& problem, const DerivativeCheck& check) {
+void printComparison(Output& out, const EditProblem& problem, const DerivativeCheck& check, bool all_impacts) {
   out.text() << "\nImpact sequence up to the last constraint:\n";
-  for (const std::string& impact : check.sequence) out.text() << "  " << impact << '\n';
-  if (check.sequence.empty()) out.text() << "  no impacts\n";
+  printSequence(out, check.sequence, all_impacts);
   std::size_t differing = 0;
   std::ostringstream lines;
   for (int j = 0; j < problem.controls.size(); ++j) {
@@ -102,8 +107,8 @@ void printEntry(Output& out, const EditProblem& problem, const DerivativeCheck& 
              << Output::full(other(entry.row, entry.column)) << '\n';
 }
 
-Exit check(const std::string& scene, Output& out) {
-  Loaded loaded(scene);
+Exit check(const CheckArguments& arguments, Output& out) {
+  Loaded loaded(arguments.scene);
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
@@ -116,7 +121,7 @@ Exit check(const std::string& scene, Output& out) {
   if (out.json()) {
     out.document(checkJson(problem, result));
   } else {
-    printSequences(out, problem, result);
+    printComparison(out, problem, result, arguments.impacts);
     printSteps(out, problem, result);
     printColumns(out, problem, result);
     out.text() << '\n';
@@ -130,9 +135,10 @@ Exit check(const std::string& scene, Output& out) {
 }
 
 Action declareCheck(CLI::App& app) {
-  const auto scene = std::make_shared<std::string>();
-  addScene(app, *scene);
-  return [scene](Output& out) { return check(*scene, out); };
+  const auto arguments = std::make_shared<CheckArguments>();
+  addScene(app, arguments->scene);
+  app.add_flag("--impacts", arguments->impacts, "List all impacts, not only the first 50");
+  return [arguments](Output& out) { return check(*arguments, out); };
 }
 
 }  // namespace

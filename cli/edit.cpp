@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/impacts.h"
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -22,7 +23,7 @@ struct EditArguments {
   std::string scene, output;
   int iterations = EditOptions{}.max_iterations;
   double seconds = EditOptions{}.time_budget_seconds;
-  bool same_sequence = false;
+  bool same_sequence = false, impacts = false;
   std::string shooting = "automatic";
   int alternatives = 1, threads = 0;
 };
@@ -44,12 +45,6 @@ void printResiduals(Output& out, const EditResult& result) {
   for (const MetTime& met : result.times) out.text() << "  " << met.name << ": at " << out.number(met.time) << " s\n";
 }
 
-void printLines(Output& out, const char* heading, const std::vector<std::string>& lines) {
-  out.text() << heading << '\n';
-  for (const std::string& line : lines) out.text() << "    " << line << '\n';
-  if (lines.empty()) out.text() << "    no impacts\n";
-}
-
 void printCertificate(Output& out, const Certificate& certificate) {
   if (!certificate.taken) return;
   out.text() << "  certificate: energy drifts by " << Output::brief(certificate.energy_drift) << " and grows by "
@@ -61,21 +56,17 @@ void printCertificate(Output& out, const Certificate& certificate) {
   if (!certificate.signature_event.empty()) out.text() << "  nearest change: " << certificate.signature_event << '\n';
 }
 
-void printResult(Output& out, const EditResult& result) {
+void printResult(Output& out, const EditResult& result, bool all_impacts) {
   printNumbers(out, result.changed);
   out.text() << '\n';
   printResiduals(out, result);
   out.text() << '\n'
              << counted(result.iterations, "iteration") << ", " << Output::brief(result.milliseconds)
              << " ms, largest error " << out.number(result.residual) << '\n';
-  if (result.sequence_before == result.sequence_after) {
-    printLines(out, "  impacts, before and after:", result.sequence_before);
-  } else {
-    printLines(out, "  impacts before:", result.sequence_before);
-    printLines(out, "  impacts after:", result.sequence_after);
-  }
+  printSequences(out, result.sequence_before, result.sequence_after, all_impacts);
   printCertificate(out, result.certificate);
-  if (!result.why_not.sentences.empty()) printLines(out, "  why not:", result.why_not.sentences);
+  if (!result.why_not.sentences.empty()) out.text() << "  why not:\n";
+  for (const std::string& sentence : result.why_not.sentences) out.text() << "    " << sentence << '\n';
   if (result.solved()) out.text() << out.styled(Look::good, nameOf(result.status)) << ": " << result.message << '\n';
 }
 
@@ -163,7 +154,7 @@ Exit edit(const EditArguments& options, Output& out) {
   if (out.json()) {
     out.document(editJson(result, files));
   } else {
-    printResult(out, result);
+    printResult(out, result, options.impacts);
     printAlternatives(out, result);
     for (const std::string& file : files) sayWritten(out, file);
   }
@@ -187,6 +178,7 @@ Action declareEdit(CLI::App& app) {
       ->check(CLI::IsMember({"automatic", "single", "multiple"}))
       ->type_name("HOW");
   app.add_flag("--same-sequence", options->same_sequence, "Stay within the scene's impact sequence");
+  app.add_flag("--impacts", options->impacts, "List all impacts, where more than 50 are summed up otherwise");
   app.add_option("--alternatives", options->alternatives, "Look for so many different solutions, 1 if not given")
       ->check(CLI::Range(1, 100))
       ->type_name("K");
@@ -201,7 +193,8 @@ Action declareEdit(CLI::App& app) {
 const Command kEditCommand{
     "edit", "Find the smallest change of the controls that meets the constraints",
     "Prints every control before and after, every constrained number with its error, and the impacts\n"
-    "before and after. The result is simulated afresh: its errors are those of the edited scene.\n"
+    "before and after, of more than 50 only where they part, if not --impacts. The result is simulated\n"
+    "afresh: its errors are those of the edited scene.\n"
     "OUT.json is written only when all constraints are met, whole or not at all; the input stays as it\n"
     "is unless -o names it. With --alternatives the others go to OUT-2.json, OUT-3.json, ...: each has\n"
     "other impacts, or else clearly other numbers; the smallest change comes first, but a solution with\n"

@@ -11,6 +11,7 @@ namespace carom::cli {
 namespace {
 
 constexpr std::size_t kMostRows = 10;  // of pairs, and of bodies
+constexpr std::size_t kMostShown = 5;  // impacts after two sequences part
 
 const std::string& nameOfBody(const Motion& motion, int body) {
   return motion.scene->bodies[static_cast<std::size_t>(body)].name;
@@ -83,7 +84,42 @@ std::size_t nearestToTheEdge(const std::vector<Event>& events) {
   return static_cast<std::size_t>(std::min_element(events.begin(), events.end(), less) - events.begin());
 }
 
+/// Lines from one on, so many at most.
+void printPart(Output& out, const std::vector<std::string>& sequence, std::size_t from, std::size_t most) {
+  const std::size_t to = std::min(sequence.size(), from + most);
+  for (std::size_t i = from; i < to; ++i) out.text() << "    " << sequence[i] << '\n';
+  if (from == sequence.size()) out.text() << (from == 0 ? "    no impacts\n" : "    no more impacts\n");
+}
+
 }  // namespace
+
+void printSequence(Output& out, const std::vector<std::string>& sequence, bool all) {
+  printPart(out, sequence, 0, all ? sequence.size() : kMostListed);
+  if (!all && sequence.size() > kMostListed)
+    out.text() << "    and " << sequence.size() - kMostListed << " more; --impacts lists all\n";
+}
+
+void printSequences(Output& out, const std::vector<std::string>& before, const std::vector<std::string>& after,
+                    bool all) {
+  const std::size_t longest = std::max(before.size(), after.size());
+  if (before == after) {
+    out.text() << "  impacts, before and after:\n";
+    printSequence(out, before, all);
+  } else if (all || longest <= kMostListed) {
+    out.text() << "  impacts before:\n";
+    printSequence(out, before, all);
+    out.text() << "  impacts after:\n";
+    printSequence(out, after, all);
+  } else {
+    const auto parting = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
+    const auto same = static_cast<std::size_t>(parting.first - before.begin());
+    out.text() << "  impacts: " << before.size() << " before, " << after.size() << " after; --impacts lists all\n"
+               << "  the first " << same << " are the same, then came\n";
+    printPart(out, before, same, kMostShown);
+    out.text() << "  and now come\n";
+    printPart(out, after, same, kMostShown);
+  }
+}
 
 void printImpacts(Output& out, const Motion& motion) {
   if (motion.events.empty()) return;

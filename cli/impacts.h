@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "adjoint/motion.h"
 #include "cli/output.h"
 
@@ -15,5 +18,12 @@ void printImpacts(Output& out, const Motion& motion);
 
 /// How many there are by mode, pair and body, and the ones that stand out.
 void printImpactSummary(Output& out, const Motion& motion);
+
+/// A sequence of impacts, one line each; of more than kMostListed only the first, unless `all` are asked for.
+void printSequence(Output& out, const std::vector<std::string>& sequence, bool all);
+
+/// The same of two motions, one changed into the other. Of long ones only what follows where they part.
+void printSequences(Output& out, const std::vector<std::string>& before, const std::vector<std::string>& after,
+                    bool all);
 
 }  // namespace carom::cli

@@ -9,6 +9,7 @@
 
 #include "adjoint/body_model.h"
 #include "carom/version.h"
+#include "cli/build_facts.h"
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
@@ -21,7 +22,8 @@
 namespace carom::cli {
 namespace {
 
-constexpr std::size_t kMostPairs = 6;  // named in a line of text; --json has all
+constexpr std::size_t kMostPairs = 6;    // named in a line of text; --json has all
+constexpr std::size_t kMostBodies = 50;  // of a table; --json has all
 
 const char* wordOf(Combine rule) {
   constexpr const char* kWords[] = {"average", "minimum", "maximum", "product"};
@@ -91,25 +93,33 @@ void printNotes(Output& out, const Document& document) {
     if (!body.notes.empty()) out.text() << indented("'" + body.name + "': " + body.notes);
 }
 
+void sayMoreBodies(Output& out, const Scene& scene) {
+  if (scene.bodies.size() > kMostBodies)
+    out.text() << "  and " << scene.bodies.size() - kMostBodies << " more; --json has all\n";
+}
+
 void printBodies(Output& out, const Scene& scene, const ScenePlan& plan) {
   out.text() << "\nBodies, with the flight model that is exact for what the " << plan.asked << " asks:\n";
   Table table({"body", "motion", "because", "derivatives", "because"});
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(scene.bodies.size(), kMostBodies); ++i) {
     const BodyPlan& body = plan.plan.bodies[i];
     table.row({scene.bodies[i].name, nameOf(body.tier), body.why, nameOf(body.derivative_tier), body.derivative_why});
   }
   table.print(out);
+  sayMoreBodies(out, scene);
 }
 
 void printShapes(Output& out, const Scene& scene) {
   out.text() << "\nShapes, and mass properties in their axes:\n";
   Table table({"body", "shape", ">mass [kg]", "centre of mass [m]", "principal moments [kg m^2]"});
-  for (const Body& body : scene.bodies) {
+  for (std::size_t i = 0; i < std::min(scene.bodies.size(), kMostBodies); ++i) {
+    const Body& body = scene.bodies[i];
     const BodyModel model = body.fixed ? BodyModel() : modelOf(body);
     table.row({body.name, kindOf(body.shape).name, body.fixed ? "fixed" : out.number(model.mass),
                body.fixed ? "" : out.vector(model.center), body.fixed ? "" : out.vector(model.inertia)});
   }
   table.print(out);
+  sayMoreBodies(out, scene);
 }
 
 // Pairs of the same materials have the same law and coefficients.
@@ -154,14 +164,15 @@ Exit describeScene(const std::string& path, Output& out) {
 }
 
 ProgramInfo programInfo() {
+  const BuildFacts facts = buildFacts();
   ProgramInfo info;
   info.version = kVersion;
-  info.build = CAROM_BUILD_TYPE;
-  info.compiler = CAROM_COMPILER;
+  info.build = facts.type;
+  info.compiler = facts.compiler;
   info.libraries = {{"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                                   std::to_string(EIGEN_MINOR_VERSION)},
-                    {"Open Dynamics Engine", CAROM_ODE_VERSION},
-                    {"Ipopt", CAROM_IPOPT_VERSION},
+                    {"Open Dynamics Engine", facts.ode},
+                    {"Ipopt", facts.ipopt},
                     {"CLI11", CLI11_VERSION}};
   info.exports = exportExtensions();
   return info;

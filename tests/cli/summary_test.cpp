@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "cli/impacts.h"
 #include "tests/cli/run_command.h"
 
 namespace carom::test {
@@ -128,6 +129,63 @@ TEST(Summary, HowAMotionEndsIsSaid) {
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("; the motion ends there (cascade): "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("Impacts by mode"), std::string::npos) << run.out;
+}
+
+std::vector<std::string> impacts(int count, const std::string& name) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < count; ++i) lines.push_back(name + " " + std::to_string(i));
+  return lines;
+}
+
+std::vector<std::string> sequencesOf(const std::vector<std::string>& before, const std::vector<std::string>& after,
+                                     bool all) {
+  cli::Output out(cli::Settings{});
+  cli::printSequences(out, before, after, all);
+  testing::internal::CaptureStdout();
+  out.finish();
+  return linesOf(testing::internal::GetCapturedStdout());
+}
+
+TEST(Sequences, ShortOnesAreListedWhole) {
+  const auto before = impacts(50, "a"), after = impacts(49, "b");
+  EXPECT_EQ(sequencesOf(before, after, false), sequencesOf(before, after, true));
+  EXPECT_EQ(sequencesOf(before, after, false).size(), 2u + 50 + 49);
+  EXPECT_EQ(sequencesOf(before, before, false).size(), 1u + 50);
+  EXPECT_EQ(sequencesOf({}, {}, false), (std::vector<std::string>{"  impacts, before and after:", "    no impacts"}));
+}
+
+TEST(Sequences, LongOnesAreShownWhereTheyPart) {
+  auto before = impacts(1000, "a"), after = before;
+  EXPECT_EQ(sequencesOf(before, before, false).size(), 1u + 50 + 1);
+  after.insert(after.begin() + 700, "new");
+  const std::vector<std::string> shown = sequencesOf(before, after, false);
+  EXPECT_EQ(shown[0], "  impacts: 1000 before, 1001 after; --impacts lists all");
+  EXPECT_EQ(shown[1], "  the first 700 are the same, then came");
+  EXPECT_EQ(shown[2], "    a 700");
+  EXPECT_EQ(shown[7], "  and now come");
+  EXPECT_EQ(shown[8], "    new");
+  EXPECT_EQ(shown.size(), 13u);
+  EXPECT_EQ(sequencesOf(before, after, true).size(), 2u + 1000 + 1001);
+}
+
+TEST(Sequences, OneMayEndWhereTheyPart) {
+  const auto before = impacts(60, "a");
+  auto after = before;
+  after.resize(58);
+  EXPECT_EQ(sequencesOf(before, after, false),
+            (std::vector<std::string>{"  impacts: 60 before, 58 after; --impacts lists all",
+                                      "  the first 58 are the same, then came", "    a 58", "    a 59",
+                                      "  and now come", "    no more impacts"}));
+}
+
+TEST(Sequences, OfACheckAreCutUnlessAllAreAskedFor) {
+  const std::string path = scenePath("pen_500");
+  const CommandRun few = runCommand({"check", path}), all = runCommand({"check", path, "--impacts"});
+  const std::size_t count = runJson({"check", path})["sequence"].size();
+  ASSERT_GT(count, 50u);
+  EXPECT_NE(few.out.find("    and " + std::to_string(count - 50) + " more; --impacts lists all"), std::string::npos)
+      << few.out;
+  EXPECT_EQ(linesOf(all.out).size(), linesOf(few.out).size() - 1 + count - 50);
 }
 
 TEST(Quiet, PrintsNothingForPeopleButErrors) {
