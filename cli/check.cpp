@@ -103,6 +103,7 @@ void printEntry(Output& out, const EditProblem& problem, const DerivativeCheck& 
 
 Exit check(const std::string& scene, Output& out) {
   Loaded loaded(scene);
+  warnOfOverlaps(loaded);
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });

@@ -20,7 +20,7 @@ struct Options {
   std::string scene, output;
   int iterations = EditOptions{}.max_iterations;
   double seconds = EditOptions{}.time_budget_seconds;
-  bool same_sequence = false;
+  bool same_sequence = false, refuse_overlaps = false;
   std::string shooting = "automatic";
   int alternatives = 1, threads = 0;
 };
@@ -144,7 +144,8 @@ EditResult solve(Loaded& loaded, const Options& options) {
 }
 
 Exit edit(const Options& options, Output& out) {
-  Loaded loaded(options.scene);
+  Loaded loaded(options.scene, options.refuse_overlaps);
+  warnOfOverlaps(loaded);
   const EditResult result = solve(loaded, options);
   const std::vector<std::string> files = save(loaded.document, result, options.output);
   if (out.json()) {
@@ -163,6 +164,7 @@ Exit edit(const Options& options, Output& out) {
 Action declare(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   addScene(app, options->scene);
+  addRefuseOverlaps(app, options->refuse_overlaps);
   app.add_option("-o,--output", options->output, "Write the scene with its new values here")->type_name("OUT.json");
   app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
       ->check(CLI::Range(1, 1000000))

@@ -20,7 +20,7 @@ namespace {
 struct Options {
   std::string scene, output, before, keys;
   std::optional<double> frames_per_second, tolerance, light, ghosts;
-  bool camera = false, nails = false;
+  bool camera = false, nails = false, refuse_overlaps = false;
 };
 
 std::string extensionOf(const std::string& path) {
@@ -70,7 +70,8 @@ GltfOptions gltfOptionsOf(const Options& options) {
 
 Exit exportScene(const Options& options, Output& out) {
   requireSense(options);
-  Loaded loaded(options.scene);
+  Loaded loaded(options.scene, options.refuse_overlaps);
+  warnOfOverlaps(loaded);
   const Motion motion = loaded.simulate();
   ExportOptions export_options;
   export_options.gltf = gltfOptionsOf(options);
@@ -123,6 +124,7 @@ Action declare(CLI::App& app) {
       ->type_name("S");
   app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
   app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg)")->type_name("OLD.json");
+  addRefuseOverlaps(app, options->refuse_overlaps);
   return [options](Output& out) { return exportScene(*options, out); };
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 struct Options {
   std::string scene, method = "adjoint";
+  bool refuse_overlaps = false;
 };
 
 /// The worst of all rows, with everything there is to say about it.
@@ -56,7 +57,8 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
 }
 
 Exit gradient(const Options& options, Output& out) {
-  Loaded loaded(options.scene);
+  Loaded loaded(options.scene, options.refuse_overlaps);
+  warnOfOverlaps(loaded);
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   RowsAndJacobian result;
@@ -79,6 +81,7 @@ Exit gradient(const Options& options, Output& out) {
 Action declare(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   addScene(app, options->scene);
+  addRefuseOverlaps(app, options->refuse_overlaps);
   app.add_option("--method", options->method, "adjoint: one reverse pass a row; tangent: one forward pass a control")
       ->check(CLI::IsMember({"adjoint", "tangent"}))
       ->type_name("NAME");

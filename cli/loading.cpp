@@ -59,8 +59,16 @@ std::string describeMissing(const Motion& motion, const Constraint& constraint) 
 
 }  // namespace
 
-Loaded::Loaded(const std::string& file)
-    : path(file), document(readDocument(file)), contacts(inFile(file, [&] { return OdeContacts(document.scene); })) {}
+Loaded::Loaded(const std::string& file, bool refuse_overlaps)
+    : path(file), document(readDocument(file)), contacts(inFile(file, [&] { return OdeContacts(document.scene); })) {
+  const std::vector<StartOverlap> overlaps = contacts.overlaps();
+  if (refuse_overlaps && !overlaps.empty()) inFile(path, [&] { refuseOverlap(document.scene, overlaps.front()); });
+}
+
+void warnOfOverlaps(const Loaded& loaded) {
+  for (const StartOverlap& overlap : loaded.contacts.overlaps())
+    Output::warn(describeOverlapAtStart(loaded.document.scene, overlap));
+}
 
 Motion Loaded::simulate() {
   return inFile(path, [&] { return carom::simulate(document.scene, contacts, document.duration); });

@@ -24,8 +24,9 @@ auto inFile(const std::string& path, Function function) {
 
 /// A scene document that is ready to be simulated.
 struct Loaded {
-  /// Throws FormatError: the file cannot be read, the document is not valid, bodies overlap at the start.
-  explicit Loaded(const std::string& path);
+  /// Throws FormatError: the file cannot be read, the document is not valid, or bodies overlap at the start and that is
+  /// refused.
+  explicit Loaded(const std::string& path, bool refuse_overlaps = false);
 
   std::string path;
   Document document;
@@ -33,6 +34,9 @@ struct Loaded {
 
   Motion simulate();
 };
+
+/// A warning for people for every two bodies that overlap at the start.
+void warnOfOverlaps(const Loaded& loaded);
 
 /// A warning for people when the motion ended before its duration.
 void warnIfEnded(const Motion& motion);

@@ -17,6 +17,7 @@ namespace {
 struct Options {
   std::string scene;
   std::vector<double> at;
+  bool refuse_overlaps = false;
 };
 
 std::string contactNames(const Motion& motion, const Event& event) {
@@ -61,6 +62,8 @@ void printMotion(Output& out, const Motion& motion, const std::vector<double>& a
   if (motion.status != MotionStatus::complete)
     out.text() << "; the motion ends there (" << nameOf(motion.status) << "): " << motion.message;
   out.text() << '\n';
+  for (const StartOverlap& overlap : motion.overlaps)
+    out.text() << describeOverlap(*motion.scene, overlap) << '\n';
   printEvents(out, motion);
   if (at.empty()) printStates(out, motion, motion.end);
   for (const double time : at) printStates(out, motion, time);
@@ -79,8 +82,9 @@ Action declare(CLI::App& app) {
   app.add_option("--at", options->at, "A time to print the state at [s]; may be given more than once")
       ->allow_extra_args(false)
       ->type_name("T");
+  addRefuseOverlaps(app, options->refuse_overlaps);
   return [options](Output& out) {
-    Loaded loaded(options->scene);
+    Loaded loaded(options->scene, options->refuse_overlaps);
     const Motion motion = loaded.simulate();
     for (const double time : options->at) requireReached(motion, time);
     if (out.json()) {
