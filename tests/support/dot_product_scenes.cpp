@@ -170,8 +170,8 @@ Scene gravityFactor() {
 }
 Scene gravityFactors() {
   Scene s = ballBall();
-  s.bodies[0].gravity_factor = -0.3;
-  s.bodies[1].gravity_factor = 1.7;
+  s.bodies[0].gravity_factor = 0.3;
+  s.bodies[1].gravity_factor = 0.9;
   return s;
 }
 
@@ -211,7 +211,7 @@ Scene kinematicCompound() {
 }
 Scene kinematicJoint(double friction) {
   Scene s = joint(friction);
-  s.bodies[1] = kinematicSlab({0.2, 0.1, 0.5}, Vec3::Zero());
+  s.bodies[1] = kinematicSlab({0.2, -0.1, 0.3}, Vec3::Zero());
   return s;
 }
 Scene kinematicJointStick() { return kinematicJoint(3); }
