@@ -44,7 +44,7 @@ double largestSpin(const Vec3& I, const Vec3& M) {
 }  // namespace
 
 Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state)
-    : model_(&model), tier_(tier), start_(start), gravity_(model.moving ? gravity : Vec3::Zero()), state_(state) {
+    : model_(&model), tier_(tier), start_(start), gravity_(model.moving ? Vec3(model.gravity_factor * gravity) : Vec3::Zero()), state_(state) {
   if (!model.moving) return;
   const Vec3& I = model.inertia;
   if (tier == Tier::none || tier == Tier::spherical) {
@@ -150,9 +150,10 @@ StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivit
                               const Vec3& dgravity, const BodyModelDerivative& dmodel) {
   if (!arc.moving()) return dstart;
   const double s = t - arc.start();
+  const Vec3 dacceleration = arc.model().gravity_factor * dgravity;
   StateDerivative d;
-  d.x = dstart.x + s * (dstart.v + 0.5 * s * dgravity);
-  d.v = dstart.v + s * dgravity;
+  d.x = dstart.x + s * (dstart.v + 0.5 * s * dacceleration);
+  d.v = dstart.v + s * dacceleration;
   d.theta = S.dtheta_dtheta * dstart.theta + S.dtheta_dL * dstart.L + S.dtheta_dI * dmodel.inertia +
             S.dtheta_dproducts * dmodel.products;
   d.L = dstart.L;
@@ -168,7 +169,7 @@ StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivi
   d.v = end_bar.v + s * end_bar.x;
   d.theta = S.dtheta_dtheta.transpose() * end_bar.theta;
   d.L = end_bar.L + S.dtheta_dL.transpose() * end_bar.theta;
-  gravity_bar += 0.5 * s * s * end_bar.x + s * end_bar.v;
+  gravity_bar += arc.model().gravity_factor * (0.5 * s * s * end_bar.x + s * end_bar.v);
   model_bar.inertia += S.dtheta_dI.transpose() * end_bar.theta;
   model_bar.products += S.dtheta_dproducts.transpose() * end_bar.theta;
   return d;

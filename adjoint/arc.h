@@ -29,7 +29,7 @@ struct Kinematics {
 /// A fixed body has one arc, which stays where it is.
 class Arc {
  public:
-  /// A flight under gravity from the given state.
+  /// A flight under the scene's gravity, or the model's share of it, from the given state.
   Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
   Arc(const Arc& other);
   Arc& operator=(const Arc& other);
@@ -57,7 +57,7 @@ class Arc {
   Kinematics kinematicsOf(const State& state) const;
   Vec3 positionAt(double t) const;
   Vec3 velocityAt(double t) const;
-  /// d(state)/dt of the flow: (v, omega, g, 0).
+  /// d(state)/dt of the flow: (v, omega, acceleration, 0).
   StateDerivative rate(const State& state) const;
 
   /// Bounds over the whole arc: |omega| <= spinBound(), |d omega/dt| <= spinRateBound().

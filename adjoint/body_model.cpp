@@ -70,12 +70,19 @@ Eigen::Matrix3Xd centerOfMassRates(const Body& body) {
 BodyModel modelOf(const Body& body) {
   BodyModel model;
   if (body.fixed) return model;
-  const bool all_written = body.mass && body.center_of_mass && !isDerived(body);
+  const bool all_written = body.center_of_mass && (body.kinematic || (body.mass && !isDerived(body)));
   const SolidProperties solid = all_written ? SolidProperties{} : propertiesOf(body);
   model.moving = true;
+  model.center = body.center_of_mass ? *body.center_of_mass : solid.center;
+  if (body.kinematic) {
+    model.kinematic = true;
+    model.gravity_factor = 0;
+    model.inertia = model.inverse_inertia = Vec3::Ones();
+    return model;
+  }
+  model.gravity_factor = body.gravity_factor;
   model.mass = body.density ? *body.density * solid.volume : *body.mass;
   model.inverse_mass = 1 / model.mass;
-  model.center = body.center_of_mass ? *body.center_of_mass : solid.center;
   if (isDerived(body)) {
     setInertiaTensor(model.mass * solid.unit_inertia, model);
   } else {
@@ -93,6 +100,10 @@ BodyModel modelOf(const Body& body) {
 BodyModelDerivative modelTangent(const Body& body, const BodyModel& model, const BodyDerivative& dbody) {
   BodyModelDerivative dmodel;
   if (body.fixed) return dmodel;
+  if (body.kinematic) {
+    dmodel.center = centerOfMassRates(body) * dbody.size;
+    return dmodel;
+  }
   dmodel.mass = dbody.mass;
   if (!isDerived(body)) dmodel.inertia = dbody.inertia;
   const bool by_size = !dbody.size.isZero(0);
@@ -120,6 +131,10 @@ BodyModelDerivative modelTangent(const Body& body, const BodyModel& model, const
 void modelPullback(const Body& body, const BodyModel& model, const BodyModelDerivative& model_bar,
                    BodyDerivative& body_bar) {
   if (body.fixed) return;
+  if (body.kinematic) {
+    body_bar.size += centerOfMassRates(body).transpose() * model_bar.center;
+    return;
+  }
   if (!isDerived(body)) body_bar.inertia += model_bar.inertia;
   const bool by_size = body.density || isDerived(body) || !body.center_of_mass;
   if (!by_size) {
@@ -155,7 +170,7 @@ State startState(const Body& body, const BodyModel& model) {
   if (!model.moving) return s;
   s.q.normalize();
   s.x += s.q * model.center;
-  if (body.inertia.source == Inertia::Source::matrix) {
+  if (body.inertia.source == Inertia::Source::matrix && !model.kinematic) {
     s.q = (body.orientation * body.inertia.axes).normalized();
   } else if (model.has_offset) {
     s.q = (s.q * Quat(Mat3(model.R_BG.transpose()))).normalized();

@@ -27,9 +27,13 @@ struct StateDerivative {
   bool isZero() const { return x.isZero(0) && theta.isZero(0) && v.isZero(0) && L.isZero(0); }
 };
 
-/// Mass properties in force (whatever way they were written), in principal axes.
+/// Mass properties in force (whatever way they were written), in principal axes. A kinematic body moves as a free body
+/// does that has three equal moments and no weight: its inertia is the unit tensor, so that L is its angular velocity,
+/// and impacts see neither mass nor inertia of it.
 struct BodyModel {
   bool moving = false;
+  bool kinematic = false;
+  double gravity_factor = 1;  ///< 0 for a kinematic body
   double mass = 0, inverse_mass = 0;
   Vec3 inertia = Vec3::Zero(), inverse_inertia = Vec3::Zero();
   Vec3 center = Vec3::Zero();    ///< centre of mass in shape axes, p_GB; 0 for a fixed body
@@ -40,6 +44,8 @@ struct BodyModel {
   Mat3 shapeToWorld(const Mat3& R_WB) const { return has_offset ? Mat3(R_WB * R_BG) : R_WB; }
   /// World inverse inertia R diag(1/I) R^T for R = R_WB.
   Mat3 inverseInertiaWorld(const Mat3& R_WB) const { return R_WB * inverse_inertia.asDiagonal() * R_WB.transpose(); }
+  /// The same as impacts see it: zero for a body that they do not move.
+  Mat3 mobilityWorld(const Mat3& R_WB) const { return kinematic ? Mat3::Zero().eval() : inverseInertiaWorld(R_WB); }
 };
 
 /// Tangent or adjoint of the parameters of a BodyModel that vary. The change of the inertia tensor in the principal
@@ -70,7 +76,7 @@ struct BodyModelDerivative {
 };
 
 /// Centre of mass of a moving body in shape axes, as written or else the shape's own, and its rates by the dimensions
-/// (3 x dimensions). 0 for a fixed body.
+/// (3 x dimensions). 0 for a fixed body. Of a kinematic body it is the point that its velocity is of.
 Vec3 centerOfMass(const Body& body);
 Eigen::Matrix3Xd centerOfMassRates(const Body& body);
 

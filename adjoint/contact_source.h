@@ -11,6 +11,7 @@
 
 #include "adjoint/arc.h"
 #include "adjoint/scene.h"
+#include "adjoint/start_overlap.h"
 
 namespace carom {
 
@@ -76,8 +77,19 @@ class ContactSource {
  public:
   virtual ~ContactSource() = default;
 
-  /// Takes over the shapes of a scene. Throws InputError when two bodies overlap at the start.
+  /// Takes over the shapes of a scene. Throws InputError when two bodies overlap at the start, unless the source was made
+  /// for a scene in which those of these names do.
   virtual void begin(const Scene& scene) = 0;
+
+  /// The pairs that overlap at the start of the scene that was begun, in increasing order; bodies that never collide
+  /// (see mayCollide) are not among them.
+  virtual std::vector<StartOverlap> overlaps() const { return {}; }
+
+  /// The first time in [from, until] at which bodies a and b do not overlap; none where they do all the time.
+  virtual std::optional<double> parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) {
+    (void)a, (void)b, (void)arc_a, (void)arc_b, (void)until;
+    return from;
+  }
 
   /// Body `body` follows `arc` from `from` on; the source may have to look at it up to `until`.
   virtual void setPath(int body, const Arc& arc, double from, double until) = 0;

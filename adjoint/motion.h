@@ -89,6 +89,7 @@ struct Motion {
   std::vector<Event> events;           ///< in increasing order of time; empty when they were not recorded
   std::size_t impacts = 0;             ///< number of events, recorded or not
   bool has_events = true;              ///< false: paths alone, which cannot be differentiated
+  std::vector<StartOverlap> overlaps;  ///< pairs that did not collide until they had parted
   double duration = 0;                 ///< asked for
   double end = 0;                      ///< known up to here; = duration when complete
   MotionStatus status = MotionStatus::complete;

@@ -97,6 +97,10 @@ InertiaChange inertiaChange(const Body& body, const BodyModel& model, int symmet
 
 BodyPlan planBody(const Body& body, const Asked& asked) {
   if (body.fixed) return {Tier::none, Tier::none, false, "fixed: it does not move", "fixed: it does not move"};
+  if (body.kinematic) {
+    constexpr const char* kWhy = "kinematic: its angular velocity is constant";
+    return {Tier::spherical, Tier::spherical, false, kWhy, kWhy};
+  }
   const BodyModel model = modelOf(body);
   const int axis = symmetryAxis(model.inertia);
   const InertiaChange change = asked.inertia ? inertiaChange(body, model, axis) : InertiaChange{};

@@ -32,6 +32,7 @@ class Follower {
   void start();
   Outcome follow(const Event& was);
   double guess(const Event& was) const;
+  void markLate(const Event& was);
   GuardValue guardAt(const Event& was, double time);
   bool meetInOneInstant() const;
   void place(const Event& was, double time);
@@ -150,7 +151,7 @@ void Follower::start() {
 Follower::Outcome Follower::follow(const Event& was) {
   const auto isLate = [&](const Participant& p) { return late_[index(p.body)]; };
   if (std::any_of(was.participants.begin(), was.participants.end(), isLate)) {
-    for (const Participant& p : was.participants) late_[index(p.body)] = true;
+    markLate(was);
     return Outcome::late;
   }
   event_ = was;
@@ -169,7 +170,7 @@ Follower::Outcome Follower::follow(const Event& was) {
   search.stride = std::max(flight, kInstant);
   const GuardRoot root = descendingRoot(search, [&](double t) { return guardAt(was, t); });
   if (root.outcome == GuardRoot::Outcome::late) {
-    for (const Participant& p : was.participants) late_[index(p.body)] = true;
+    markLate(was);
     return Outcome::late;
   }
   if (root.outcome != GuardRoot::Outcome::found) return fail(was, root.why());
@@ -182,6 +183,12 @@ Follower::Outcome Follower::follow(const Event& was) {
   if (!parts(after)) return fail(was, "its impulse does not part the bodies");
   commit(was, after);
   return Outcome::found;
+}
+
+// What strikes a body later goes another way without the impact; a kinematic body goes on.
+void Follower::markLate(const Event& was) {
+  for (const Participant& p : was.participants)
+    if (!(*replay_.motion.models)[index(p.body)].kinematic) late_[index(p.body)] = true;
 }
 
 // Where it was, moved as the last impact of its bodies was.

@@ -68,6 +68,24 @@ const Material& materialOf(const Scene& scene, const Body& body) {
   return scene.materials[static_cast<std::size_t>(materialIndex(scene, body.material))];
 }
 
+namespace {
+
+bool share(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const auto& name) { return std::find(b.begin(), b.end(), name) != b.end(); });
+}
+
+bool lets(const CollisionFilter& filter, const CollisionFilter& other) {
+  if (!filter.collide_with.empty() && !share(filter.collide_with, other.systems)) return false;
+  return !share(filter.not_collide_with, other.systems);
+}
+
+}  // namespace
+
+bool mayCollide(const Body& a, const Body& b) {
+  if (a.immovable() && b.immovable()) return false;
+  return lets(a.collision_filter, b.collision_filter) && lets(b.collision_filter, a.collision_filter);
+}
+
 SceneDerivative::SceneDerivative(const Scene& scene)
     : materials(scene.materials.size()), bodies(scene.bodies.size()), tilts(scene.tilts.size(), Vec2::Zero()) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {

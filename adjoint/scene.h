@@ -39,10 +39,24 @@ struct Inertia {
   Mat3 matrix() const;
 };
 
-/// One body as written. For moving bodies exactly one of `mass` and `density` is given.
+/// With whom a body may collide, by the names of systems that bodies belong to (as in glTF's KHR_physics_rigid_bodies).
+struct CollisionFilter {
+  std::vector<std::string> systems;           ///< that it belongs to
+  std::vector<std::string> collide_with;      ///< unless empty: only with bodies that belong to one of these
+  std::vector<std::string> not_collide_with;  ///< never with bodies that belong to one of these
+
+  bool empty() const { return systems.empty() && collide_with.empty() && not_collide_with.empty(); }
+  bool operator==(const CollisionFilter&) const = default;
+};
+
+/// One body as written. For bodies that move freely exactly one of `mass` and `density` is given.
 struct Body {
   std::string name;
   bool fixed = false;
+  /// Moves at its constant velocity and constant angular velocity, whatever strikes it. Not together with `fixed`.
+  bool kinematic = false;
+  double gravity_factor = 1;  ///< share of the scene's gravity that acts on it; nothing acts on what nothing moves
+  CollisionFilter collision_filter;
   std::string material;  ///< name of a material; empty means a default Material
   Shape shape = Sphere{};
   std::optional<double> mass;            ///< kg
@@ -54,7 +68,13 @@ struct Body {
   Vec3 velocity = Vec3::Zero();          ///< m/s, world, of the centre of mass
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s, world axes
   std::string notes = {};                ///< for people; kept in documents
+
+  /// No impact moves it: its mass and its inertia have no part in the motion.
+  bool immovable() const { return fixed || kinematic; }
 };
+
+/// Whether two bodies ever collide: at least one of them can be moved by impacts, and the filters of both let them.
+bool mayCollide(const Body& a, const Body& b);
 
 /// Tilt of the collision normal at one impact of one body (equation 4 of docs/equations.md): the impulse uses
 /// n' = (n + alpha t1 + beta t2)/|...|, n pointing out of the surface that was struck towards `body`.
@@ -82,7 +102,7 @@ const Material& materialOf(const Scene& scene, const Body& body);
 
 /// Throws InputError, with the JSON pointer of the place, for the first thing that is not physically meaningful:
 /// non-finite numbers, non-positive sizes and masses, impossible moments, non-unit quaternions, names used twice or
-/// unknown, fixed-only shapes that move. Bodies that overlap at the start are found by the ContactSource.
+/// unknown, fixed-only shapes that move, fixed bodies that are kinematic. Bodies that overlap at the start are found by the ContactSource.
 void validate(const Scene& scene);
 
 /// One set of numbers with the fields of a Scene. Read as a gradient each holds d(quantity)/d(field); read as a tangent

@@ -128,7 +128,7 @@ class DualPass {
     const BodyPlan& plan = motion_.plan.bodies[b];
     RotationPlan out{plan.derivative_tier, plan.derivative_products};
     const Body& body = motion_.scene->bodies[b];
-    const bool derived = body.inertia.source == Inertia::Source::derived && !body.fixed;
+    const bool derived = body.inertia.source == Inertia::Source::derived && !body.immovable();
     if (out.tier == Tier::none || !derived || !std::holds_alternative<Compound>(body.shape)) return out;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
       const Eigen::VectorXd& size = lanes_.direction(lane).scene.bodies[b].size;
@@ -199,7 +199,7 @@ class DualPass {
     if (lanes_.model(body).moving) {
       const Num s = t - lanes_.startTime(body, k);
       d.v += s * bar.x;
-      scene_bar_.gravity += (0.5 * s * s) * bar.x + s * bar.v;
+      scene_bar_.gravity += lanes_.model(body).gravity_factor * ((0.5 * s * s) * bar.x + s * bar.v);
       if (!isZero(bar.theta)) {
         const DualSensitivity S = dualSensitivity(body, k, t, lanes_.startOf(body, k), end);
         d.theta = S.dtheta_dtheta.transpose() * bar.theta;

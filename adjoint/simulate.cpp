@@ -64,7 +64,8 @@ bool Simulator::follow() {
 }
 
 Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
-    : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit), queue_(scene.bodies.size()) {
+    : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit),
+      refuse_overlaps_(options.refuse_overlaps), queue_(scene.bodies.size()) {
   const std::size_t n = scene.bodies.size();
   motion_.scene = std::make_shared<const Scene>(scene);
   auto models = std::make_shared<std::vector<BodyModel>>();
@@ -93,6 +94,7 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
 void Simulator::start() {
   contacts_.begin(scene_);
   motion_.geometry = contacts_.geometry();
+  startOverlaps();
   const int n = static_cast<int>(scene_.bodies.size());
   for (int b = 0; b < n; ++b) {
     const BodyModel& model = (*motion_.models)[index(b)];
@@ -126,7 +128,7 @@ void Simulator::resolve(const Prediction& first) {
   } while (joinInstant());
 }
 
-// The predictions that share the instant and, directly or through others, a moving body.
+// The predictions that share the instant and, directly or through others, a body that impacts move.
 void Simulator::contactsOfInstant(const Prediction& first) {
   const double limit = first.time + kInstant;
   same_.clear();
@@ -142,7 +144,7 @@ void Simulator::contactsOfInstant(const Prediction& first) {
   bodies_ = {first.a, first.b};
   const auto shares = [&](const Prediction& p) {
     return std::any_of(bodies_.begin(), bodies_.end(),
-                       [&](int b) { return (b == p.a || b == p.b) && arcOf(b).moving(); });
+                       [&](int b) { return (b == p.a || b == p.b) && isMoved(b); });
   };
   for (auto next = std::find_if(same_.begin(), same_.end(), shares); next != same_.end();
        next = std::find_if(same_.begin(), same_.end(), shares)) {
@@ -251,6 +253,8 @@ bool Simulator::joinInstant() {
         return c.a == p.a && c.b == p.b && c.features == p.features;
       });
       if (known) continue;
+      const auto joined = [&](int body) { return in_draft_[index(body)] >= 0 && isMoved(body); };
+      if (!joined(p.a) && !joined(p.b)) continue;
       // a contact that was separating before is an impact of its own, after this one
       if (makeContact(event.time, p.a, p.b, p.features).approach > kLowestBounce) continue;
       soonest = &p;
@@ -263,6 +267,11 @@ bool Simulator::joinInstant() {
 void Simulator::commit() {
   Event& event = draft_.event;
   const int number = static_cast<int>(motion_.impacts++);
+  for (const Contact& c : event.contacts)
+    if (StartOverlap* overlap = overlapOf(c.a, c.b); overlap && !overlap->parted) {
+      followOverlap(*overlap, event.time);
+      if (!overlap->parted) overlap->parted = event.time;
+    }
   searches_ = 0;
   for (std::size_t i = 0; i < draft_.arcs.size(); ++i) {
     const int body = event.participants[i].body;
@@ -270,7 +279,7 @@ void Simulator::commit() {
     line.arcs.push_back(std::move(draft_.arcs[i]));
     arc_[index(body)] = &line.arcs.back();
     if (motion_.has_events) line.events.push_back(number);
-    ++version_[index(body)];
+    if (isMoved(body)) ++version_[index(body)];
     ++impacts_[index(body)];
     in_draft_[index(body)] = -1;
     enter(body, draft_.outlooks[i]);
@@ -283,6 +292,7 @@ void Simulator::finish(MotionStatus status, double end, std::string message) {
   motion_.end = end;
   motion_.message = std::move(message);
   extendAll();
+  endOverlaps(motion_.end);
 }
 
 }  // namespace carom

@@ -13,6 +13,8 @@ struct SimulateOptions {
   /// false: the arcs of the bodies alone are kept, in less than half of the memory. Such a motion has no events, so it
   /// cannot be differentiated, and times cannot be given as the n-th impact.
   bool record_events = true;
+  /// true: throws InputError where bodies overlap at the start, rather than leave them alone until they part.
+  bool refuse_overlaps = false;
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -94,11 +95,19 @@ class Simulator {
   void predictDraft();
   void predictBody(int body, double from);
   void search(int body, double from, Outlook& outlook);
+  std::optional<PredictedImpact> firstImpact(int a, int b, double from, double until);
   void enter(int body, Outlook& outlook);
   Arc& pathOf(int body) {
     const int i = in_draft_[index(body)];
     return i < 0 ? arcOf(body) : draft_.arcs[index(i)];
   }
+
+  // simulator_overlaps.cpp: pairs that overlap from the start
+  void startOverlaps();
+  StartOverlap* overlapOf(int a, int b);
+  void followOverlap(StartOverlap& overlap, double until);
+  std::optional<double> partingOf(StartOverlap& overlap, double from, double until);
+  void endOverlaps(double end);
 
   // simulator_endings.cpp: outcomes that end a motion early
   bool isExplained(const Prediction& next);
@@ -114,10 +123,16 @@ class Simulator {
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   Arc& arcOf(int body) { return *arc_[index(body)]; }
+  // Whether impacts move a body. They neither join through one that they do not move nor change its path.
+  bool isMoved(int body) const {
+    const BodyModel& model = (*motion_.models)[index(body)];
+    return model.moving && !model.kinematic;
+  }
 
   const Scene& scene_;
   ContactSource& contacts_;
   std::size_t impact_limit_;
+  bool refuse_overlaps_;
   double now_ = 0;     // everything before it is known
   long searches_ = 0;  // since the last impact
   Motion motion_;
@@ -128,6 +143,7 @@ class Simulator {
   std::vector<Outlook> outlook_;
   EventQueue queue_;
 
+  std::vector<double> overlaps_until_;  // of motion_.overlaps: known to overlap up to here
   std::vector<TiltOfImpact> tilts_;                     // in order
   std::unordered_map<std::uint64_t, int> low_bounces_;  // in a row, of a pair
   Draft draft_;

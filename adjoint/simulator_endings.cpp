@@ -84,7 +84,7 @@ bool Simulator::accumulates() {
     return true;
   }
   for (const Participant& p : event.participants) {
-    if (!stalls(p.body)) continue;
+    if (!isMoved(p.body) || !stalls(p.body)) continue;
     std::ostringstream text;
     text << "impacts accumulate at t = " << event.time << " s, at (" << event.contacts[0].at.point.transpose()
          << "): " << kStallEvents << " of '" << scene_.bodies[index(p.body)].name << "' within " << kStall

@@ -15,15 +15,12 @@ namespace carom {
 void Simulator::search(int body, double from, Outlook& outlook) {
   double until = std::min(contacts_.window(body, from), motion_.duration);
   contacts_.neighbours(body, neighbours_);
-  Arc& arc = pathOf(body);
   const std::size_t begin = found_.size();
   for (int other : neighbours_) {
     const bool is_first = body < other;
-    Arc& path = pathOf(other);
     std::optional<PredictedImpact> impact;
     try {
-      impact = is_first ? contacts_.firstImpact(body, other, arc, path, from, until)
-                        : contacts_.firstImpact(other, body, path, arc, from, until);
+      impact = firstImpact(std::min(body, other), std::max(body, other), from, until);
     } catch (const NotComputable& error) {
       giveUp("approach", body, other, from, error);
     }
@@ -31,7 +28,7 @@ void Simulator::search(int body, double from, Outlook& outlook) {
     if (!std::isfinite(impact->time))
       giveUp("approach", body, other, from, NotComputable("the time at which they meet is beyond the range of doubles"));
     until = std::min(until, std::max(impact->time, from) + kInstant);
-    const int version = version_[index(other)] + (in_draft_[index(other)] >= 0 ? 1 : 0);
+    const int version = version_[index(other)] + (in_draft_[index(other)] >= 0 && isMoved(other) ? 1 : 0);
     found_.push_back({impact->time, body, is_first ? body : other, is_first ? other : body, version, impact->features});
   }
   outlook.first = {};
@@ -42,6 +39,17 @@ void Simulator::search(int body, double from, Outlook& outlook) {
   outlook.first = *first;
   for (std::size_t i = begin; i < found_.size(); ++i)
     if (found_[i].time <= first->time + kInstant && &found_[i] != &*first) outlook.of_instant.push_back(found_[i]);
+}
+
+// Of bodies a < b; those that overlap from the start have to part first.
+std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from, double until) {
+  Arc &arc_a = pathOf(a), &arc_b = pathOf(b);
+  if (StartOverlap* overlap = overlapOf(a, b)) {
+    const std::optional<double> parted = partingOf(*overlap, from, until);
+    if (!parted) return std::nullopt;
+    from = std::max(from, *parted);
+  }
+  return contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
 }
 
 void Simulator::enter(int body, Outlook& outlook) {

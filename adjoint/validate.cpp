@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -91,7 +92,7 @@ void requireMoments(const Place& where, const Vec3& I) {
 // an edit writes them down: 1e-110 m squared and cubed is not, nor is a moment lost in the rounding of the others.
 void requireDerived(const Place& where, const Body& body) {
   const bool derived = body.inertia.source == Inertia::Source::derived;
-  if (body.fixed || (!derived && !body.density)) return;
+  if (body.immovable() || (!derived && !body.density)) return;
   const BodyModel model = modelOf(body);
   const double least = derived ? model.inertia.minCoeff() : model.mass;
   const double most = derived ? model.inertia.maxCoeff() : model.mass;
@@ -110,7 +111,7 @@ void validateMass(const Place& where, const Body& body) {
   if (body.mass && body.density) fail(where / "density", "both mass and density", "one of them");
   if (body.mass) requireDivisor(where / "mass", *body.mass);
   if (body.density) requireDivisor(where / "density", *body.density);
-  if (!body.fixed && !body.mass && !body.density) fail(where, "neither mass nor density", "one of them");
+  if (!body.immovable() && !body.mass && !body.density) fail(where, "neither mass nor density", "one of them");
   if (body.inertia.source != Inertia::Source::derived) {
     requireMoments(where / "inertia", body.inertia.moments);
     requireUnit(where / "inertia", body.inertia.axes);
@@ -140,11 +141,28 @@ void validateMaterial(const Place& where, const Material& m) {
   requireRange(where / "tangential_elasticity", m.tangential_elasticity, -1, 1);
 }
 
+void validateFilter(const Place& where, const CollisionFilter& filter) {
+  const auto named = [](const Place& list, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i].empty()) fail(list / i, "an empty name", "the name of a collision system");
+      if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+          names.begin() + static_cast<std::ptrdiff_t>(i))
+        fail(list / i, "'" + names[i] + "' a second time", "each system once");
+    }
+  };
+  named(where / "systems", filter.systems);
+  named(where / "collide_with", filter.collide_with);
+  named(where / "not_collide_with", filter.not_collide_with);
+}
+
 void validateBody(const Place& where, const Body& body, const Names& materials) {
+  if (body.fixed && body.kinematic) fail(where / "kinematic", "a fixed body that is kinematic", "one of the two");
   validateShape(where, body);
   validateMass(where, body);
   if (!body.material.empty() && !materials.contains(body.material))
     fail(where / "material", "'" + body.material + "'", "the name of a material");
+  requireFinite(where / "gravity_factor", body.gravity_factor);
+  validateFilter(where / "collision_filter", body.collision_filter);
   requireFinite(where / "position", body.position);
   requireUnit(where / "orientation", body.orientation);
   requireFinite(where / "velocity", body.velocity);

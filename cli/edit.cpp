@@ -23,7 +23,7 @@ struct EditArguments {
   std::string scene, output;
   int iterations = EditOptions{}.max_iterations;
   double seconds = EditOptions{}.time_budget_seconds;
-  bool same_sequence = false, impacts = false;
+  bool same_sequence = false, impacts = false, refuse_overlaps = false;
   std::string shooting = "automatic";
   int alternatives = 1, threads = 0;
 };
@@ -148,7 +148,8 @@ Exit edit(const EditArguments& options, Output& out) {
     if (options.alternatives > 1) throw UsageError("--alternatives needs a file for each solution, not -o -");
     out.reserveForContent();
   }
-  Loaded loaded(options.scene);
+  Loaded loaded(options.scene, options.refuse_overlaps);
+  warnOfOverlaps(out, loaded);
   const EditResult result = solve(out, loaded, options);
   const std::vector<std::string> files = saveSolutions(out, loaded.document, result, options.output);
   if (out.json()) {
@@ -166,6 +167,7 @@ Exit edit(const EditArguments& options, Output& out) {
 Action declareEdit(CLI::App& app) {
   const auto options = std::make_shared<EditArguments>();
   addScene(app, options->scene);
+  addRefuseOverlaps(app, options->refuse_overlaps);
   app.add_option("-o,--output", options->output, "Write the scene with its new values here; - for standard output")->type_name("OUT.json");
   app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
       ->check(CLI::Range(1, 1000000))

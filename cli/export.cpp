@@ -23,7 +23,7 @@ namespace {
 struct ExportArguments {
   std::string scene, output, format, before, keys;
   std::optional<double> frames_per_second, tolerance, light, ghosts;
-  bool camera = false, nails = false;
+  bool camera = false, nails = false, refuse_overlaps = false;
 };
 
 /// The words of --format: the extensions without their dots.
@@ -118,7 +118,8 @@ Exit exportScene(const ExportArguments& options, Output& out) {
   const std::string format = formatOf(options);
   requireSense(options, format);
   reserveOutput(options, format, out);
-  Loaded loaded(options.scene);
+  Loaded loaded(options.scene, options.refuse_overlaps);
+  warnOfOverlaps(out, loaded);
   const Motion motion = loaded.simulate(out);
   ExportOptions export_options;
   export_options.gltf = gltfOptionsOf(options);
@@ -169,6 +170,7 @@ Action declareExport(CLI::App& app) {
       ->type_name("S");
   app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
   app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")->type_name("OLD.json");
+  addRefuseOverlaps(app, options->refuse_overlaps);
   return [options](Output& out) { return exportScene(*options, out); };
 }
 

@@ -64,7 +64,8 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
 }
 
 Exit gradient(const GradientArguments& options, Output& out) {
-  Loaded loaded(options.scene);
+  Loaded loaded(options.scene, options.refuse_overlaps);
+  warnOfOverlaps(out, loaded);
   const EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   RowsAndJacobian result;

@@ -25,6 +25,8 @@ struct ImportArguments {
 void addOverlap(Imported& imported) {
   try {
     const OdeContacts contacts(imported.document.scene);
+    for (const StartOverlap& overlap : contacts.overlaps())
+      imported.report.warnings.push_back(describeOverlapAtStart(imported.document.scene, overlap));
   } catch (const InputError& error) {
     imported.report.warnings.push_back(std::string("the scene cannot be simulated as it is: ") + error.what());
   }
@@ -83,7 +85,7 @@ const Command kImportCommand{
     "Reads KHR_physics_rigid_bodies with KHR_implicit_shapes and OMI_physics_gravity, and turns y up to\n"
     "z up. Nodes with motion become moving bodies of all colliders below them, other colliders fixed\n"
     "bodies. Convex hulls and meshes are written beside the document, in S-meshes/. What is not supported\n"
-    "(joints, triggers, filters and more) is named on standard error and in the answer of --json. A file\n"
+    "(joints, triggers and more) is named on standard error and in the answer of --json. A file\n"
     "that carom export wrote comes back as it was, with its edit.\n"
     "\n"
     "Examples:\n"

@@ -69,10 +69,12 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
   const bool edits = plan.controls > 0 && plan.rows > 0;
   plan.asked = edits ? "edit" : "simulate";
   plan.plan = makePlan(scene, edits ? problem.asked : std::vector<Asked>{});
+  loaded.contacts.begin(scene);
+  plan.overlaps = loaded.contacts.overlaps();
   const int count = static_cast<int>(scene.bodies.size());
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b)
-      if (!scene.bodies[static_cast<std::size_t>(a)].fixed || !scene.bodies[static_cast<std::size_t>(b)].fixed)
+      if (mayCollide(scene.bodies[static_cast<std::size_t>(a)], scene.bodies[static_cast<std::size_t>(b)]))
         plan.pairs.push_back(pairOf(out, scene, a, b));
   return plan;
 }
@@ -115,8 +117,8 @@ void printShapes(Output& out, const Scene& scene) {
   for (std::size_t i = 0; i < std::min(scene.bodies.size(), kMostBodies); ++i) {
     const Body& body = scene.bodies[i];
     const BodyModel model = body.fixed ? BodyModel() : modelOf(body);
-    table.row({body.name, kindOf(body.shape).name, body.fixed ? "fixed" : out.number(model.mass),
-               body.fixed ? "" : out.vector(model.center), body.fixed ? "" : out.vector(model.inertia)});
+    table.row({body.name, kindOf(body.shape).name, body.fixed ? "fixed" : body.kinematic ? "kinematic" : out.number(model.mass),
+               body.fixed ? "" : out.vector(model.center), body.immovable() ? "" : out.vector(model.inertia)});
   }
   table.print(out);
   sayMoreBodies(out, scene);
@@ -147,6 +149,14 @@ void printPairs(Output& out, const Scene& scene, const ScenePlan& plan) {
   out.text() << "  Contacts of one instant are solved together (equation 4.3).\n";
 }
 
+void printOverlaps(Output& out, const Scene& scene, const ScenePlan& plan) {
+  if (plan.overlaps.empty()) return;
+  out.text() << "\nBodies that overlap at the start, and do not collide until they have parted:\n";
+  for (const StartOverlap& o : plan.overlaps)
+    out.text() << "  " << scene.bodies[static_cast<std::size_t>(o.a)].name << "-"
+               << scene.bodies[static_cast<std::size_t>(o.b)].name << " by " << out.number(o.depth) << " m\n";
+}
+
 Exit describeScene(const std::string& path, Output& out) {
   Loaded loaded(path);
   const ScenePlan plan = planOf(out, loaded);
@@ -160,6 +170,7 @@ Exit describeScene(const std::string& path, Output& out) {
   printShapes(out, loaded.document.scene);
   printBodies(out, loaded.document.scene, plan);
   printPairs(out, loaded.document.scene, plan);
+  printOverlaps(out, loaded.document.scene, plan);
   return Exit::done;
 }
 

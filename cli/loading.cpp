@@ -59,10 +59,18 @@ std::string describeMissing(const Motion& motion, const Constraint& constraint) 
 
 }  // namespace
 
-Loaded::Loaded(const std::string& file)
+Loaded::Loaded(const std::string& file, bool refuse_overlaps)
     : path(nameOfInput(file)),
       document(readSceneFrom(file)),
-      contacts(inFile(path, [&] { return OdeContacts(document.scene); })) {}
+      contacts(inFile(path, [&] { return OdeContacts(document.scene); })) {
+  const std::vector<StartOverlap> overlaps = contacts.overlaps();
+  if (refuse_overlaps && !overlaps.empty()) inFile(path, [&] { refuseOverlap(document.scene, overlaps.front()); });
+}
+
+void warnOfOverlaps(const Output& out, const Loaded& loaded) {
+  for (const StartOverlap& overlap : loaded.contacts.overlaps())
+    out.warn(describeOverlapAtStart(loaded.document.scene, overlap));
+}
 
 Motion Loaded::simulate(const Output& out) {
   const Progress progress(out, "simulating");

@@ -25,9 +25,9 @@ auto inFile(const std::string& path, Function function) {
 
 /// A scene document that is ready to be simulated.
 struct Loaded {
-  /// Of a file, or of standard input ("-"). Throws FormatError: the file cannot be read, the document is not valid,
-  /// bodies overlap at the start.
-  explicit Loaded(const std::string& file);
+  /// Of a file, or of standard input ("-"). Throws FormatError: the file cannot be read, the document is not valid, or
+  /// bodies overlap at the start and that is refused.
+  explicit Loaded(const std::string& file, bool refuse_overlaps = false);
 
   std::string path;  ///< as errors call it
   Document document;
@@ -35,6 +35,9 @@ struct Loaded {
 
   Motion simulate(const Output& out);
 };
+
+/// A warning for people for every two bodies that overlap at the start.
+void warnOfOverlaps(const Output& out, const Loaded& loaded);
 
 /// A warning for people when the motion ended before its duration.
 void warnIfEnded(const Output& out, const Motion& motion);

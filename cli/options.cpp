@@ -11,6 +11,10 @@ void addScene(CLI::App& app, std::string& path, bool required) {
   app.add_option("scene", path, "The scene document; - for standard input")->required(required)->type_name("S.json");
 }
 
+void addRefuseOverlaps(CLI::App& app, bool& refuse) {
+  app.add_flag("--refuse-overlaps", refuse, "Refuse bodies that overlap at the start; else they collide once they have parted");
+}
+
 CLI::Validator positiveNumber() {
   const auto check = [](std::string& text) {
     double value = 0;

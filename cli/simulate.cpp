@@ -20,7 +20,7 @@ namespace {
 struct SimulateArguments {
   std::string scene;
   std::vector<double> at;
-  bool impacts = false;
+  bool impacts = false, refuse_overlaps = false;
 };
 
 constexpr std::size_t kMostStates = 50;  // of bodies, at the end of a motion that was not asked for
@@ -58,6 +58,8 @@ void printMotion(Output& out, const Motion& motion, const SimulateArguments& arg
     out.text() << "; " << out.styled(Look::warning, "the motion ends there") << " (" << nameOf(motion.status)
                << "): " << motion.message;
   out.text() << '\n';
+  for (const StartOverlap& overlap : motion.overlaps)
+    out.text() << describeOverlap(*motion.scene, overlap) << '\n';
   if (arguments.impacts || motion.events.size() <= kMostListed)
     printImpacts(out, motion);
   else
@@ -80,8 +82,9 @@ Action declareSimulate(CLI::App& app) {
       ->allow_extra_args(false)
       ->type_name("T");
   app.add_flag("--impacts", options->impacts, "List all impacts, where more than 50 are summed up otherwise");
+  addRefuseOverlaps(app, options->refuse_overlaps);
   return [options](Output& out) {
-    Loaded loaded(options->scene);
+    Loaded loaded(options->scene, options->refuse_overlaps);
     const Motion motion = loaded.simulate(out);
     for (const double time : options->at) requireReached(motion, time);
     if (out.json()) {

@@ -28,8 +28,15 @@ void checkEdit(const Output& out, Loaded& loaded) {
   for (const std::string& note : problem.controls.notes()) out.warn(note);
 }
 
-Exit validate(const std::string& path, Output& out) {
-  Loaded loaded(path);
+struct ValidateArguments {
+  std::string scene;
+  bool refuse_overlaps = false;
+};
+
+Exit validate(const ValidateArguments& options, Output& out) {
+  const std::string& path = options.scene;
+  Loaded loaded(path, options.refuse_overlaps);
+  warnOfOverlaps(out, loaded);
   checkEdit(out, loaded);
   const Document& document = loaded.document;
   const std::string message = "The document is valid.";
@@ -47,18 +54,20 @@ Exit validate(const std::string& path, Output& out) {
 }
 
 Action declareValidate(CLI::App& app) {
-  const auto scene = std::make_shared<std::string>();
-  addScene(app, *scene);
-  return [scene](Output& out) { return validate(*scene, out); };
+  const auto options = std::make_shared<ValidateArguments>();
+  addScene(app, options->scene);
+  addRefuseOverlaps(app, options->refuse_overlaps);
+  return [options](Output& out) { return validate(*options, out); };
 }
 
 }  // namespace
 
 const Command kValidateCommand{
     "validate", "Check a scene document, to the last constraint",
-    "Checks the text, every member, the physics (masses, moments, sizes), that no bodies overlap at the\n"
-    "start, and that the motion has every impact and time that constraints name. An error says where it\n"
-    "is (file and JSON pointer), what was found and what was expected, and ends with 1.\n"
+    "Checks the text, every member, the physics (masses, moments, sizes), and that the motion has every\n"
+    "impact and time that constraints name. An error says where it is (file and JSON pointer), what was\n"
+    "found and what was expected, and ends with 1. Bodies that overlap at the start are a warning, or an\n"
+    "error with --refuse-overlaps.\n"
     "\n"
     "Examples:\n"
     "  carom validate scene.json\n"

@@ -2,6 +2,7 @@
 // Nodes with physics -> bodies.
 #include "formats/detail/gltf_bodies.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "adjoint/errors.h"
@@ -12,6 +13,7 @@ namespace {
 struct Part {
   CompoundPart shape;  // in the axes of the body's node
   int material = -1;
+  CollisionFilter filter;
 };
 
 /// A moving body that is being put together from a node and those below it.
@@ -75,15 +77,14 @@ class Builder {
 
   static Quat axes(const PhysicsNode& node, const Frame& frame) { return axesOf(node.collider->shape, frame.stretch); }
 
-  /// Bodies that nothing can move: their colliders become fixed bodies.
+  /// Bodies that nothing can move and that do not move by themselves: their colliders become fixed bodies.
   bool stands(const PhysicsNode& node) {
     const Moving& motion = *node.motion;
-    const bool infinite = motion.mass == 0.0;
-    if (!motion.kinematic && !infinite) return false;
     const bool moves = !motion.linear.isZero(0) || !motion.angular.isZero(0);
-    const std::string what = motion.kinematic ? "kinematic bodies" : "bodies of infinite mass (mass 0)";
-    report(node,
-           what + " are not supported: it is a fixed body here" + (moves ? ", and its velocity is left out" : ""));
+    if (motion.kinematic) return !moves;
+    if (motion.mass != 0.0) return false;
+    report(node, std::string("bodies of infinite mass (mass 0) are not supported: it is a fixed body here") +
+                     (moves ? ", and its velocity is left out" : ""));
     return true;
   }
 
@@ -94,7 +95,7 @@ class Builder {
       report(node, "its plane is left out: a moving body cannot be an infinite plane");
       return;
     }
-    draft.parts.push_back({{std::move(*shape), in_owner.translation, orientation}, node.collider->material});
+    draft.parts.push_back({{std::move(*shape), in_owner.translation, orientation}, node.collider->material, node.collider->filter});
   }
 
   void addFixed(const PhysicsNode& node, const Frame& world, const Quat& orientation) {
@@ -103,6 +104,7 @@ class Builder {
     Body body;
     body.fixed = true;
     body.material = materialName(node.collider->material);
+    body.collision_filter = node.collider->filter;
     body.shape = std::move(*shape);
     body.position = world.translation;
     body.orientation = orientation;
@@ -117,6 +119,7 @@ class Builder {
     }
     Body body;
     body.material = materialOf(draft);
+    body.collision_filter = filterOf(draft);
     body.position = draft.world.translation;
     Quat shape_to_node = Quat::Identity();
     if (draft.parts.size() == 1 && draft.parts[0].shape.position.isZero(0)) {
@@ -145,6 +148,13 @@ class Builder {
         break;
       }
     return materialName(first);
+  }
+
+  CollisionFilter filterOf(const Draft& draft) {
+    const CollisionFilter& first = draft.parts[0].filter;
+    if (std::any_of(draft.parts.begin(), draft.parts.end(), [&](const Part& part) { return !(part.filter == first); }))
+      report(draft.node, "its colliders have several collision filters; a body has one here, that of the first");
+    return first;
   }
 
   std::string materialName(int material) const {

@@ -207,7 +207,7 @@ const Body* LeftDocument::bodyOf(const PhysicsNode& node, const Frame& world,
     return nullptr;
   }
   found_.insert(node.name);
-  if (named->inertia.source == Inertia::Source::matrix) {  // a document rounds what it puts together as a matrix
+  if (named->inertia.source == Inertia::Source::matrix && node.motion && node.motion->inertia_diagonal) {  // a document rounds what it puts together as a matrix
     named->inertia.moments = *node.motion->inertia_diagonal;
     named->inertia.axes = node.motion->inertia_orientation;
   }

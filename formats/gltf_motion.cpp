@@ -41,6 +41,25 @@ SolidProperties derivedFrom(const Shape& shape, bool solid, bool needed) {
   }
 }
 
+/// The nearest moments that a body can have. Where I1 > I2 + I3 they are (I1 - d, I2 + d, I3 + d) with
+/// d = (I1 - I2 - I3)/3: the foot of the perpendicular on the plane I1 = I2 + I3.
+Vec3 possibleMoments(const PhysicsNode& node, const Vec3& written, ImportReport& report) {
+  Eigen::Index largest = 0;
+  const double greatest = written.maxCoeff(&largest), others = written.sum() - greatest;
+  if (greatest <= others * (1 + 1e-12)) return written;
+  const double d = (greatest - others) / 3;
+  Vec3 possible = written.array() + d;
+  possible[largest] = greatest - d;
+  const auto text = [](const Vec3& m) {
+    return numberText(m.x()) + ", " + numberText(m.y()) + ", " + numberText(m.z());
+  };
+  report.warnings.push_back(node.label() + ": no body has its moments of inertia (" + text(written) +
+                            " kg m^2), one of which is greater than the sum of the others; they are the nearest "
+                            "possible ones (" +
+                            text(possible) + ")");
+  return possible;
+}
+
 /// The moments of a file in the axes of the shape; none when they are missing or infinite.
 std::optional<Inertia> writtenInertia(const PhysicsNode& node, const Quat& shape_to_node, ImportReport& report) {
   const Moving& motion = *node.motion;
@@ -51,7 +70,7 @@ std::optional<Inertia> writtenInertia(const PhysicsNode& node, const Quat& shape
                               "supported");
     return std::nullopt;
   }
-  Inertia inertia = Inertia::fromMoments(*motion.inertia_diagonal);
+  Inertia inertia = Inertia::fromMoments(possibleMoments(node, *motion.inertia_diagonal, report));
   const Quat axes = product(shape_to_node.conjugate(), motion.inertia_orientation);
   Mat3 exchange;
   for (int i = 0; i < 3; ++i) exchange.col(i) = turned(axes, Vec3::Unit(i)).cwiseAbs();
@@ -71,6 +90,15 @@ void setMotion(Body& body, const PhysicsNode& node, const Quat& shape_to_node, c
   const Moving& motion = *node.motion;
   std::optional<Vec3> center = motion.center_of_mass;
   if (center) center = turned(shape_to_node.conjugate(), world.stretch * *center);
+  body.velocity = turned(world.rotation, motion.linear);
+  body.angular_velocity = turned(world.rotation, motion.angular);
+  body.gravity_factor = motion.gravity_factor;
+  if (motion.kinematic) {  // mass and inertia do not matter
+    body.kinematic = true;
+    const Vec3 derived = centerOfMass(body);
+    if (center && !same(*center, derived, kindOf(body.shape).boundingRadius(body.shape))) body.center_of_mass = center;
+    return;
+  }
   std::optional<Inertia> inertia = writtenInertia(node, shape_to_node, report);
   const bool solid = kindOf(body.shape).solid(body.shape);
   const SolidProperties derived = derivedFrom(body.shape, solid, !motion.mass || !center || !inertia);
@@ -95,12 +123,6 @@ void setMotion(Body& body, const PhysicsNode& node, const Quat& shape_to_node, c
   const Mat3 derived_inertia = mass * derived.unit_inertia;
   if (inertia && !(solid && same(inertia->matrix(), derived_inertia, derived_inertia.diagonal().maxCoeff())))
     body.inertia = *inertia;
-
-  body.velocity = turned(world.rotation, motion.linear);
-  body.angular_velocity = turned(world.rotation, motion.angular);
-  if (motion.gravity_factor != 1)
-    report.warnings.push_back(node.label() + ": its gravity factor " + numberText(motion.gravity_factor) +
-                              " is left out: every body falls alike");
 }
 
 }  // namespace carom::gltf

@@ -4,6 +4,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 
@@ -80,15 +81,32 @@ Value gravityOf(const Vec3& gravity) {
   return Value(out);
 }
 
+// Members of a kinematic body say nothing of its mass and inertia, which do not matter.
 Value motionOf(const gltf::Moving& motion) {
-  return Value(Object{{"isKinematic", Value(motion.kinematic)},
-                      {"mass", Value(*motion.mass)},
-                      {"centerOfMass", vectorOf(*motion.center_of_mass)},
-                      {"inertiaDiagonal", sizesOf(*motion.inertia_diagonal)},
-                      {"inertiaOrientation", quaternionOf(motion.inertia_orientation)},
-                      {"linearVelocity", vectorOf(motion.linear)},
-                      {"angularVelocity", vectorOf(motion.angular)},
-                      {"gravityFactor", Value(motion.gravity_factor)}});
+  Object out{{"isKinematic", Value(motion.kinematic)},
+             {"centerOfMass", vectorOf(*motion.center_of_mass)},
+             {"linearVelocity", vectorOf(motion.linear)},
+             {"angularVelocity", vectorOf(motion.angular)},
+             {"gravityFactor", Value(motion.gravity_factor)}};
+  if (motion.kinematic) return Value(out);
+  out["mass"] = Value(*motion.mass);
+  out["inertiaDiagonal"] = sizesOf(*motion.inertia_diagonal);
+  out["inertiaOrientation"] = quaternionOf(motion.inertia_orientation);
+  return Value(out);
+}
+
+// Without its empty lists, which may not stand in a file.
+Value filterOf(const CollisionFilter& filter) {
+  Object out;
+  const auto add = [&](const char* member, const std::vector<std::string>& names) {
+    Array list;
+    for (const std::string& name : names) list.push_back(textOf(name));
+    if (!list.empty()) out[member] = Value(list);
+  };
+  add("collisionSystems", filter.systems);
+  add("collideWithSystems", filter.collide_with);
+  add("notCollideWithSystems", filter.not_collide_with);
+  return Value(out);
 }
 
 }  // namespace
@@ -97,6 +115,13 @@ int PhysicsWriter::indexOf(const gltf::ColliderShape& shape) {
   const auto [entry, added] = known_.emplace(std::visit(Numbers{}, shape), static_cast<int>(shapes_.size()));
   if (added) shapes_.push_back(shape);
   return entry->second;
+}
+
+int PhysicsWriter::indexOf(const CollisionFilter& filter) {
+  const auto known = std::find(filters_.begin(), filters_.end(), filter);
+  if (known != filters_.end()) return static_cast<int>(known - filters_.begin());
+  filters_.push_back(filter);
+  return static_cast<int>(filters_.size()) - 1;
 }
 
 Value PhysicsWriter::extensionOf(const gltf::PhysicsNode& node) {
@@ -110,7 +135,9 @@ Value PhysicsWriter::extensionOf(const gltf::PhysicsNode& node) {
     } else {
       geometry["shape"] = Value(indexOf(node.collider->shape));
     }
-    out["collider"] = Value(Object{{"geometry", Value(geometry)}, {"physicsMaterial", Value(node.collider->material)}});
+    Object collider{{"geometry", Value(geometry)}, {"physicsMaterial", Value(node.collider->material)}};
+    if (!node.collider->filter.empty()) collider["collisionFilter"] = Value(indexOf(node.collider->filter));
+    out["collider"] = Value(collider);
   }
   return Value(out);
 }
@@ -121,7 +148,11 @@ void PhysicsWriter::finish(tinygltf::Model& model) const {
     materials.push_back(materialValue(material, {{"tangential_elasticity", Value(material.tangential_elasticity)}}));
   materials.push_back(materialValue(Material{}, {{"none", Value(true)}}));
   for (const gltf::ColliderShape& shape : shapes_) shapes.push_back(listedOf(shape));
-  model.extensions["KHR_physics_rigid_bodies"] = Value(Object{{"physicsMaterials", Value(materials)}});
+  Object physics{{"physicsMaterials", Value(materials)}};
+  Array filters;
+  for (const CollisionFilter& filter : filters_) filters.push_back(filterOf(filter));
+  if (!filters.empty()) physics["collisionFilters"] = Value(filters);
+  model.extensions["KHR_physics_rigid_bodies"] = Value(physics);
   model.extensionsUsed.push_back("KHR_physics_rigid_bodies");
   if (!shapes.empty()) {
     model.extensions["KHR_implicit_shapes"] = Value(Object{{"shapes", Value(shapes)}});

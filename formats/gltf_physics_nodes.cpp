@@ -53,18 +53,26 @@ struct ColliderAdder {
   }
 };
 
+void setFilter(PhysicsNode& node, const CollisionFilter& filter) {
+  if (node.collider) node.collider->filter = filter;
+  for (PhysicsNode& child : node.children) setFilter(child, filter);
+}
+
 gltf::Moving movingOf(const Body& body, const BodyModel& model) {
   const Quat to_node = body.orientation.conjugate();
   gltf::Moving out;
-  out.mass = model.mass;
+  out.kinematic = body.kinematic;
+  out.gravity_factor = body.gravity_factor;
   out.center_of_mass = model.center;
+  out.linear = to_node * body.velocity;
+  out.angular = to_node * body.angular_velocity;
+  if (body.kinematic) return out;
+  out.mass = model.mass;
   out.inertia_diagonal = model.inertia;
   if (model.has_offset)
     out.inertia_orientation = body.inertia.source == Inertia::Source::matrix
                                   ? body.inertia.axes
                                   : gltf::unitQuaternion(Quat(Mat3(model.R_BG.transpose())));
-  out.linear = to_node * body.velocity;
-  out.angular = to_node * body.angular_velocity;
   return out;
 }
 
@@ -80,6 +88,7 @@ gltf::PhysicsNode physicsNodeOf(const Scene& scene, int index, const BodyModel& 
   const int material =
       body.material.empty() ? static_cast<int>(scene.materials.size()) : materialIndex(scene, body.material);
   std::visit(ColliderAdder{node, body.name, material, meshes}, body.shape);
+  setFilter(node, body.collision_filter);
   return node;
 }
 

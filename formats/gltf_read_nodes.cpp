@@ -62,7 +62,7 @@ Moving readMotion(const JsonPlace& motion) {
 class NodeReader {
  public:
   NodeReader(const JsonPlace& document, const ShapeList& shapes, const DocumentParts& parts, ImportReport& report)
-      : document_(document), shapes_(shapes), parts_(parts), report_(report), filters_(document) {
+      : document_(document), shapes_(shapes), parts_(parts), report_(report) {
     if (const auto nodes = document_.find("nodes")) count_ = nodes->size();
   }
 
@@ -92,7 +92,6 @@ class NodeReader {
 
   /// Reports what concerns several nodes, and those that are not in the scene.
   void finish() {
-    filters_.report(report_);
     for (std::size_t i = 0; i < count_; ++i) {
       const JsonPlace place = document_.require("nodes").at(i);
       if (reached_.count(static_cast<int>(i)) > 0 || !extensionOf(place, kRigidBodies)) continue;
@@ -105,8 +104,12 @@ class NodeReader {
   void readPhysicsOf(PhysicsNode& node, const JsonPlace& physics) {
     if (const auto motion = physics.find("motion")) node.motion = readMotion(*motion);
     if (const auto collider = physics.find("collider")) readCollider(node, *collider);
-    if (physics.find("trigger")) leaveOut(node, "its trigger", "triggers");
+    if (physics.find("trigger")) {
+      report_.triggers.push_back(nameOf(node));
+      leaveOut(node, "its trigger", "triggers");
+    }
     if (const auto joint = physics.find("joint")) {
+      report_.joints.push_back(nameOf(node));
       const auto other = joint->find("connectedNode");
       leaveOut(node, "its joint" + (other ? " to " + nodeAt(other->index(count_, "nodes")) : ""), "joints");
     }
@@ -115,9 +118,10 @@ class NodeReader {
   void readCollider(PhysicsNode& node, const JsonPlace& collider) {
     const auto geometry = collider.find("geometry");
     const auto shape = shapes_.read(geometry ? *geometry : collider, node, report_);
-    if (const auto filter = collider.find("collisionFilter")) filters_.add(*filter, node, shape.has_value());
+    CollisionFilter filter;
+    if (const auto index = collider.find("collisionFilter")) filter = readFilter(document_, *index);
     if (!shape) return;
-    node.collider = Collider{*shape};
+    node.collider = Collider{*shape, -1, filter};
     if (const auto material = collider.find("physicsMaterial"))
       node.collider->material = material->index(parts_.materials, "physicsMaterials");
   }
@@ -126,6 +130,10 @@ class NodeReader {
     for (const char* name : {"KHR_rigid_bodies", "MSFT_rigid_bodies", "MSFT_physics", "OMI_physics_body",
                              "OMI_physics_joint", "OMI_physics_gravity", "OMI_collider", "EXT_mesh_gpu_instancing"})
       if (extensionOf(place, name)) leaveOut(node, name, "extensions of that name");
+  }
+
+  static std::string nameOf(const PhysicsNode& node) {
+    return node.name.empty() ? "node-" + std::to_string(node.index) : node.name;
   }
 
   void leaveOut(const PhysicsNode& node, const std::string& what, const std::string& kind) {
@@ -140,7 +148,6 @@ class NodeReader {
   const ShapeList& shapes_;
   const DocumentParts& parts_;
   ImportReport& report_;
-  FilterList filters_;
   std::size_t count_ = 0;
   std::set<int> reached_;
 };

@@ -123,20 +123,21 @@ std::optional<ColliderShape> ShapeList::readListed(const JsonPlace& shape, bool 
   return std::nullopt;
 }
 
-void FilterList::add(const JsonPlace& filter, const PhysicsNode& node, bool collides) {
-  const auto physics = extensionOf(document_, "KHR_physics_rigid_bodies");
+CollisionFilter readFilter(const JsonPlace& document, const JsonPlace& index) {
+  const auto physics = extensionOf(document, "KHR_physics_rigid_bodies");
   const auto filters = physics ? physics->find("collisionFilters") : std::nullopt;
-  const int index = filter.index(filters ? filters->size() : 0, "collisionFilters");
-  if (collides) users_[index].push_back(node.label());
-}
-
-void FilterList::report(ImportReport& report) const {
-  for (const auto& [filter, nodes] : users_) {
-    std::string names;
-    for (const std::string& name : nodes) names += (names.empty() ? "" : ", ") + name;
-    report.warnings.push_back("collision filter " + std::to_string(filter) + " of " + names +
-                              " is left out: filters are not supported, every body meets every other");
-  }
+  const int chosen = index.index(filters ? filters->size() : 0, "collisionFilters");
+  const JsonPlace filter = filters->at(static_cast<std::size_t>(chosen));
+  const auto names = [&](const char* member) {
+    std::vector<std::string> out;
+    const auto list = filter.find(member);
+    for (std::size_t i = 0; list && i < list->size(); ++i) {
+      const std::string& name = list->at(i).text();
+      if (!name.empty() && std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    }
+    return out;
+  };
+  return {names("collisionSystems"), names("collideWithSystems"), names("notCollideWithSystems")};
 }
 
 }  // namespace carom::gltf

@@ -81,6 +81,17 @@ void sayMotion(const Moving& motion, Sayings& out) {
   out.number(motion.gravity_factor);
 }
 
+void sayFilter(const CollisionFilter& filter, Sayings& out) {
+  const auto say = [&](const char* what, const std::vector<std::string>& names) {
+    out.word(what);
+    for (const std::string& name : names) out.word("'" + name + "'");
+  };
+  if (filter.empty()) return;
+  say("in", filter.systems);
+  say("with", filter.collide_with);
+  say("without", filter.not_collide_with);
+}
+
 bool hasPhysics(const PhysicsNode& node) {
   if (node.motion || node.collider) return true;
   for (const PhysicsNode& child : node.children)
@@ -94,6 +105,7 @@ void say(const PhysicsNode& node, const std::vector<FileMaterial>& materials, Sa
     std::visit(ShapeSayer{out}, node.collider->shape);
     const int material = node.collider->material;
     const bool named = material >= 0 && !materials[static_cast<std::size_t>(material)].none;
+    sayFilter(node.collider->filter, out);
     out.word(named ? "of " + materials[static_cast<std::size_t>(material)].material.name : "of none");
   }
   for (const PhysicsNode& child : node.children) {

@@ -13,6 +13,7 @@ namespace carom {
 /// What an import could not take over as it was: one sentence each, with the name of the node or material.
 struct ImportReport {
   std::vector<std::string> warnings;
+  std::vector<std::string> joints, triggers;  ///< names of the nodes that have one; neither is simulated
 };
 
 struct Imported {

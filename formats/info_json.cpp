@@ -20,9 +20,19 @@ void writeShapeOf(JsonWriter& out, const Body& body) {
 void writeMassProperties(JsonWriter& out, const Body& body) {
   if (body.fixed) return;
   const BodyModel model = modelOf(body);
-  out.key("mass").number(model.mass);
+  if (!body.kinematic) out.key("mass").number(model.mass);
   out.key("center_of_mass").vector(model.center);
+  if (body.kinematic) return;
   out.key("moments").vector(model.inertia);
+}
+
+void writeFilter(JsonWriter& out, const CollisionFilter& filter) {
+  if (filter.empty()) return;
+  out.key("collision_filter").beginObject();
+  out.key("systems").texts(filter.systems);
+  out.key("collide_with").texts(filter.collide_with);
+  out.key("not_collide_with").texts(filter.not_collide_with);
+  out.endObject();
 }
 
 void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
@@ -31,6 +41,9 @@ void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
   if (!body.notes.empty()) out.key("notes").text(body.notes);
   writeShapeOf(out, body);
   writeMassProperties(out, body);
+  if (body.kinematic) out.key("kinematic").boolean(true);
+  if (body.gravity_factor != 1) out.key("gravity_factor").number(body.gravity_factor);
+  writeFilter(out, body.collision_filter);
   out.key("tier").text(nameOf(plan.tier));
   out.key("why").text(plan.why);
   out.key("derivative_tier").text(nameOf(plan.derivative_tier));
@@ -65,6 +78,15 @@ std::string infoJson(const Scene& scene, const ScenePlan& plan) {
   out.key("asked").text(plan.asked);
   out.key("bodies").beginArray();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) writeBody(out, scene.bodies[i], plan.plan.bodies[i]);
+  out.endArray();
+  out.key("overlaps").beginArray();
+  for (const StartOverlap& overlap : plan.overlaps) {
+    const auto nameAt = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].name; };
+    out.beginObject(JsonWriter::Layout::line);
+    out.key("bodies").texts({nameAt(overlap.a), nameAt(overlap.b)});
+    out.key("depth").number(overlap.depth);
+    out.endObject();
+  }
   out.endArray();
   out.key("pairs").beginArray();
   for (const ScenePlan::Pair& pair : plan.pairs) writePair(out, scene, pair);

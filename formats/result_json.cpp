@@ -38,6 +38,16 @@ void writeEvent(JsonWriter& out, const Event& event, const Scene& scene) {
   out.endObject();
 }
 
+void writeOverlap(JsonWriter& out, const StartOverlap& overlap, const Scene& scene) {
+  const auto nameAt = [&](int body) { return scene.bodies.at(static_cast<std::size_t>(body)).name; };
+  out.beginObject(Layout::line);
+  out.key("bodies").texts({nameAt(overlap.a), nameAt(overlap.b)});
+  out.key("depth").number(overlap.depth);
+  out.key("parted");
+  overlap.parted ? out.number(*overlap.parted) : out.null();
+  out.endObject();
+}
+
 void writeStates(JsonWriter& out, const Motion& motion, double time) {
   out.beginObject();
   out.key("time").number(time);
@@ -63,6 +73,9 @@ std::string motionJson(const Motion& motion, const std::vector<double>& at) {
   out.key("status").text(nameOf(motion.status));
   out.key("message").text(motion.message);
   out.key("end").number(motion.end);
+  out.key("overlaps").beginArray();
+  for (const StartOverlap& overlap : motion.overlaps) writeOverlap(out, overlap, *motion.scene);
+  out.endArray();
   out.key("events").beginArray();
   for (const Event& event : motion.events) writeEvent(out, event, *motion.scene);
   out.endArray();

@@ -71,10 +71,20 @@ void requireAtRest(const Body& body, const std::string& where) {
     fail(where + "/angular_velocity", "an angular velocity of a fixed body", "none, or zeros");
 }
 
+CollisionFilter readFilter(const Json& value) {
+  const auto names = [&](const char* member) {
+    return value.contains(member) ? value[member].get<std::vector<std::string>>() : std::vector<std::string>();
+  };
+  return {names("systems"), names("collide_with"), names("not_collide_with")};
+}
+
 Body readBody(const Json& value, const std::string& where, SurfaceFiles& files) {
   Body body;
   body.name = value["name"].get<std::string>();
   body.fixed = value.contains("fixed") && value["fixed"].get<bool>();
+  body.kinematic = value.contains("kinematic") && value["kinematic"].get<bool>();
+  if (value.contains("gravity_factor")) body.gravity_factor = value["gravity_factor"].get<double>();
+  if (value.contains("collision_filter")) body.collision_filter = readFilter(value["collision_filter"]);
   body.material = textOr(value, "material");
   body.shape = readShape(value["shape"], where + "/shape", files);
   if (value.contains("mass")) body.mass = value["mass"].get<double>();

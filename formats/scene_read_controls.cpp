@@ -15,7 +15,8 @@ struct OwnerMembers {
 };
 
 OwnerMembers membersOf(OwnerKind owner) {
-  return {owner == OwnerKind::body || owner == OwnerKind::moving_body || owner == OwnerKind::impact,
+  return {owner == OwnerKind::body || owner == OwnerKind::moving_body || owner == OwnerKind::free_body ||
+              owner == OwnerKind::impact,
           owner == OwnerKind::material, owner == OwnerKind::impact};
 }
 
@@ -33,6 +34,8 @@ ControlOwner readOwner(const Json& value, OwnerKind kind, const Scene& scene, co
     owner.body = readBodyName(value["body"], where + "/body", scene);
     if (kind != OwnerKind::body && scene.bodies[static_cast<std::size_t>(owner.body)].fixed)
       fail(where + "/body", "the fixed body " + describe(value["body"]), "a moving body");
+    if (kind == OwnerKind::free_body && scene.bodies[static_cast<std::size_t>(owner.body)].kinematic)
+      fail(where + "/body", "the kinematic body " + describe(value["body"]), "a body that impacts move");
   }
   if (value.contains("material")) {
     const auto name = value["material"].get<std::string>();

@@ -76,11 +76,26 @@ void writeInertia(JsonWriter& out, const Inertia& inertia) {
   out.endArray();
 }
 
+void writeFilter(JsonWriter& out, const CollisionFilter& filter) {
+  if (filter.empty()) return;
+  out.key("collision_filter").beginObject(Layout::line);
+  const auto names = [&](const char* member, const std::vector<std::string>& list) {
+    if (!list.empty()) out.key(member).texts(list);
+  };
+  names("systems", filter.systems);
+  names("collide_with", filter.collide_with);
+  names("not_collide_with", filter.not_collide_with);
+  out.endObject();
+}
+
 void writeBody(JsonWriter& out, const Body& body) {
   out.beginObject();
   out.key("name").text(body.name);
   writeText(out, "notes", body.notes);
   if (body.fixed) out.key("fixed").boolean(true);
+  if (body.kinematic) out.key("kinematic").boolean(true);
+  if (body.gravity_factor != 1) out.key("gravity_factor").number(body.gravity_factor);
+  writeFilter(out, body.collision_filter);
   writeText(out, "material", body.material);
   if (body.mass) out.key("mass").number(*body.mass);
   if (body.density) out.key("density").number(*body.density);

@@ -52,6 +52,8 @@ std::string importJson(const std::string& file, const Imported& imported, const 
   out.key("controls").integer(static_cast<long long>(document.controls.size()));
   out.key("constraints").integer(static_cast<long long>(document.constraints.size()));
   out.key("meshes").texts(meshes);
+  out.key("joints").texts(imported.report.joints);
+  out.key("triggers").texts(imported.report.triggers);
   out.key("warnings").texts(imported.report.warnings);
   out.endObject();
   return out.take();

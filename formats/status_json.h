@@ -23,7 +23,7 @@ std::string validateJson(const std::string& file, const Document& document, cons
 std::string exportJson(const std::string& file, std::size_t bytes, const Motion& motion);
 
 /// The answer of `carom import --json`: file, bodies, materials, controls, constraints (how many there are), meshes
-/// (the files beside the document) and warnings.
+/// (the files beside the document), joints and triggers (names of nodes), and warnings.
 std::string importJson(const std::string& file, const Imported& imported, const std::vector<std::string>& meshes);
 
 /// The answer of `carom info --json` without a scene.

@@ -33,9 +33,13 @@ void take(std::vector<int>& list, int value) {
 
 }  // namespace
 
-void Neighbours::begin(std::vector<Extent> extents, const Vec3& gravity, std::size_t few) {
+void Neighbours::begin(std::vector<Extent> extents, const Vec3& gravity, std::size_t few, CollisionClasses classes) {
   few_ = few;
   gravity_ = gravity;
+  classes_ = std::move(classes);
+  one_gravity_ = gravity.isZero(0) || std::all_of(extents.begin(), extents.end(), [](const Extent& e) {
+                   return !e.moving || e.gravity_factor == 1;
+                 });
   extents_ = std::move(extents);
   const std::size_t n = extents_.size();
   paths_.assign(n, {});
@@ -60,6 +64,7 @@ void Neighbours::begin(std::vector<Extent> extents, const Vec3& gravity, std::si
 }
 
 bool Neighbours::touches(int body, int other) const {
+  if (!classes_.collide(body, other)) return false;
   const Extent& e = extents_[at(other)];
   const Bounds& b = boxes_[at(body)];
   if (!e.half_space) return meet(b, boxes_[at(other)]);
@@ -74,13 +79,13 @@ void Neighbours::setPath(int body, const FlightPath& path, double from, double u
   mine.radius = radius;
   end_ = until;
   if (few()) {
-    const Bounds centre = sweptCentre(mine, gravity_, from, until);
+    const Bounds centre = sweptCentre(mine, accelerationOf(body), from, until);
     boxes_[at(body)] = grown(centre, radius + roundingRoom(centre));
     return;
   }
   if (all_until_ == -kNever) return;  // no boxes yet
   const Bounds inner = grown(boxes_[at(body)], -radius - roundingRoom(boxes_[at(body)]));
-  until_[at(body)] = std::min(all_until_, leavingTime(mine, gravity_, from, inner));
+  until_[at(body)] = std::min(all_until_, leavingTime(mine, accelerationOf(body), from, inner));
 }
 
 double Neighbours::window(int body, double t) {
@@ -102,20 +107,20 @@ void Neighbours::list(int body, std::vector<int>& out) {
   // without windows that were asked for, nothing is known of many: everyone may be near
   out.clear();
   for (int other = 0; other < static_cast<int>(extents_.size()); ++other)
-    if (other != body && (!few() || touches(body, other))) out.push_back(other);
+    if (other != body && (few() ? touches(body, other) : classes_.collide(body, other))) out.push_back(other);
 }
 
 // The box for the path from t on, up to where it has used its share of the reach. Returns the time for which that is.
 double Neighbours::layBox(int body, double t) {
   const FlightPath& path = paths_[at(body)];
-  const Vec3 x = path.positionAt(t, gravity_);
+  const Vec3 gravity = accelerationOf(body), x = path.positionAt(t, gravity);
   const Bounds cube{x.array() - kAhead * reach_, x.array() + kAhead * reach_};
-  const double leaves = std::max(leavingTime(path, gravity_, t, cube), std::nextafter(t, kNever));
-  const Bounds centre = sweptCentre(path, gravity_, t, std::min(leaves, std::max(end_, t)));
+  const double leaves = std::max(leavingTime(path, gravity, t, cube), std::nextafter(t, kNever));
+  const Bounds centre = sweptCentre(path, gravity, t, std::min(leaves, std::max(end_, t)));
   const double room = (1 - kAhead) * reach_, rounding = 2 * roundingRoom(grown(centre, room + path.radius));
   boxes_[at(body)] = grown(centre, room + path.radius + rounding);
   const Bounds inner = grown(boxes_[at(body)], -path.radius - roundingRoom(boxes_[at(body)]));
-  until_[at(body)] = std::min(all_until_, std::max(leavingTime(path, gravity_, t, inner), std::nextafter(t, kNever)));
+  until_[at(body)] = std::min(all_until_, std::max(leavingTime(path, gravity, t, inner), std::nextafter(t, kNever)));
   return leaves - t;
 }
 
@@ -126,6 +131,9 @@ void Neighbours::renew(int body, double t) {
   grid_.move(body, boxes_);
   found_.clear();
   grid_.find(body, boxes_, found_);
+  if (!classes_.trivial())
+    found_.erase(std::remove_if(found_.begin(), found_.end(), [&](int o) { return !classes_.collide(body, o); }),
+                 found_.end());
   for (int plane : half_spaces_)
     if (touches(body, plane)) found_.push_back(plane);
   std::sort(found_.begin(), found_.end());
@@ -213,7 +221,7 @@ void Neighbours::chooseReach(double t) {
     Bounds all{Vec3::Constant(kNever), Vec3::Constant(-kNever)};
     for (std::size_t i = 0; i < extents_.size(); ++i) {
       if (!extents_[i].moving) continue;
-      const Vec3 x = paths_[i].positionAt(t, gravity_);
+      const Vec3 x = paths_[i].positionAt(t, accelerationOf(static_cast<int>(i)));
       all = {all.low.cwiseMin(x), all.high.cwiseMax(x)};
     }
     const Vec3 size = (all.high - all.low).cwiseMax(2 * radius);

@@ -6,6 +6,7 @@
 
 #include "ode_bridge/box_grid.h"
 #include "ode_bridge/broad_phase.h"
+#include "ode_bridge/collision_classes.h"
 
 namespace carom {
 
@@ -17,6 +18,7 @@ struct Extent {
   bool half_space = false;
   Vec3 normal = Vec3::UnitZ();  ///< half space { p : normal . p <= offset }
   double offset = 0;
+  double gravity_factor = 1;
 };
 
 /// Who may touch whom. With few bodies a body's box holds its whole path, and its neighbours are all whose boxes meet
@@ -30,13 +32,23 @@ class Neighbours {
   /// Up to so many bodies, boxes hold whole paths.
   static constexpr std::size_t kFew = 40;
 
-  void begin(std::vector<Extent> extents, const Vec3& gravity, std::size_t few = kFew);
+  /// `classes` says who never collides: such pairs are in no list.
+  void begin(std::vector<Extent> extents, const Vec3& gravity, std::size_t few = kFew,
+             CollisionClasses classes = {});
 
   /// Moving body `body` follows a path from `from` on; its centre is where it was at that time. `until` is the end of
   /// all paths.
   void setPath(int body, const FlightPath& path, double from, double until);
   const FlightPath& path(int body) const { return paths_[static_cast<std::size_t>(body)]; }
   const std::vector<Extent>& extents() const { return extents_; }
+  /// The acceleration of a body; FlightPath leaves it out, as it is the same for most.
+  Vec3 accelerationOf(int body) const {
+    return one_gravity_ ? gravity_ : Vec3(extents_[static_cast<std::size_t>(body)].gravity_factor * gravity_);
+  }
+  bool sameAcceleration(int a, int b) const {
+    return one_gravity_ || extents_[static_cast<std::size_t>(a)].gravity_factor ==
+                               extents_[static_cast<std::size_t>(b)].gravity_factor;
+  }
 
   /// See ContactSource.
   double window(int body, double t);
@@ -44,7 +56,7 @@ class Neighbours {
 
   /// The box that holds a body until the end of its window.
   const Bounds& box(int body) const { return boxes_[static_cast<std::size_t>(body)]; }
-  /// Bodies in begin() or in this state whose boxes meet: pairs (a < b), not both fixed, in increasing order.
+  /// Bodies in begin() or in this state whose boxes meet: pairs (a < b) that may collide, in increasing order.
   void pairs(std::vector<std::pair<int, int>>& out);
 
  private:
@@ -58,6 +70,8 @@ class Neighbours {
 
   std::size_t few_ = kFew;
   Vec3 gravity_ = Vec3::Zero();
+  bool one_gravity_ = true;  // the same for all that move
+  CollisionClasses classes_;
   std::vector<Extent> extents_;
   std::vector<FlightPath> paths_;
   std::vector<Bounds> boxes_;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <set>
+#include <string>
 
 #include "adjoint/arguments.h"
 #include "adjoint/errors.h"
@@ -12,6 +13,7 @@
 #include "ode_bridge/first_impact.h"
 #include "ode_bridge/neighbours.h"
 #include "ode_bridge/overlap.h"
+#include "ode_bridge/parting.h"
 #include "ode_bridge/touching.h"
 
 namespace carom {
@@ -38,6 +40,7 @@ Bounds standingBounds(const Solid& solid, const Kinematics& k) {
 Extent extentOf(const Solid& solid, const Arc& arc) {
   Extent e;
   e.moving = arc.moving();
+  e.gravity_factor = arc.model().gravity_factor;
   const Kinematics k = arc.kinematicsAt(arc.start());
   if (solid.plane) {
     e.half_space = true;
@@ -60,7 +63,6 @@ struct OdeContacts::State {
   Neighbours neighbours;
   NarrowPhase narrow_phase;
   std::shared_ptr<const FeatureGeometry> geometry;
-  Vec3 gravity = Vec3::Zero();
   std::vector<Quick> quick;     // of each body
   std::vector<char> in_series;  // whether its arcs have to be extended; known here, arcs are far away in memory
   int opened = -1;              // body whose window was asked for last, when and up to where
@@ -69,18 +71,33 @@ struct OdeContacts::State {
   std::size_t checkedBody(const char* call, int body) const {
     return checkedIndex(call, "body", body, quick.size());
   }
-  void refuseOverlap(const Scene& scene, const std::vector<Arc>& arcs);
+  std::vector<StartOverlap> overlaps;
+  std::set<std::pair<std::string, std::string>> accepted;  // names of pairs that overlap in the scene it was made for
+
+  void findOverlaps(const std::vector<Arc>& arcs);
+  bool isAccepted(const Scene& scene, const StartOverlap& overlap) const;
   BallImpact quickImpact(int a, int b, double from, double until) const;
   void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
 };
 
 OdeContacts::OdeContacts() : state_(std::make_unique<State>()) {}
 
-OdeContacts::OdeContacts(const Scene& scene) : OdeContacts() { begin(scene); }
+OdeContacts::OdeContacts(const Scene& scene) : OdeContacts() {
+  take(scene);
+  for (const StartOverlap& o : state_->overlaps)
+    state_->accepted.emplace(scene.bodies[static_cast<std::size_t>(o.a)].name,
+                             scene.bodies[static_cast<std::size_t>(o.b)].name);
+}
 
 OdeContacts::~OdeContacts() = default;
 
 void OdeContacts::begin(const Scene& scene) {
+  take(scene);
+  for (const StartOverlap& overlap : state_->overlaps)
+    if (!state_->isAccepted(scene, overlap)) refuseOverlap(scene, overlap);
+}
+
+void OdeContacts::take(const Scene& scene) {
   validate(scene);
   const std::size_t n = scene.bodies.size();
   std::vector<Solid> solids;
@@ -102,14 +119,14 @@ void OdeContacts::begin(const Scene& scene) {
     if (solids[i].plane) state_->quick[i] = Quick::plane;
     if (models[i].moving) state_->quick[i] = solids[i].ball ? Quick::ball : Quick::moving;
   }
-  state_->gravity = scene.gravity;
   state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
   state_->narrow_phase.reset(state_->geometry->solids());
-  state_->neighbours.begin(std::move(extents), scene.gravity);
-  state_->refuseOverlap(scene, arcs);
+  state_->neighbours.begin(std::move(extents), scene.gravity, Neighbours::kFew, CollisionClasses(scene));
+  state_->findOverlaps(arcs);
 }
 
-void OdeContacts::State::refuseOverlap(const Scene& scene, const std::vector<Arc>& arcs) {
+void OdeContacts::State::findOverlaps(const std::vector<Arc>& arcs) {
+  overlaps.clear();
   std::vector<std::pair<int, int>> near;
   neighbours.pairs(near);
   std::sort(near.begin(), near.end());
@@ -117,12 +134,21 @@ void OdeContacts::State::refuseOverlap(const Scene& scene, const std::vector<Arc
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const Placed a(geometry->solids()[i], arcs[i], 0), b(geometry->solids()[j], arcs[j], 0);
     const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13));
-    if (!depth) continue;
-    std::ostringstream text;
-    text << "found '" << scene.bodies[i].name << "' and '" << scene.bodies[j].name << "' overlapping by " << *depth
-         << " m at the start, expected bodies apart or touching";
-    throw InputError("/bodies/" + std::to_string(j), text.str());
+    if (depth) overlaps.push_back({first, second, *depth, std::nullopt});
   }
+}
+
+bool OdeContacts::State::isAccepted(const Scene& scene, const StartOverlap& overlap) const {
+  const auto name = [&](int body) -> const std::string& { return scene.bodies[static_cast<std::size_t>(body)].name; };
+  return accepted.contains({name(overlap.a), name(overlap.b)}) || accepted.contains({name(overlap.b), name(overlap.a)});
+}
+
+std::vector<StartOverlap> OdeContacts::overlaps() const { return state_->overlaps; }
+
+std::optional<double> OdeContacts::parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) {
+  for (int body : {a, b}) state_->checkedBody("parting", body);
+  for (double t : {from, until}) checkedNumber("parting", "the time", t);
+  return partingTime(state_->geometry->solid(a), state_->geometry->solid(b), arc_a, arc_b, from, until);
 }
 
 void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
@@ -156,6 +182,7 @@ void OdeContacts::neighbours(int body, std::vector<int>& out) {
 // Those that the body can meet on its present path in its window, as far as bounding balls tell.
 void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others) const {
   const FlightPath& path = neighbours.path(body);
+  const Vec3 gravity = neighbours.accelerationOf(body);
   const bool is_ball = quick[static_cast<std::size_t>(body)] == Quick::ball;
   const double t = opened_from, until = opened_until;
   // the paths lie all over the memory: they are fetched side by side rather than one after the other
@@ -166,6 +193,7 @@ void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others
     const Quick kind = quick[static_cast<std::size_t>(other)];
     if (kind == Quick::fixed) return false;
     if (kind != Quick::plane) {
+      if (!neighbours.sameAcceleration(body, other)) return false;  // nothing so simple is known of them
       // what is inside touching balls may meet while they part
       const Approach a = approachOf(ball, neighbours.path(other), gravity, t, until);
       return !(a.meet || (a.overlap && !(is_ball && kind == Quick::ball)));
@@ -180,11 +208,13 @@ void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others
 BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double until) const {
   const Quick qa = quick[static_cast<std::size_t>(a)], qb = quick[static_cast<std::size_t>(b)];
   if (!isQuick(qa) || !isQuick(qb)) return {BallImpact::Found::undecided, 0};
-  if (qa == Quick::ball && qb == Quick::ball)
-    return ballBallImpact(neighbours.path(a), neighbours.path(b), gravity, from, until);
+  if (qa == Quick::ball && qb == Quick::ball) {
+    if (!neighbours.sameAcceleration(a, b)) return {BallImpact::Found::undecided, 0};
+    return ballBallImpact(neighbours.path(a), neighbours.path(b), neighbours.accelerationOf(a), from, until);
+  }
   const int ball = qa == Quick::ball ? a : b;
   const Extent& plane = neighbours.extents()[static_cast<std::size_t>(ball == a ? b : a)];
-  return ballPlaneImpact(neighbours.path(ball), gravity, plane.normal, plane.offset, from, until);
+  return ballPlaneImpact(neighbours.path(ball), neighbours.accelerationOf(ball), plane.normal, plane.offset, from, until);
 }
 
 std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
@@ -216,7 +246,9 @@ std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, c
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }
 
 std::unique_ptr<ContactSource> OdeContacts::another() const {
-  return std::unique_ptr<ContactSource>(new OdeContacts());
+  std::unique_ptr<OdeContacts> other(new OdeContacts());
+  other->state_->accepted = state_->accepted;
+  return other;
 }
 
 }  // namespace carom

@@ -12,14 +12,16 @@ namespace carom {
 /// touch. One object serves one simulation at a time; different objects may be used from different threads.
 class OdeContacts final : public ContactSource {
  public:
-  /// Throws InputError for a scene that is not valid (see validate), and when two bodies overlap at the start; so does
-  /// begin. The other functions throw it for bodies that are not there and times that are not finite.
+  /// Throws InputError for a scene that is not valid (see validate); so does begin, and when two bodies overlap at the
+  /// start that do not in the scene given here: what overlaps here is left alone until it parts. The other functions throw it for bodies that are not there and times that are not finite.
   explicit OdeContacts(const Scene& scene);
   ~OdeContacts() override;
   OdeContacts(const OdeContacts&) = delete;
   OdeContacts& operator=(const OdeContacts&) = delete;
 
   void begin(const Scene& scene) override;
+  std::vector<StartOverlap> overlaps() const override;
+  std::optional<double> parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
   void setPath(int body, const Arc& arc, double from, double until) override;
   double window(int body, double t) override;
   void neighbours(int body, std::vector<int>& out) override;
@@ -30,6 +32,7 @@ class OdeContacts final : public ContactSource {
 
  private:
   OdeContacts();
+  void take(const Scene& scene);
   struct State;
   std::unique_ptr<State> state_;
 };

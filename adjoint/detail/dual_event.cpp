@@ -48,6 +48,10 @@ DualEvent::DualEvent(const Lanes& lanes, int index)
   assemble();
 }
 
+bool DualEvent::isKinematic(std::size_t participant) const {
+  return lanes_.model(bodies_[participant].body).kinematic;
+}
+
 void DualEvent::addBody(const Participant& p) {
   MovingBody b;
   b.body = p.body;
@@ -164,6 +168,7 @@ PairNums DualEvent::pairOf(const Contact& c, const ContactPart& part) const {
 }
 
 void DualEvent::assemble() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) problem_.driven = problem_.driven || isKinematic(i);
   const auto n = static_cast<Eigen::Index>(parts_.size());
   problem_.K = MatX::Zero(3 * n, 3 * n);
   problem_.u = VecX::Zero(3 * n);
@@ -181,7 +186,7 @@ void DualEvent::assemble() {
   }
   for (const Arm& k : arms_)
     for (const Arm& l : arms_) {
-      if (k.participant != l.participant) continue;
+      if (k.participant != l.participant || isKinematic(k.participant)) continue;
       const MovingBody& b = bodies_[k.participant];
       const NMat rotation = skewOf<Num>(k.r) * b.A * skewOf<Num>(l.r);
       problem_.K.block<3, 3>(3 * static_cast<Eigen::Index>(k.contact), 3 * static_cast<Eigen::Index>(l.contact)) +=
@@ -213,7 +218,7 @@ void DualEvent::assemble() {
 DualEvent::Problem DualEvent::lawPullback(const VecX& P_bar) const {
   const std::size_t n = parts_.size();
   Problem bar{MatX::Zero(P_bar.size(), P_bar.size()), VecX::Zero(P_bar.size()), std::vector<NVec>(n, NVec::Zero()),
-              std::vector<PairNums>(n)};
+              std::vector<PairNums>(n), false};
   if (n > 1) {
     jointPullback<Num>(problem_, P_bar, bar);
     return bar;
@@ -232,11 +237,12 @@ std::vector<StateBar> DualEvent::throughLaw(const std::vector<StateBar>& after_b
                                             std::vector<PairNums>& pair_bar, std::vector<ModelBar>& model_bar) const {
   std::vector<StateBar> before_bar = after_bar;
   std::vector<Num> inverse_mass_bar(bodies_.size());
-  std::vector<NVec> r_bar(arms_.size()), omega_bar(bodies_.size(), NVec::Zero());
+  std::vector<NVec> r_bar(arms_.size(), NVec::Zero()), omega_bar(bodies_.size(), NVec::Zero());
   std::vector<NMat> A_bar(bodies_.size(), NMat::Zero());
   VecX P_bar = VecX::Zero(P_.size());
   for (std::size_t j = 0; j < arms_.size(); ++j) {
     const Arm& arm = arms_[j];
+    if (isKinematic(arm.participant)) continue;
     const auto row = 3 * static_cast<Eigen::Index>(arm.contact);
     const NVec P_k = P_.segment<3>(row);
     const NVec &v_bar = after_bar[arm.participant].v, &L_bar = after_bar[arm.participant].L;
@@ -249,7 +255,7 @@ std::vector<StateBar> DualEvent::throughLaw(const std::vector<StateBar>& after_b
   for (std::size_t j = 0; j < arms_.size(); ++j)
     for (std::size_t l = 0; l < arms_.size(); ++l) {
       const Arm &a = arms_[j], &b = arms_[l];
-      if (a.participant != b.participant) continue;
+      if (a.participant != b.participant || isKinematic(a.participant)) continue;
       const std::size_t i = a.participant;
       const NMat Ra = skewOf<Num>(a.r), Rb = skewOf<Num>(b.r), &A = bodies_[i].A;
       const NMat K_bar =

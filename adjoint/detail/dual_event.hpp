@@ -51,8 +51,10 @@ class DualEvent {
     Eigen::Matrix<Num, Eigen::Dynamic, 1> u;
     std::vector<NVec> normal;
     std::vector<PairNums> pair;
+    bool driven = false;
   };
 
+  bool isKinematic(std::size_t participant) const;
   void addBody(const Participant& p);
   void addContact(const Contact& c, double weight);
   PairTangent pairTangent(const ContactPart& part, std::size_t lane) const;

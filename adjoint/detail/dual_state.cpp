@@ -40,6 +40,8 @@ SceneGradient SceneBar::values(const Scene& scene) const {
 DualModel dualModel(const BodyModel& model) {
   DualModel out;
   out.moving = model.moving;
+  out.kinematic = model.kinematic;
+  out.gravity_factor = model.gravity_factor;
   out.mass = model.mass;
   out.inverse_mass = model.inverse_mass;
   out.J = constant(Mat3(model.inertia.asDiagonal()));
@@ -95,15 +97,16 @@ void startPullback(const Body& body, const DualModel& model, std::span<const Bod
 void modelPullback(const Body& body, const DualModel& model, std::span<const BodyDerivative* const> lanes,
                    const ModelBar& bar, BodyBar& body_bar) {
   if (body.fixed) return;
+  if (body.kinematic && body.center_of_mass) return;
   const bool derived = body.inertia.source == Inertia::Source::derived;
-  if (!derived) body_bar.inertia += bar.inertia;
-  if (!body.density && !derived && body.center_of_mass) {
+  if (!derived && !body.kinematic) body_bar.inertia += bar.inertia;
+  if (!body.kinematic && !body.density && !derived && body.center_of_mass) {
     body_bar.mass += bar.mass;
     return;
   }
   const ShapeKind& kind = kindOf(body.shape);
   if (!kind.solid(body.shape)) {  // nothing follows from the shape
-    body_bar.mass += bar.mass;
+    if (!body.kinematic) body_bar.mass += bar.mass;
     return;
   }
   const SolidProperties solid = kind.properties(body.shape);
@@ -120,6 +123,12 @@ void modelPullback(const Body& body, const DualModel& model, std::span<const Bod
     for (std::size_t i = 0; i < rates.size(); ++i) setRates(m, of(rates[i]), i);
     return m;
   };
+  if (body.kinematic) {  // its centre alone follows from the shape
+    for (std::size_t d = 0; d < solid.rates.size(); ++d)
+      body_bar.size[static_cast<Eigen::Index>(d)] +=
+          bar.center.dot(matrix(solid.rates[d].center, [d](const auto& p) { return p.rates[d].center; }));
+    return;
+  }
   Num density = body.density.value_or(0);
   for (std::size_t i = 0; i < lanes.size(); ++i) density.rate[i] = lanes[i]->density;
   const Num volume = number(solid.volume, [](const SolidProperties& p) { return p.volume; });

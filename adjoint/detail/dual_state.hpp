@@ -18,7 +18,8 @@ using NMat = M3<Num>;
 
 /// BodyModel with its full inertia tensor J in body axes, which stay the principal axes of the values, and A = J^-1.
 struct DualModel {
-  bool moving = false;
+  bool moving = false, kinematic = false;
+  double gravity_factor = 1;
   Num mass, inverse_mass;
   NMat J = NMat::Zero(), A = NMat::Zero();
   NVec center = NVec::Zero();

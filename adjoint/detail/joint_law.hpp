@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "adjoint/detail/dual.hpp"
+#include "adjoint/errors.h"
 #include "adjoint/impact/complementarity.h"
 
 // Equation 4.3, contacts of one instant together, each with u_n <= 0 before:
@@ -14,6 +15,8 @@
 //   P = P_N + kappa (P_II - P_I), kappa = 1 + min e_t cut back to where the first contact reaches its friction cone.
 // One contact gives 4.1 and 4.2. Energy: with |.| the norm of K, the change is
 // 1/2 sum P_N,k (1 - e_k) u_n,k - kappa (1 - kappa/2) |P_II - P_I|^2 at the most, which is <= 0 for kappa in [0, 2].
+// Where a kinematic body takes part, u need not be a velocity that impulses can undo. P_N still exists unless a body is
+// squeezed between ones that nothing moves; where P would let a contact come off slower than its e says, P = P_N.
 // Redundant contacts (a face on a plane) make K singular; impulses of least norm are taken, velocities are unique.
 //
 // Written for any number: doubles, and duals for second derivatives, which take the branch of the values. A `Problem`
@@ -129,13 +132,14 @@ struct Branch {
     const MatrixOf<S> N = normalColumns<S>(p.normal, all);
     const MatrixOf<S> A = N.transpose() * p.K * N;
     const VectorOf<S> u_n = N.transpose() * p.u;
-    normal_active = activeContacts(valuesOf(A), valuesOf(share(p, all).cwiseProduct(u_n)));
+    normal_active = activeContacts(valuesOf(A), valuesOf(share(p, all).cwiseProduct(u_n)), !p.driven);
     solves.emplace_back(p, normalColumns<S>(p.normal, normal_active), share(p, normal_active));
     P_N = solves[0].impulse();
     d = VectorOf<S>::Zero(3 * n);
+    if (p.driven && !parts(p, A, N)) throw NotComputable("no impulses part its contacts, one of which moves by itself");
     friction = std::any_of(p.pair.begin(), p.pair.end(), [](const auto& c) { return c.friction > 0; });
     if (!friction) return;
-    plastic_active = activeContacts(valuesOf(A), valuesOf(u_n));
+    plastic_active = activeContacts(valuesOf(A), valuesOf(u_n), !p.driven);
     std::set_union(normal_active.begin(), normal_active.end(), plastic_active.begin(), plastic_active.end(),
                    std::back_inserter(directions));
     solves.emplace_back(p, normalColumns<S>(p.normal, plastic_active), ones(plastic_active.size()));
@@ -143,6 +147,29 @@ struct Branch {
     solves.emplace_back(p, C, ones(static_cast<std::size_t>(C.cols())));
     d = solves[2].impulse() - solves[1].impulse();
     cutBack(p);
+    if (p.driven && !parts(p, A, N)) leaveOutFriction();
+  }
+
+  // Surfaces of bodies that nothing moves may go different ways: no impulses stop the others on all of them then.
+  template <class Problem>
+  bool parts(const Problem& p, const MatrixOf<S>& A, const MatrixOf<S>& N) const {
+    const Eigen::VectorXd before = valuesOf(VectorOf<S>(N.transpose() * p.u));
+    const VectorOf<S> all = P_N + kappa * d;
+    const Eigen::VectorXd gained = valuesOf(VectorOf<S>(N.transpose() * p.K * all));
+    const double rounding = 1e-9 * (before.cwiseAbs().maxCoeff() + valuesOf(A).cwiseAbs().maxCoeff() *
+                                                                       valuesOf(P_N).cwiseAbs().maxCoeff());
+    for (Index k = 0; k < before.size(); ++k) {
+      const double e = valueOf(S(p.pair[static_cast<std::size_t>(k)].elasticity));
+      if (!(before[k] + gained[k] >= -e * before[k] - rounding)) return false;
+    }
+    return true;
+  }
+  void leaveOutFriction() {
+    friction = false;
+    kappa = 0;
+    d.setZero();
+    limit = lowest_e_t = -1;
+    margin = 1;
   }
 
   static VectorOf<S> ones(std::size_t n) { return VectorOf<S>::Ones(static_cast<Index>(n)); }

@@ -74,7 +74,7 @@ StateBar Lanes::rate(int body, const DualState& state) const {
   if (!m.moving) return F;
   F.x = state.v;
   F.theta = state.omega(m);
-  F.v = gravity_;
+  F.v = m.gravity_factor * gravity_;
   return F;
 }
 

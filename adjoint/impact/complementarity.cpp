@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 
 #include "adjoint/errors.h"
 
@@ -75,7 +76,7 @@ Contacts spread(const MatrixXd& A, const VectorXd& b, const VectorXd& y, Contact
 
 // Active set of Lawson and Hanson: contacts enter one at a time, the most violated first, and leave at the first
 // impulse that would turn negative.
-std::vector<int> activeContacts(const MatrixXd& A, const VectorXd& b) {
+std::vector<int> activeContacts(const MatrixXd& A, const VectorXd& b, bool in_range) {
   const Index n = b.size();
   requireComputable(A, b);
   if (n == 0) return {};
@@ -98,6 +99,20 @@ std::vector<int> activeContacts(const MatrixXd& A, const VectorXd& b) {
     for (bool feasible = false; !feasible;) {
       const Contacts list = members();
       const LeastNormSolve solve(A(list, list), b(list));
+      const VectorXd against = solve.rest * b(list);  // no impulse changes this part of the velocities
+      if (!in_range && against.norm() > 1e-9 * b.cwiseAbs().maxCoeff()) {
+        // more of -against leaves the velocities alone and is wanted: up to where the first contact leaves
+        double most = std::numeric_limits<double>::infinity();
+        Index first = -1;
+        for (std::size_t c = 0; c < list.size(); ++c) {
+          const double rate = -against[static_cast<Index>(c)];
+          if (rate < -1e-12 * against.norm() && -y[list[c]] / rate < most) most = -y[list[c]] / rate, first = list[c];
+        }
+        if (first < 0) throw NotComputable("a body is squeezed between others that nothing moves");
+        for (std::size_t c = 0; c < list.size(); ++c) y[list[c]] -= most * against[static_cast<Index>(c)];
+        in[static_cast<std::size_t>(first)] = false, y[first] = 0;
+        continue;
+      }
       double step = 1;
       Index leave = -1;
       for (std::size_t c = 0; c < list.size(); ++c) {

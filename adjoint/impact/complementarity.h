@@ -19,8 +19,9 @@ struct LeastNormSolve {
 };
 
 /// Contacts, in increasing order, that have an impulse in the solution of y >= 0, A y + b >= 0, complementary, with A
-/// symmetric positive semidefinite (equation 4.3). Where redundant contacts leave a choice, the impulses
-/// are spread over all of them. Throws NotComputable for numbers that are not finite.
-std::vector<int> activeContacts(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+/// symmetric positive semidefinite and b in its range unless `in_range` is false (equation 4.3). Where redundant contacts leave a choice, the impulses
+/// are spread over all of them. Throws NotComputable for numbers that are not finite, and where a b outside of
+/// the range of A leaves no solution.
+std::vector<int> activeContacts(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool in_range = true);
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 namespace carom {
 
 // u_k = sum s (v + omega x r),  K_kl = sum s_k s_l (1/m - [r_k]x A [r_l]x),  A = R diag(1/I) R^T,  omega = A L.
+// A kinematic body adds to u and not to K, and no impulse moves it.
 
 ImpactAssembly::ImpactAssembly(const Event& event, const std::vector<BodyModel>& models) : event_(event) {
   for (const Participant& p : event.participants) {
@@ -18,6 +19,8 @@ ImpactAssembly::ImpactAssembly(const Event& event, const std::vector<BodyModel>&
     body.R = p.before.q.toRotationMatrix();
     body.A = model.inverseInertiaWorld(body.R);
     body.omega = body.A * p.before.L;
+    body.mobility = model.mobilityWorld(body.R);
+    problem_.driven = problem_.driven || model.kinematic;
   }
   const auto n = static_cast<Eigen::Index>(event.contacts.size());
   problem_.u = Eigen::VectorXd::Zero(3 * n);
@@ -39,7 +42,7 @@ ImpactAssembly::ImpactAssembly(const Event& event, const std::vector<BodyModel>&
       if (k.participant != l.participant) continue;
       const MovingBody& body = bodies_[static_cast<std::size_t>(k.participant)];
       problem_.K.block<3, 3>(3 * k.contact, 3 * l.contact) +=
-          k.sign * l.sign * (body.model->inverse_mass * Mat3::Identity() - skew(k.r) * body.A * skew(l.r));
+          k.sign * l.sign * (body.model->inverse_mass * Mat3::Identity() - skew(k.r) * body.mobility * skew(l.r));
     }
 }
 
@@ -47,6 +50,7 @@ std::vector<State> ImpactAssembly::after(const Eigen::VectorXd& P) const {
   std::vector<State> states;
   for (const Participant& p : event_.participants) states.push_back(p.before);
   for (const Arm& arm : arms_) {
+    if (bodies_[static_cast<std::size_t>(arm.participant)].model->kinematic) continue;
     State& s = states[static_cast<std::size_t>(arm.participant)];
     const Vec3 P_k = arm.sign * P.segment<3>(3 * arm.contact);
     s.v += bodies_[static_cast<std::size_t>(arm.participant)].model->inverse_mass * P_k;
@@ -89,6 +93,7 @@ std::vector<StateDerivative> ImpactAssembly::tangent(const Eigen::VectorXd& P,
       const Arm &a = arms_[j], &b = arms_[l];
       if (a.participant != b.participant) continue;
       const auto i = static_cast<std::size_t>(a.participant);
+      if (bodies_[i].model->kinematic) continue;
       const Mat3 Ra = skew(a.r), Rb = skew(b.r), &A = bodies_[i].A;
       dproblem.K.block<3, 3>(3 * a.contact, 3 * b.contact) +=
           a.sign * b.sign *
@@ -99,6 +104,7 @@ std::vector<StateDerivative> ImpactAssembly::tangent(const Eigen::VectorXd& P,
   for (std::size_t j = 0; j < arms_.size(); ++j) {
     const Arm& arm = arms_[j];
     const auto i = static_cast<std::size_t>(arm.participant);
+    if (bodies_[i].model->kinematic) continue;
     const Vec3 P_k = P.segment<3>(3 * arm.contact), dP_k = dP.segment<3>(3 * arm.contact);
     dafter[i].v += arm.sign * (bodies_[i].model->inverse_mass * dP_k + dinverse_mass[i] * P_k);
     dafter[i].L += arm.sign * (arm.r.cross(dP_k) + dr[j].cross(P_k));
@@ -113,12 +119,13 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
                                                       std::vector<BodyModelDerivative>& model_bar) const {
   std::vector<StateDerivative> before_bar = after_bar;
   std::vector<double> inverse_mass_bar(bodies_.size(), 0.0);
-  std::vector<Vec3> r_bar(arms_.size()), omega_bar(bodies_.size(), Vec3::Zero());
+  std::vector<Vec3> r_bar(arms_.size(), Vec3::Zero()), omega_bar(bodies_.size(), Vec3::Zero());
   std::vector<Mat3> A_bar(bodies_.size(), Mat3::Zero());
   Eigen::VectorXd P_bar = Eigen::VectorXd::Zero(P.size());
   for (std::size_t j = 0; j < arms_.size(); ++j) {
     const Arm& arm = arms_[j];
     const auto i = static_cast<std::size_t>(arm.participant);
+    if (bodies_[i].model->kinematic) continue;
     const Vec3 P_k = P.segment<3>(3 * arm.contact);
     const Vec3 &v_bar = after_bar[i].v, &L_bar = after_bar[i].L;
     P_bar.segment<3>(3 * arm.contact) += arm.sign * (bodies_[i].model->inverse_mass * v_bar + L_bar.cross(arm.r));
@@ -132,6 +139,7 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
       const Arm &a = arms_[j], &b = arms_[l];
       if (a.participant != b.participant) continue;
       const auto i = static_cast<std::size_t>(a.participant);
+      if (bodies_[i].model->kinematic) continue;
       const Mat3 Ra = skew(a.r), Rb = skew(b.r), &A = bodies_[i].A;
       const Mat3 K_bar = a.sign * b.sign * bar.K.block<3, 3>(3 * a.contact, 3 * b.contact);
       inverse_mass_bar[i] += K_bar.trace();
@@ -197,7 +205,7 @@ void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector
     const Mat3 A = model.inverseInertiaWorld(p.before.q.toRotationMatrix());
     const Vec3 r = c.at.point - p.before.x, omega = A * p.before.L;
     problem.u += (p.body == c.a ? 1.0 : -1.0) * (p.before.v + omega.cross(r));
-    problem.K += model.inverse_mass * Mat3::Identity() - skew(r) * A * skew(r);
+    if (!model.kinematic) problem.K += model.inverse_mass * Mat3::Identity() - skew(r) * A * skew(r);
   }
   const ContactSolution solution = lawOf(c.pair) == Law::friction ? solveFriction(problem) : solveFrictionless(problem);
   record(c, problem.u, solution.P);
@@ -205,6 +213,7 @@ void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector
   event.margins = marginsOf(c, problem.u, solution.stick_slip_margin);
   for (const Participant& p : event.participants) {
     State& s = after.emplace_back(p.before);
+    if (models[static_cast<std::size_t>(p.body)].kinematic) continue;
     const Vec3 P = (p.body == c.a ? 1.0 : -1.0) * solution.P;
     s.v += models[static_cast<std::size_t>(p.body)].inverse_mass * P;
     s.L += (c.at.point - p.before.x).cross(P);

@@ -43,7 +43,8 @@ class ImpactAssembly {
   };
   struct MovingBody {
     const BodyModel* model;
-    Mat3 R, A;  // principal axes to world; world inverse inertia
+    Mat3 R, A;      // principal axes to world; world inverse inertia
+    Mat3 mobility;  // A, or 0 where impulses do not move the body
     Vec3 omega;
   };
 

@@ -15,6 +15,8 @@ struct ImpactProblem {
   Eigen::VectorXd u;                   ///< 3N, m/s
   std::vector<Vec3> normal;            ///< N
   std::vector<PairCoefficients> pair;  ///< N
+  /// A kinematic body takes part: u need not be in the range of what impulses can change.
+  bool driven = false;
 
   int contacts() const { return static_cast<int>(normal.size()); }
 };

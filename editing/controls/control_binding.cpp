@@ -44,10 +44,15 @@ ControlOwner findOwner(Scene& scene, const Control& control, const ControlKind& 
   if (of_body) owner.body = findAt(where + "/body", [&] { return bodyIndex(scene, control.body); });
   if (of_material) owner.material = findAt(where + "/material", [&] { return materialIndex(scene, control.material); });
 
-  const bool must_move = kind.owner == OwnerKind::moving_body || kind.owner == OwnerKind::impact;
+  const bool must_be_free = kind.owner == OwnerKind::free_body;
+  const bool must_move = kind.owner == OwnerKind::moving_body || kind.owner == OwnerKind::impact || must_be_free;
   if (must_move && scene.bodies[owner.body].fixed) {
     throw InputError(where + "/body", std::string(kind.word) + " cannot vary: body '" + control.body +
                                           "' is fixed, expected a moving body");
+  }
+  if (must_be_free && scene.bodies[owner.body].kinematic) {
+    throw InputError(where + "/body", std::string(kind.word) + " cannot vary: body '" + control.body +
+                                          "' is kinematic, expected a body that impacts move");
   }
   if (kind.owner == OwnerKind::impact) {
     if (control.impact < 1) {

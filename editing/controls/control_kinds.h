@@ -10,8 +10,8 @@
 
 namespace carom {
 
-/// Whose numbers a kind of control varies.
-enum class OwnerKind { body, moving_body, material, impact, scene };
+/// Whose numbers a kind of control varies; a free body is one that impacts move.
+enum class OwnerKind { body, moving_body, free_body, material, impact, scene };
 
 /// The owner, as indices into a scene (-1 where it does not apply).
 struct ControlOwner {

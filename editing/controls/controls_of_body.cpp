@@ -74,7 +74,7 @@ void scatterSize(const Eigen::VectorXd& rates, const ControlOwner& o, const Eige
 
 }  // namespace
 
-const ControlKind kMassControl{"mass",       OwnerKind::moving_body,
+const ControlKind kMassControl{"mass",       OwnerKind::free_body,
                                true,         0,
                                kUnbounded,   true,
                                oneComponent, prepareMass,
@@ -82,7 +82,7 @@ const ControlKind kMassControl{"mass",       OwnerKind::moving_body,
                                gatherMass,   scatterMass,
                                oneScale};
 
-const ControlKind kInertiaControl{"inertia",     OwnerKind::moving_body, true,           0,          kUnbounded,
+const ControlKind kInertiaControl{"inertia",     OwnerKind::free_body, true,           0,          kUnbounded,
                                   true,          xyzComponents,          prepareInertia, getInertia, setInertia,
                                   gatherInertia, scatterInertia,         xyzScale};
 

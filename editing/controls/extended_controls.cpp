@@ -33,9 +33,11 @@ std::vector<Control> controlsOfKind(const ControlKind& kind, const Scene& scene,
     for (const Material& material : scene.materials)
       controls.push_back(control), controls.back().material = material.name;
   }
-  if (kind.owner == OwnerKind::body || kind.owner == OwnerKind::moving_body) {
+  const bool any = kind.owner == OwnerKind::body, moving = kind.owner == OwnerKind::moving_body;
+  if (any || moving || kind.owner == OwnerKind::free_body) {
     for (const Body& body : scene.bodies)
-      if (kind.owner == OwnerKind::body || !body.fixed) controls.push_back(control), controls.back().body = body.name;
+      if (any || (moving ? !body.fixed : !body.immovable()))
+        controls.push_back(control), controls.back().body = body.name;
   }
   if (kind.owner == OwnerKind::impact) {
     for (std::size_t e = 0; e < events; ++e)

@@ -63,6 +63,7 @@ std::optional<Body> atNail(const Body& body, const Constraint& constraint, const
 }
 
 bool overlap(ContactSource& contacts, const Body& placed, const Body& solid) {
+  if (!mayCollide(placed, solid)) return false;
   Scene scene;
   scene.bodies = {solid, placed};
   for (Body& body : scene.bodies) body.material.clear();
@@ -76,7 +77,7 @@ bool overlap(ContactSource& contacts, const Body& placed, const Body& solid) {
   } catch (const InputError&) {
     return true;
   }
-  return false;
+  return !contacts.overlaps().empty();  // accepted for the scene that the source was made for
 }
 
 }  // namespace

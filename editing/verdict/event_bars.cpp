@@ -56,6 +56,7 @@ Vec3 EventBars::velocityAt(int contact) const {
 Mat3 EventBars::matrixAt(int contact) const {
   Mat3 K = Mat3::Zero();
   eachArm(contact, [&](std::size_t i, double, const Vec3& r) {
+    if (moving_[i].model->kinematic) return;
     K += moving_[i].model->inverse_mass * Mat3::Identity() - skew(r) * moving_[i].A * skew(r);
   });
   return K;
@@ -115,6 +116,7 @@ void EventBars::addLaw(int contact, const Mat3& K_bar, const Vec3& impulse_norma
   Vec7 contact_bar = Vec7::Zero();
   eachArm(contact, [&](std::size_t i, double, const Vec3& r) {
     const Moving& m = moving_[i];
+    if (m.model->kinematic) return;
     const Mat3 r_x = skew(r), A_bar = -r_x * K_bar * r_x;
     const Vec3 r_bar = unskew(K_bar * r_x * m.A) + unskew(m.A * r_x * K_bar);
     seeds_[i].orientation += unskew(A_bar * m.A - m.A * A_bar);

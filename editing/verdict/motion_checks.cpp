@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMostPairs = 2'000'000;
 
 double kineticEnergy(const BodyModel& model, const State& s) {
+  if (model.kinematic) return 0;  // of a body without mass
   const Vec3 L_B = s.q.conjugate() * s.L;
   return 0.5 * (model.mass * s.v.squaredNorm() + L_B.dot(model.inverse_inertia.cwiseProduct(L_B)));
 }
@@ -54,7 +55,7 @@ class Overlaps {
     const Pose own = poseOf(arc, t);
     const int n = static_cast<int>(motion_.world_lines.size());
     for (int other = 0; other < n; ++other) {
-      if (other == body) continue;
+      if (other == body || !meets(body, other, t)) continue;
       const Arc& its =
           motion_.world_lines[static_cast<std::size_t>(other)].arcs[static_cast<std::size_t>(motion_.arcAt(other, t))];
       // far apart, mostly; a half space has no bound
@@ -66,6 +67,14 @@ class Overlaps {
   double deepest() const { return deepest_; }
 
  private:
+  // Bodies that do not collide may overlap, as may those that did at the start until they part.
+  bool meets(int body, int other, double t) const {
+    const auto& bodies = motion_.scene->bodies;
+    if (!mayCollide(bodies[static_cast<std::size_t>(body)], bodies[static_cast<std::size_t>(other)])) return false;
+    return std::none_of(motion_.overlaps.begin(), motion_.overlaps.end(), [&](const StartOverlap& o) {
+      return o.a == std::min(body, other) && o.b == std::max(body, other) && !(o.parted && *o.parted <= t);
+    });
+  }
   static Pose poseOf(const Arc& arc, double t) {
     const Kinematics k = arc.kinematicsAt(t);
     return {k.x, k.R};
@@ -90,6 +99,25 @@ double energyDrift(const Motion& motion, int samples) {
   return worst;
 }
 
+namespace {
+
+// By kinematic bodies, whose velocities stay as they are: that of their surface times the impulse on the other body.
+double workDone(const Motion& motion, const Event& event) {
+  double work = 0;
+  for (const Participant& p : event.participants) {
+    const BodyModel& model = (*motion.models)[static_cast<std::size_t>(p.body)];
+    if (!model.kinematic) continue;
+    for (const Contact& c : event.contacts) {
+      if (c.a != p.body && c.b != p.body) continue;
+      const Vec3 surface = p.before.v + p.before.L.cross(c.at.point - p.before.x);
+      work += (c.a == p.body ? -1.0 : 1.0) * surface.dot(c.impulse);
+    }
+  }
+  return work;
+}
+
+}  // namespace
+
 double energyGain(const Motion& motion) {
   double worst = 0;
   for (const Event& event : motion.events) {
@@ -100,6 +128,7 @@ double energyGain(const Motion& motion) {
       before += kineticEnergy(model, p.before);
       after += kineticEnergy(model, line.arcs[static_cast<std::size_t>(p.arc) + 1].startState());
     }
+    after -= workDone(motion, event);
     if (before > 0) worst = std::max(worst, after / before - 1);
   }
   return worst;

@@ -39,6 +39,7 @@ using ColliderShape = std::variant<Sphere, Box, Tapered, Sheet, MeshShape>;
 struct Collider {
   ColliderShape shape;
   int material = -1;  ///< index, -1 for none
+  CollisionFilter filter = {};
 };
 
 /// The member `motion`. Vectors are in the axes of the node; velocities are not scaled with it.

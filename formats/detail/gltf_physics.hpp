@@ -40,9 +40,11 @@ class PhysicsWriter {
 
  private:
   int indexOf(const gltf::ColliderShape& shape);
+  int indexOf(const CollisionFilter& filter);
 
   const Scene& scene_;
   std::vector<gltf::ColliderShape> shapes_;
+  std::vector<CollisionFilter> filters_;
   std::map<std::vector<double>, int> known_;  // by kind and numbers
 };
 

@@ -2,7 +2,6 @@
 // Private to formats/*.cpp: the parts of readPhysics.
 #pragma once
 
-#include <map>
 #include <set>
 
 #include "formats/detail/gltf_nodes.hpp"
@@ -43,17 +42,7 @@ class ShapeList {
   std::optional<detail::JsonPlace> shapes_;
 };
 
-/// Collision filters: not supported, and listed with the nodes that use them.
-class FilterList {
- public:
-  explicit FilterList(const detail::JsonPlace& document) : document_(document) {}
-
-  void add(const detail::JsonPlace& filter, const PhysicsNode& node, bool collides);
-  void report(ImportReport& report) const;
-
- private:
-  detail::JsonPlace document_;
-  std::map<int, std::vector<std::string>> users_;  // by filter: names of nodes
-};
+/// An entry of `collisionFilters` of the document, by its index.
+CollisionFilter readFilter(const detail::JsonPlace& document, const detail::JsonPlace& index);
 
 }  // namespace carom::gltf

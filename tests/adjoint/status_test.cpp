@@ -16,11 +16,11 @@ namespace {
 
 using namespace test;
 
-const Vec3 kDown(0, 0, -9.81);
+const Vec3 kFreeFall(0, 0, -9.81);
 
 Body floorPlane() { return makePlane("floor", Vec3::UnitZ(), 0); }
 Scene droppedBall(double elasticity, double height = 1.1) {
-  return makeScene(kDown, elasticity, 0, {makeBall("ball", 0.1, {0, 0, height}), floorPlane()});
+  return makeScene(kFreeFall, elasticity, 0, {makeBall("ball", 0.1, {0, 0, height}), floorPlane()});
 }
 
 TEST(Status, Complete) {
@@ -86,13 +86,13 @@ TEST(Status, BoxRattlesToRest) {
   for (double e : {0.0, 0.3, 0.6})
     for (double friction : {0.0, 0.5}) {
       const std::string what = "e " + std::to_string(e) + ", friction " + std::to_string(friction);
-      expectRest(makeScene(kDown, e, friction, {tumblingBox(), floorPlane()}), what.c_str());
+      expectRest(makeScene(kFreeFall, e, friction, {tumblingBox(), floorPlane()}), what.c_str());
     }
 }
 
 TEST(Status, BoxDroppedFlatComesToRest) {
   for (double e : {0.0, 0.3})
-    expectRest(makeScene(kDown, e, 0.5, {makeBox("box", {0.3, 0.2, 0.15}, {0, 0, 1}, {0.2, 0, 0}), floorPlane()}),
+    expectRest(makeScene(kFreeFall, e, 0.5, {makeBox("box", {0.3, 0.2, 0.15}, {0, 0, 1}, {0.2, 0, 0}), floorPlane()}),
                "flat");
 }
 
@@ -100,14 +100,14 @@ TEST(Status, BallInAVComesToRest) {
   const double s = std::sqrt(0.5);
   for (double friction : {0.0, 0.5})
     for (double x : {0.0, 0.13})
-      expectRest(makeScene(kDown, 0.5, friction,
+      expectRest(makeScene(kFreeFall, 0.5, friction,
                            {makeBall("ball", 0.1, {x, 0, 1}), makePlane("left", {s, 0, s}, 0),
                             makePlane("right", {-s, 0, s}, 0)}),
                  "V");
 }
 
 TEST(Status, StackComesToRest) {
-  expectRest(makeScene(kDown, 0.3, 0.5,
+  expectRest(makeScene(kFreeFall, 0.3, 0.5,
                        {makeBox("low", {0.4, 0.4, 0.2}, {0, 0, 0.3}), makeBox("high", {0.2, 0.2, 0.2}, {0.05, 0, 0.8}),
                         floorPlane()}),
              "stack");
@@ -119,7 +119,7 @@ TEST(Status, RestingFromTheStart) {
   for (double e : {0.0, 0.5, 1.0})
     for (const Body& body : {box, makeBall("ball", 0.1, {0, 0, 0.1})}) {
       SCOPED_TRACE(body.name + ", e " + std::to_string(e));
-      const Motion m = play(makeScene(kDown, e, 0.3, {body, floorPlane()}), 3);
+      const Motion m = play(makeScene(kFreeFall, e, 0.3, {body, floorPlane()}), 3);
       EXPECT_EQ(m.status, MotionStatus::cascade) << m.message;
       EXPECT_LT(m.end, 1e-6);
     }

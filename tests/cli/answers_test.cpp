@@ -67,7 +67,7 @@ TEST_P(OnScene, SimulateGivesTheMotionToTheLastBit) {
   OdeContacts contacts(document.scene);
   const Motion motion = simulate(document.scene, contacts, document.duration);
   const json answer = runJson({"simulate", path(), "--at", "0.125", "--at", "0.7"});
-  EXPECT_EQ(membersOf(answer), (Names{"end", "events", "message", "states", "status"}));
+  EXPECT_EQ(membersOf(answer), (Names{"end", "events", "message", "overlaps", "states", "status"}));
   EXPECT_EQ(answer["status"], nameOf(motion.status));
   ASSERT_EQ(answer["events"].size(), motion.events.size());
   for (std::size_t i = 0; i < motion.events.size(); ++i) {
@@ -208,7 +208,7 @@ TEST_P(OnScene, ValidateAcceptsAndInfoExplains) {
   EXPECT_EQ(membersOf(runJson({"validate", path()})),
             (Names{"bodies", "constraints", "controls", "file", "message", "valid"}));
   const json info = runJson({"info", path()});
-  EXPECT_EQ(membersOf(info), (Names{"asked", "bodies", "controls", "duration", "name", "notes", "pairs", "rows"}));
+  EXPECT_EQ(membersOf(info), (Names{"asked", "bodies", "controls", "duration", "name", "notes", "overlaps", "pairs", "rows"}));
   EXPECT_EQ(info["bodies"].size(), readDocument(path()).scene.bodies.size());
   for (const json& body : info["bodies"]) {
     Names members{"derivative_tier", "derivative_why", "dimensions", "name", "shape", "tier", "why"};

@@ -82,10 +82,29 @@ INSTANTIATE_TEST_SUITE_P(
                  scene["bodies"][1]["mass"] = -2;
                  return writeTemporary("mass.json", scene.dump());
                },
-               "/bodies/1/mass", "-2"},
-        Broken{"Overlap", [] { return writeTemporary("overlap.json", twoBalls(0.15).dump()); }, "/bodies/1",
-               "overlapping"}),
+               "/bodies/1/mass", "-2"}),
     [](const auto& test) { return test.param.name; });
+
+// Bodies that overlap at the start are told of once, or refused.
+TEST(Errors, Overlaps) {
+  const std::string path = writeTemporary("overlap.json", twoBalls(0.15).dump());
+  const CommandRun run = runCommand({"simulate", path});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.out.find("'a' and 'b' overlap by 0.05 m at the start and do not part"), std::string::npos) << run.out;
+  const json answer = runJson({"simulate", path});
+  ASSERT_EQ(answer["overlaps"].size(), 1u);
+  EXPECT_EQ(answer["overlaps"][0]["bodies"], json({"a", "b"}));
+  EXPECT_TRUE(answer["overlaps"][0]["parted"].is_null());
+  EXPECT_EQ(runJson({"info", path})["overlaps"].size(), 1u);
+  const CommandRun valid = runCommand({"validate", path});
+  EXPECT_EQ(valid.code, 0);
+  EXPECT_NE(valid.err.find("overlap by 0.05 m at the start"), std::string::npos) << valid.err;
+  for (const char* command : {"simulate", "validate", "gradient", "edit"}) {
+    const json refused = runJson({command, path, "--refuse-overlaps"}, 1);
+    EXPECT_EQ(refused["error"]["pointer"], "/bodies/1") << command;
+    EXPECT_NE(refused["error"]["message"].get<std::string>().find("overlapping"), std::string::npos) << refused;
+  }
+}
 
 // Constraints that the motion does not have: an error for everything that needs them.
 class MissingTarget : public testing::TestWithParam<std::string> {};

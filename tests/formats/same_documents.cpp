@@ -58,6 +58,9 @@ void expectSameShape(const Shape& a, const Shape& b, const std::string& where) {
 void expectSameBody(const Body& a, const Body& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.fixed, b.fixed);
+  EXPECT_EQ(a.kinematic, b.kinematic);
+  EXPECT_EQ(a.gravity_factor, b.gravity_factor);
+  EXPECT_EQ(a.collision_filter, b.collision_filter);
   EXPECT_EQ(a.material, b.material);
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.density, b.density);

@@ -43,7 +43,7 @@ const std::string& documentWithEverything() {
       "shape": { "plane": { "normal": [0, 0.6, 0.8], "offset": -0.125 } } },
     { "name": "wall", "fixed": true, "mass": 3, "position": [7, 0, 1], "orientation": [0.6, 0, 0.8, 0],
       "shape": { "box": { "size": [0.1, 2, 0.3] } } },
-    { "name": "ball", "fixed": false, "density": 700.5, "material": "a/b~c \"quoted\" é",
+    { "name": "ball", "fixed": false, "gravity_factor": -0.1, "collision_filter": { "systems": ["balls", "é"], "collide_with": ["balls"] }, "density": 700.5, "material": "a/b~c \"quoted\" é",
       "shape": { "sphere": { "radius": 0.1 } }, "position": [0, 0, 3] },
     { "name": "book", "notes": "the one with the torn cover", "mass": 0.4, "inertia": [0.0011, 0.0012, 0.0019], "material": "felt",
       "shape": { "box": { "size": [0.21, 0.15, 0.03] } },
@@ -52,7 +52,7 @@ const std::string& documentWithEverything() {
     { "name": "crate", "mass": 2,
       "inertia": [[0.2, 0.01, 0.005], [0.01, 0.25, -0.02], [0.005, -0.02, 0.3]],
       "shape": { "box": { "size": [1, 1, 1] } }, "position": [-5, 0, 6] },
-    { "name": "pill", "density": 1100, "shape": { "capsule": { "radius": 0.11, "height": 0.7 } }, "position": [-8, 0, 6] },
+    { "name": "pill", "kinematic": true, "collision_filter": { "not_collide_with": ["é"] }, "density": 1100, "shape": { "capsule": { "radius": 0.11, "height": 0.7 } }, "position": [-8, 0, 6] },
     { "name": "can", "density": 1200, "shape": { "cylinder": { "radius": 0.12, "height": 0.9 } }, "position": [-9, 0, 6] },
     { "name": "die", "mass": 0.031, "center_of_mass": [0.013, -0.002, 0.001],
       "shape": { "hull": { "points": [

@@ -63,6 +63,7 @@ const std::vector<Told> kTold = {
     {"/definitions/material", "Materials"},
     {"/definitions/material/properties/combine", "combine"},
     {"/definitions/body", "Bodies"},
+    {"/definitions/body/properties/collision_filter", "Collision filters"},
     {"/definitions/shape", "Shapes"},
     {"/definitions/sphere", "sphere"},
     {"/definitions/box", "box"},

@@ -91,6 +91,64 @@ TEST(Members, MassCentreAndInertia) {
   EXPECT_FALSE(box.center_of_mass.has_value());
 }
 
+// The nearest moments that a body can have: (I1 - d, I2 + d, I3 + d), d = (I1 - I2 - I3)/3.
+TEST(Members, ImpossibleMomentsAreMended) {
+  for (int largest = 0; largest < 3; ++largest) {
+    Vec3 written(0.1, 0.1, 0.1), expected(1.0 / 6, 1.0 / 6, 1.0 / 6);
+    written[largest] = 0.4, expected[largest] = 1.0 / 3;
+    json file = plainDocument();
+    ballMotion(file)["inertiaDiagonal"] = {written.x(), written.y(), written.z()};
+    const Imported imported = importJson(file);
+    EXPECT_EQ(imported.report.warnings.size(), 1u) << listOf(imported.report);
+    const Vec3 moments = bodyIn(imported, "ball").inertia.moments;
+    const Vec3 ours = largest == 1 ? Vec3(expected.x(), expected.z(), expected.y()) : largest == 2 ? Vec3(expected.x(), expected.z(), expected.y()) : expected;
+    expectEntries(moments, ours, 1e-15, "moments");
+    EXPECT_NO_THROW(validate(imported.document.scene));
+  }
+  json file = plainDocument();  // what is possible stays as it is
+  ballMotion(file)["inertiaDiagonal"] = {0.2, 0.1, 0.1};
+  EXPECT_TRUE(importJson(file).report.warnings.empty());
+}
+
+TEST(Members, KinematicGravityFactorAndFilter) {
+  json file = plainDocument();
+  ballMotion(file)["gravityFactor"] = 0.5;
+  file["extensions"]["KHR_physics_rigid_bodies"]["collisionFilters"] = {
+      {{"collisionSystems", {"a", "b"}}, {"notCollideWithSystems", {"c"}}}, {{"collideWithSystems", {"a"}}}};
+  physicsOf(file, 1)["collider"]["collisionFilter"] = 0;
+  physicsOf(file, 0)["collider"]["collisionFilter"] = 1;
+  const Imported falling = importJson(file);
+  EXPECT_TRUE(falling.report.warnings.empty()) << listOf(falling.report);
+  EXPECT_EQ(bodyIn(falling, "ball").gravity_factor, 0.5);
+  EXPECT_EQ(bodyIn(falling, "ball").collision_filter, (CollisionFilter{{"a", "b"}, {}, {"c"}}));
+  EXPECT_EQ(bodyIn(falling, "floor").collision_filter, (CollisionFilter{{}, {"a"}, {}}));
+
+  ballMotion(file)["isKinematic"] = true;
+  ballMotion(file)["linearVelocity"] = {1, 2, 3};
+  const Imported moving = importJson(file);
+  EXPECT_TRUE(moving.report.warnings.empty()) << listOf(moving.report);
+  EXPECT_TRUE(bodyIn(moving, "ball").kinematic);
+  EXPECT_FALSE(bodyIn(moving, "ball").fixed);
+  EXPECT_FALSE(bodyIn(moving, "ball").mass.has_value());
+  EXPECT_EQ(bodyIn(moving, "ball").velocity, Vec3(1, -3, 2));
+
+  ballMotion(file).erase("linearVelocity");  // at rest: fixed
+  const Imported still = importJson(file);
+  EXPECT_TRUE(still.report.warnings.empty()) << listOf(still.report);
+  EXPECT_TRUE(bodyIn(still, "ball").fixed);
+}
+
+TEST(Members, JointsAndTriggersAreListed) {
+  json file = plainDocument();
+  physicsOf(file, 1)["joint"] = {{"connectedNode", 0}};
+  file["nodes"].push_back(json::object());
+  physicsOf(file, 2)["trigger"] = {{"geometry", {{"shape", 1}}}};
+  file["scenes"][0]["nodes"].push_back(2);
+  const Imported imported = importJson(file);
+  EXPECT_EQ(imported.report.joints, std::vector<std::string>{"ball"});
+  EXPECT_EQ(imported.report.triggers, std::vector<std::string>{"node-2"});
+}
+
 TEST(Members, WithoutAMassItIsThatOfWater) {
   json file = plainDocument();
   physicsOf(file, 1)["motion"] = json::object();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/import/scenes.h"
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -123,6 +124,14 @@ Document documentOfEveryKind() {
     if (k % 4 == 3) body.center_of_mass = Vec3(0.01, -0.02, 0.1 / 3);
     ++k;
   }
+  const auto named = [&](const char* name) -> Body& {
+    return *std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == name; });
+  };
+  named("cylinder").kinematic = true;
+  named("capsule").gravity_factor = -1.0 / 3;
+  named("sphere").collision_filter = {{"b\xC3\xA4lle", "small"}, {}, {"walls", "drums"}};
+  named("hat <1> \"x\"").collision_filter = {{}, {"small"}, {}};
+  named("drum").collision_filter = named("post").collision_filter = {{"drums"}, {}, {}};
   Body& open = bodies.back();
   open.mass = 1.5, open.density.reset();
   open.inertia = Inertia::fromMoments({0.2, 0.3, 0.4});

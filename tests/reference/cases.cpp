@@ -146,6 +146,19 @@ Scene sphericalBody() {
   return s;
 }
 
+/// A box that gravity pulls less, thrown on a kinematic one that moves and turns.
+Scene boxOnKinematic() {
+  Scene s = boxOnPlane();
+  s.bodies[0].gravity_factor = 0.6;
+  Body lift = moving("lift", Box{{1.9, 2.1, 0.3}}, "wood", {0.1, -0.1, 0.05}, {0.05, -0.04, 0.3}, {0.2, -0.1, 0.45},
+                     {0.1, -0.2, 0.3});
+  lift.kinematic = true;
+  lift.gravity_factor = 2;  // has no say
+  s.bodies[1] = lift;
+  s.tilts = {{"box", 1, {0.03, -0.02}}};
+  return s;
+}
+
 }  // namespace
 
 Body makeBody(const std::string& name, const Shape& shape, const std::string& material) {
@@ -186,6 +199,7 @@ const std::vector<Case>& cases() {
       {"ball_on_ball", ballOnBall, 0.6, {slide, stick, stick}, {"sphere on sphere", "plane", "plane"}},
       {"box_on_wall", boxOnWall, 0.6, {slide, stick, slide}, {"vertex", "edge", "vertex"}},
       {"symmetric_body", symmetricBody, 0.9, {stick, slide}, {"vertex", "vertex"}},
+      {"box_on_kinematic", boxOnKinematic, 0.7, {ImpactMode::stick, ImpactMode::stick}, {"face", "face"}},
       {"spherical_body", sphericalBody, 0.76, {stick, slide}, {"vertex", "vertex"}},
   };
   return table;

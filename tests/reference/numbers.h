@@ -15,7 +15,8 @@ namespace carom::reference {
 struct BodyNumbers {
   enum class Kind { sphere, box, plane };
   Kind kind = Kind::sphere;
-  bool moving = false;
+  bool moving = false, kinematic = false;
+  Real gravity_factor = 1;
   RVec size;          ///< radius, or full edge lengths
   RVec plane_normal;  ///< unit, in the shape's frame
   Real plane_offset;
@@ -34,7 +35,9 @@ struct BodyNumbers {
     if (kind == Kind::sphere) return mass_or_density * pi() * 4 / 3 * size[0] * size[0] * size[0];
     return mass_or_density * size[0] * size[1] * size[2];
   }
+  bool massive() const { return moving && !kinematic; }
   RVec inertia() const {
+    if (kinematic) return {1, 1, 1};  // turns about a fixed axis
     if (!inertia_derived) return moments;
     const RVec square = times(size, size);
     if (kind == Kind::sphere) return (mass() * 2 / 5 * square[0]) * RVec{1, 1, 1};
@@ -82,13 +85,16 @@ inline BodyNumbers numbersOf(const Scene& scene, const Body& body) {
   n.position = RVec(body.position);
   n.orientation = rotationOf(body.orientation);
   if (!n.moving) return n;
+  n.velocity = RVec(body.velocity);
+  n.spin = RVec(body.angular_velocity);
+  n.kinematic = body.kinematic;
+  n.gravity_factor = n.kinematic ? 0 : body.gravity_factor;
+  if (n.kinematic) return n;
   n.has_density = body.density.has_value();
   n.mass_or_density = n.has_density ? *body.density : body.mass.value();
   n.inertia_derived = body.inertia.source == Inertia::Source::derived;
   n.moments = RVec(body.inertia.moments);
   n.axes = rotationOf(body.inertia.axes);
-  n.velocity = RVec(body.velocity);
-  n.spin = RVec(body.angular_velocity);
   return n;
 }
 

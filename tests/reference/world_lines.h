@@ -70,7 +70,8 @@ class WorldLines {
     if (!n.moving) return {n.position, n.orientation, {}, {}};
     const Real s = t - f.start;
     const RMat R = f.rotation->orientationAt(s);
-    return {f.x + s * f.v + (s * s / 2) * numbers_.gravity, R * transpose(n.axes), f.v + s * numbers_.gravity,
+    const RVec g = n.gravity_factor * numbers_.gravity;
+    return {f.x + s * f.v + (s * s / 2) * g, R * transpose(n.axes), f.v + s * g,
             f.rotation->spinAt(R)};
   }
   Placed placedAt(int body, const Real& t) const {
@@ -128,9 +129,11 @@ class WorldLines {
     Side side;
     side.moving = n.moving;
     if (!n.moving) return side;
-    side.inverse_mass = 1 / n.mass();
-    const RVec inertia = n.inertia();
-    for (int i = 0; i < 3; ++i) side.inverse_inertia[i] = 1 / inertia[i];
+    if (!n.kinematic) {
+      side.inverse_mass = 1 / n.mass();
+      const RVec inertia = n.inertia();
+      for (int i = 0; i < 3; ++i) side.inverse_inertia[i] = 1 / inertia[i];
+    }
     side.R = s.R * n.axes;
     side.arm = point - s.position;
     side.velocity = s.velocity, side.spin = s.spin;
@@ -170,6 +173,7 @@ class WorldLines {
   void strike(int body, const Side& side, const FrozenImpact& f, const RealState& s, const RVec& P) {
     if (!side.moving) return;
     const RVec L = side.R * times(numbers_.bodies[body].inertia(), transposeTimes(side.R, side.spin));
+    if (numbers_.bodies[body].kinematic) return push(body, f.time, s.position, s.velocity, side.R, L);
     push(body, f.time, s.position, s.velocity + side.inverse_mass * P, side.R, L + cross(side.arm, P));
   }
 

@@ -162,6 +162,75 @@ Scene threeBodies() {
   return randomScene(4, o);
 }
 
+// bodies that gravity pulls each in its own way
+Scene gravityFactor() {
+  Scene s = boxOnFloor(0.7, 0.3);
+  s.bodies[0].gravity_factor = 0.4;
+  return s;
+}
+Scene gravityFactors() {
+  Scene s = ballBall();
+  s.bodies[0].gravity_factor = 0.3;
+  s.bodies[1].gravity_factor = 0.9;
+  return s;
+}
+
+Body kinematicSlab(const Vec3& velocity, const Vec3& spin) {
+  Body b = makeBox("slab", {2, 2.2, 0.2}, {0.1, 0, 0.1}, velocity);
+  b.mass.reset();
+  b.kinematic = true;
+  b.angular_velocity = spin;
+  b.gravity_factor = 3;  // has no say
+  return b;
+}
+const Vec3 kSlabVelocity(0.3, -0.2, 0.4), kSlabSpin(0.2, -0.3, 0.5);
+Scene kinematicTarget() {
+  return makeScene(kGravity, 0.7, 0.3, {thrownBox(), kinematicSlab(kSlabVelocity, kSlabSpin)});
+}
+Scene kinematicFirst() {
+  return makeScene(kGravity, 0.7, 0.3, {kinematicSlab(kSlabVelocity, kSlabSpin), thrownBox()});
+}
+Scene kinematicFrictionless() {
+  Scene s = kinematicTarget();
+  s.materials[0].friction = 0;
+  return s;
+}
+Scene kinematicOffset() {
+  Scene s = kinematicTarget();
+  s.bodies[1].center_of_mass = Vec3(0.2, -0.3, 0.05);
+  return s;
+}
+// whose centre moves with its sizes
+Scene kinematicCompound() {
+  Scene s = kinematicTarget();
+  Compound parts;
+  parts.parts.push_back({Box{{2, 2.2, 0.2}}, Vec3::Zero(), Quat::Identity()});
+  parts.parts.push_back({Box{{0.3, 0.4, 0.5}}, {-0.8, 0.7, -0.2}, Quat(0.9, 0.1, 0.2, 0.1).normalized()});
+  s.bodies[1].shape = parts;
+  return s;
+}
+Scene kinematicJoint(double friction) {
+  Scene s = joint(friction);
+  s.bodies[1] = kinematicSlab({0.2, -0.1, 0.3}, Vec3::Zero());
+  return s;
+}
+Scene kinematicJointStick() { return kinematicJoint(3); }
+Scene kinematicJointSlide() { return kinematicJoint(0.1); }
+// half on a slab that moves and half on one that does not
+Scene kinematicAndFixed(double friction) {
+  Scene s = joint(friction);
+  Body moving = kinematicSlab({0.2, 0.1, 0}, Vec3::Zero()), still = fixedBody(moving);
+  moving.position.x() = -1.2, still.position.x() = 1;
+  still.kinematic = false, still.velocity.setZero(), still.name = "still";
+  s.bodies[0].velocity = {0, 0, -1};
+  s.bodies.pop_back();
+  s.bodies.push_back(moving);
+  s.bodies.push_back(still);
+  return s;
+}
+Scene kinematicAndFixedFrictionless() { return kinematicAndFixed(0); }
+Scene kinematicAndFixedFriction() { return kinematicAndFixed(0.5); }
+
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, const DotProductScene& row) { return out << row.name; }
@@ -207,6 +276,17 @@ std::vector<DotProductScene> dotProductScenes() {
       {"combine_multiply", combineMultiply},
       {"tilt", tilted, 3},
       {"several_bodies", threeBodies, 5},
+      {"gravity_factor", gravityFactor},
+      {"gravity_factors", gravityFactors, 2, {"ball on ball"}},
+      {"kinematic", kinematicTarget},
+      {"kinematic_first", kinematicFirst},
+      {"kinematic_frictionless", kinematicFrictionless},
+      {"kinematic_offset", kinematicOffset},
+      {"kinematic_compound", kinematicCompound},
+      {"kinematic_joint_stick", kinematicJointStick, 2, {"joint"}},
+      {"kinematic_joint_slide", kinematicJointSlide, 2, {"joint"}},
+      {"kinematic_and_fixed_frictionless", kinematicAndFixedFrictionless, 1, {"joint"}},
+      {"kinematic_and_fixed_friction", kinematicAndFixedFriction, 1, {"joint"}},
   };
 }
 
