@@ -44,6 +44,17 @@ TEST(LibraryOfC, HasSines) {
   }
 }
 
+// What libraries look for when they are loaded: with cli/c_functions.cpp linked in, they find ours in the program.
+TEST(LibraryOfC, GivesWayToTheProgram) {
+  Dl_info program{}, found{};
+  ASSERT_NE(dladdr(reinterpret_cast<void*>(&sceneNames), &program), 0);
+  for (const char* name : {"sin", "cos", "tan", "sincos", "atan2", "exp", "log", "log10", "pow", "sinh", "cosh", "cbrt",
+                           "hypot"}) {
+    ASSERT_NE(dladdr(dlsym(RTLD_DEFAULT, name), &found), 0) << name;
+    EXPECT_EQ(found.dli_fbase, program.dli_fbase) << name << " is found in " << found.dli_fname;
+  }
+}
+
 std::string sinesOfTheLibrary() {
   const CommandRun run = runProgram("/proc/self/exe", {"--gtest_brief=1", "--gtest_filter=LibraryOfC.HasSines"});
   std::string sines;
