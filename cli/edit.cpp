@@ -168,7 +168,8 @@ Action declareEdit(CLI::App& app) {
   const auto options = std::make_shared<EditArguments>();
   addScene(app, options->scene);
   addRefuseOverlaps(app, options->refuse_overlaps);
-  app.add_option("-o,--output", options->output, "Write the scene with its new values here; - for standard output")->type_name("OUT.json");
+  app.add_option("-o,--output", options->output, "Write the scene with its new values here; - for standard output")
+      ->type_name("OUT.json");
   app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");

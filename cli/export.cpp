@@ -136,15 +136,17 @@ Exit exportScene(const ExportArguments& options, Output& out) {
     out.document(exportJson(options.output, bytes, motion));
   else
     sayWritten(out, options.output,
-               " (" + out.number(motion.end) + " s, " + counted(static_cast<long long>(motion.events.size()), "impact") +
-                   ", " + std::to_string(bytes) + " bytes)");
+               " (" + out.number(motion.end) + " s, " +
+                   counted(static_cast<long long>(motion.events.size()), "impact") + ", " + std::to_string(bytes) +
+                   " bytes)");
   return Exit::done;
 }
 
 Action declareExport(CLI::App& app) {
   const auto options = std::make_shared<ExportArguments>();
   addScene(app, options->scene);
-  app.add_option("-o,--output", options->output, "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output")
+  app.add_option("-o,--output", options->output,
+                 "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output")
       ->required()
       ->type_name("FILE");
   app.add_option("--format", options->format, "What to write, where the name of the file does not say it")
@@ -169,7 +171,8 @@ Action declareExport(CLI::App& app) {
       ->check(positiveNumber())
       ->type_name("S");
   app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
-  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")->type_name("OLD.json");
+  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")
+      ->type_name("OLD.json");
   addRefuseOverlaps(app, options->refuse_overlaps);
   return [options](Output& out) { return exportScene(*options, out); };
 }

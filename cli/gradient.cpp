@@ -18,6 +18,7 @@ namespace {
 
 struct GradientArguments {
   std::string scene, method = "adjoint";
+  bool refuse_overlaps = false;
 };
 
 /// The worst of all rows, with everything there is to say about it.
@@ -90,6 +91,7 @@ Exit gradient(const GradientArguments& options, Output& out) {
 Action declareGradient(CLI::App& app) {
   const auto options = std::make_shared<GradientArguments>();
   addScene(app, options->scene);
+  addRefuseOverlaps(app, options->refuse_overlaps);
   app.add_option("--method", options->method, "adjoint: one reverse pass a row; tangent: one forward pass a control")
       ->check(CLI::IsMember({"adjoint", "tangent"}))
       ->type_name("NAME");

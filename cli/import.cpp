@@ -70,8 +70,12 @@ Exit importScene(const ImportArguments& options, Output& out) {
 
 Action declareImport(CLI::App& app) {
   const auto options = std::make_shared<ImportArguments>();
-  app.add_option("file", options->input, "The file to read: .glb or .gltf; - for standard input")->required()->type_name("M.glb");
-  app.add_option("-o,--output", options->output, "The scene document to write; - for standard output")->required()->type_name("S.json");
+  app.add_option("file", options->input, "The file to read: .glb or .gltf; - for standard input")
+      ->required()
+      ->type_name("M.glb");
+  app.add_option("-o,--output", options->output, "The scene document to write; - for standard output")
+      ->required()
+      ->type_name("S.json");
   app.add_option("--duration", options->duration, "Seconds to simulate, 1 if neither this nor the file says it")
       ->check(positiveNumber())
       ->type_name("T");

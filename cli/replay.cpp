@@ -34,7 +34,8 @@ std::string describe(const SessionGesture& gesture) {
 }
 
 void print(Output& out, const SessionJournal& journal, const std::vector<ReplayedGesture>& played) {
-  Table table({">gesture", "", ">updates", ">slowest [ms]", "reached", ">distance [m]", ">nails, error [SI]", "as recorded"});
+  Table table({">gesture", "", ">updates", ">slowest [ms]", "reached", ">distance [m]", ">nails, error [SI]",
+               "as recorded"});
   for (std::size_t i = 0; i < played.size(); ++i) {
     const ReplayedGesture& gesture = played[i];
     table.row({std::to_string(i), describe(journal.gestures[i]), std::to_string(gesture.updates),
@@ -91,8 +92,11 @@ Exit replay(const ReplayArguments& options, Output& out) {
 
 Action declareReplay(CLI::App& app) {
   const auto options = std::make_shared<ReplayArguments>();
-  app.add_option("journal", options->journal, "The journal of an edit session; - for standard input")->required()->type_name("J.json");
-  app.add_option("-o,--output", options->output, "Write the scene at its end here; - for standard output")->type_name("OUT.json");
+  app.add_option("journal", options->journal, "The journal of an edit session; - for standard input")
+      ->required()
+      ->type_name("J.json");
+  app.add_option("-o,--output", options->output, "Write the scene at its end here; - for standard output")
+      ->type_name("OUT.json");
   return [options](Output& out) { return replay(*options, out); };
 }
 

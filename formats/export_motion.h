@@ -19,7 +19,8 @@ struct ExportOptions {
 void exportMotion(const std::string& path, const Document& document, const Motion& motion,
                   const ExportOptions& options = {});
 
-/// The bytes of a file of a format: "glb", "gltf", "py", "csv" or "svg". `title` stands above a picture. Throws InputError.
+/// The bytes of a file of a format: "glb", "gltf", "py", "csv" or "svg". `title` stands above a picture. Throws
+/// InputError.
 std::string motionText(const std::string& format, const std::string& title, const Document& document,
                        const Motion& motion, const ExportOptions& options = {});
 

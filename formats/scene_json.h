@@ -31,8 +31,8 @@ Document parseDocument(std::string_view text, const std::string& name, const std
 /// that are not finite.
 std::string writeDocument(const Document& document);
 
-/// The same for a file in another folder than the document's: file names become relative to that. Reads its own text back
-/// first, so that what is written can be opened. Throws InputError.
+/// The same for a file in another folder than the document's: file names become relative to that. Reads its own text
+/// back first, so that what is written can be opened. Throws InputError.
 std::string writeDocumentIn(const std::string& folder, const Document& document);
 
 /// Writes the document to a new file beside `path`, which then takes the name `path`: what was saved there before is

@@ -61,7 +61,8 @@ std::string zshCompletion(const DeclaredProgram& program) {
   for (const DeclaredCommand& command : program.commands)
     text += "    " + command.name + ")\n" + zshArguments(command.options, "      ") + "      ;;\n";
   // Both as a file of $fpath and in `source <(carom completion zsh)`.
-  return text + "  esac\n}\nif [[ $funcstack[1] == _carom ]]; then\n  _carom \"$@\"\nelse\n  compdef _carom carom\nfi\n";
+  return text + "  esac\n}\n"
+                "if [[ $funcstack[1] == _carom ]]; then\n  _carom \"$@\"\nelse\n  compdef _carom carom\nfi\n";
 }
 
 }  // namespace carom::cli

@@ -229,6 +229,7 @@ TEST(Outcomes, ACheckThatCannotCompareEndsWithFour) {
   const CommandRun run = runCommand({"check", path});
   EXPECT_EQ(run.code, 4);
   EXPECT_NE(run.err.find("Failed"), std::string::npos) << run.err;
+  EXPECT_EQ(run.out.find("Failed"), std::string::npos) << "said twice: " << run.out;
 }
 
 TEST(Outcomes, AGradientThroughAJointImpactIsNotCalledReliable) {

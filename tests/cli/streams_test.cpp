@@ -95,7 +95,8 @@ TEST(StandardOutput, OfAnEditIsItsDocument) {
 TEST(StandardOutput, FilesAreNamedFromTheCurrentFolder) {
   const std::string path = scenePath("mug-on-mark");
   const std::string folder = std::filesystem::path(path).parent_path().parent_path().string();
-  const CommandRun run = runShell("cd " + quoted(folder) + " && carom edit scenes/mug-on-mark.json -o - | carom info -");
+  const CommandRun run =
+      runShell("cd " + quoted(folder) + " && carom edit scenes/mug-on-mark.json -o - | carom info -");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.out.rfind("<stdin>: ", 0), 0u) << run.out;
 }
@@ -154,8 +155,8 @@ TEST(StandardOutput, BinaryFilesAreKeptFromATerminal) {
 
 TEST(StandardStreams, PassDocumentsOn) {
   const std::string path = temporaryPath("passed.glb");
-  const CommandRun run = runShell("carom edit " + quoted(scene()) +
-                                  " -o - -q | carom export - --format glb -o - | carom import - -o - | carom validate -");
+  const CommandRun run = runShell("carom edit " + quoted(scene()) + " -o - -q | carom export - --format glb -o - " +
+                                  "| carom import - -o - | carom validate -");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.out.rfind("<stdin>: valid: ", 0), 0u) << run.out;
   EXPECT_EQ(run.err, "");

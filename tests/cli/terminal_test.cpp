@@ -28,7 +28,10 @@ const std::vector<std::string> kLongWork{"edit", scenePath("mug-on-mark"), "--al
 
 TEST(Colour, OnATerminalOnly) {
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"simulate", shortScene()}, {"check", shortScene()}, {"gradient", shortScene()}, {"info", shortScene()}}) {
+       {std::vector<std::string>{"simulate", shortScene()},
+        {"check", shortScene()},
+        {"gradient", shortScene()},
+        {"info", shortScene()}}) {
     const CommandRun plain = runCommand(words), seen = runOnTerminal(Terminal::out, words);
     EXPECT_EQ(seen.code, 0);
     EXPECT_EQ(plain.out.find('\033'), std::string::npos) << words[0];
