@@ -90,6 +90,7 @@ Follower::Follower(const Motion& like, const Scene& scene, std::shared_ptr<const
   motion.plan = planFor(like, scene, *models);
   motion.models = std::move(models);
   motion.geometry = std::move(geometry);
+  motion.overlaps = like.overlaps;
   motion.duration = duration;
   motion.world_lines.resize(scene.bodies.size());
 }

@@ -22,6 +22,7 @@ struct Certificate {
   /// the kinetic and potential energy of the body, taken at kEnergySamples instants of every flight and at its ends.
   double energy_drift = 0;
   /// Largest growth of the kinetic energy of the bodies of an impact, over what it was before; 0 where none grows.
+  /// What a kinematic body gives, the impulse times the velocity of its surface, is not counted.
   double energy_gain = 0;
 
   /// How deep bodies overlap at the most, m, by the exact geometry of their shapes: at every impact, and at

@@ -151,12 +151,16 @@ void expectSameBody(const Body& found, const Body& expected, double floats) {
   }
   expectEntries(found.position, expected.position, 1e-13, "position");
   expectEntries(found.orientation.toRotationMatrix(), expected.orientation.toRotationMatrix(), 1e-13, "orientation");
+  EXPECT_EQ(found.kinematic, expected.kinematic);
+  EXPECT_EQ(found.collision_filter, expected.collision_filter);
   if (expected.fixed) return;
+  EXPECT_EQ(found.gravity_factor, expected.gravity_factor);
   expectEntries(found.velocity, expected.velocity, 1e-13, "velocity");
   expectEntries(found.angular_velocity, expected.angular_velocity, 1e-13, "angular velocity");
   const BodyModel a = modelOf(found), b = modelOf(expected);
-  expectEntries(a.mass, b.mass, tolerance, "mass", 0);
   expectEntries(a.center, b.center, tolerance, "centre of mass");
+  if (expected.kinematic) return;
+  expectEntries(a.mass, b.mass, tolerance, "mass", 0);
   const Mat3 inertia = worldInertia(expected, b);
   expectEntries(worldInertia(found, a), inertia, tolerance, "inertia", inertia.cwiseAbs().maxCoeff());
 }

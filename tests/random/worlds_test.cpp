@@ -155,6 +155,25 @@ TEST(Worlds, InReverseOrderAreTheSame) {
   }
 }
 
+// With many bodies neighbours are listed in another way.
+TEST(Worlds, AmongManyAreTheSame) {
+  for (std::uint64_t seed = 1; seed <= kWorlds / 2; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Scene scene = randomWorld(seed);
+    Scene crowded = scene;
+    for (int i = 0; i < 45; ++i)
+      crowded.bodies.push_back(fixedBody(makeBox("far" + std::to_string(i), {1, 1, 1}, {2.0 * i, 0, 60})));
+    const Motion m = play(scene, 0.8, 4), c = play(crowded, 0.8, 4);
+    ASSERT_EQ(m.overlaps.size(), c.overlaps.size());
+    for (std::size_t i = 0; i < m.overlaps.size(); ++i) {
+      ASSERT_EQ(m.overlaps[i].parted.has_value(), c.overlaps[i].parted.has_value());
+      EXPECT_NEAR(m.overlaps[i].parted.value_or(0), c.overlaps[i].parted.value_or(0), 1e-9);
+    }
+    ASSERT_EQ(m.events.size(), c.events.size());
+    for (std::size_t i = 0; i < m.events.size(); ++i) EXPECT_NEAR(m.events[i].time, c.events[i].time, 1e-10);
+  }
+}
+
 TEST(Worlds, DerivativesAreTransposed) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
