@@ -2,6 +2,7 @@
 #include "cli/pages/declared.h"
 
 #include <CLI/App.hpp>
+#include <algorithm>
 
 #include "carom/version.h"
 

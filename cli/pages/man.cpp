@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The man page, in the macros that groff and mandoc share.
 #include <algorithm>
+#include <cctype>
 
 #include "cli/pages/pages.h"
 
