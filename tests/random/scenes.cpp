@@ -126,8 +126,7 @@ Body randomBody(Scene& scene, Dice& dice, bool fixed, double half, bool aimed) {
 
 bool startsApart(const Scene& scene) {
   try {
-    const OdeContacts contacts(scene);
-    return true;
+    return OdeContacts(scene).overlaps().empty();
   } catch (const InputError&) {
     return false;
   }
