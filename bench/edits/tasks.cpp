@@ -118,6 +118,7 @@ class Draw {
   std::optional<Task> make() {
     task_.start = drawThrow(wanted_.family, dice_);
     OdeContacts contacts(task_.start);
+    if (!contacts.overlaps().empty()) return std::nullopt;
     const Motion start = play(task_.start, contacts);
     if (!isPlain(start, 1)) return std::nullopt;
     task_.controls = drawControls(task_.start, wanted_.impacts, dice_);
