@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/types.h"
+
 namespace carom {
 namespace {
 
