@@ -8,6 +8,7 @@
 
 #include "adjoint/errors.h"
 #include "ode_bridge/ode_contacts.h"
+#include "tests/ode_bridge/refusing.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -144,13 +145,6 @@ std::vector<Start> starts() {
       {"box on box", makeBox("a", {0.2, 0.2, 0.2}, {0, 0, 0.1}), makeBox("b", {1, 1, 1}, {0.1, 0, -0.5}),
        Vec3::UnitZ()},
   };
-}
-
-Motion playRefusing(const Scene& scene, double duration) {
-  OdeContacts contacts(scene);
-  SimulateOptions options;
-  options.refuse_overlaps = true;
-  return simulate(scene, contacts, duration, options);
 }
 
 TEST(AtTheStart, OverlapIsRefused) {

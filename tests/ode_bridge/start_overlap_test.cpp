@@ -7,19 +7,13 @@
 
 #include "adjoint/errors.h"
 #include "ode_bridge/ode_contacts.h"
+#include "tests/ode_bridge/refusing.h"
 #include "tests/support/scenes.h"
 
 namespace carom {
 namespace {
 
 using namespace test;
-
-Motion refusing(const Scene& scene, double duration) {
-  OdeContacts contacts(scene);
-  SimulateOptions options;
-  options.refuse_overlaps = true;
-  return simulate(scene, contacts, duration, options);
-}
 
 // Two balls that part along z at the speed v: |d + v t| = 2 r.
 TEST(StartOverlap, BallsPart) {
@@ -93,7 +87,7 @@ TEST(StartOverlap, OptionRefuses) {
   const Scene scene =
       makeScene(Vec3::Zero(), 1, 0, {makeBall("a", 0.5, Vec3::Zero()), makeBall("b", 0.5, {0, 0, 0.4})});
   try {
-    refusing(scene, 1);
+    playRefusing(scene, 1);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.where(), "/bodies/1");
@@ -151,7 +145,7 @@ TEST(CollisionFilter, ExcludedPairsMayOverlap) {
   Scene scene = makeScene(Vec3::Zero(), 1, 0, {makeBall("a", 0.5, Vec3::Zero()), makeBall("b", 0.5, {0, 0, 0.4})});
   scene.bodies[0].collision_filter = {{"ghosts"}, {}, {"ghosts"}};
   scene.bodies[1].collision_filter = {{"ghosts"}, {}, {}};
-  EXPECT_TRUE(refusing(scene, 1).overlaps.empty());
+  EXPECT_TRUE(playRefusing(scene, 1).overlaps.empty());
 }
 
 // Balls under different shares of gravity do not fly straight relative to each other.
