@@ -148,6 +148,10 @@ void Simulator::contactsOfInstant(const Prediction& first) {
   };
   for (auto next = std::find_if(same_.begin(), same_.end(), shares); next != same_.end();
        next = std::find_if(same_.begin(), same_.end(), shares)) {
+    if (!meetsThere(*next, first.time)) {
+      same_.erase(next);
+      continue;
+    }
     addTouching(first.time, next->a, next->b, next->features);
     for (int b : {next->a, next->b})
       if (std::find(bodies_.begin(), bodies_.end(), b) == bodies_.end()) bodies_.push_back(b);
@@ -244,6 +248,22 @@ void Simulator::solveDraft() {
   }
 }
 
+// Whether features meet at `time` where they are predicted to: the lowest point of a rim that lies nearly flat may be
+// elsewhere an instant later, and then it is another contact.
+bool Simulator::meetsThere(const Prediction& p, double time) {
+  const auto pose = [&](int body) {
+    const Kinematics k = pathOf(body).kinematicsAt(p.time);
+    return Pose{k.x, k.R};
+  };
+  const Pose a = pose(p.a), b = pose(p.b);
+  const Vec3 there = motion_.geometry->contact(p.a, p.b, p.features, a, b).point;
+  const Vec3 here = makeContact(time, p.a, p.b, p.features).at.point;
+  double arm = 0;
+  for (const auto& [body, x] : {std::pair{p.a, a.x}, std::pair{p.b, b.x}})
+    if (arcOf(body).moving()) arm = std::max(arm, (there - x).norm());
+  return (here - there).norm() <= kSamePlace * arm;
+}
+
 bool Simulator::joinInstant() {
   const Event& event = draft_.event;
   const Prediction* soonest = nullptr;
@@ -257,6 +277,7 @@ bool Simulator::joinInstant() {
       if (!joined(p.a) && !joined(p.b)) continue;
       // a contact that was separating before is an impact of its own, after this one
       if (makeContact(event.time, p.a, p.b, p.features).approach > kLowestBounce) continue;
+      if (!meetsThere(p, event.time)) continue;
       soonest = &p;
     }
   if (!soonest) return false;

@@ -13,6 +13,8 @@ namespace carom {
 
 /// Contacts closer in time than this, in one contact graph, are one instant (docs/equations.md section 4).
 inline constexpr double kInstant = 1e-10;  // s
+// How far a contact may move within an instant and still be the same one, as a share of its arm.
+inline constexpr double kSamePlace = 1e-6;
 /// A bounce lower than this, onto the same features, is the tail of a cascade: positions of ordinary size resolve 1e-16
 /// m, so below it the height of a bounce has no digits left to speak of.
 inline constexpr double kLowestBounce = 1e-12;  // m
@@ -88,6 +90,7 @@ class Simulator {
   std::size_t snapshot(int body, double time);
   void solveDraft();
   bool joinInstant();
+  bool meetsThere(const Prediction& p, double time);
   void commit();
   int tiltOf(int body, int impact) const;
 

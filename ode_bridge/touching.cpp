@@ -14,7 +14,8 @@ namespace {
 
 // Two contacts this near, with normals this alike, are one; a normal may leave the cone of a feature by as much.
 constexpr double kSame = 1e-9;
-// Edges more parallel than this touch along a line: their ends carry the contact.
+// Edges more parallel than this touch along a line: their ends carry the contact. Rims and edges that cross at a smaller
+// angle have no normal.
 constexpr double kParallel = 1e-6;
 
 struct FacingFeature {
@@ -37,7 +38,7 @@ struct Touching {
   }
 
   // The features of a piece that lie, as a whole, within tolerance of its furthest extent along a direction (of a rim:
-  // one point of it).
+  // one point of it). The marks of a cylinder's rim count where it stands flat.
   std::vector<FacingFeature> frontOf(const PlacedPiece& p, const Vec3& direction) const {
     std::vector<FacingFeature> front;
     const Solid& solid = p.solid();
@@ -60,9 +61,7 @@ struct Touching {
       const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
       if (liesInFront(solid, face, d, vertex)) front.push_back({Family::face, f});
     });
-    // a cylinder that stands flat touches with its marks, and its rims have no lowest point
-    if (round && marks >= 3) return front;
-    if (round) std::erase_if(front, [](const FacingFeature& f) { return f.family == Family::vertex; });
+    if (round && marks < 3) std::erase_if(front, [](const FacingFeature& f) { return f.family == Family::vertex; });
     each(p, p.piece->rims, [&](int r) {
       const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
       if (rim.point.dot(d) + rim.rim * rim.direction.cross(d).norm() >= furthest) front.push_back({Family::rim, r});
@@ -136,10 +135,29 @@ struct Touching {
                      placeFeature(b.solid().feature(g.family, g.index), {b.body->k.x, b.body->k.R}), sign);
   }
 
+  // Unit tangent of a rim or an edge at a point of it.
+  static Vec3 tangentAt(const PlacedPiece& p, const FacingFeature& f, const Vec3& point) {
+    const Feature& feature = p.solid().feature(f.family, f.index);
+    const Vec3 along = p.body->k.R * feature.direction;
+    if (f.family == Family::edge) return along;
+    return along.cross(point - p.body->world(feature.point)) / feature.rim;
+  }
+
+  // Two sharp curves, at least one a rim, that meet at a point have a normal there if they cross.
+  bool crossAt(const FacingFeature& f, const FacingFeature& g, const Vec3& point) const {
+    const auto curve = [](const FacingFeature& h) { return h.family == Family::rim || h.family == Family::edge; };
+    const auto swept = [](const PlacedPiece& p, const FacingFeature& h) {
+      return p.solid().feature(h.family, h.index).radius > 0;
+    };
+    if (!curve(f) || !curve(g) || swept(a, f) || swept(b, g)) return true;
+    return tangentAt(a, f, point).cross(tangentAt(b, g, point)).norm() >= kParallel;
+  }
+
   bool tryPair(const FacingFeature& f, const FacingFeature& g, int sign) {
     const GapKind kind = gapKind(f.family, g.family);
     const ContactPoint c = contactNow(kind, f, g, sign);
-    if (!(std::abs(c.gap) <= tolerance)) return false;
+    if (!(std::abs(c.gap) <= tolerance) || !c.point.allFinite() || !c.normal.allFinite()) return false;
+    if (!crossAt(f, g, c.point)) return false;
     if (!(separationAlong(a, b, c.normal) >= c.gap - level)) return false;
     if (!inCone(a, f, -c.normal) || !inCone(b, g, c.normal)) return false;
     if (!onFeature(a, f, g, c.point) || !onFeature(b, g, f, c.point)) return false;
@@ -154,9 +172,16 @@ struct Touching {
     const bool face = f.family == Family::face || g.family == Family::face;
     const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
     if (vertex && !face) return fa.radius + fb.radius > 0;  // sharp points meet in no general way
+    if (face && (fa.rim > 0 || fb.rim > 0)) return !liesFlat(fa, fb);
     if (f.family == Family::edge && g.family == Family::edge)
       return (a.body->k.R * fa.direction).cross(b.body->k.R * fb.direction).norm() >= kParallel;
     return true;
+  }
+
+  // A rim that lies flat on a face has no lowest point: its marks, and where it crosses the face's border, carry it.
+  bool liesFlat(const Feature& fa, const Feature& fb) const {
+    const double sine = (a.body->k.R * fa.direction).cross(b.body->k.R * fb.direction).norm();
+    return 2 * std::max(fa.rim, fb.rim) * sine <= level;
   }
 
   void run() {
@@ -214,9 +239,11 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
   const auto sheet = [](const PlacedPiece& p) { return p.piece->core == Piece::Core::triangle; };
   if (!found.empty() || sheet(a) || sheet(b) || witness.features.kind < 0) return;
   const auto kind = static_cast<GapKind>(witness.features.kind);
-  const ContactPoint c = touching.contactNow(kind, {familyOfFirst(kind), witness.features.a},
-                                             {familyOfSecond(kind), witness.features.b}, witness.features.sign);
-  if (std::abs(c.gap) <= tolerance && !c.point.hasNaN()) found.push_back(witness.features);
+  const FacingFeature f{familyOfFirst(kind), witness.features.a}, g{familyOfSecond(kind), witness.features.b};
+  const ContactPoint c = touching.contactNow(kind, f, g, witness.features.sign);
+  if (std::abs(c.gap) <= tolerance && c.point.allFinite() && c.normal.allFinite() &&
+      touching.onFeature(a, f, g, c.point) && touching.onFeature(b, g, f, c.point))
+    found.push_back(witness.features);
 }
 
 std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double tolerance) {

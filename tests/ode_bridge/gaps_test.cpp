@@ -24,6 +24,7 @@ struct GapRow {
   const char *of_a, *of_b;  ///< names of the features
   std::int16_t sign = 1;
   std::int16_t swapped_sign = 1;  ///< of the same gap with the bodies in the other order
+  bool flat = false;              ///< a lies on b
 };
 
 const GapRow kRows[] = {
@@ -60,6 +61,10 @@ const GapRow kRows[] = {
     {"rim on rim", Kind::cylinder, Kind::cylinder, kRimRim, "rim +z", "rim +z", 1, 2},
     {"rim on rim, other side", Kind::cylinder, Kind::cylinder, kRimRim, "rim -z", "rim +z", -1, -2},
     {"rim on rim, second place", Kind::cylinder, Kind::cylinder, kRimRim, "rim +z", "rim -z", 2, 1},
+    {"rim on rim that it lies on", Kind::cylinder, Kind::cylinder, kRimRim, "rim +z", "rim +z", 1, 1, true},
+    {"rim on rim that it lies on, second place", Kind::cylinder, Kind::cylinder, kRimRim, "rim -z", "rim +z", 2, 2, true},
+    {"rim on edge that it lies on", Kind::cylinder, Kind::box, kRimEdge, "rim -z", "edge +z+x", 1, 1, true},
+    {"rim on edge that it lies on, second place", Kind::cylinder, Kind::box, kRimEdge, "rim +z", "edge +y+z", 2, 2, true},
     {"rim on rim, second place, other side", Kind::cylinder, Kind::cylinder, kRimRim, "rim -z", "rim -z", -2, -1},
 };
 
@@ -105,7 +110,8 @@ struct Setting {
       B = {random.vec(1), random.rotation().toRotationMatrix()};
       size_a = Vec3(0.5, 0.6, 0.7) + random.vec(0.2);
       size_b = Vec3(0.8, 0.7, 0.6) + random.vec(0.2);
-    } while (!general());
+    } while (!row.flat && !general());
+    if (row.flat) lieFlat();
   }
   FeatureGeometry geometry() const {
     return FeatureGeometry({solidOf(bodyOf(row.a, size_a)), solidOf(bodyOf(row.b, size_b))});
@@ -152,6 +158,17 @@ struct Setting {
   }
 
  private:
+  /// The cap of a lies on what b's feature bounds, and their borders cross at right angles.
+  void lieFlat() {
+    const FeatureGeometry g = geometry();
+    const FeaturePair pair = features(g);
+    const Feature &f = g.solid(0).feature(Family::rim, pair.a), &h = g.solid(1).feature(familyOfSecond(row.kind), pair.b);
+    const Vec3 out = h.rim > 0 ? h.direction : Vec3::UnitZ();  // of the face
+    A.R = B.R * Quat::FromTwoVectors(f.direction, -out).toRotationMatrix();
+    const Vec3 across = h.rim > 0 ? Vec3(std::hypot(f.rim, h.rim) * Vec3::UnitX()) : Vec3(0.1 * h.direction.cross(out));
+    A.x = B.x + B.R * (h.point + across) - A.R * f.point;
+  }
+
   /// Edges that cross at an angle; rims that cross at an angle and nearly touch the other feature from outside, so
   /// that the solids could touch there.
   bool general() const {
