@@ -41,6 +41,31 @@ double largestSpin(const Vec3& I, const Vec3& M) {
   return std::sqrt(best);
 }
 
+// Bound on |omega'|, omega'_i = (I_j - I_k)/I_i omega_j omega_k. The sums of I_i |I_i - I_k| omega_i^2, for the largest
+// and the smallest moment I_k, are constant in the flight and bound every other omega_i^2: a spin about one of these two
+// axes stays.
+double largestSpinRate(const Vec3& I, const Vec3& omega, double spin) {
+  Vec3 most = Vec3::Constant(spin * spin);
+  Eigen::Index low, high;
+  I.minCoeff(&low), I.maxCoeff(&high);
+  for (const Eigen::Index k : {low, high}) {
+    const Vec3 weight = I.cwiseProduct((I.array() - I[k]).abs().matrix());
+    const double kept = weight.dot(omega.cwiseAbs2());
+    for (int i = 0; i < 3; ++i)
+      if (weight[i] > 0) most[i] = std::min(most[i], kept / weight[i]);
+  }
+  double rate2 = 0, uneven = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double factor = std::abs(I[j] - I[k]) / I[i];
+    rate2 += factor * factor * most[j] * most[k];
+    uneven = std::max(uneven, factor);
+  }
+  // in any case the sum of (omega_j omega_k)^2 is at most |omega|^4 / 3
+  const double always = uneven * spin * spin / std::sqrt(3.0);
+  return std::min(always, std::sqrt(rate2) * (1 + 1e-12) + 1e-15 * always);
+}
+
 }  // namespace
 
 Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state)
@@ -60,10 +85,14 @@ Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, c
     triaxial_->begin(model.inverse_inertia, state.q, state.L);
     spin_bound_ = largestSpin(I, M) * (1 + 1e-12);
   }
-  // omega'_i = (I_j - I_k)/I_i omega_j omega_k, and sum of (omega_j omega_k)^2 <= |omega|^4 / 3
-  double k = 0;
-  for (int i = 0; i < 3; ++i) k = std::max(k, std::abs(I[(i + 1) % 3] - I[(i + 2) % 3]) / I[i]);
-  spin_rate_bound_ = k * spin_bound_ * spin_bound_ / std::sqrt(3.0);
+  spin_rate_bound_ = largestSpinRate(I, M.cwiseQuotient(I), spin_bound_);
+}
+
+std::optional<Vec3> Arc::steadyAxis() const {
+  if (tier_ == Tier::none || tier_ == Tier::spherical) return Vec3(Vec3::Zero());
+  if (tier_ != Tier::symmetric) return std::nullopt;
+  const Vec3 axis = Vec3::Unit(symmetry_axis_);
+  return model_->has_offset ? Vec3(model_->R_BG.transpose() * axis) : axis;
 }
 
 Arc::Arc(const Arc& o)

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "adjoint/body_model.h"
 #include "adjoint/flight_triaxial.h"
@@ -63,6 +64,11 @@ class Arc {
   /// Bounds over the whole arc: |omega| <= spinBound(), |d omega/dt| <= spinRateBound().
   double spinBound() const { return spin_bound_; }
   double spinRateBound() const { return spin_rate_bound_; }
+
+  /// An axis of the body, in shape axes, that precesses about L at the constant rate precession() (rad/s): that of
+  /// symmetry; zero where every axis does, nothing for a triaxial body.
+  std::optional<Vec3> steadyAxis() const;
+  double precession() const { return state_.L.norm() * model_->inverse_inertia[(symmetry_axis_ + 1) % 3]; }
 
   /// Sensitivity of the rotation from start() to t. `tier` is the one the derivative needs: Tier::triaxial gives
   /// dtheta_dI for free, independent moments, and with `products` dtheta_dproducts; Tier::symmetric and

@@ -10,9 +10,16 @@
 namespace carom {
 namespace {
 
-double speedScale(const Placed& a, const Placed& b) {
-  const auto turning = [](const Placed& p) { return p.spin > 0 ? p.spin * p.solid->bound() : 0; };
-  return a.k.v.norm() + b.k.v.norm() + turning(a) + turning(b);
+// An approach along n slower than this cannot be told from none. What a body spins by about n moves nothing along n, but
+// for its rounding.
+double stillSpeed(const Placed& a, const Placed& b, const Vec3& n) {
+  double speed = a.k.v.norm() + b.k.v.norm(), spinning = 0;
+  for (const Placed* p : {&a, &b}) {
+    if (!(p->spin > 0)) continue;
+    speed += n.cross(p->k.w).norm() * p->solid->bound();
+    spinning += p->spin * p->solid->bound();
+  }
+  return kStill * speed + 32 * kEps * spinning;
 }
 
 double gapRate(const Placed& a, const Placed& b, const ContactPoint& c) {
@@ -28,7 +35,7 @@ Root refineRoot(const PairMotion& pair, const FeaturePair& features, double from
   };
   ContactPoint c = contact(a0, b0);
   double rate = gapRate(a0, b0, c);
-  if (!(rate < -kStill * speedScale(a0, b0))) return {t, false};
+  if (!(rate < -stillSpeed(a0, b0, c.normal))) return {t, false};
   double best = std::abs(c.gap);
   for (int round = 0; round < 6; ++round) {
     const double next = std::max(from, t - c.gap / rate);

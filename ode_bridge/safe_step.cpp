@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "ode_bridge/separation.h"
 
@@ -84,42 +85,100 @@ template <class Step>
 double bestWindow(double limit, double guess, const Step& step) {
   double best = 0, window = std::min(limit, 4 * guess);
   if (!(window > 0)) window = limit;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < 6;) {
     const double h = step(window);
     if (h <= best) break;
     best = h;
-    if (h == window && window < limit)
-      window = std::min(limit, 4 * window);
-    else if (h < 0.5 * window)
+    if (h == window && window < limit) {
+      window = std::min(limit, 8 * window);  // nothing is near yet
+    } else if (h < 0.5 * window) {
       window = 2 * h;
-    else
+      ++round;
+    } else {
       break;
+    }
   }
   return best;
 }
 
-// One side of a pair, as the bounds see it.
+// The axis of a piece that looks the same however far it is turned about it, through its body's origin; solid's axes.
+std::optional<Vec3> axisOfRevolution(const PlacedPiece& p) {
+  const Piece& piece = *p.piece;
+  Vec3 axis = piece.axis;
+  if (piece.core == Piece::Core::segment) {
+    const Vec3* points = p.solid().points.data() + piece.points.first;
+    axis = (points[1] - points[0]).normalized();
+  } else if (piece.core != Piece::Core::cylinder) {
+    return std::nullopt;
+  }
+  if (!piece.center.cross(axis).isZero(0)) return std::nullopt;
+  return axis;
+}
+
+// One side of a pair, as the bounds see it. Its points turn with the body; those of a body of revolution may as well
+// turn with its axis alone, without spinning about it, which sweeps the same solid.
 struct Mover {
   const Placed* body;
   const Piece* piece;  ///< or the single point `center`
   Vec3 center;
   double reach;  ///< furthest point of the core from the body's origin, m
   bool half_space;
+  Vec3 w = Vec3::Zero();           ///< angular velocity of the points, world axes
+  double spin = 0, spin_rate = 0;  ///< bounds on it and its rate over the flight
 
   explicit Mover(const PlacedPiece& p)
-      : body(p.body), piece(p.piece), center(p.piece->center), reach(p.coreReach()), half_space(p.halfSpace()) {}
+      : body(p.body), piece(p.piece), center(p.piece->center), reach(p.coreReach()), half_space(p.halfSpace()) {
+    turnWithBody();
+    if (!(spin > 0) || !body->steady_axis) return;
+    if (const auto axis = axisOfRevolution(p)) turnWithAxis(*axis);
+  }
   explicit Mover(const PlacedNode& p)
-      : body(p.body), piece(nullptr), center(p.node->center), reach(center.norm()), half_space(p.body->solid->plane) {}
+      : body(p.body), piece(nullptr), center(p.node->center), reach(center.norm()), half_space(p.body->solid->plane) {
+    turnWithBody();
+  }
 
-  /// Acceleration of a point at distance 1: |omega x (omega x r)| + |omega' x r|.
-  double turning() const { return body->spin * body->spin + body->spin_rate; }
+  /// |d2r/dt2| of a point at distance 1 is at most |w x (w x r)| + |w' x r|.
+  double turning() const { return spin * spin + spin_rate; }
+  /// Bound on |n . d2r/dt2| for points r of the core, over a window in which |dn/dt| <= turn: with n x w and w x r in
+  /// n . (w x (w x r)) = (n x w) . (w x r), what spins about n itself does not count.
+  double bendAlong(const Vec3& n, double turn, double window) const {
+    if (half_space || reach == 0) return 0;
+    return (acrossSpin(n, turn, window) * spin + spin_rate) * reach;
+  }
+  /// Bound on |n x w| over such a window.
+  double acrossSpin(const Vec3& n, double turn, double window) const {
+    const double drift = turn * spin + spin_rate;
+    return std::min(spin, n.cross(w).norm() + kSpinRounding * spin + (drift > 0 ? drift * window : 0));
+  }
+
+  /// The same with all of its body's spin.
+  Mover withBody() const {
+    Mover m = *this;
+    m.turnWithBody();
+    return m;
+  }
+
   Side side(const Vec3& n, const Vec3& m) const {
     if (half_space) return {};
     const Mat3& R = body->k.R;
     return {body->solid, piece, center, R.transpose() * n, R.transpose() * m};
   }
-  /// Spin that moves points of the core.
-  Vec3 spin() const { return body->spin > 0 ? body->k.w : Vec3::Zero(); }
+
+ private:
+  static constexpr double kSpinRounding = 1e-15;
+
+  void turnWithBody() {
+    spin = body->spin, spin_rate = body->spin_rate;
+    if (spin > 0) w = body->k.w;
+  }
+  // The axis precesses steadily, da/dt = p x a, so that of w = a x da/dt both |w| and |dw/dt| = |p x w| are bounded.
+  void turnWithAxis(const Vec3& axis) {
+    if (!body->steady_axis->isZero(0) && !body->steady_axis->cross(axis).isZero(kSpinRounding)) return;
+    const Vec3 a = body->k.R * axis;
+    w -= a * a.dot(w);
+    spin = w.norm() + 4 * kSpinRounding * body->spin;
+    spin_rate = body->precession * spin;
+  }
 };
 
 double gravityOf(const Mover& a, const Mover& b) { return (a.body->acceleration - b.body->acceleration).norm(); }
@@ -137,35 +196,47 @@ double stepInWorld(const Mover& a, const Mover& b, const Vec3& n, double lift, d
   Gap gap;
   gap.at = n.dot(apart(a, b)) + lift - (b.half_space ? levelOf(b) : 0);
   gap.rate = n.dot(velocity(a, b));
-  gap.a = a.side(n, n.cross(a.spin()));
-  gap.b = b.side(n, n.cross(b.spin()));
+  gap.a = a.side(n, n.cross(a.w));
+  gap.b = b.side(n, n.cross(b.w));
   const double pull = n.dot(a.body->acceleration - b.body->acceleration);
-  const double own = a.turning() * a.reach, other = b.half_space ? 0 : b.turning() * b.reach;
-  return firstTouch(gap, std::max(0.0, own + other - pull), limit);
+  const auto step = [&](double window) {
+    return firstTouch(gap, std::max(0.0, a.bendAlong(n, 0, window) + b.bendAlong(n, 0, window) - pull), window);
+  };
+  // a bound that grows with the window is worth a shorter one where the direction is nearly that of the spin
+  const auto grows = [&](const Mover& m) {
+    return m.spin_rate > 0 && m.bendAlong(n, 0, 0) < 0.25 * m.bendAlong(n, 0, limit);
+  };
+  if (!grows(a) && !grows(b)) return step(limit);
+  const double room = gap.front(0).at, speed = std::abs(gap.rate) + a.spin * a.reach + b.spin * b.reach;
+  return bestWindow(limit, room / speed, step);
 }
 
 // The direction turns with b, whose points therefore stay where they are along it. `room` is the separation, to guess
 // a window by.
 double stepInFrameOfB(const Mover& a, const Mover& b, const Vec3& n, double room, double lift, double limit) {
-  if (!(b.body->spin > 0)) return stepInWorld(a, b, n, lift, limit);
-  const Vec3 wb = b.spin(), D = apart(a, b), V = velocity(a, b);
+  if (!(b.spin > 0)) return stepInWorld(a, b, n, lift, limit);
+  const Vec3 wb = b.body->k.w, D = apart(a, b), V = velocity(a, b);
   Gap gap;
   gap.at = n.dot(D) + lift - (b.half_space ? levelOf(b) : 0);
   gap.rate = n.dot(V - wb.cross(D));
-  gap.a = a.side(n, n.cross(a.spin() - wb));
+  gap.a = a.side(n, n.cross(a.w - wb));
   gap.b = b.side(n, Vec3::Zero());
   const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
-  const double own = a.turning() * a.reach;
-  // relative, Coriolis and centrifugal parts, each at its largest within the window
-  return bestWindow(limit, room / (speed + a.body->spin * a.reach), [&](double window) {
-    const double fastest = speed + gravity * window + a.body->spin * a.reach;
+  const double spin = b.body->spin, spin_rate = b.body->spin_rate;
+  const Mover frame = b.withBody();
+  // relative, Coriolis and centrifugal parts, each at its largest within the window; n turns at |w_b x n|, which only a
+  // change of w_b changes
+  return bestWindow(limit, room / (speed + a.spin * a.reach), [&](double window) {
+    const double turn = frame.acrossSpin(n, 0, window);
+    const double fastest = speed + gravity * window + a.spin * a.reach;
     const double furthest = distance + (speed + gravity * window) * window + a.reach;
-    return firstTouch(gap, gravity + own + 2 * b.body->spin * fastest + b.turning() * furthest, window);
+    const double bend = gravity + a.bendAlong(n, turn, window) + 2 * turn * fastest + (turn * spin + spin_rate) * furthest;
+    return firstTouch(gap, bend, window);
   });
 }
 
 double stepAcrossEdges(const Mover& a, const Mover& b, const Witness& w, double room, double lift, double limit) {
-  const Vec3 c = w.edge_a.cross(w.edge_b), D = apart(a, b), V = velocity(a, b), wa = a.spin(), wb = b.spin();
+  const Vec3 c = w.edge_a.cross(w.edge_b), D = apart(a, b), V = velocity(a, b), wa = a.w, wb = b.w;
   const double sine = c.norm(), sign = c.dot(w.n) >= 0 ? 1 : -1;
   const Vec3 dc = wa.cross(w.edge_a).cross(w.edge_b) + w.edge_a.cross(wb.cross(w.edge_b));
   const Vec3 dn = sign / sine * (dc - w.n * w.n.dot(dc));
@@ -175,15 +246,15 @@ double stepAcrossEdges(const Mover& a, const Mover& b, const Witness& w, double 
   gap.a = a.side(w.n, dn + w.n.cross(wa));
   gap.b = b.side(w.n, dn + w.n.cross(wb));
   // |c'| <= W, |c''| <= Z, and |c| >= sine/2 within the window, so |n'| <= W/s, |n''| <= Z/s + 3 W^2/s^2
-  const double W = a.body->spin + b.body->spin, Z = W * W + a.body->spin_rate + b.body->spin_rate, s = 0.5 * sine;
+  const double W = a.spin + b.spin, Z = W * W + a.spin_rate + b.spin_rate, s = 0.5 * sine;
   const double n1 = W / s, n2 = Z / s + 3 * n1 * n1;
   const double longest = W > 0 ? std::min(limit, s / W) : limit;
   const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
-  return bestWindow(longest, room / (speed + a.body->spin * a.reach + b.body->spin * b.reach), [&](double window) {
-    const double fastest = speed + gravity * window + a.body->spin * a.reach;
+  return bestWindow(longest, room / (speed + a.spin * a.reach + b.spin * b.reach), [&](double window) {
+    const double fastest = speed + gravity * window + a.spin * a.reach;
     const double furthest = distance + (speed + gravity * window) * window + a.reach;
     const double bend_a = n2 * furthest + 2 * n1 * fastest + a.turning() * a.reach + gravity;
-    const double bend_b = (n2 + 2 * n1 * b.body->spin + b.turning()) * b.reach;
+    const double bend_b = (n2 + 2 * n1 * b.spin + b.turning()) * b.reach;
     return firstTouch(gap, bend_a + bend_b, window);
   });
 }

@@ -10,7 +10,11 @@ Placed::Placed(const Solid& s, const Arc& arc, double t)
       k(arc.kinematicsAt(t)),
       acceleration(arc.acceleration()),
       spin(s.ball ? 0 : arc.spinBound()),
-      spin_rate(s.ball ? 0 : arc.spinRateBound()) {}
+      spin_rate(s.ball ? 0 : arc.spinRateBound()) {
+  if (!(spin > 0)) return;
+  steady_axis = arc.steadyAxis();
+  if (steady_axis) precession = arc.precession();
+}
 
 Placed::Placed(const Solid& s, const Vec3& x, const Mat3& R)
     : solid(&s), k{x, R, Vec3::Zero(), Vec3::Zero()}, acceleration(Vec3::Zero()), spin(0), spin_rate(0) {}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "adjoint/arc.h"
 #include "ode_bridge/solids/solid.h"
 
@@ -18,6 +20,10 @@ struct Placed {
   Kinematics k;
   Vec3 acceleration;
   double spin, spin_rate;  ///< bounds on |omega| and |d omega/dt|; 0 for a ball, which looks the same from all sides
+  /// An axis of the solid that precesses steadily about the angular momentum, at rate `precession`, rad/s, solid's axes;
+  /// zero where every axis does.
+  std::optional<Vec3> steady_axis;
+  double precession = 0;
 };
 
 /// One convex piece of a solid in motion.
