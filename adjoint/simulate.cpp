@@ -148,29 +148,28 @@ void Simulator::contactsOfInstant(const Prediction& first) {
   };
   for (auto next = std::find_if(same_.begin(), same_.end(), shares); next != same_.end();
        next = std::find_if(same_.begin(), same_.end(), shares)) {
-    if (!meetsThere(*next, first.time)) {
-      same_.erase(next);
-      continue;
+    if (inDraft(next->a, next->b, next->features) || meetsThere(*next, first.time)) {
+      addTouching(first.time, next->a, next->b, next->features);
+      for (int b : {next->a, next->b})
+        if (std::find(bodies_.begin(), bodies_.end(), b) == bodies_.end()) bodies_.push_back(b);
     }
-    addTouching(first.time, next->a, next->b, next->features);
-    for (int b : {next->a, next->b})
-      if (std::find(bodies_.begin(), bodies_.end(), b) == bodies_.end()) bodies_.push_back(b);
     same_.erase(next);
   }
+}
+
+bool Simulator::inDraft(int a, int b, const FeaturePair& features) const {
+  return std::any_of(draft_.event.contacts.begin(), draft_.event.contacts.end(),
+                     [&](const Contact& c) { return c.a == a && c.b == b && c.features == features; });
 }
 
 // The contact at the given features, and whatever else of the pair touches within the instant and was not separating.
 void Simulator::addTouching(double time, int a, int b, const FeaturePair& features) {
   std::vector<Contact>& contacts = draft_.event.contacts;
-  const auto known = [&](const FeaturePair& f) {
-    return std::any_of(contacts.begin(), contacts.end(),
-                       [&](const Contact& c) { return c.a == a && c.b == b && c.features == f; });
-  };
-  if (known(features)) return;
+  if (inDraft(a, b, features)) return;
   contacts.push_back(makeContact(time, a, b, features));
   const double reach = kInstant * std::abs(contacts.back().approach);
   for (const FeaturePair& f : contacts_.touching(a, b, arcOf(a), arcOf(b), time, reach)) {
-    if (known(f)) continue;
+    if (inDraft(a, b, f)) continue;
     const Contact c = makeContact(time, a, b, f);
     if (c.approach <= kLowestBounce) contacts.push_back(c);
   }
@@ -269,10 +268,7 @@ bool Simulator::joinInstant() {
   const Prediction* soonest = nullptr;
   for (const Prediction& p : found_)
     if (p.explained() && p.time <= event.time + kInstant && (!soonest || p < *soonest)) {
-      const bool known = std::any_of(event.contacts.begin(), event.contacts.end(), [&](const Contact& c) {
-        return c.a == p.a && c.b == p.b && c.features == p.features;
-      });
-      if (known) continue;
+      if (inDraft(p.a, p.b, p.features)) continue;
       const auto joined = [&](int body) { return in_draft_[index(body)] >= 0 && isMoved(body); };
       if (!joined(p.a) && !joined(p.b)) continue;
       // a contact that was separating before is an impact of its own, after this one

@@ -90,6 +90,7 @@ class Simulator {
   std::size_t snapshot(int body, double time);
   void solveDraft();
   bool joinInstant();
+  bool inDraft(int a, int b, const FeaturePair& features) const;
   bool meetsThere(const Prediction& p, double time);
   void commit();
   int tiltOf(int body, int impact) const;

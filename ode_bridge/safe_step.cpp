@@ -129,7 +129,7 @@ struct Mover {
   explicit Mover(const PlacedPiece& p)
       : body(p.body), piece(p.piece), center(p.piece->center), reach(p.coreReach()), half_space(p.halfSpace()) {
     turnWithBody();
-    if (!(spin > 0) || !body->steady_axis) return;
+    if (!(spin > 0) || !body->arc) return;
     if (const auto axis = axisOfRevolution(p)) turnWithAxis(*axis);
   }
   explicit Mover(const PlacedNode& p)
@@ -139,18 +139,19 @@ struct Mover {
 
   /// |d2r/dt2| of a point at distance 1 is at most |w x (w x r)| + |w' x r|.
   double turning() const { return spin * spin + spin_rate; }
-  /// Bound on |n . d2r/dt2| for points r of the core, over a window in which |dn/dt| <= turn: with n x w and w x r in
-  /// n . (w x (w x r)) = (n x w) . (w x r), what spins about n itself does not count.
-  double bendAlong(const Vec3& n, double turn, double window) const {
-    if (half_space || reach == 0) return 0;
-    return (acrossSpin(n, turn, window) * spin + spin_rate) * reach;
-  }
-  /// Bound on |n x w| over such a window.
-  double acrossSpin(const Vec3& n, double turn, double window) const {
+  /// |n x w| now.
+  double acrossSpin(const Vec3& n) const { return std::min(spin, n.cross(w).norm() + kSpinRounding * spin); }
+  /// Bound on it over a window in which |dn/dt| <= turn, from its value `across` at the start.
+  double acrossSpin(double across, double turn, double window) const {
     const double drift = turn * spin + spin_rate;
-    return std::min(spin, n.cross(w).norm() + kSpinRounding * spin + (drift > 0 ? drift * window : 0));
+    return drift > 0 ? std::min(spin, across + drift * window) : across;
   }
-
+  /// Bound on |n . d2r/dt2| for points r of the core over such a window: with n x w and w x r in
+  /// n . (w x (w x r)) = (n x w) . (w x r), what spins about n itself does not count.
+  double bendAlong(double across, double turn, double window) const {
+    if (half_space || reach == 0) return 0;
+    return (acrossSpin(across, turn, window) * spin + spin_rate) * reach;
+  }
   /// The same with all of its body's spin.
   Mover withBody() const {
     Mover m = *this;
@@ -173,11 +174,12 @@ struct Mover {
   }
   // The axis precesses steadily, da/dt = p x a, so that of w = a x da/dt both |w| and |dw/dt| = |p x w| are bounded.
   void turnWithAxis(const Vec3& axis) {
-    if (!body->steady_axis->isZero(0) && !body->steady_axis->cross(axis).isZero(kSpinRounding)) return;
+    const auto steady = body->arc->steadyAxis();
+    if (!steady || (!steady->isZero(0) && !steady->cross(axis).isZero(kSpinRounding))) return;
     const Vec3 a = body->k.R * axis;
     w -= a * a.dot(w);
     spin = w.norm() + 4 * kSpinRounding * body->spin;
-    spin_rate = body->precession * spin;
+    spin_rate = body->arc->precession() * spin;
   }
 };
 
@@ -199,14 +201,14 @@ double stepInWorld(const Mover& a, const Mover& b, const Vec3& n, double lift, d
   gap.a = a.side(n, n.cross(a.w));
   gap.b = b.side(n, n.cross(b.w));
   const double pull = n.dot(a.body->acceleration - b.body->acceleration);
+  const double across_a = a.acrossSpin(n), across_b = b.half_space ? 0 : b.acrossSpin(n);
   const auto step = [&](double window) {
-    return firstTouch(gap, std::max(0.0, a.bendAlong(n, 0, window) + b.bendAlong(n, 0, window) - pull), window);
+    const double bend = a.bendAlong(across_a, 0, window) + b.bendAlong(across_b, 0, window) - pull;
+    return firstTouch(gap, std::max(0.0, bend), window);
   };
   // a bound that grows with the window is worth a shorter one where the direction is nearly that of the spin
-  const auto grows = [&](const Mover& m) {
-    return m.spin_rate > 0 && m.bendAlong(n, 0, 0) < 0.25 * m.bendAlong(n, 0, limit);
-  };
-  if (!grows(a) && !grows(b)) return step(limit);
+  const auto grows = [](const Mover& m, double across) { return m.spin_rate > 0 && across < 0.25 * m.spin; };
+  if (!grows(a, across_a) && !grows(b, across_b)) return step(limit);
   const double room = gap.front(0).at, speed = std::abs(gap.rate) + a.spin * a.reach + b.spin * b.reach;
   return bestWindow(limit, room / speed, step);
 }
@@ -224,13 +226,15 @@ double stepInFrameOfB(const Mover& a, const Mover& b, const Vec3& n, double room
   const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
   const double spin = b.body->spin, spin_rate = b.body->spin_rate;
   const Mover frame = b.withBody();
+  const double across_frame = frame.acrossSpin(n), across_a = a.acrossSpin(n);
   // relative, Coriolis and centrifugal parts, each at its largest within the window; n turns at |w_b x n|, which only a
   // change of w_b changes
   return bestWindow(limit, room / (speed + a.spin * a.reach), [&](double window) {
-    const double turn = frame.acrossSpin(n, 0, window);
+    const double turn = frame.acrossSpin(across_frame, 0, window);
     const double fastest = speed + gravity * window + a.spin * a.reach;
     const double furthest = distance + (speed + gravity * window) * window + a.reach;
-    const double bend = gravity + a.bendAlong(n, turn, window) + 2 * turn * fastest + (turn * spin + spin_rate) * furthest;
+    const double frame_bend = 2 * turn * fastest + (turn * spin + spin_rate) * furthest;
+    const double bend = gravity + a.bendAlong(across_a, turn, window) + frame_bend;
     return firstTouch(gap, bend, window);
   });
 }

@@ -5,16 +5,13 @@
 
 namespace carom {
 
-Placed::Placed(const Solid& s, const Arc& arc, double t)
+Placed::Placed(const Solid& s, const Arc& flight, double t)
     : solid(&s),
-      k(arc.kinematicsAt(t)),
-      acceleration(arc.acceleration()),
-      spin(s.ball ? 0 : arc.spinBound()),
-      spin_rate(s.ball ? 0 : arc.spinRateBound()) {
-  if (!(spin > 0)) return;
-  steady_axis = arc.steadyAxis();
-  if (steady_axis) precession = arc.precession();
-}
+      k(flight.kinematicsAt(t)),
+      acceleration(flight.acceleration()),
+      spin(s.ball ? 0 : flight.spinBound()),
+      spin_rate(s.ball ? 0 : flight.spinRateBound()),
+      arc(&flight) {}
 
 Placed::Placed(const Solid& s, const Vec3& x, const Mat3& R)
     : solid(&s), k{x, R, Vec3::Zero(), Vec3::Zero()}, acceleration(Vec3::Zero()), spin(0), spin_rate(0) {}

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
-
 #include "adjoint/arc.h"
 #include "ode_bridge/solids/solid.h"
 
@@ -20,10 +18,7 @@ struct Placed {
   Kinematics k;
   Vec3 acceleration;
   double spin, spin_rate;  ///< bounds on |omega| and |d omega/dt|; 0 for a ball, which looks the same from all sides
-  /// An axis of the solid that precesses steadily about the angular momentum, at rate `precession`, rad/s, solid's axes;
-  /// zero where every axis does.
-  std::optional<Vec3> steady_axis;
-  double precession = 0;
+  const Arc* arc = nullptr;  ///< outlives this; null at rest
 };
 
 /// One convex piece of a solid in motion.
