@@ -11,11 +11,12 @@ namespace carom {
 /// One column of a Jacobian by differences with one step.
 struct DifferenceColumn {
   bool compared = false;    ///< only where every motion that the differences use has the same impact sequence
-  std::string scheme;       ///< "central"; "forward" or "backward" where the scene is impossible on the other side
+  std::string scheme;       ///< "central"; "forward" or "backward" where the scene is impossible on the other side;
+                            ///< ", extrapolated": together with the step before
   std::string why;          ///< a sentence when not compared
   Eigen::VectorXd values;   ///< d(rows)/d(control), SI
   double disagreement = 0;  ///< largest over the rows, relative to the column's scale; 0 where it is rounding
-  double by_rows = 0;       ///< rounding of the derivative by that of the rows
+  Eigen::VectorXd rounding;  ///< of the values, by that of rows and derivatives
   std::vector<std::string> below, above;  ///< the impact sequences on both sides, one line an impact
 };
 
