@@ -33,7 +33,10 @@ class ReversePass {
       const int event = latest->first;
       const Pending bars = std::move(latest->second);
       pending_.erase(latest);
-      if (reliability) reliability->pass(motion_, event);
+      if (reliability) {
+        reliability->pass(motion_, event);
+        reliability->passFriction(motion_, event, tape_.event(event).frictionFromZero());
+      }
       throughEvent(event, bars);
     }
     toSceneAsWritten();

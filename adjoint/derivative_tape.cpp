@@ -3,15 +3,32 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "adjoint/arguments.h"
 #include "adjoint/errors.h"
 #include "adjoint/event_linearization.h"
+#include "adjoint/impact/tilt.h"
 
 namespace carom {
 namespace {
 
+constexpr double kReliableTilt = 1e-4;  // axes of a tilt turn by the inverse of this, as the normal does
 constexpr std::size_t kRemembered = 10'000;  // sensitivities, of 288 bytes: what is read densely is not kept for good
+
+double tiltMarginOf(const Event& event) {
+  double least = 1;
+  for (const Contact& c : event.contacts)
+    least = std::min(least, tiltMargin(c.at.normal, c.tilt_a >= 0, c.tilt_b >= 0));
+  return least;
+}
+
+std::string sentenceOf(const Motion& motion, int index) {
+  std::ostringstream text;
+  text << "the impact " << motion.describeEvent(index) << " at t = "
+       << motion.events[static_cast<std::size_t>(index)].time << " s ";
+  return text.str();
+}
 
 RotationSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
   const auto b = static_cast<std::size_t>(body);
@@ -61,21 +78,59 @@ const EventLinearization& DerivativeTape::event(int event) {
 void Reliability::pass(const Motion& motion, int index) {
   const Event& event = motion.events[checkedIndex("Reliability::pass", "event", index, motion.events.size())];
   ++events;
-  smallest_margin = std::min(smallest_margin, event.margins.smallest());
+  const double tilt = tiltMarginOf(event);
+  smallest_margin = std::min({smallest_margin, event.margins.smallest(), tilt});
   if (!reliable) return;
   std::ostringstream text;
-  text << "the impact " << motion.describeEvent(index) << " at t = " << event.time << " s ";
+  text << sentenceOf(motion, index);
   if (event.mode == ImpactMode::joint) {
     text << "joins several contacts: the derivative is that of the joint law";
   } else if (event.margins.grazing < kReliableMargin) {
     text << "is nearly grazing (margin " << event.margins.grazing << ")";
   } else if (event.margins.stick_slip < kReliableMargin) {
     text << "is at the boundary of stick and slide (margin " << event.margins.stick_slip << "): one-sided derivative";
+  } else if (tilt < kReliableTilt) {
+    text << "has a normal near the one direction whose tilt has no axes (margin " << tilt << ")";
   } else {
     return;
   }
   reliable = false;
   message = text.str();
+}
+
+void Reliability::passFriction(const Motion& motion, int index, double margin) {
+  if (!(margin < kReliableMargin)) return;
+  const Event& event = motion.events[checkedIndex("Reliability::passFriction", "event", index, motion.events.size())];
+  const Scene& scene = *motion.scene;
+  for (const Contact& c : event.contacts) {
+    if (c.pair.friction != 0) continue;
+    MaterialDerivative by_a, by_b;
+    combinePullback(materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
+                    materialOf(scene, scene.bodies[static_cast<std::size_t>(c.b)]), {0, 1, 0}, by_a, by_b);
+    for (const auto& [body, by] : {std::pair(c.a, by_a), std::pair(c.b, by_b)}) {
+      const int material = materialIndexOf(scene, body);
+      if (material < 0 || by.friction == 0) continue;
+      if (std::find(frictions.begin(), frictions.end(), material) == frictions.end()) frictions.push_back(material);
+    }
+  }
+  if (frictions.empty() || !friction_message.empty()) return;
+  std::ostringstream text;
+  text << sentenceOf(motion, index);
+  if (event.contacts.size() > 1) {
+    text << "joins several contacts, some without friction: it has no derivative by their friction, and 0 stands for it";
+  } else {
+    text << "is without friction and does not slip (margin " << margin
+         << "): the derivative by its friction is one-sided, and another one next to it";
+  }
+  friction_message = text.str();
+}
+
+void Reliability::askFriction(int material) {
+  if (std::find(frictions.begin(), frictions.end(), material) == frictions.end()) return;
+  smallest_margin = 0;
+  if (!reliable) return;
+  reliable = false;
+  message = friction_message;
 }
 
 }  // namespace carom

@@ -41,7 +41,15 @@ struct Reliability {
   double smallest_margin = 1;  ///< see Margins
   std::string message;         ///< a sentence when not reliable
 
+  /// Materials by whose friction, which is 0, the derivative cannot be trusted; and why, by the first such event.
+  std::vector<int> frictions;
+  std::string friction_message;
+
   void pass(const Motion& motion, int event);
+  /// `margin`: EventLinearization::frictionFromZero.
+  void passFriction(const Motion& motion, int event, double margin);
+  /// The derivative by the friction of a material is asked for, too.
+  void askFriction(int material);
 };
 
 /// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.

@@ -56,6 +56,12 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
     D_ += part.weight * part.jacobian.pose.row(0).dot(poses(part, rate_before_, nullptr));
 }
 
+double EventLinearization::frictionFromZero() const {
+  const ImpactProblem& p = assembly_.problem();
+  if (std::none_of(p.pair.begin(), p.pair.end(), [](const PairCoefficients& c) { return c.friction == 0; })) return 1;
+  return p.contacts() > 1 ? 0 : frictionFromZeroMargin(onlyContact(p));
+}
+
 EventLinearization::Vec12 EventLinearization::poses(const ContactPart& part, const std::vector<StateDerivative>& before,
                                                     const SceneTangent* dscene) const {
   Vec12 d = Vec12::Zero();

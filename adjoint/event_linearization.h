@@ -33,6 +33,9 @@ class EventLinearization {
     return rate_before_[static_cast<std::size_t>(participant)];
   }
   const StateDerivative& rateAfter(int participant) const { return rate_after_[static_cast<std::size_t>(participant)]; }
+  /// How far the event is from where it has no derivative by coefficients of friction that are 0: see
+  /// frictionFromZeroMargin. 0 for several contacts, one of which is without friction; 1 where none is.
+  double frictionFromZero() const;
   /// D = d(guard)/dt < 0, m/s.
   double guardRate() const { return D_; }
 

@@ -5,6 +5,7 @@
 
 #include "adjoint/arguments.h"
 #include "adjoint/errors.h"
+#include "adjoint/impact/law.h"
 
 namespace carom {
 
@@ -118,7 +119,7 @@ std::string Motion::signature(std::size_t count) const {
       for (int part : {c.a, c.b, static_cast<int>(c.features.kind), static_cast<int>(c.features.a),
                        static_cast<int>(c.features.b), static_cast<int>(c.features.sign)})
         text += std::to_string(part) + ",";
-    text += nameOf(event.mode);
+    text += nameOf(branchOf(event.mode));
     text += ';';
   }
   return text;

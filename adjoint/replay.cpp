@@ -279,7 +279,7 @@ bool Follower::parts(const std::vector<State>& after) {
 
 void Follower::commit(const Event& was, std::vector<State>& after) {
   Motion& motion = replay_.motion;
-  if (event_.mode != was.mode) replay_.mode_changed = true;
+  if (branchOf(event_.mode) != branchOf(was.mode)) replay_.mode_changed = true;
   for (std::size_t i = 0; i < after.size(); ++i) {
     const auto b = index(event_.participants[i].body);
     WorldLine& line = motion.world_lines[b];

@@ -76,7 +76,9 @@ namespace {
 
 using namespace validation;
 
-constexpr double kLeastMomentShare = 1e-10;  // least share of the largest moment that the roots of an inertia tensor resolve
+// Least share of the largest moment. The state of a rotation is the angular momentum in world axes; the spin about the
+// axis of a thinner body would be lost in its rounding, 1e-16 of the largest moment.
+constexpr double kLeastMomentShare = 1e-8;
 
 void requireMoments(const Place& where, const Vec3& I) {
   for (int i = 0; i < 3; ++i) requireDivisor(where, I[i]);
@@ -86,6 +88,9 @@ void requireMoments(const Place& where, const Vec3& I) {
       fail(where, "moments " + text(I[0]) + ", " + text(I[1]) + ", " + text(I[2]),
            "each moment at most the sum of the other two");
   }
+  if (!(I.minCoeff() >= kLeastMomentShare * I.maxCoeff()))
+    fail(where, "moments " + text(I[0]) + ", " + text(I[1]) + ", " + text(I[2]) + ", a ratio of " + text(I.maxCoeff() / I.minCoeff()),
+         "a ratio of " + text(1 / kLeastMomentShare) + " at most: beyond, the spin about the axis of the least one is lost in rounding");
 }
 
 // Mass and moments that follow from the shape must be numbers that can be divided by, and that a document can hold when
@@ -101,10 +106,11 @@ void requireDerived(const Place& where, const Body& body) {
          "a size from which a mass of " + text(model.mass) + " kg and a least moment of " + text(least) +
              " kg m^2 follow",
          "a size whose mass and moments can be divided by");
-  if (derived && model.has_offset && !(least > kLeastMomentShare * most))
+  if (derived && !(least >= kLeastMomentShare * most))
     fail(where / "shape",
-         "a body so thin that its least moment, " + text(least) + " kg m^2 of " + text(most) + ", is lost in rounding",
-         "a thicker one, or \"inertia\" written");
+         "a body so thin that its moments are " + text(least) + " and " + text(most) + " kg m^2, a ratio of " + text(most / least),
+         "a ratio of " + text(1 / kLeastMomentShare) +
+             " at most: beyond, the spin about the axis of the least one is lost in rounding. Thicker, or \"inertia\" written");
 }
 
 void validateMass(const Place& where, const Body& body) {

@@ -120,6 +120,11 @@ Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const
   return replay(like, scene, source.geometry(), until);
 }
 
+void askFrictions(const ControlSet& controls, Reliability& reliability) {
+  for (const BoundControl& c : controls.controls())
+    if (c.kind == &kFrictionControl) reliability.askFriction(static_cast<int>(c.owner.material));
+}
+
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
                                   const RowValues& rows, std::vector<Reliability>* reliability) {
   Eigen::MatrixXd J = unknown(problem);
@@ -129,6 +134,7 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
     if (rows.seeds[i].empty()) continue;
     const SceneGradient gradient = adjoint(tape, rows.seeds[i], reliability ? &(*reliability)[i] : nullptr);
     J.row(i) = problem.controls.gather(gradient, values).transpose();
+    if (reliability) askFrictions(problem.controls, (*reliability)[i]);
     if (!reliability || J.row(i).allFinite()) continue;
     (*reliability)[i].reliable = false;
     (*reliability)[i].message =

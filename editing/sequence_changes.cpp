@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "adjoint/impact/law.h"
 #include "editing/text.h"
 
 namespace carom {
@@ -50,7 +51,7 @@ bool sameFeatures(const Event& a, const Event& b) {
 }
 
 int differenceOf(const Event& a, const Event& b) {
-  return (sameFeatures(a, b) ? 0 : kOtherFeatures) + (a.mode == b.mode ? 0 : kOtherMode);
+  return (sameFeatures(a, b) ? 0 : kOtherFeatures) + (branchOf(a.mode) == branchOf(b.mode) ? 0 : kOtherMode);
 }
 
 /// Places in two lists that belong together; -1 where an impact stands alone.
@@ -117,7 +118,7 @@ void compare(const Sequence& before, int e, const Sequence& after, int f, const 
     changes.push_back(
         {Kind::moved, e, f,
          "The " + impact + " moved from " + featuresOf(before.motion, e) + " to " + featuresOf(after.motion, f) + "."});
-  } else if (a.mode != b.mode) {
+  } else if (branchOf(a.mode) != branchOf(b.mode)) {
     changes.push_back(
         {Kind::mode, e, f, "The " + impact + " changed from " + nameOf(a.mode) + " to " + nameOf(b.mode) + "."});
   }

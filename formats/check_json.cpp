@@ -63,6 +63,7 @@ std::string checkJson(const EditProblem& problem, const DerivativeCheck& check) 
   out.beginObject();
   out.key("passed").boolean(check.passed);
   out.key("message").text(check.message);
+  out.key("not_compared").integer(check.not_compared);
   out.key("sequence").texts(check.sequence);
   writeEntry(out, problem, check, "worst_tangent", check.adjoint_tangent, check.by_tangent, "tangent");
   writeEntry(out, problem, check, "worst_differences", check.differences, check.by_differences, "differences");

@@ -11,15 +11,17 @@ namespace carom {
 /// One column of a Jacobian by differences with one step.
 struct DifferenceColumn {
   bool compared = false;    ///< only where every motion that the differences use has the same impact sequence
-  std::string scheme;       ///< "central"; "forward" or "backward" where the scene is impossible on the other side
+  std::string scheme;       ///< "central"; "forward" or "backward" where the scene is impossible on the other side;
+                            ///< ", extrapolated": together with the step before
   std::string why;          ///< a sentence when not compared
   Eigen::VectorXd values;   ///< d(rows)/d(control), SI
-  double disagreement = 0;  ///< largest over the rows, relative to the column's scale
+  double disagreement = 0;  ///< largest over the rows, relative to the column's scale; 0 where it is rounding
+  Eigen::VectorXd rounding;  ///< of the values, by that of rows and derivatives
   std::vector<std::string> below, above;  ///< the impact sequences on both sides, one line an impact
 };
 
 /// The same derivatives by adjoint, by tangent and by differences. Disagreements are between dimensionless entries,
-/// relative to the largest entry of their column.
+/// relative to the largest entry of their column; 0 where they are rounding of what cancels.
 struct DerivativeCheck {
   struct Entry {
     int row = -1, column = -1;
@@ -32,6 +34,7 @@ struct DerivativeCheck {
   std::vector<int> best_step;                          ///< of each column; -1 where no step could be compared
   std::vector<std::string> sequence;                   ///< of the motion itself
   Entry adjoint_tangent, differences;                  ///< the worst entries
+  int not_compared = 0;                                ///< columns of which no step could be compared
   bool passed = false;
   std::string message;  ///< one sentence
 };

@@ -24,6 +24,11 @@ struct OneContact {
   PairNums pair;
 };
 
+// What 4.2 gives for a contact without friction that slips: the same impulse, and its derivatives by friction.
+bool takesFriction(const OneContact& one, const FrictionTerms<Num>& terms) {
+  return one.pair.friction > 0 || slipsWithoutFriction(terms);
+}
+
 // Slopes of the pair's coefficient by the two materials', see combinePullback.
 struct Slopes {
   Num by_a, by_b;
@@ -197,8 +202,8 @@ void DualEvent::assemble() {
     P_ = branch.P_N + branch.kappa * branch.d;
   } else {
     const OneContact one{problem_.K, problem_.u, problem_.normal[0], problem_.pair[0]};
-    const bool friction = one.pair.friction > 0;
-    P_ = friction ? FrictionTerms<Num>(one).impulse() : FrictionlessTerms<Num>(one).impulse();
+    const FrictionTerms<Num> friction(one);
+    P_ = takesFriction(one, friction) ? friction.impulse() : FrictionlessTerms<Num>(one).impulse();
   }
   for (const ContactPart& part : parts_) {
     Eigen::Matrix<Num, 12, 1> rate = Eigen::Matrix<Num, 12, 1>::Zero();
@@ -225,8 +230,9 @@ DualEvent::Problem DualEvent::lawPullback(const VecX& P_bar) const {
   }
   const OneContact one{problem_.K, problem_.u, problem_.normal[0], problem_.pair[0]};
   const NVec only = P_bar;
-  if (one.pair.friction > 0)
-    FrictionTerms<Num>(one).pullback(only, bar);
+  const FrictionTerms<Num> friction(one);
+  if (takesFriction(one, friction))
+    friction.pullback(only, bar);
   else
     FrictionlessTerms<Num>(one).pullback(only, bar);
   return bar;

@@ -142,4 +142,19 @@ struct FrictionTerms {
   }
 };
 
+/// Whether a contact without friction slips by more than rounding, so that 4.2 slides as friction grows from 0.
+template <class S>
+bool slipsWithoutFriction(const FrictionTerms<S>& t) {
+  constexpr double kRounding = 1e-13;
+  return t.slides && t.margin > kRounding;
+}
+
+/// Rate of the impulse of 4.1 as the coefficient of friction grows from 0, kappa = mu (1 + e) n.P_I/|d_t| + O(mu^2).
+/// Without slip there is no friction either.
+template <class S>
+V3<S> rateByFrictionFromZero(const FrictionTerms<S>& t) {
+  if (!slipsWithoutFriction(t)) return V3<S>::Zero();
+  return (t.e1 * t.n.dot(t.P_I) / t.s) * t.d;
+}
+
 }  // namespace carom::detail

@@ -1,37 +1,45 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include "adjoint/detail/dual.hpp"
 #include "adjoint/types.h"
 
 /// The tilted normal of tilt.h for any number.
 namespace carom::detail {
 
+/// m of tilt.h: the frame is smooth but at -m, which is 27 degrees or more from all axes and diagonals of the world, and
+/// 16 from the planes of the axes.
+inline Vec3 tiltCentre() { return Vec3(0.282, -0.367, 0.886).normalized(); }
+
+/// a of tilt.h: at right angles to m, and such that t1 of a level floor is the y axis.
+inline Vec3 tiltAxis() {
+  const Vec3 s = tiltCentre() + Vec3::UnitZ();
+  return Vec3::UnitY() - 2 * s.y() / s.squaredNorm() * s;
+}
+
 template <class S>
 struct TiltFrame {
-  explicit TiltFrame(const V3<S>& normal) : n(normal) {
-    const Vec3 now = valuesOf(n);
-    int k = 0;
-    for (int i = 1; i < 3; ++i)
-      if (std::abs(now[i]) < std::abs(now[k])) k = i;
-    e = Vec3(Vec3::Unit(k)).template cast<S>();
-    length = n.cross(e).norm();
-    t1 = n.cross(e) / length;
-    t2 = n.cross(t1);
-  }
+  explicit TiltFrame(const V3<S>& normal)
+      : n(normal),
+        a(tiltAxis().template cast<S>()),
+        s(n + tiltCentre().template cast<S>()),
+        length2(s.squaredNorm()),
+        along(2 * a.dot(s) / length2),
+        t1(a - along * s),
+        t2(n.cross(t1)) {}
   V3<S> offset(const V2<S>& tilt) const { return tilt.x() * t1 + tilt.y() * t2; }
 
   // d offset by n (3x3); its derivative by the tilt is (t1, t2).
   M3<S> offsetByNormal(const V2<S>& tilt) const {
-    const M3<S> dt1 = -(M3<S>::Identity() - t1 * t1.transpose()) * skewOf<S>(e) / length;  // d(n x e) = -[e]x dn
+    const V3<S> dalong = (2 * a - 2 * along * s) / length2;
+    const M3<S> dt1 = -along * M3<S>::Identity() - s * dalong.transpose();
     const M3<S> dt2 = -skewOf<S>(t1) + skewOf<S>(n) * dt1;
     return tilt.x() * dt1 + tilt.y() * dt2;
   }
 
-  V3<S> n, e, t1, t2;
-  S length;
+  V3<S> n, a, s;
+  S length2, along;
+  V3<S> t1, t2;
 };
 
 template <class S>

@@ -43,6 +43,11 @@ ContactSolution solveFriction(const ContactProblem& problem) {
   return {t.impulse(), t.slides ? ImpactMode::slide : ImpactMode::stick, t.margin};
 }
 
+double frictionFromZeroMargin(const ContactProblem& problem) {
+  const FrictionNumbers t(problem);
+  return t.slides ? t.margin : 0;
+}
+
 const ImpactLaw kFrictionLaw{"friction", solveFrictionLaw, frictionTangent, frictionPullback};
 
 }  // namespace carom

@@ -56,6 +56,10 @@ struct ContactSolution {
 ContactSolution solveFrictionless(const ContactProblem& problem);  ///< 4.1
 ContactSolution solveFriction(const ContactProblem& problem);      ///< 4.2
 
+/// Of a contact without friction: how far it is from where the impulse has no derivative by the coefficient of friction
+/// at 0, because a body that does not slip there sticks with the least friction. |P_t|/P_n of the untruncated impulse.
+double frictionFromZeroMargin(const ContactProblem& problem);
+
 /// The only contact of a problem.
 inline ContactProblem onlyContact(const ImpactProblem& p) { return {p.K, p.u, p.normal[0], p.pair[0]}; }
 
@@ -70,6 +74,10 @@ struct ImpactLaw {
 extern const ImpactLaw kFrictionlessLaw;  ///< 4.1, one contact, friction 0
 extern const ImpactLaw kFrictionLaw;      ///< 4.2, one contact
 extern const ImpactLaw kJointLaw;         ///< 4.3, several contacts
+
+/// A contact without friction is one that slides with a coefficient of 0: a motion varies smoothly from the one to the
+/// other.
+inline ImpactMode branchOf(ImpactMode mode) { return mode == ImpactMode::frictionless ? ImpactMode::slide : mode; }
 
 /// The law that a problem falls under.
 inline const ImpactLaw& lawFor(const ImpactProblem& problem) {

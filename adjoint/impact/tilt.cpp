@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/impact/tilt.h"
 
+#include <algorithm>
+
 #include "adjoint/detail/tilt_frame.hpp"
 
 namespace carom {
@@ -8,7 +10,16 @@ namespace carom {
 using Frame = detail::TiltFrame<double>;
 
 Vec3 tiltedNormal(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b) {
-  return (n + Frame(n).offset(tilt_a) - Frame(-n).offset(tilt_b)).normalized();
+  Vec3 m = n;
+  if (!tilt_a.isZero(0)) m += Frame(n).offset(tilt_a);
+  if (!tilt_b.isZero(0)) m -= Frame(-n).offset(tilt_b);
+  return m.normalized();
+}
+
+double tiltMargin(const Vec3& n, bool a, bool b) {
+  const double of_a = a ? 0.5 * (n + detail::tiltCentre()).norm() : 1;
+  const double of_b = b ? 0.5 * (detail::tiltCentre() - n).norm() : 1;
+  return std::min(of_a, of_b);
 }
 
 Eigen::Matrix<double, 3, 7> tiltedNormalJacobian(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b) {

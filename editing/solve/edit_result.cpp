@@ -55,13 +55,14 @@ double largest(const Eigen::VectorXd& values) {
 }
 
 /// Of the derivatives of all rows, the worst.
-Reliability reliabilityOf(const Motion& motion, const RowValues& rows) {
+Reliability reliabilityOf(const EditProblem& problem, const Motion& motion, const RowValues& rows) {
   Reliability worst;
   DerivativeTape tape(motion);
   for (const std::vector<StateSeed>& seeds : rows.seeds) {
     if (seeds.empty()) continue;
     Reliability one;
     adjoint(tape, seeds, &one);
+    askFrictions(problem.controls, one);
     worst.events = std::max(worst.events, one.events);
     worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
     if (worst.reliable && !one.reliable) worst.message = one.message;
@@ -102,7 +103,7 @@ void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditRe
   result.residual = largest(rows.residuals);
   result.scaled_residual = largest(rows.scaled);
   result.sequence_after = describeEvents(result.motion);
-  result.reliability = reliabilityOf(result.motion, rows);
+  result.reliability = reliabilityOf(problem, result.motion, rows);
 }
 
 /// A scene that stays as written need not say its numbers in the words of the controls: then it is put into them.

@@ -39,7 +39,7 @@ class MarginReader {
       leaving(event, k);
       if (contacts > 1) parting(event, k);
     }
-    if (contacts == 1 && (e.mode == ImpactMode::stick || e.mode == ImpactMode::slide)) slipping(event);
+    if (contacts == 1) slipping(event);
   }
 
   void readOrder(int event) {
@@ -164,16 +164,19 @@ class MarginReader {
     const Vec3 n = problem.normal, P = untruncatedImpulse(problem);
     const double P_n = n.dot(P), mu = c.pair.friction;
     const Vec3 P_t = P - P_n * n, t1 = P_t.norm() > 0 ? P_t.normalized() : n.unitOrthogonal(), t2 = n.cross(t1);
-    const Eigen::VectorXd along_n = impulseGradient(event, problem, n, P),
-                          along_1 = impulseGradient(event, problem, t1, -P_n * t1);
     EventBars friction(motion_, event);
     friction.addLaw(0, Mat3::Zero(), Vec3::Zero(), {0, P_n, 0});
-    const Eigen::VectorXd cone = mu * along_n + gradientOf(friction);
+    const Eigen::VectorXd by_friction = gradientOf(friction);
+    if (e.mode == ImpactMode::frictionless && by_friction.isZero(0)) return;  // it stays without
+    const Eigen::VectorXd along_n = impulseGradient(event, problem, n, P),
+                          along_1 = impulseGradient(event, problem, t1, -P_n * t1);
+    const Eigen::VectorXd cone = mu * along_n + by_friction;
 
-    EventMargin m = start(e.mode == ImpactMode::slide ? Way::sticks : Way::slides, event);
+    const bool slides = branchOf(e.mode) == ImpactMode::slide;
+    EventMargin m = start(slides ? Way::sticks : Way::slides, event);
     m.value = mu * P_n - P_t.norm();
     m.gradient = cone - along_1;
-    m.what = name(event, 0) + (e.mode == ImpactMode::slide ? " sticks" : " starts to slide");
+    m.what = name(event, 0) + (slides ? " sticks" : " starts to slide");
     if (e.mode == ImpactMode::stick) {
       const Eigen::VectorXd along_2 = impulseGradient(event, problem, t2, -P_n * t2);
       nearestDirection(mu * P_n, P_t.norm(), cone, along_1, along_2, m);

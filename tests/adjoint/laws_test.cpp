@@ -195,10 +195,10 @@ TEST(Tilt, JacobianIsTheLimitOfDifferences) {
   }
 }
 
-// n = z: t1 = z x x = y and t2 = z x y = -x; the other body sees the opposite normal, for which t1 = -y, t2 = -x.
+// n = z: t1 = y and t2 = z x y = -x; the other body sees the opposite normal.
 TEST(Tilt, DirectionsAreThoseOfTheDefinition) {
   expectEntries(tiltedNormal(Vec3::UnitZ(), {0.3, 0.1}, {0, 0}), Vec3(-0.1, 0.3, 1).normalized(), 1e-15, "a");
-  expectEntries(tiltedNormal(Vec3::UnitZ(), {0, 0}, {0.3, 0.1}), Vec3(0.1, 0.3, 1).normalized(), 1e-15, "b");
+  expectEntries(tiltedNormal(-Vec3::UnitZ(), {0, 0}, {0.3, 0.1}), Vec3(0.1, -0.3, -1).normalized(), 1e-15, "b");
   expectEntries(tiltedNormal(Vec3::UnitZ(), {0, 0}, {0, 0}), Vec3(0, 0, 1), 0, "none");
 }
 

@@ -224,6 +224,10 @@ std::vector<Mistake> mistakes() {
        [](Scene& s) {
          s.bodies[2].inertia = Inertia::fromMoments({1e-160, 1, 1});
        }},
+      {"/bodies/1/inertia", [](Scene& s) { s.bodies[1].inertia = Inertia::fromMoments({1, 0.99e-8, 1}); }},
+      {"/bodies/1/shape", [](Scene& s) { s.bodies[1].shape = Capsule{1e-8, 1}; }},  // a needle
+      {"/bodies/1/shape", [](Scene& s) { s.bodies[1].shape = Capsule{1e-5, 1}; }},
+      {"/bodies/1/shape", [](Scene& s) { s.bodies[1].shape = Box{{1e-5, 1, 1e-5}}; }},
       {"/bodies/1/center_of_mass/2", [](Scene& s) { s.bodies[1].center_of_mass = Vec3(0, 0, kNan); }},
       {"/bodies/1/shape/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/"
        "compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound/0/compound",
@@ -261,11 +265,11 @@ TEST(Validate, OddShapesAreAccepted) {
       },  // two at one place
       [](Body& b) { b.shape = nested(16); },
       [](Body& b) {
-        b.shape = needle(), b.inertia = Inertia::fromMoments({1, 1, 1e-12});
+        b.shape = needle(), b.inertia = Inertia::fromMoments({1, 1, 1e-8});
       },
       [](Body& b) {
-        b.shape = boxMesh({1e-6, 1e-6, 1});
-      },                                                  // its axes are principal, so that no digits are lost
+        b.shape = boxMesh({1e-4, 1e-4, 1});
+      },  // moments in a ratio of 5e7
       [](Body& b) { b.center_of_mass = Vec3(5, 0, 0); },  // outside the body, as a boomerang's
   };
   for (std::size_t i = 0; i < odd.size(); ++i) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "adjoint/body_model.h"
+#include "adjoint/plan.h"
+#include "formats/scene_json.h"
 #include "tests/import/gltf_files.h"
 #include "tests/support/compare.h"
 
@@ -191,6 +193,35 @@ TEST(Members, MaterialsWithTheirRules) {
   EXPECT_EQ(bodyIn(sample, "Plain").material, "");
   EXPECT_EQ(bodyIn(sample, "Heavy ball").material, "felt");
   EXPECT_EQ(sample.document.scene.gravity, Vec3(0, 0, -9.81)) << "no gravity in the file";
+}
+
+// All pairs of rules in a file, and in the document that is made of it: the earlier one holds, as the extension's text says.
+TEST(Members, TheEarlierOfTwoRulesHolds) {
+  const std::vector<std::string> words = {"average", "minimum", "maximum", "multiply"};
+  const double values[] = {0.5 * (0.3 + 0.7), 0.3, 0.7, 0.3 * 0.7};
+  json file = plainDocument();
+  json& materials = file["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"];
+  materials = json::array();
+  for (const double value : {0.3, 0.7})
+    for (const std::string& word : words)
+      materials.push_back({{"name", word + (value < 0.5 ? " low" : " high")},
+                           {"staticFriction", value},
+                           {"dynamicFriction", value},
+                           {"restitution", value},
+                           {"frictionCombine", word},
+                           {"restitutionCombine", word}});
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      physicsOf(file, 0)["collider"]["physicsMaterial"] = i;
+      physicsOf(file, 1)["collider"]["physicsMaterial"] = 4 + j;
+      const Document imported = importJson(file).document;
+      for (const Document& document : {imported, parseDocument(writeDocument(imported), "written")}) {
+        const Scene& scene = document.scene;
+        const Material &a = materialOf(scene, scene.bodies[0]), &b = materialOf(scene, scene.bodies[1]);
+        EXPECT_EQ(combine(a, b).friction, values[std::min(i, j)]) << words[i] << " with " << words[j];
+        EXPECT_EQ(combine(b, a).elasticity, values[std::min(i, j)]) << words[i] << " with " << words[j];
+      }
+    }
 }
 
 TEST(Members, ScaleGoesIntoTheShape) {
