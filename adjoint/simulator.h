@@ -117,7 +117,7 @@ class Simulator {
   bool isExplained(const Prediction& next);
   bool separates();
   bool accumulates();
-  bool isLow(const Contact& c, const Prediction*& next) const;
+  bool isLow(const Contact& c, const Prediction*& next);
   bool stalls(int body) const;
   void requireFlight(int body, const Arc& arc) const;
   [[noreturn]] void giveUp(const char* what, int a, int b, double time, const NotComputable& why) const;

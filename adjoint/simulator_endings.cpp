@@ -42,16 +42,24 @@ bool Simulator::separates() {
   return true;
 }
 
-// Whether the next bounce of a contact, if it is known, is too low to count.
-bool Simulator::isLow(const Contact& c, const Prediction*& next) const {
+// Whether the next bounce of a contact, if it is known, is too low to count. The contact leaves at e times its approach
+// or faster; where that leaves it low, what counts is how far its features are apart halfway, which of a parabola is its
+// height. A body that turns may lift them without any speed to begin with.
+bool Simulator::isLow(const Contact& c, const Prediction*& next) {
   next = nullptr;
   for (const Prediction& p : found_)
     if (p.a == c.a && p.b == c.b && p.explained()) {
       next = &p;
       break;
     }
-  const double leaving = std::abs(c.pair.elasticity * c.approach);
-  return next && 0.25 * leaving * (next->time - draft_.event.time) < kLowestBounce;
+  if (!next) return false;
+  const double start = draft_.event.time, slowest = std::abs(c.pair.elasticity * c.approach);
+  if (!(0.25 * slowest * (next->time - start) < kLowestBounce)) return false;
+  const auto poseOf = [&](int body) {
+    const Kinematics k = pathOf(body).kinematicsAt(start + 0.5 * (next->time - start));
+    return Pose{k.x, k.R};
+  };
+  return !(motion_.geometry->contact(c.a, c.b, c.features, poseOf(c.a), poseOf(c.b)).gap >= kLowestBounce);
 }
 
 // A body that is in infinitely many of the events that pile up has this many of them in no time.

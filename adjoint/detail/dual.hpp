@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "adjoint/elementary.h"
 
@@ -12,15 +13,18 @@
 namespace carom::detail {
 
 /// A number with its rates along N directions. Arithmetic carries the rates along exactly; comparisons see the value
-/// alone, so that a computation with duals takes the branches that the same computation with doubles takes.
-template <int N>
+/// alone, so that a computation with duals takes the branches that the same computation with doubles takes. T is what
+/// values and rates are: double, or Wide.
+template <int N, class T = double>
 struct Dual {
   static constexpr int kDirections = N;
-  double value = 0;
-  std::array<double, N> rate{};
+  T value = 0;
+  std::array<T, N> rate{};
 
   Dual() = default;
-  Dual(double v) : value(v) {}  // NOLINT: a constant is a number
+  template <class U>
+    requires std::is_convertible_v<U, T>
+  Dual(const U& v) : value(v) {}  // NOLINT: a constant is a number
 
   Dual& operator+=(const Dual& o) {
     value += o.value;
@@ -38,7 +42,7 @@ struct Dual {
   Dual operator+() const { return *this; }
 
   /// f(value) with its slope f'(value).
-  Dual chain(double f, double slope) const {
+  Dual chain(const T& f, const T& slope) const {
     Dual r;
     r.value = f;
     for (std::size_t i = 0; i < N; ++i) r.rate[i] = slope * rate[i];
@@ -66,7 +70,7 @@ struct Dual {
   friend Dual operator/(const Dual& a, const Dual& b) {
     Dual r;
     r.value = a.value / b.value;
-    const double over = 1 / b.value;
+    const T over = 1 / b.value;
     for (std::size_t i = 0; i < N; ++i) r.rate[i] = (a.rate[i] - r.value * b.rate[i]) * over;
     return r;
   }
@@ -86,7 +90,8 @@ struct Dual {
   friend bool operator!=(const Dual& a, const Dual& b) { return a.value != b.value; }
 
   friend Dual sqrt(const Dual& a) {
-    const double root = std::sqrt(a.value);
+    using std::sqrt;
+    const T root = sqrt(a.value);
     return a.chain(root, 0.5 / root);
   }
   friend Dual abs(const Dual& a) { return a.value < 0 ? -a : a; }
@@ -100,16 +105,28 @@ struct Dual {
   }
 };
 
+/// What the values of a number are: T of Dual<N, T>, else the number itself.
+template <class S>
+struct ValueOf {
+  using Type = S;
+};
+template <int N, class T>
+struct ValueOf<Dual<N, T>> {
+  using Type = T;
+};
+template <class S>
+using Value = typename ValueOf<S>::Type;
+
 inline double valueOf(double x) { return x; }
-template <int N>
-double valueOf(const Dual<N>& x) {
+template <int N, class T>
+T valueOf(const Dual<N, T>& x) {
   return x.value;
 }
 
 /// Along direction i; a constant has the rate 0.
 inline double rateOf(double, std::size_t) { return 0; }
-template <int N>
-double rateOf(const Dual<N>& x, std::size_t i) {
+template <int N, class T>
+T rateOf(const Dual<N, T>& x, std::size_t i) {
   return x.rate[i];
 }
 
@@ -151,9 +168,9 @@ V3<S> unskewOf(const M3<S>& m) {
 }  // namespace carom::detail
 
 namespace Eigen {
-template <int N>
-struct NumTraits<carom::detail::Dual<N>> : GenericNumTraits<double> {
-  using Real = carom::detail::Dual<N>;
+template <int N, class T>
+struct NumTraits<carom::detail::Dual<N, T>> : GenericNumTraits<double> {
+  using Real = carom::detail::Dual<N, T>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;
@@ -167,12 +184,12 @@ struct NumTraits<carom::detail::Dual<N>> : GenericNumTraits<double> {
     MulCost = 3 * N
   };
 };
-template <int N, class Op>
-struct ScalarBinaryOpTraits<carom::detail::Dual<N>, double, Op> {
-  using ReturnType = carom::detail::Dual<N>;
+template <int N, class T, class Op>
+struct ScalarBinaryOpTraits<carom::detail::Dual<N, T>, double, Op> {
+  using ReturnType = carom::detail::Dual<N, T>;
 };
-template <int N, class Op>
-struct ScalarBinaryOpTraits<double, carom::detail::Dual<N>, Op> {
-  using ReturnType = carom::detail::Dual<N>;
+template <int N, class T, class Op>
+struct ScalarBinaryOpTraits<double, carom::detail::Dual<N, T>, Op> {
+  using ReturnType = carom::detail::Dual<N, T>;
 };
 }  // namespace Eigen

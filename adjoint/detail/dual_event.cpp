@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "adjoint/detail/impact_pass.hpp"
 #include "adjoint/detail/joint_law.hpp"
 #include "adjoint/detail/single_laws.hpp"
 #include "adjoint/detail/tilt_frame.hpp"
 #include "adjoint/impact/law.h"
+#include "adjoint/impact/wide_impact.h"
 
 // The formulae of event_linearization.cpp and impact/impact.cpp, which stay in doubles of fixed sizes: a first
 // derivative is asked for far more often, and never needs the full tensor of A or rotations as matrices of duals. That
@@ -27,6 +29,30 @@ struct OneContact {
 // What 4.2 gives for a contact without friction that slips: the same impulse, and its derivatives by friction.
 bool takesFriction(const OneContact& one, const FrictionTerms<Num>& terms) {
   return one.pair.friction > 0 || slipsWithoutFriction(terms);
+}
+
+// The same lanes in numbers of 32 digits, and back.
+using WideNum = Dual<static_cast<int>(kLanes), Wide>;
+WideNum widened(const Num& x) {
+  WideNum w(x.value);
+  for (std::size_t i = 0; i < kLanes; ++i) w.rate[i] = x.rate[i];
+  return w;
+}
+Num narrowed(const WideNum& w) {
+  Num x(w.value.high);
+  for (std::size_t i = 0; i < kLanes; ++i) x.rate[i] = w.rate[i].high;
+  return x;
+}
+V3<WideNum> widened(const NVec& v) { return {widened(v[0]), widened(v[1]), widened(v[2])}; }
+NVec narrowed(const V3<WideNum>& v) { return {narrowed(v[0]), narrowed(v[1]), narrowed(v[2])}; }
+M3<WideNum> widened(const NMat& m) {
+  return m.unaryExpr([](const Num& x) { return widened(x); });
+}
+NMat narrowed(const M3<WideNum>& m) {
+  return m.unaryExpr([](const WideNum& x) { return narrowed(x); });
+}
+PairNums narrowed(const ImpactPass<WideNum>::Pair& p) {
+  return {narrowed(p.elasticity), narrowed(p.friction), narrowed(p.tangential_elasticity)};
 }
 
 // Slopes of the pair's coefficient by the two materials', see combinePullback.
@@ -173,6 +199,7 @@ PairNums DualEvent::pairOf(const Contact& c, const ContactPart& part) const {
 }
 
 void DualEvent::assemble() {
+  wide_ = needsWide(event_, *lanes_.motion().models);
   for (std::size_t i = 0; i < bodies_.size(); ++i) problem_.driven = problem_.driven || isKinematic(i);
   const auto n = static_cast<Eigen::Index>(parts_.size());
   problem_.K = MatX::Zero(3 * n, 3 * n);
@@ -197,7 +224,8 @@ void DualEvent::assemble() {
       problem_.K.block<3, 3>(3 * static_cast<Eigen::Index>(k.contact), 3 * static_cast<Eigen::Index>(l.contact)) +=
           k.sign * l.sign * (lanes_.model(b.body).inverse_mass * NMat::Identity() - rotation);
     }
-  if (n > 1) {
+  if (wide_) {  // the impulses are found in throughLaw
+  } else if (n > 1) {
     const Branch<Num> branch(problem_);
     P_ = branch.P_N + branch.kappa * branch.d;
   } else {
@@ -238,9 +266,58 @@ DualEvent::Problem DualEvent::lawPullback(const VecX& P_bar) const {
   return bar;
 }
 
+// WideImpact::pullback.
+std::vector<StateBar> DualEvent::throughWideLaw(const std::vector<StateBar>& after_bar, std::vector<Num7>& contact_bar,
+                                                std::vector<PairNums>& pair_bar,
+                                                std::vector<ModelBar>& model_bar) const {
+  using Pass = ImpactPass<WideNum>;
+  Pass pass;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const MovingBody& b = bodies_[i];
+    const DualModel& m = lanes_.model(b.body);
+    const M3<WideNum> R = widened(b.before.R), A = R * widened(m.A) * R.transpose();
+    pass.bodies.push_back({isKinematic(i), isKinematic(i) ? WideNum(0) : WideNum(1) / widened(m.mass), A,
+                           widened(b.before.v), widened(b.before.L)});
+  }
+  for (const Arm& arm : arms_)
+    pass.arms.push_back({arm.contact, arm.participant, arm.sign,
+                         V3<WideNum>(widened(parts_[arm.contact].point) - widened(bodies_[arm.participant].before.x))});
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    pass.problem.normal.push_back(widened(problem_.normal[k]));
+    const PairNums& pair = problem_.pair[k];
+    pass.problem.pair.push_back(
+        {widened(pair.elasticity), widened(pair.friction), widened(pair.tangential_elasticity)});
+  }
+  pass.solve();
+  std::vector<Pass::BodyBar> bodies_bar(bodies_.size());
+  std::vector<Pass::ContactBar> contacts_bar(parts_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    bodies_bar[i].v = widened(after_bar[i].v), bodies_bar[i].L = widened(after_bar[i].L);
+  pass.pullback(bodies_bar, contacts_bar);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    contact_bar[k].segment<3>(1) += narrowed(contacts_bar[k].normal);
+    contact_bar[k].tail<3>() += narrowed(contacts_bar[k].point);
+    pair_bar[k] = narrowed(contacts_bar[k].pair);
+  }
+  std::vector<StateBar> before_bar = after_bar;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Pass::BodyBar& bar = bodies_bar[i];
+    before_bar[i].v = narrowed(bar.v);
+    before_bar[i].L = narrowed(bar.L);
+    before_bar[i].x += narrowed(bar.x);
+    before_bar[i].theta += narrowed(pass.turnBar(i, bar));
+    ModelBar& to = model_bar[static_cast<std::size_t>(bodies_[i].body)];
+    to.addInertiaBar(narrowed(pass.inertiaBar(i, bar, widened(bodies_[i].before.R))));
+    const WideNum inverse_mass = pass.bodies[i].inverse_mass;
+    to.mass -= narrowed(bar.inverse_mass * inverse_mass * inverse_mass);
+  }
+  return before_bar;
+}
+
 // ImpactAssembly::pullback.
 std::vector<StateBar> DualEvent::throughLaw(const std::vector<StateBar>& after_bar, std::vector<Num7>& contact_bar,
                                             std::vector<PairNums>& pair_bar, std::vector<ModelBar>& model_bar) const {
+  if (wide_) return throughWideLaw(after_bar, contact_bar, pair_bar, model_bar);
   std::vector<StateBar> before_bar = after_bar;
   std::vector<Num> inverse_mass_bar(bodies_.size());
   std::vector<NVec> r_bar(arms_.size(), NVec::Zero()), omega_bar(bodies_.size(), NVec::Zero());

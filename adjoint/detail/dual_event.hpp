@@ -63,6 +63,8 @@ class DualEvent {
   void assemble();
   std::vector<StateBar> throughLaw(const std::vector<StateBar>& after_bar, std::vector<Num7>& contact_bar,
                                    std::vector<PairNums>& pair_bar, std::vector<ModelBar>& model_bar) const;
+  std::vector<StateBar> throughWideLaw(const std::vector<StateBar>& after_bar, std::vector<Num7>& contact_bar,
+                                       std::vector<PairNums>& pair_bar, std::vector<ModelBar>& model_bar) const;
   Problem lawPullback(const Eigen::Matrix<Num, Eigen::Dynamic, 1>& P_bar) const;
   void scatter(const ContactPart& part, const Num7& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar) const;
   void materialPullback(const Contact& c, const ContactPart& part, const PairNums& bar, SceneBar& scene_bar) const;
@@ -76,6 +78,7 @@ class DualEvent {
   Problem problem_;
   Eigen::Matrix<Num, Eigen::Dynamic, 1> P_;
   Num D_;
+  bool wide_ = false;  // doubles are too short for its impact, see WideImpact
 };
 
 }  // namespace carom::detail

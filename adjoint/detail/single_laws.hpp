@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include "adjoint/detail/dual.hpp"
+#include "adjoint/detail/wide.hpp"
 #include "adjoint/types.h"
 
 /// The laws of one contact and their adjoints, for any number: doubles, and duals for second derivatives. A `Problem`
@@ -14,24 +15,26 @@ namespace carom::detail {
 template <class S>
 class Solve3 {
  public:
+  explicit Solve3(const M3<S>& K) : factor_(K) {}
+  V3<S> solve(const V3<S>& b) const { return factor_.solve(b); }
+
+ private:
+  Eigen::LDLT<M3<S>> factor_;
+};
+template <int N, class T>
+class Solve3<Dual<N, T>> {
+  using S = Dual<N, T>;
+
+ public:
   explicit Solve3(const M3<S>& K)
-      : inverse_(Eigen::LDLT<Mat3>(valuesOf(K)).solve(Mat3::Identity()).template cast<S>()) {
-    const Mat3 inverse = valuesOf(inverse_);
-    for (std::size_t i = 0; i < S::kDirections; ++i) setRates(inverse_, Mat3(-inverse * ratesOf(K, i) * inverse), i);
+      : inverse_(Eigen::LDLT<M3<T>>(valuesOf(K)).solve(M3<T>::Identity()).template cast<S>()) {
+    const M3<T> inverse = valuesOf(inverse_);
+    for (std::size_t i = 0; i < N; ++i) setRates(inverse_, M3<T>(-inverse * ratesOf(K, i) * inverse), i);
   }
   V3<S> solve(const V3<S>& b) const { return inverse_ * b; }
 
  private:
   M3<S> inverse_;
-};
-template <>
-class Solve3<double> {
- public:
-  explicit Solve3(const Mat3& K) : factor_(K) {}
-  Vec3 solve(const Vec3& b) const { return factor_.solve(b); }
-
- private:
-  Eigen::LDLT<Mat3> factor_;
 };
 
 /// Equation 4.1: P = c n with c = -(1 + e) u_n / a, u_n = n.u, a = n.K n.
@@ -89,11 +92,13 @@ struct FrictionTerms {
     d = P_II - P_I;
     d_n = n.dot(d);
     d_t = d - d_n * n;
-    const double s_now = valuesOf(d_t).norm();
+    using std::abs;
+    using T = Value<S>;
+    const T s_now = valuesOf(d_t).norm();
     const S P_n = e1 * n.dot(P_I) + et1 * d_n;
-    const double P_t = std::abs(valueOf(et1)) * s_now;
+    const T P_t = abs(valueOf(et1)) * s_now;
     slides = P_t > valueOf(mu * P_n);
-    margin = std::abs(valueOf(mu * P_n) - P_t) / ((1 + valueOf(mu)) * std::abs(valueOf(P_n)));
+    margin = rounded(abs(valueOf(mu * P_n) - P_t) / ((1 + valueOf(mu)) * abs(valueOf(P_n))));
     if (slides) {
       s = d_t.norm();
       slope = s - mu * d_n;  // > mu e1 n.P_I / et1 > 0, because the stick impulse lies outside the cone

@@ -5,126 +5,210 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/detail/wide.hpp"
 #include "adjoint/errors.h"
 
 namespace carom {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 namespace {
 
+template <class T>
+using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+template <class T>
+using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+template <class T>
+struct Precision;
+template <>
+struct Precision<double> {
+  static constexpr double kNull = 1e-11, kRounding = 1e-13;
+};
+// Normals and points are doubles: what they make of redundant contacts is of size 1e-32.
+template <>
+struct Precision<detail::Wide> {
+  static constexpr double kNull = 1e-26, kRounding = 1e-28;
+};
+
 // An eigen-decomposition of numbers that are not finite ends nowhere.
-void requireComputable(const MatrixXd& A, const VectorXd& b) {
-  if (!A.allFinite() || !b.allFinite())
+template <class T>
+void requireComputable(const Matrix<T>& A, const Vector<T>& b) {
+  const auto number = [](const T& x) { return detail::rounded(x); };
+  if (!A.unaryExpr(number).allFinite() || !b.unaryExpr(number).allFinite())
     throw NotComputable("the effective masses of its contacts are beyond the range of doubles");
+}
+
+// Powers of 16, which round nothing, that bring the diagonal of D A D within a factor of 16 either way of the largest
+// entry of A; contacts of bodies of like masses keep 1.
+template <class T>
+Vector<T> scaleOf(const Matrix<T>& A) {
+  const auto size = [](const T& x) { return std::ilogb(detail::rounded(x)); };
+  const T largest = A.diagonal().maxCoeff();
+  Vector<T> D = Vector<T>::Ones(A.rows());
+  for (Index i = 0; i < A.rows(); ++i)
+    if (A(i, i) > T(0)) D[i] = std::ldexp(1.0, 4 * ((size(largest) - size(A(i, i)) + 4) / 8));
+  return D;
+}
+
+// Of independent columns, twice over, since their rows may differ much in size.
+template <class T>
+Matrix<T> orthonormal(Matrix<T> columns) {
+  using std::sqrt;
+  for (int pass = 0; pass < 2; ++pass)
+    for (Index c = 0; c < columns.cols(); ++c) {
+      for (Index before = 0; before < c; ++before) {
+        const T along = columns.col(before).dot(columns.col(c));
+        columns.col(c) -= columns.col(before) * along;
+      }
+      const T length = sqrt(columns.col(c).dot(columns.col(c)));
+      columns.col(c) /= length;
+    }
+  return columns;
 }
 
 }  // namespace
 
-LeastNormSolve::LeastNormSolve(const MatrixXd& A, const VectorXd& b) {
-  requireComputable(A, b);
+template <class T>
+LeastNormSolveOf<T>::LeastNormSolveOf(const Matrix& A, const Vector& b) {
+  requireComputable<T>(A, b);
   if (b.size() == 0) {  // no contact: no impulse
     inverse = rest = A;
     y = inverse_y = b;
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
-  const VectorXd& values = eigen.eigenvalues();  // in increasing order
-  const MatrixXd& vectors = eigen.eigenvectors();
+  const Vector D = scaleOf<T>(A);
+  const bool alike = (D.array() == T(1)).all();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(alike ? A : Matrix(D.asDiagonal() * A * D.asDiagonal()));
+  const Vector& values = eigen.eigenvalues();  // in increasing order
+  const Matrix& vectors = eigen.eigenvectors();
   Index null = 0;
-  while (null < values.size() && values[null] <= 1e-11 * values[values.size() - 1]) ++null;
-  const MatrixXd range = vectors.rightCols(values.size() - null);
+  while (null < values.size() && values[null] <= T(Precision<T>::kNull) * values[values.size() - 1]) ++null;
+  const Matrix range = vectors.rightCols(values.size() - null);
   inverse = range * values.tail(values.size() - null).cwiseInverse().asDiagonal() * range.transpose();
-  rest = vectors.leftCols(null) * vectors.leftCols(null).transpose();
+  if (alike) {
+    rest = vectors.leftCols(null) * vectors.leftCols(null).transpose();
+  } else {  // A D v = 0 where D A D v = 0; D (D A D)^+ D inverts A up to parts in there
+    const Matrix none = orthonormal<T>(D.asDiagonal() * vectors.leftCols(null));
+    rest = none * none.transpose();
+    const Matrix across = Matrix::Identity(A.rows(), A.rows()) - rest;
+    inverse = (across * (D.asDiagonal() * inverse * D.asDiagonal()) * across).eval();
+  }
   y = -inverse * b;
   inverse_y = inverse * y;
 }
 
-VectorXd LeastNormSolve::tangent(const MatrixXd& dA, const VectorXd& db) const {
+template <class T>
+typename LeastNormSolveOf<T>::Vector LeastNormSolveOf<T>::tangent(const Matrix& dA, const Vector& db) const {
   return -inverse * (db + dA * y) + rest * (dA * inverse_y);
 }
 
-void LeastNormSolve::pullback(const VectorXd& y_bar, MatrixXd& A_bar, VectorXd& b_bar) const {
-  const VectorXd z = inverse * y_bar;
+template <class T>
+void LeastNormSolveOf<T>::pullback(const Vector& y_bar, Matrix& A_bar, Vector& b_bar) const {
+  const Vector z = inverse * y_bar;
   b_bar = -z;
   A_bar = -z * y.transpose() + (rest.transpose() * y_bar) * inverse_y.transpose();
 }
+
+template struct LeastNormSolveOf<double>;
+template struct LeastNormSolveOf<detail::Wide>;
 
 namespace {
 
 using Contacts = std::vector<int>;
 
+template <class T>
+T absOf(const T& x) {
+  return x < T(0) ? T(-x) : x;
+}
+
 // Where contacts are redundant several sets give the same velocities. The one that spreads the impulses over all
 // contacts that just meet their condition is taken when it pulls nowhere: a box on a face is held at its four corners,
 // not at two.
-Contacts spread(const MatrixXd& A, const VectorXd& b, const VectorXd& y, Contacts active) {
-  const VectorXd w = A * y + b;
-  const double scale = b.cwiseAbs().maxCoeff();
+template <class T>
+Contacts spread(const Matrix<T>& A, const Vector<T>& b, const Vector<T>& y, Contacts active) {
+  const Vector<T> w = A * y + b;
+  const T scale = b.unaryExpr(&absOf<T>).maxCoeff(), least = T(1e-9) * scale;
   Contacts met;
   for (Index i = 0; i < b.size(); ++i)
-    if (y[i] > 0 || std::abs(w[i]) <= 1e-9 * scale) met.push_back(static_cast<int>(i));
+    if (y[i] > T(0) || absOf<T>(w[i]) <= least) met.push_back(static_cast<int>(i));
   if (met.empty() || met.size() == active.size()) return active;
-  const LeastNormSolve solve(A(met, met), b(met));
-  if ((A(met, met) * solve.y + b(met)).cwiseAbs().maxCoeff() > 1e-9 * scale) return active;
-  const double least = 1e-9 * solve.y.cwiseAbs().maxCoeff();
-  return solve.y.minCoeff() > least ? met : active;
+  const LeastNormSolveOf<T> solve(A(met, met), b(met));
+  const Vector<T> left = A(met, met) * solve.y + b(met);
+  for (std::size_t c = 0; c < met.size(); ++c) {
+    const auto i = static_cast<Index>(c);
+    // an impulse counts by the velocity that it gives its own contact
+    if (absOf<T>(left[i]) > least || !(A(met[c], met[c]) * solve.y[i] > least)) return active;
+  }
+  return met;
 }
 
 }  // namespace
 
 // Active set of Lawson and Hanson: contacts enter one at a time, the most violated first, and leave at the first
 // impulse that would turn negative.
-std::vector<int> activeContacts(const MatrixXd& A, const VectorXd& b, bool in_range) {
+template <class T>
+std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool in_range) {
+  using std::sqrt;
   const Index n = b.size();
-  requireComputable(A, b);
+  requireComputable<T>(A, b);
   if (n == 0) return {};
-  const double tolerance = 1e-13 * b.cwiseAbs().maxCoeff();
+  const T largest = b.unaryExpr(&absOf<T>).maxCoeff();
   std::vector<bool> in(static_cast<std::size_t>(n), false);
-  VectorXd y = VectorXd::Zero(n);
+  Vector<T> y = Vector<T>::Zero(n);
   const auto members = [&] {
     Contacts list;
     for (Index i = 0; i < n; ++i)
       if (in[static_cast<std::size_t>(i)]) list.push_back(static_cast<int>(i));
     return list;
   };
+  // what the contact's velocity may be off by
+  const auto rounding = [&](Index i) {
+    T sum = T(0);
+    for (Index j = 0; j < n; ++j) sum += absOf<T>(A(i, j) * y[j]);
+    return T(1e-15) * largest + T(1e-13) * absOf<T>(b[i]) + T(Precision<T>::kRounding) * sum;
+  };
   for (Index round = 0; round < 10 * n + 10; ++round) {
-    const VectorXd w = A * y + b;
+    const Vector<T> w = A * y + b;
     Index enter = -1;
     for (Index i = 0; i < n; ++i)
-      if (!in[static_cast<std::size_t>(i)] && w[i] < -tolerance && (enter < 0 || w[i] < w[enter])) enter = i;
+      if (!in[static_cast<std::size_t>(i)] && w[i] < -rounding(i) && (enter < 0 || w[i] < w[enter])) enter = i;
     if (enter < 0) break;
     in[static_cast<std::size_t>(enter)] = true;
     for (bool feasible = false; !feasible;) {
       const Contacts list = members();
-      const LeastNormSolve solve(A(list, list), b(list));
-      const VectorXd against = solve.rest * b(list);  // no impulse changes this part of the velocities
-      if (!in_range && against.norm() > 1e-9 * b.cwiseAbs().maxCoeff()) {
+      if (list.empty()) break;
+      const LeastNormSolveOf<T> solve(A(list, list), b(list));
+      const Vector<T> against = solve.rest * b(list);  // no impulse changes this part of the velocities
+      const T size = sqrt(against.dot(against));
+      if (!in_range && size > T(1e-9) * largest) {
         // more of -against leaves the velocities alone and is wanted: up to where the first contact leaves
-        double most = std::numeric_limits<double>::infinity();
+        T most = T(std::numeric_limits<double>::infinity());
         Index first = -1;
         for (std::size_t c = 0; c < list.size(); ++c) {
-          const double rate = -against[static_cast<Index>(c)];
-          if (rate < -1e-12 * against.norm() && -y[list[c]] / rate < most) most = -y[list[c]] / rate, first = list[c];
+          const T rate = -against[static_cast<Index>(c)];
+          if (rate < T(-1e-12) * size && -y[list[c]] / rate < most) most = -y[list[c]] / rate, first = list[c];
         }
         if (first < 0) throw NotComputable("a body is squeezed between others that nothing moves");
         for (std::size_t c = 0; c < list.size(); ++c) y[list[c]] -= most * against[static_cast<Index>(c)];
-        in[static_cast<std::size_t>(first)] = false, y[first] = 0;
+        in[static_cast<std::size_t>(first)] = false, y[first] = T(0);
         continue;
       }
-      double step = 1;
+      T step = T(1);
       Index leave = -1;
       for (std::size_t c = 0; c < list.size(); ++c) {
-        const double from = y[list[c]], to = solve.y[static_cast<Index>(c)];
-        if (to <= 0 && from / (from - to) < step && from > to) step = from / (from - to), leave = list[c];
+        const T from = y[list[c]], to = solve.y[static_cast<Index>(c)];
+        if (to <= T(0) && from > to && from / (from - to) < step) step = from / (from - to), leave = list[c];
       }
       for (std::size_t c = 0; c < list.size(); ++c) y[list[c]] += step * (solve.y[static_cast<Index>(c)] - y[list[c]]);
       feasible = leave < 0;
-      if (!feasible) in[static_cast<std::size_t>(leave)] = false, y[leave] = 0;
+      if (!feasible) in[static_cast<std::size_t>(leave)] = false, y[leave] = T(0);
     }
   }
-  return spread(A, b, y, members());
+  return spread<T>(A, b, y, members());
 }
+
+template std::vector<int> activeContactsOf(const Matrix<double>&, const Vector<double>&, bool);
+template std::vector<int> activeContactsOf(const Matrix<detail::Wide>&, const Vector<detail::Wide>&, bool);
 
 }  // namespace carom

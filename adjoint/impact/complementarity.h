@@ -8,20 +8,30 @@ namespace carom {
 
 /// y = -A^+ b for symmetric positive semidefinite A with b in its range, and its derivatives at constant rank:
 /// dy = -A^+ (db + dA y) + (1 - A A^+) dA A^+ y. Throws NotComputable for numbers that are not finite; of no size it is
-/// empty.
-struct LeastNormSolve {
-  Eigen::MatrixXd inverse, rest;  ///< A^+, 1 - A A^+
-  Eigen::VectorXd y, inverse_y;
+/// empty. T is double or detail::Wide. The rank is that of D A D, where D makes the diagonal alike: contacts of bodies
+/// of unlike masses are not taken for redundant.
+template <class T>
+struct LeastNormSolveOf {
+  using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+  Matrix inverse, rest;  ///< A^+, 1 - A A^+
+  Vector y, inverse_y;
 
-  LeastNormSolve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-  Eigen::VectorXd tangent(const Eigen::MatrixXd& dA, const Eigen::VectorXd& db) const;
-  void pullback(const Eigen::VectorXd& y_bar, Eigen::MatrixXd& A_bar, Eigen::VectorXd& b_bar) const;
+  LeastNormSolveOf(const Matrix& A, const Vector& b);
+  Vector tangent(const Matrix& dA, const Vector& db) const;
+  void pullback(const Vector& y_bar, Matrix& A_bar, Vector& b_bar) const;
 };
+using LeastNormSolve = LeastNormSolveOf<double>;
 
 /// Contacts, in increasing order, that have an impulse in the solution of y >= 0, A y + b >= 0, complementary, with A
 /// symmetric positive semidefinite and b in its range unless `in_range` is false (equation 4.3). Where redundant contacts leave a choice, the impulses
 /// are spread over all of them. Throws NotComputable for numbers that are not finite, and where a b outside of
 /// the range of A leaves no solution.
-std::vector<int> activeContacts(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool in_range = true);
+template <class T>
+std::vector<int> activeContactsOf(const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>& A,
+                                  const Eigen::Matrix<T, Eigen::Dynamic, 1>& b, bool in_range);
+inline std::vector<int> activeContacts(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool in_range = true) {
+  return activeContactsOf<double>(A, b, in_range);
+}
 
 }  // namespace carom

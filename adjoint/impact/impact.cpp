@@ -5,13 +5,16 @@
 #include <cmath>
 
 #include "adjoint/errors.h"
+#include "adjoint/impact/wide_impact.h"
 
 namespace carom {
 
 // u_k = sum s (v + omega x r),  K_kl = sum s_k s_l (1/m - [r_k]x A [r_l]x),  A = R diag(1/I) R^T,  omega = A L.
 // A kinematic body adds to u and not to K, and no impulse moves it.
 
-ImpactAssembly::ImpactAssembly(const Event& event, const std::vector<BodyModel>& models) : event_(event) {
+ImpactAssembly::ImpactAssembly(const Event& event, const std::vector<BodyModel>& models)
+    : event_(event), models_(models), wide_(needsWide(event, models)) {
+  if (wide_) return;
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
     MovingBody& body = bodies_.emplace_back();
@@ -64,6 +67,7 @@ std::vector<StateDerivative> ImpactAssembly::tangent(const Eigen::VectorXd& P,
                                                      const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
                                                      const std::vector<PairCoefficients>& dpair,
                                                      const std::vector<BodyModelDerivative>& dmodel) const {
+  if (wide_) return WideImpact(event_, models_).tangent(dbefore, dcontact, dpair, dmodel);
   ImpactProblemDerivative dproblem(problem_.contacts());
   std::vector<Mat3> dA(bodies_.size());
   std::vector<Vec3> domega(bodies_.size());
@@ -117,6 +121,7 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
                                                       std::vector<Eigen::Matrix<double, 7, 1>>& contact_bar,
                                                       std::vector<PairCoefficients>& pair_bar,
                                                       std::vector<BodyModelDerivative>& model_bar) const {
+  if (wide_) return WideImpact(event_, models_).pullback(after_bar, contact_bar, pair_bar, model_bar);
   std::vector<StateDerivative> before_bar = after_bar;
   std::vector<double> inverse_mass_bar(bodies_.size(), 0.0);
   std::vector<Vec3> r_bar(arms_.size(), Vec3::Zero()), omega_bar(bodies_.size(), Vec3::Zero());
@@ -178,6 +183,9 @@ std::vector<StateDerivative> ImpactAssembly::pullback(const Eigen::VectorXd& P,
 
 namespace {
 
+// A contact may part slower than it should by this share of the speeds at it.
+constexpr double kParting = 1e-9;
+
 bool isFinite(const State& s) { return s.v.allFinite() && s.L.allFinite(); }
 
 void requireContacts(const Event& event) {
@@ -194,6 +202,39 @@ void record(Contact& c, const Vec3& u, const Vec3& P) {
 Margins marginsOf(const Contact& c, const Vec3& u, double stick_slip) {
   const double speed = u.norm();
   return {speed > 0 ? std::abs(c.approach) / speed : 1, stick_slip};
+}
+
+// Velocity of one body's point relative to the other's, and the sum of what it is made of.
+struct ContactVelocity {
+  Vec3 u = Vec3::Zero();
+  double size = 0;
+};
+ContactVelocity contactVelocity(const Event& event, const std::vector<BodyModel>& models, const Contact& c,
+                                const std::vector<State>* after) {
+  ContactVelocity sum;
+  for (std::size_t i = 0; i < event.participants.size(); ++i) {
+    const Participant& p = event.participants[i];
+    if (p.body != c.a && p.body != c.b) continue;
+    const State& s = after ? (*after)[i] : p.before;
+    const Mat3 A = models[static_cast<std::size_t>(p.body)].inverseInertiaWorld(p.before.q.toRotationMatrix());
+    const Vec3 turning = (A * s.L).cross(c.at.point - p.before.x);
+    sum.u += (p.body == c.a ? 1.0 : -1.0) * (s.v + turning);
+    sum.size += s.v.norm() + turning.norm();
+  }
+  return sum;
+}
+
+// The states as they go on, rounded, must part every contact as fast as its elasticity says. One contact without
+// friction has its impulse from that condition.
+void requireParting(const Event& event, const std::vector<BodyModel>& models, const std::vector<State>& after) {
+  if (event.contacts.size() == 1 && event.mode == ImpactMode::frictionless) return;
+  for (const Contact& c : event.contacts) {
+    const ContactVelocity u = contactVelocity(event, models, c, nullptr), v = contactVelocity(event, models, c, &after);
+    const double least = -c.pair.elasticity * c.impulse_normal.dot(u.u);
+    if (!(c.impulse_normal.dot(v.u) >= least - kParting * (u.size + v.size)))
+      throw NotComputable("no digits are left of the velocities that part its contacts: masses, or moments of inertia, "
+                          "differ too much");
+  }
 }
 
 // What ImpactAssembly does, for one contact and in fixed sizes.
@@ -233,18 +274,32 @@ void solveJoint(Event& event, const std::vector<BodyModel>& models, std::vector<
   after = assembly.after(solution.P);
 }
 
+void solveWide(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
+  after = WideImpact(event, models).solve(event);
+  const double stick_slip = event.margins.stick_slip;
+  for (std::size_t k = event.contacts.size(); k-- > 0;) {
+    Contact& c = event.contacts[k];
+    const Vec3 u = contactVelocity(event, models, c, nullptr).u;
+    record(c, u, c.impulse);
+    event.margins = marginsOf(c, u, stick_slip);
+  }
+}
+
 }  // namespace
 
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
   after.clear();
   requireContacts(event);
-  if (event.contacts.size() == 1) {
+  if (needsWide(event, models)) {
+    solveWide(event, models, after);
+  } else if (event.contacts.size() == 1) {
     solveSingle(event, models, after);
   } else {
     solveJoint(event, models, after);
   }
   if (!std::all_of(after.begin(), after.end(), isFinite))
     throw NotComputable("its impulses, or the velocities after it, are beyond the range of doubles");
+  requireParting(event, models, after);
 }
 
 }  // namespace carom

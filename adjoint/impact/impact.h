@@ -11,7 +11,7 @@ namespace carom {
 /// An event with everything that its impulse depends on: for every contact the arms r = p - x of the bodies, u and K.
 class ImpactAssembly {
  public:
-  /// `event` has contacts, participants and their states before; it must outlive the assembly.
+  /// `event` has contacts, participants and their states before; both must outlive the assembly.
   ImpactAssembly(const Event& event, const std::vector<BodyModel>& models);
 
   const ImpactProblem& problem() const { return problem_; }
@@ -49,13 +49,15 @@ class ImpactAssembly {
   };
 
   const Event& event_;
+  const std::vector<BodyModel>& models_;
+  bool wide_;  // doubles are too short for it, see WideImpact
   std::vector<MovingBody> bodies_;
   std::vector<Arm> arms_;
   ImpactProblem problem_;
 };
 
 /// Fills in impulses, mode, approach and margins of an event and gives the states of its participants after it. Throws
-/// NotComputable where these are not finite numbers.
+/// NotComputable where these are not finite numbers, and where a contact does not part as fast as its elasticity says.
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after);
 
 }  // namespace carom

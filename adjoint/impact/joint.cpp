@@ -43,7 +43,16 @@ VectorXd jointTangent(const ImpactProblem& p, const ImpactProblemDerivative& dp)
   const MatrixXd dC = b.stickColumns(p, dp.normal, true);
   const VectorXd dd = tangentOf(b.solves[2], p, dp, dC, zeros(dC.cols())) - dP_I;
   double dkappa = 0;
-  if (b.limit >= 0) {  // kappa = mu P_n / (|d_t| - mu d_n)
+  if (b.limit >= 0 && !b.by_cone) {  // kappa loss = spare
+    const auto k = static_cast<std::size_t>(b.limit);
+    const Index at = 3 * b.limit;
+    const Vec3 n = p.normal[k], dn = dp.normal[k], u = p.u.segment<3>(at), du = dp.u.segment<3>(at);
+    const VectorXd both = b.P_N + b.kappa * b.d, dboth = dP_N + b.kappa * dd;
+    const double e1 = 1 + p.pair[k].elasticity, de = dp.pair[k].elasticity;
+    const Vec3 gain = p.K.middleRows<3>(at) * both,
+               dgain = dp.K.middleRows<3>(at) * both + p.K.middleRows<3>(at) * dboth;
+    dkappa = (de * n.dot(u) + e1 * (dn.dot(u) + n.dot(du)) + dn.dot(gain) + n.dot(dgain)) / b.lossOf(p, b.limit);
+  } else if (b.limit >= 0) {  // kappa = mu P_n / (|d_t| - mu d_n)
     const auto k = static_cast<std::size_t>(b.limit);
     const Index at = 3 * b.limit;
     const Vec3 n = p.normal[k], dn = dp.normal[k], d = b.d.segment<3>(at), ddk = dd.segment<3>(at);
