@@ -42,6 +42,17 @@ Scene jointStick() { return joint(3); }
 Scene jointSlide() { return joint(0.1); }
 Scene jointFrictionless() { return joint(0); }
 
+// a disc flat on something narrower: where its rim crosses edges, or another rim
+Scene discOn(const Shape& low, const Vec3& at) {
+  Body disc = makeBall("disc", 1, {0, 0, 1.2}, {0.1, 0.05, 0}), post = makeBall("post", 1, at);
+  disc.shape = Cylinder{0.5, 0.4};
+  disc.orientation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ()));
+  post.shape = low;
+  return makeScene({0, 0, -9.81}, 0.6, 0.2, {disc, fixedBody(post)});
+}
+Scene discOnBeam() { return discOn(Box{{0.3, 2, 1}}, {0.15, 0, 0}); }
+Scene discOnDisc() { return discOn(Cylinder{0.4, 1}, {0.55, 0.1, 0}); }
+
 Scene withMoments(const Vec3& moments) {
   Scene s = boxOnFloor(0.7, 0.3);
   s.bodies[0].inertia = Inertia::fromMoments(moments);
@@ -269,6 +280,8 @@ std::vector<DotProductScene> dotProductScenes() {
       {"vertex_face", vertexFace, 2, {"vertex", "on face"}},
       {"face_vertex", faceVertex, 2, {"face", "on vertex"}},
       {"edge_edge", edgeEdge, 2, {"edge", "on edge"}},
+      {"disc_on_beam", discOnBeam, 2, {"joint", "rim"}},
+      {"disc_on_disc", discOnDisc, 2, {"joint", "rim"}},
       // combination of materials
       {"combine_average", combineAverage},
       {"combine_minimum", combineMinimum},
