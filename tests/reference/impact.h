@@ -80,6 +80,8 @@ inline RVec impulseOf(const Side& a, const Side& b, const RVec& n, const Coeffic
   // without friction it slides with a coefficient of 0, which varies
   if (decide) mode = tangential(P) <= c.friction * dot(n, P) ? ImpactMode::stick : ImpactMode::slide;
   if (mode == ImpactMode::stick) return P;
+  const bool slips = tangential(P_II) > Real(1e-13) * norm(P_I);
+  if (mode == ImpactMode::frictionless && !slips) return (1 + c.elasticity) * P_I;
   const Real kappa =
       c.friction * (1 + c.elasticity) * dot(n, P_I) / (tangential(P_II) - c.friction * dot(n, difference));
   return (1 + c.elasticity) * P_I + kappa * difference;
