@@ -50,18 +50,17 @@ struct Side {
   }
 };
 
-/// Coordinate axis that `n` is least along; the lowest on a tie.
-inline int leastAxis(const Vec3& n) {
-  int k = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (std::abs(n[i]) < std::abs(n[k])) k = i;
-  }
-  return k;
+/// What the smallest turn from `from` to `to`, both of length 1, makes of v.
+inline RVec smallestTurn(const RVec& from, const RVec& to, const RVec& v) {
+  const RVec axis = cross(from, to), once = cross(axis, v);
+  return v + once + (1 / (1 + dot(from, to))) * cross(axis, once);
 }
 
-/// (n + alpha t1 + beta t2)/|...| with t1 = n x e_k/|n x e_k|, t2 = n x t1.
-inline RVec tilted(const RVec& n, int k, const std::array<Real, 2>& tilt) {
-  const RVec t1 = unit(cross(n, axisVector(k))), t2 = cross(n, t1);
+/// (n + alpha t1 + beta t2)/|...|: t1 is turned along with the normal from m, where it is such that that of the z axis
+/// is y; t2 = n x t1.
+inline RVec tilted(const RVec& n, const std::array<Real, 2>& tilt) {
+  const RVec m = unit(axisVector(0, Real(282)) + axisVector(1, Real(-367)) + axisVector(2, Real(886)));
+  const RVec t1 = smallestTurn(m, n, smallestTurn(axisVector(2), m, axisVector(1))), t2 = cross(n, t1);
   return unit(n + tilt[0] * t1 + tilt[1] * t2);
 }
 
@@ -73,13 +72,16 @@ inline RVec impulseOf(const Side& a, const Side& b, const RVec& n, const Coeffic
   const RVec u = a.pointVelocity() - b.pointVelocity();
   const RVec P_I = (-dot(n, u) / dot(n, K * n)) * n;
   if (decide && c.friction == 0) mode = ImpactMode::frictionless;
-  if (decide ? c.friction == 0 : mode == ImpactMode::frictionless) return (1 + c.elasticity) * P_I;
+  if (decide && c.friction == 0) return (1 + c.elasticity) * P_I;
 
   const RVec P_II = -solve(K, u), difference = P_II - P_I;
   const RVec P = (1 + c.elasticity) * P_I + (1 + c.tangential_elasticity) * difference;
   const auto tangential = [&n](const RVec& p) { return norm(p - dot(n, p) * n); };
+  // without friction it slides with a coefficient of 0, which varies
   if (decide) mode = tangential(P) <= c.friction * dot(n, P) ? ImpactMode::stick : ImpactMode::slide;
   if (mode == ImpactMode::stick) return P;
+  const bool slips = tangential(P_II) > Real(1e-13) * norm(P_I);
+  if (mode == ImpactMode::frictionless && !slips) return (1 + c.elasticity) * P_I;
   const Real kappa =
       c.friction * (1 + c.elasticity) * dot(n, P_I) / (tangential(P_II) - c.friction * dot(n, difference));
   return (1 + c.elasticity) * P_I + kappa * difference;

@@ -31,7 +31,6 @@ struct FrozenImpact {
   Features features;
   ImpactMode mode = ImpactMode::frictionless;
   int tilt = -1;      ///< entry of the scene's tilts in force
-  int tilt_axis = 0;  ///< coordinate axis that its tangents are made from
   Real time;
   int flight_a = 0, flight_b = 0;  ///< flights that end here
   RVec impulse;
@@ -89,7 +88,6 @@ class WorldLines {
       if ((tilt.body != f.a && tilt.body != f.b) || tilt.impact != lastFlight(tilt.body) + 1) continue;
       if (f.tilt >= 0) throw std::runtime_error("the reference knows only one tilt an impact");
       f.tilt = static_cast<int>(i);
-      f.tilt_axis = leastAxis(impact.normal);
     }
     return f;
   }
@@ -167,7 +165,7 @@ class WorldLines {
   RVec impulseNormal(const FrozenImpact& f, const RVec& n) const {
     if (f.tilt < 0) return n;
     const TiltNumbers& tilt = numbers_.tilts[f.tilt];
-    return tilt.body == f.a ? tilted(n, f.tilt_axis, tilt.value) : -tilted(-n, f.tilt_axis, tilt.value);
+    return tilt.body == f.a ? tilted(n, tilt.value) : -tilted(-n, tilt.value);
   }
 
   void strike(int body, const Side& side, const FrozenImpact& f, const RealState& s, const RVec& P) {
