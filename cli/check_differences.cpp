@@ -164,23 +164,39 @@ class Checker {
     rounding_ *= kMostRoundings;
   }
 
-  /// Of one entry, relative to the scale of its column; 0 where it is rounding. NaN stays NaN.
-  double disagreement(Eigen::Index i, Eigen::Index j, double a, double b, double rounding) const {
-    const double d = std::abs(a - b);
-    return d <= rounding ? 0 : d * control_scale_[j] / row_scale_[i] / column_scale_[j];
+  /// Of one entry, relative to the scale of its column. NaN stays NaN.
+  double disagreement(Eigen::Index i, Eigen::Index j, double a, double b) const {
+    return std::abs(a - b) * control_scale_[j] / row_scale_[i] / column_scale_[j];
   }
 
-  /// Row with the largest disagreement of a column, `rounding` of it allowed for; a NaN is larger than all.
-  DerivativeCheck::Entry worst(const Eigen::VectorXd& column, Eigen::Index j,
-                               const Eigen::VectorXd& rounding = {}) const {
+  /// What the entries of a column may differ by: all of them by `tolerance` of its scale, or each by its own rounding.
+  struct Allowed {
+    double tolerance;
+    Eigen::VectorXd rounding;
+  };
+  bool isRounding(const Allowed& allowed, Eigen::Index i, double difference, double disagreement) const {
+    return disagreement > allowed.tolerance && difference <= allowed.rounding[i];
+  }
+
+  /// Row with the largest disagreement of a column, without those above the tolerance that are rounding; a NaN is larger
+  /// than all.
+  DerivativeCheck::Entry worst(const Eigen::VectorXd& column, Eigen::Index j, const Allowed* allowed = nullptr) const {
     DerivativeCheck::Entry entry{0, static_cast<int>(j), -1};
     for (Eigen::Index i = 0; i < column.size(); ++i) {
-      const double allowed = rounding.size() > 0 ? rounding[i] : 0;
-      const double d = disagreement(i, j, column[i], check_.by_adjoint(i, j), allowed);
+      const double by_adjoint = check_.by_adjoint(i, j), d = disagreement(i, j, column[i], by_adjoint);
+      if (allowed && isRounding(*allowed, i, std::abs(column[i] - by_adjoint), d)) {
+        ++entry.rounding;
+        continue;
+      }
       if (!(d <= entry.disagreement)) entry.row = static_cast<int>(i), entry.disagreement = d;
       if (std::isnan(d)) break;
     }
+    entry.disagreement = std::isnan(entry.disagreement) ? entry.disagreement : std::max(entry.disagreement, 0.0);
     return entry;
+  }
+  DerivativeCheck::Entry worstDifference(const DifferenceColumn& column, Eigen::Index j) const {
+    const Allowed allowed{kDifferencesTolerance, column.rounding};
+    return worst(column.values, j, &allowed);
   }
 
   DifferenceColumn difference(Eigen::Index j, double step) const {
@@ -206,7 +222,7 @@ class Checker {
     column.compared = true;
     // the weights of every scheme are 4 at the most, of which half cancel
     column.rounding = rounding_.col(j) + 2 / h * row_rounding_;
-    column.disagreement = worst(column.values, j, column.rounding).disagreement;
+    column.disagreement = worstDifference(column, j).disagreement;
     return column;
   }
 
@@ -228,7 +244,7 @@ class Checker {
       if (!(worst(both, j).disagreement < worst(fine.values, j).disagreement)) continue;
       fine.values = both;
       fine.scheme += ", extrapolated";
-      fine.disagreement = worst(both, j, fine.rounding).disagreement;
+      fine.disagreement = worstDifference(fine, j).disagreement;
     }
   }
 
@@ -246,17 +262,21 @@ class Checker {
     check_.best_step.push_back(best);
     if (best < 0) return;
     check_.by_differences.col(j) = steps[static_cast<std::size_t>(best)].values;
-    const DerivativeCheck::Entry entry =
-        worst(check_.by_differences.col(j), j, steps[static_cast<std::size_t>(best)].rounding);
-    if (check_.differences.row < 0 || !(entry.disagreement <= check_.differences.disagreement))
-      check_.differences = entry;
+    take(worstDifference(steps[static_cast<std::size_t>(best)], j), check_.differences);
+  }
+
+  /// The worst entry of all columns, and how many of them are rounding.
+  static void take(DerivativeCheck::Entry entry, DerivativeCheck::Entry& worst) {
+    entry.rounding += worst.rounding;
+    const bool worse = worst.row < 0 || !(entry.disagreement <= worst.disagreement);
+    if (worse) worst = entry;
+    worst.rounding = entry.rounding;
   }
 
   void compareTangent() {
     for (Eigen::Index j = 0; j < values_.size(); ++j) {
-      const DerivativeCheck::Entry entry = worst(check_.by_tangent.col(j), j, rounding_.col(j));
-      if (check_.adjoint_tangent.row < 0 || !(entry.disagreement <= check_.adjoint_tangent.disagreement))
-        check_.adjoint_tangent = entry;
+      const Allowed allowed{kTangentTolerance, rounding_.col(j)};
+      take(worst(check_.by_tangent.col(j), j, &allowed), check_.adjoint_tangent);
     }
   }
 
@@ -275,6 +295,8 @@ class Checker {
       text << "Passed: adjoint and tangent agree to " << check_.adjoint_tangent.disagreement;
       if (check_.differences.row >= 0) text << ", differences to " << check_.differences.disagreement;
       text << ".";
+      if (const int rounding = check_.adjoint_tangent.rounding + check_.differences.rounding)
+        text << " Entries that differ by more, by rounding of terms that cancel in them: " << rounding << ".";
       if (check_.not_compared > 0)
         text << " " << check_.not_compared << " of " << check_.best_step.size()
              << " columns were not compared with differences, because every step leads to another impact sequence.";

@@ -15,17 +15,20 @@ struct DifferenceColumn {
                             ///< ", extrapolated": together with the step before
   std::string why;          ///< a sentence when not compared
   Eigen::VectorXd values;   ///< d(rows)/d(control), SI
-  double disagreement = 0;  ///< largest over the rows, relative to the column's scale; 0 where it is rounding
+  double disagreement = 0;  ///< largest over the rows, relative to the column's scale, but for entries
+                            ///< that are rounding
   Eigen::VectorXd rounding;  ///< of the values, by that of rows and derivatives
   std::vector<std::string> below, above;  ///< the impact sequences on both sides, one line an impact
 };
 
 /// The same derivatives by adjoint, by tangent and by differences. Disagreements are between dimensionless entries,
-/// relative to the largest entry of their column; 0 where they are rounding of what cancels.
+/// relative to the largest entry of their column; entries that differ by more than the tolerance, but by no more than the
+/// rounding of what cancels in them, are counted apart.
 struct DerivativeCheck {
   struct Entry {
     int row = -1, column = -1;
     double disagreement = 0;
+    int rounding = 0;  ///< entries that were left out, because they differ by rounding
   };
   Eigen::MatrixXd by_adjoint, by_tangent;
   Eigen::MatrixXd by_differences;  ///< each column at its best step; NaN where no step could be compared
