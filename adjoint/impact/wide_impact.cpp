@@ -2,6 +2,7 @@
 #include "adjoint/impact/wide_impact.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "adjoint/detail/impact_pass.hpp"
 
@@ -61,6 +62,7 @@ bool needsWide(const Event& event, const std::vector<BodyModel>& models) {
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
     if (model.kinematic) continue;
+    if (!std::isfinite(model.inverse_mass)) return false;  // no number of digits helps
     double reach = 0;
     for (const Contact& c : event.contacts)
       if (c.a == p.body || c.b == p.body) reach = std::max(reach, (c.at.point - p.before.x).squaredNorm());
