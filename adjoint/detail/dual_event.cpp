@@ -276,7 +276,7 @@ std::vector<StateBar> DualEvent::throughWideLaw(const std::vector<StateBar>& aft
     const MovingBody& b = bodies_[i];
     const DualModel& m = lanes_.model(b.body);
     const M3<WideNum> R = widened(b.before.R), A = R * widened(m.A) * R.transpose();
-    pass.bodies.push_back({isKinematic(i), isKinematic(i) ? WideNum(0) : WideNum(1) / widened(m.mass), A,
+    pass.bodies.push_back({isKinematic(i), isKinematic(i) ? WideNum(0) : widened(m.inverse_mass), A,
                            widened(b.before.v), widened(b.before.L)});
   }
   for (const Arm& arm : arms_)

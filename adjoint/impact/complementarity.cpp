@@ -28,7 +28,7 @@ struct Precision<double> {
 // Normals and points are doubles: what they make of redundant contacts is of size 1e-32.
 template <>
 struct Precision<detail::Wide> {
-  static constexpr double kNull = 1e-26, kRounding = 1e-28;
+  static constexpr double kNull = 1e-28, kRounding = 1e-28;
 };
 
 // An eigen-decomposition of numbers that are not finite ends nowhere.

@@ -2,6 +2,7 @@
 #include "adjoint/impact/wide_impact.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "adjoint/detail/impact_pass.hpp"
 
@@ -16,7 +17,7 @@ using WidePass = detail::ImpactPass<Wide>;
 using WideRate = detail::Dual<1, Wide>;
 using WideTangentPass = detail::ImpactPass<WideRate>;
 
-constexpr double kDoublesSpan = 1e6;
+constexpr double kDoublesSpan = 1e3;
 
 WideVec widened(const Vec3& v) { return v.cast<Wide>(); }
 WideMat widened(const Mat3& m) { return m.cast<Wide>(); }
@@ -36,7 +37,7 @@ WidePass passOf(const Event& event, const std::vector<BodyModel>& models) {
   WidePass pass;
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
-    const Wide inverse_mass = model.kinematic ? Wide(0) : Wide(1) / Wide(model.mass);
+    const Wide inverse_mass = model.kinematic ? 0 : model.inverse_mass;
     pass.bodies.push_back({model.kinematic, inverse_mass, WideBody(p, model).A, widened(p.before.v), widened(p.before.L)});
   }
   for (std::size_t k = 0; k < event.contacts.size(); ++k) {
@@ -61,6 +62,7 @@ bool needsWide(const Event& event, const std::vector<BodyModel>& models) {
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
     if (model.kinematic) continue;
+    if (!std::isfinite(model.inverse_mass)) return false;  // no number of digits helps
     double reach = 0;
     for (const Contact& c : event.contacts)
       if (c.a == p.body || c.b == p.body) reach = std::max(reach, (c.at.point - p.before.x).squaredNorm());

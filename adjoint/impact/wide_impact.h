@@ -8,7 +8,8 @@
 namespace carom {
 
 /// Whether doubles are too short for an impact: what an impulse gives its bodies, in speed and in spin at the contacts,
-/// differs by more than 1e6. Numbers of 32 digits take over then, for the impact and all of its derivatives.
+/// differs by more than 1e3: a velocity may lose that many digits, a derivative twice as many. Numbers of 32 digits take
+/// over then, for the impact and all of its derivatives.
 bool needsWide(const Event& event, const std::vector<BodyModel>& models);
 
 /// ImpactAssembly in these numbers: states in, states out.

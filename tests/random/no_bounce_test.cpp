@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Impacts without any rebound: what they leave flying flies on, as it does with a rebound too small to matter.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+constexpr int kScenes = 800;
+
+Shape randomShape(Random& random) {
+  const double size = random.in(0.05, 0.2);
+  switch (random.below(5)) {
+    case 0:
+      return Sphere{size};
+    case 1:
+      return Capsule{0.3 * size, 3 * size};
+    case 2:
+      return Cylinder{size, random.in(0.1, 0.5)};
+    default:
+      return Box{Vec3(size, random.in(0.1, 0.4), random.in(0.1, 0.4))};
+  }
+}
+
+Scene randomFall(std::uint64_t seed, double elasticity) {
+  Random random(seed);
+  std::vector<Body> bodies;
+  const int count = 1 + random.below(3);
+  for (int i = 0; i < count; ++i) {
+    Body body = makeBox("b" + std::to_string(i), {1, 1, 1}, {random.in(-0.5, 0.5), 0.8 * i, random.in(0.6, 1.5)});
+    body.shape = randomShape(random);
+    body.orientation = random.rotation();
+    body.velocity = random.vec(1);
+    body.angular_velocity = random.vec(random.below(2) == 0 ? 5 : 50);
+    bodies.push_back(body);
+  }
+  bodies.push_back(makePlane("floor", Vec3::UnitZ(), 0));
+  return makeScene({0, 0, -9.81}, elasticity, random.below(2) == 0 ? 0 : random.in(0, 1), bodies);
+}
+
+// A rattle between two corners is a cascade while it rebounds a little, which ends the motion; without a rebound both
+// corners soon touch at once, and what they leave flying flies on. Nothing else tells the two apart.
+TEST(NoBounce, IsTheLimitOfASmallOne) {
+  int cascades = 0, events = 0, alike = 0;
+  for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Motion none = play(randomFall(seed, 0), 1.5, 200), small = play(randomFall(seed, 1e-9), 1.5, 200);
+    ASSERT_FALSE(none.events.empty());
+    events += static_cast<int>(none.events.size());
+    cascades += none.status == MotionStatus::cascade;
+    EXPECT_TRUE(none.end >= small.end - 1e-6) << none.message << "\n" << small.message;
+    const bool same = none.status == small.status && std::abs(none.end - small.end) <= 1e-6;
+    alike += same;
+    if (same) continue;
+    ASSERT_GE(small.events.size(), 8u);
+    const double rattled = small.events.back().time - small.events[small.events.size() - 5].time;
+    EXPECT_TRUE(small.status == MotionStatus::cascade && rattled < 1e-6) << none.message << "\n" << small.message;
+  }
+  std::printf("%d of %d scenes alike, %d cascades, %d impacts\n", alike, kScenes, cascades, events);
+  EXPECT_GE(alike, kScenes - kScenes / 50);
+}
+
+// A capsule that spins is thrown off the floor by its own turning.
+TEST(NoBounce, ASpinningCapsuleLeavesTheFloor) {
+  for (double elasticity : {0.0, 1e-9}) {
+    SCOPED_TRACE(elasticity);
+    Body capsule = makeBox("capsule", {1, 1, 1}, {0, 0, 1});
+    capsule.shape = Capsule{0.05, 0.4};
+    capsule.angular_velocity = {0, 100, 0};
+    const Motion m = play(makeScene({0, 0, -9.81}, elasticity, 0, {capsule, makePlane("floor", Vec3::UnitZ(), 0)}), 1.2);
+    EXPECT_EQ(m.status, MotionStatus::complete) << m.message;
+    ASSERT_EQ(m.events.size(), 1u);
+    EXPECT_GT(m.stateAt(0, 1).position.z(), 1);
+  }
+}
+
+// What lands without a rebound stays, and that ends the motion.
+TEST(NoBounce, WhatLandsStays) {
+  const Body floor = makePlane("floor", Vec3::UnitZ(), 0);
+  Body tilted = makeBox("box", {0.4, 0.3, 0.2}, {0, 0, 1}, {0.3, 0, 0});
+  tilted.orientation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
+  for (double friction : {0.0, 0.4})
+    for (const Body& body : {makeBall("ball", 0.1, {0, 0, 1}, {1, 0, 0}),
+                             makeBox("box", {0.4, 0.3, 0.2}, {0, 0, 1}, {0.3, 0, 0}), tilted}) {
+      const Motion m = play(makeScene({0, 0, -9.81}, 0, friction, {body, floor}), 2);
+      EXPECT_EQ(m.status, MotionStatus::cascade) << m.message;
+      EXPECT_NE(m.message.find("stay in contact"), std::string::npos) << m.message;
+      EXPECT_LT(m.end, 1);
+    }
+}
+
+}  // namespace
+}  // namespace carom
