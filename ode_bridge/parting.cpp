@@ -58,10 +58,12 @@ double bisected(Pair& pair, double overlapping, double apart) {
 
 }  // namespace
 
-std::optional<double> partingTime(const Solid& a, const Solid& b, Arc& arc_a, Arc& arc_b, double from, double until) {
+std::optional<double> partingTime(const Solid& a, const Solid& b, Arc& arc_a, Arc& arc_b, double from, double until,
+                                  WorkCount* work) {
   Pair pair(a, b, arc_a, arc_b);
   double before = from;
   for (int steps = 0; steps < kMostSteps; ++steps) {
+    if (work) work->step();
     const std::optional<double> depth = pair.depthAt(before);
     if (!depth) return before;
     // half of the depth: it is known as far as the directions that decide tell
