@@ -230,7 +230,8 @@ int Simulator::tiltOf(int body, int impact) const {
 // Participants, impulses and the arcs that follow.
 void Simulator::solveDraft() {
   Event& event = draft_.event;
-  work_.step(event.contacts.size() * event.contacts.size());
+  const std::size_t n = event.contacts.size();
+  work_.step(n + n * n * n / 100);  // what many contacts at once cost
   for (const Participant& p : event.participants) in_draft_[index(p.body)] = -1;
   event.participants.clear();
   bodies_.clear();

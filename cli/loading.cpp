@@ -73,7 +73,15 @@ Loaded::Loaded(const Output& out, const std::string& file, const MotionArguments
       document(readScene(out, file)),
       contacts(inFile(path, [&] {
         const Progress progress(out, "looking at the bodies");
-        return OdeContacts(document.scene);
+        WorkCount work(arguments.step_limit, {}, nullptr);
+        try {
+          return OdeContacts(document.scene, &work);
+        } catch (const WorkEnded&) {
+          throw InputError("/bodies", "found so many bodies near each other that it takes more than " +
+                                          std::to_string(arguments.step_limit) +
+                                          " steps of work to see which overlap at the start, expected fewer, or a higher "
+                                          "--step-limit");
+        }
       })),
       step_limit(arguments.step_limit) {
   const std::vector<StartOverlap> overlaps = contacts.overlaps();

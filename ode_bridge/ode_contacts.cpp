@@ -22,6 +22,8 @@ namespace {
 // Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).
 constexpr double kOverlap = 1e-9;
 
+constexpr std::size_t kMostOverlaps = 100'000;
+
 // The box that a solid stands in, with room for rounding and for the tolerance of contact.
 Bounds standingBounds(const Solid& solid, const Kinematics& k) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -82,8 +84,10 @@ struct OdeContacts::State {
 
 OdeContacts::OdeContacts() : state_(std::make_unique<State>()) {}
 
-OdeContacts::OdeContacts(const Scene& scene) : OdeContacts() {
+OdeContacts::OdeContacts(const Scene& scene, WorkCount* work) : OdeContacts() {
+  countIn(work);
   take(scene);
+  countIn(nullptr);
   for (const StartOverlap& o : state_->overlaps)
     state_->accepted.emplace(scene.bodies[static_cast<std::size_t>(o.a)].name,
                              scene.bodies[static_cast<std::size_t>(o.b)].name);
@@ -131,11 +135,13 @@ void OdeContacts::State::findOverlaps(const std::vector<Arc>& arcs, WorkCount* w
   neighbours.pairs(near);
   std::sort(near.begin(), near.end());
   for (const auto& [first, second] : near) {
-    if (work) work->step();
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const Placed a(geometry->solids()[i], arcs[i], 0), b(geometry->solids()[j], arcs[j], 0);
-    const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13));
+    const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13), work);
     if (depth) overlaps.push_back({first, second, *depth, std::nullopt});
+    if (overlaps.size() > kMostOverlaps)
+      throw InputError("/bodies", "found more than " + std::to_string(kMostOverlaps) +
+                                      " pairs of bodies that overlap at the start, expected fewer");
   }
 }
 
