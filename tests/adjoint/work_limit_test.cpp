@@ -5,6 +5,7 @@
 
 #include <stop_token>
 
+#include "adjoint/errors.h"
 #include "adjoint/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/scenes.h"
