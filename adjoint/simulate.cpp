@@ -231,7 +231,7 @@ int Simulator::tiltOf(int body, int impact) const {
 void Simulator::solveDraft() {
   Event& event = draft_.event;
   const std::size_t n = event.contacts.size();
-  work_.step(n + n * n * n / 100);  // what many contacts at once cost
+  work_.step(n + n * n * n / 10);  // what many contacts at once cost
   for (const Participant& p : event.participants) in_draft_[index(p.body)] = -1;
   event.participants.clear();
   bodies_.clear();

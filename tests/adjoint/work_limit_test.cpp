@@ -35,8 +35,9 @@ Motion played(const Scene& scene, const SimulateOptions& options) {
 void expectBeginning(const Motion& part, const Motion& whole) {
   ASSERT_LE(part.events.size(), whole.events.size());
   for (std::size_t e = 0; e < part.events.size(); ++e) EXPECT_EQ(part.events[e].time, whole.events[e].time);
+  const double t = 0.999999 * part.end;  // it may end in an impact, which only the whole motion has solved
   for (int b = 0; b < static_cast<int>(part.world_lines.size()); ++b) {
-    const BodyState a = part.stateAt(b, part.end), w = whole.stateAt(b, part.end);
+    const BodyState a = part.stateAt(b, t), w = whole.stateAt(b, t);
     EXPECT_EQ(a.position, w.position);
     EXPECT_EQ(a.orientation.coeffs(), w.orientation.coeffs());
     EXPECT_EQ(a.velocity, w.velocity);
