@@ -52,6 +52,9 @@ class Arc {
   /// Up to here the motion is available; infinite where all of it is.
   double reach() const { return triaxial_ ? start_ + triaxial_->reach() : std::numeric_limits<double>::infinity(); }
 
+  /// Series that carry the rotation so far: the work that `extendTo` has done.
+  std::size_t series() const { return triaxial_ ? triaxial_->series() : 0; }
+
   State stateAt(double t) const;
   Kinematics kinematicsAt(double t) const { return kinematicsOf(stateAt(t)); }
   /// Of a state of this body.

@@ -12,6 +12,7 @@
 #include "adjoint/arc.h"
 #include "adjoint/scene.h"
 #include "adjoint/start_overlap.h"
+#include "adjoint/work_count.h"
 
 namespace carom {
 
@@ -123,6 +124,15 @@ class ContactSource {
   /// An independent source of the same kind, for use in another thread once `begin` was called; null where there is
   /// none.
   virtual std::unique_ptr<ContactSource> another() const { return nullptr; }
+
+  /// Where the steps of `begin`, `firstImpact` and `parting` are counted; null: nowhere. They let its WorkEnded through.
+  void countIn(WorkCount* work) { work_ = work; }
+
+ protected:
+  WorkCount* work() const { return work_; }
+
+ private:
+  WorkCount* work_ = nullptr;
 };
 
 }  // namespace carom

@@ -34,6 +34,7 @@ class TriaxialRotation {
   void extendTo(double elapsed);
   /// Up to here the rotation is available.
   double reach() const;
+  std::size_t series() const { return segments_.size(); }
   Quat orientationAt(double elapsed) const;
   /// Sensitivity over [0, elapsed] by the variational equations of the same system, see
   /// flight_triaxial_sensitivity.cpp. `products`: dtheta_dproducts too.

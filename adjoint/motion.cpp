@@ -35,6 +35,10 @@ const char* nameOf(MotionStatus status) {
       return "unresolved_impact";
     case MotionStatus::not_computable:
       return "not_computable";
+    case MotionStatus::step_limit:
+      return "step_limit";
+    case MotionStatus::stopped:
+      return "stopped";
   }
   return "";
 }

@@ -75,7 +75,9 @@ enum class MotionStatus {
   cascade,           ///< impacts accumulate: infinitely many in finite time, or bodies stay in contact
   unresolved_impact,  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach), or a
                       ///< contact without a normal
-  not_computable      ///< numbers beyond the range of doubles, or more steps than can be made: see NotComputable
+  not_computable,     ///< numbers beyond the range of doubles, or more steps than can be made: see NotComputable
+  step_limit,         ///< the allowed number of steps of work was done
+  stopped             ///< it was asked to stop
 };
 const char* nameOf(MotionStatus status);
 
@@ -88,6 +90,7 @@ struct Motion {
   std::vector<WorldLine> world_lines;  ///< one a body
   std::vector<Event> events;           ///< in increasing order of time; empty when they were not recorded
   std::size_t impacts = 0;             ///< number of events, recorded or not
+  std::size_t steps = 0;               ///< of work that it took, see SimulateOptions::step_limit
   bool has_events = true;              ///< false: paths alone, which cannot be differentiated
   std::vector<StartOverlap> overlaps;  ///< pairs that did not collide until they had parted
   double duration = 0;                 ///< asked for

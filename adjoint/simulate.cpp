@@ -35,19 +35,30 @@ Motion simulate(const Scene& scene, ContactSource& contacts, double duration, co
 
 Motion Simulator::run() {
   try {
-    if (!follow()) return std::move(motion_);
+    runToEnd();
+  } catch (const WorkEnded& ended) {
+    endWork(ended.stopped);
+  }
+  motion_.steps = work_.steps();
+  return std::move(motion_);
+}
+
+void Simulator::runToEnd() {
+  try {
+    if (!follow()) return;
   } catch (const NotComputable& error) {
     finish(MotionStatus::not_computable, now_, error.what());
-    return std::move(motion_);
+    return;
   }
+  now_ = motion_.duration;
   finish(MotionStatus::complete, motion_.duration, "complete");
-  return std::move(motion_);
 }
 
 // False where the motion has ended before its time.
 bool Simulator::follow() {
   start();
   for (Prediction next; takeNext(next);) {
+    work_.step();
     if (motion_.impacts >= impact_limit_) {
       finish(MotionStatus::impact_limit, next.time,
              "stopped after " + std::to_string(impact_limit_) + " impacts, the limit that was set");
@@ -65,7 +76,9 @@ bool Simulator::follow() {
 
 Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
     : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit),
-      refuse_overlaps_(options.refuse_overlaps), queue_(scene.bodies.size()) {
+      refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
+      queue_(scene.bodies.size()) {
+  contacts_.countIn(&work_);
   const std::size_t n = scene.bodies.size();
   motion_.scene = std::make_shared<const Scene>(scene);
   auto models = std::make_shared<std::vector<BodyModel>>();
@@ -92,15 +105,15 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
 }
 
 void Simulator::start() {
-  contacts_.begin(scene_);
-  motion_.geometry = contacts_.geometry();
-  startOverlaps();
   const int n = static_cast<int>(scene_.bodies.size());
   for (int b = 0; b < n; ++b) {
     const BodyModel& model = (*motion_.models)[index(b)];
     arc_[index(b)] = &motion_.world_lines[index(b)].arcs.emplace_back(
         model, motion_.plan.bodies[index(b)].tier, scene_.gravity, 0.0, startState(scene_.bodies[index(b)], model));
   }
+  contacts_.begin(scene_);
+  motion_.geometry = contacts_.geometry();
+  startOverlaps();
   for (int b = 0; b < n; ++b) {
     requireFlight(b, arcOf(b));
     contacts_.setPath(b, arcOf(b), 0, motion_.duration);
@@ -220,6 +233,8 @@ int Simulator::tiltOf(int body, int impact) const {
 // Participants, impulses and the arcs that follow.
 void Simulator::solveDraft() {
   Event& event = draft_.event;
+  const std::size_t n = event.contacts.size();
+  work_.step(n + n * n * n / 10);  // what many contacts at once cost
   for (const Participant& p : event.participants) in_draft_[index(p.body)] = -1;
   event.participants.clear();
   bodies_.clear();

@@ -30,6 +30,8 @@ inline constexpr double kFurthest = 1e60;
 inline constexpr long kMostSearches = 5'000'000;
 /// An angle of which a sine has no digit left, rad.
 inline constexpr double kMostTurn = 1e15;
+/// Steps of work in which a motion that was ended may bring what it knows into order.
+inline constexpr std::size_t kStepsToEnd = 100'000;
 
 /// The event loop behind `simulate`. Every body has one entry in the queue: its first impact, as far as it has been
 /// searched for, or the horizon of that search. An impact touches the entries of its own bodies only; an entry whose
@@ -37,6 +39,9 @@ inline constexpr double kMostTurn = 1e15;
 class Simulator {
  public:
   Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options);
+  ~Simulator() { contacts_.countIn(nullptr); }
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
   Motion run();
 
  private:
@@ -78,6 +83,7 @@ class Simulator {
   };
 
   void start();
+  void runToEnd();
   bool follow();
   bool takeNext(Prediction& next);
   bool holds(const Prediction& p) const { return version_[index(p.partner())] == p.partner_version; }
@@ -121,7 +127,10 @@ class Simulator {
   bool stalls(int body) const;
   void requireFlight(int body, const Arc& arc) const;
   [[noreturn]] void giveUp(const char* what, int a, int b, double time, const NotComputable& why) const;
+  void endWork(bool stopped);
   void extendAll();
+  void extend(Arc& arc, double until);
+  void endAtReach(const Arc& arc);
   void forgetAfter(double end);
   void finish(MotionStatus status, double end, std::string message);
 
@@ -137,6 +146,8 @@ class Simulator {
   ContactSource& contacts_;
   std::size_t impact_limit_;
   bool refuse_overlaps_;
+  WorkCount work_;
+  bool work_ended_ = false;
   double now_ = 0;     // everything before it is known
   long searches_ = 0;  // since the last impact
   Motion motion_;

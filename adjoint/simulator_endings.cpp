@@ -137,14 +137,45 @@ void Simulator::extendAll() {
     if (motion_.world_lines[b].arcs.empty()) continue;  // given up before the start
     Arc& arc = motion_.world_lines[b].arcs.back();
     try {
-      arc.extendTo(motion_.end);
+      extend(arc, motion_.end);
     } catch (const NotComputable& error) {
       motion_.status = MotionStatus::not_computable;
       motion_.message = "the flight of '" + scene_.bodies[b].name + "' cannot be computed: " + error.what();
-      motion_.end = std::min(motion_.end, arc.reach());
-      forgetAfter(motion_.end);
+      endAtReach(arc);
+    } catch (const WorkEnded&) {
+      if (!work_ended_) throw;
+      endAtReach(arc);
     }
   }
+}
+
+void Simulator::extend(Arc& arc, double until) {
+  if (!(arc.reach() < until)) return;
+  work_.step();
+  const std::size_t series = arc.series();
+  arc.extendTo(until);
+  work_.step(arc.series() - series);
+}
+
+void Simulator::endAtReach(const Arc& arc) {
+  motion_.end = std::min(motion_.end, arc.reach());
+  forgetAfter(motion_.end);
+}
+
+// The limit of work was reached, or somebody asked to stop: what is known by then is the motion.
+void Simulator::endWork(bool stopped) {
+  const std::size_t limit = work_.limit();
+  work_ended_ = true;
+  if (!motion_.geometry) motion_.geometry = contacts_.geometry();  // it never began
+  const std::string steps = std::to_string(stopped ? work_.steps() : limit) + " steps of work";
+  work_.allowMore(kStepsToEnd);
+  finish(stopped ? MotionStatus::stopped : MotionStatus::step_limit, now_, "");
+  if (motion_.status == MotionStatus::not_computable) return;
+  std::ostringstream text;
+  text.precision(10);
+  text << "stopped at t = " << motion_.end << " s after " << steps
+       << (stopped ? ", as was asked for" : ", the limit that was set");
+  motion_.message = text.str();
 }
 
 void Simulator::forgetAfter(double end) {

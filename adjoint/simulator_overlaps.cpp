@@ -52,6 +52,9 @@ void Simulator::endOverlaps(double end) {
       followOverlap(overlap, end);
     } catch (const NotComputable&) {
       continue;  // not known to have parted
+    } catch (const WorkEnded&) {
+      if (!work_ended_) throw;
+      continue;
     }
     if (overlap.parted && *overlap.parted > end) overlap.parted.reset();
   }

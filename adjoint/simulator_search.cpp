@@ -49,7 +49,10 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
     if (!parted) return std::nullopt;
     from = std::max(from, *parted);
   }
-  return contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
+  const std::size_t series = arc_a.series() + arc_b.series();
+  const std::optional<PredictedImpact> impact = contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
+  work_.step(1 + arc_a.series() + arc_b.series() - series);
+  return impact;
 }
 
 void Simulator::enter(int body, Outlook& outlook) {
@@ -82,6 +85,8 @@ bool Simulator::takeNext(Prediction& next) {
   while (!queue_.empty()) {
     const int body = queue_.body();
     now_ = std::max(now_, queue_.time());
+    work_.reached(now_, motion_.impacts);
+    work_.step();
     const Prediction& first = outlook_[index(body)].first;
     if (first.a >= 0 && holds(first)) {
       next = first;

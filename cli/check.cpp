@@ -17,7 +17,8 @@ namespace {
 
 struct CheckArguments {
   std::string scene;
-  bool impacts = false, refuse_overlaps = false;
+  bool impacts = false;
+  MotionArguments motion;
 };
 
 constexpr std::size_t kMostDifferences = 20;  // sequences that differ, in text; --json has all
@@ -108,11 +109,11 @@ void printEntry(Output& out, const EditProblem& problem, const DerivativeCheck& 
 }
 
 Exit check(const CheckArguments& arguments, Output& out) {
-  Loaded loaded(arguments.scene, arguments.refuse_overlaps);
+  Loaded loaded(out, arguments.scene, arguments.motion);
   warnOfOverlaps(out, loaded);
-  const EditProblem problem = derivativeProblem(loaded);
+  EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
-  const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
+  const Motion motion = inFile(loaded.path, [&] { return simulateStoppable(out, problem, values); });
   requireRows(loaded.path, problem, motion);
   DerivativeCheck result;
   {
@@ -138,7 +139,7 @@ Exit check(const CheckArguments& arguments, Output& out) {
 Action declareCheck(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   addScene(app, arguments->scene);
-  addRefuseOverlaps(app, arguments->refuse_overlaps);
+  addMotion(app, arguments->motion);
   app.add_flag("--impacts", arguments->impacts, "List all impacts, not only the first 50");
   return [arguments](Output& out) { return check(*arguments, out); };
 }

@@ -14,7 +14,10 @@ class App;
 namespace carom::cli {
 
 /// How the process ends.
-enum class Exit : int { done = 0, input_error = 1, wrong_usage = 2, not_solved = 3, check_failed = 4 };
+enum class Exit : int { done = 0, input_error = 1, wrong_usage = 2, not_solved = 3, check_failed = 4, interrupted = 130, terminated = 143 };
+
+/// Of work that a signal stopped.
+Exit exitOf(const Interruption& interruption);
 
 /// Runs a command whose options are read. Throws InputError for what is wrong in the input or the files.
 using Action = std::function<Exit(Output&)>;

@@ -35,7 +35,8 @@ constexpr const char* kFooter =
     "is set.\n"
     "\n"
     "Exit codes: 0 done, 1 error in the input or the files, 2 wrong usage,\n"
-    "            3 the edit did not converge or is infeasible, 4 a check failed.";
+    "            3 the edit did not converge or is infeasible, 4 a check failed,\n"
+    "            130 stopped by Ctrl-C, 143 stopped by SIGTERM.";
 
 /// One error of a run, on the channel that was asked for.
 Exit report(bool json, Exit code, const std::string& line, const std::string& message, const std::string& file = "",
@@ -52,12 +53,23 @@ Exit reportInput(bool json, const InputError& error, const std::string& file) {
   return report(json, Exit::input_error, error.what(), message, file, pointer ? error.where() : "");
 }
 
+}  // namespace
+
+Exit exitOf(const Interruption& interruption) {
+  return interruption.signal() == SIGTERM ? Exit::terminated : Exit::interrupted;
+}
+
+namespace {
+
 Exit perform(const Action& action, const Settings& settings) {
+  Interruption interruption;
   try {
-    Output output(settings);
+    Output output(settings, interruption);
     const Exit code = action(output);
     output.finish();
     return code;
+  } catch (const Interrupted& interrupted) {
+    return report(settings.json, exitOf(interruption), interrupted.what(), interrupted.what());
   } catch (const UsageError& error) {
     return report(settings.json, Exit::wrong_usage, error.what(), error.what());
   } catch (const FormatError& error) {

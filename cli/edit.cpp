@@ -23,7 +23,8 @@ struct EditArguments {
   std::string scene, output;
   int iterations = EditOptions{}.max_iterations;
   double seconds = EditOptions{}.time_budget_seconds;
-  bool same_sequence = false, impacts = false, refuse_overlaps = false;
+  bool same_sequence = false, impacts = false;
+  MotionArguments motion;
   std::string shooting = "automatic";
   int alternatives = 1, threads = 0;
 };
@@ -89,10 +90,15 @@ std::string fileOfSolution(const std::string& output, std::size_t number) {
   return path.replace_filename(name).string();
 }
 
+/// Of an edit that was stopped, the best so far is worth a file, if it is other than the start.
+bool isWorthWriting(const EditResult& result) {
+  return result.solved() || (result.status == EditStatus::cancelled && result.objective > 0);
+}
+
 /// Writes the solutions; the files that were written.
 std::vector<std::string> saveSolutions(Output& out, const Document& document, const EditResult& result,
                                        const std::string& output) {
-  if (output.empty() || !result.solved()) return {};
+  if (output.empty() || !isWorthWriting(result)) return {};
   std::vector<std::string> files;
   const auto write = [&](const Scene& scene) {
     Document edited = document;
@@ -107,11 +113,14 @@ std::vector<std::string> saveSolutions(Output& out, const Document& document, co
 
 EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options) {
   Progress progress(out, "solving");
+  const Interruption::Stoppable stoppable(out.interruption());
   EditOptions edit_options;
   edit_options.max_iterations = options.iterations;
   edit_options.time_budget_seconds = options.seconds;
   edit_options.alternatives = options.alternatives;
   edit_options.threads = options.threads;
+  edit_options.step_limit = options.motion.step_limit;
+  edit_options.stop = stoppable.token();
   edit_options.shooting = options.shooting == "single"     ? Shooting::single
                           : options.shooting == "multiple" ? Shooting::multiple
                                                            : Shooting::automatic;
@@ -127,7 +136,8 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
     EditResult result = edit.solve(edit_options);
     // A target that the motion does not have is an error of the document, not an outcome of the search.
     if (result.status == EditStatus::bad_start) {
-      const EditProblem problem = edit.problem();
+      EditProblem problem = edit.problem();
+      problem.step_limit = options.motion.step_limit;
       const Motion motion = simulateAt(problem, problem.controls.startValues(), problem.horizon);
       requireRows(loaded.path, problem, motion);
     }
@@ -136,9 +146,10 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
 }
 
 /// What went wrong, and what follows for the file.
-std::string describeFailure(const EditResult& result, const std::string& output) {
+std::string describeFailure(const EditResult& result, const std::string& output, bool written) {
   const std::string sentence = std::string(nameOf(result.status)) + ": " + result.message;
   if (output.empty()) return sentence;
+  if (written) return sentence + (isStandard(output) ? " The best so far was written." : " The best so far is in " + output + ".");
   return sentence + " " + (isStandard(output) ? "Nothing" : output) + " was " + (isStandard(output) ? "" : "not ") +
          "written.";
 }
@@ -148,7 +159,9 @@ Exit edit(const EditArguments& options, Output& out) {
     if (options.alternatives > 1) throw UsageError("--alternatives needs a file for each solution, not -o -");
     out.reserveForContent();
   }
-  Loaded loaded(options.scene, options.refuse_overlaps);
+  for (std::size_t k = 1; !options.output.empty() && k <= static_cast<std::size_t>(options.alternatives); ++k)
+    requireOutput(fileOfSolution(options.output, k));
+  Loaded loaded(out, options.scene, options.motion);
   warnOfOverlaps(out, loaded);
   const EditResult result = solve(out, loaded, options);
   const std::vector<std::string> files = saveSolutions(out, loaded.document, result, options.output);
@@ -159,16 +172,18 @@ Exit edit(const EditArguments& options, Output& out) {
     printAlternatives(out, result);
     for (const std::string& file : files) sayWritten(out, file);
   }
-  if (result.solved()) return Exit::done;
-  out.fail(describeFailure(result, options.output));
-  return Exit::not_solved;
+  const bool stopped = out.interruption().signal() != 0;
+  if (!result.solved()) out.fail(describeFailure(result, options.output, !files.empty()));
+  if (stopped) return exitOf(out.interruption());
+  return result.solved() ? Exit::done : Exit::not_solved;
 }
 
 Action declareEdit(CLI::App& app) {
   const auto options = std::make_shared<EditArguments>();
   addScene(app, options->scene);
-  addRefuseOverlaps(app, options->refuse_overlaps);
+  addMotion(app, options->motion);
   app.add_option("-o,--output", options->output, "Write the scene with its new values here; - for standard output")
+      ->check(fileName())
       ->type_name("OUT.json");
   app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
       ->check(CLI::Range(1, 1000000))
@@ -199,7 +214,8 @@ const Command kEditCommand{
     "before and after, of more than 50 only where they part, if not --impacts. The result is simulated\n"
     "afresh: its errors are those of the edited scene.\n"
     "OUT.json is written only when all constraints are met, whole or not at all; the input stays as it\n"
-    "is unless -o names it. With --alternatives the others go to OUT-2.json, OUT-3.json, ...: each has\n"
+    "is unless -o names it. Ctrl-C ends the search: the best so far is printed and written, and the\n"
+    "command ends with 130. With --alternatives the others go to OUT-2.json, OUT-3.json, ...: each has\n"
     "other impacts, or else clearly other numbers; the smallest change comes first, but a solution with\n"
     "the scene's own impacts is always the first one. Ends with 3 and a sentence where the constraints\n"
     "cannot be met.\n"

@@ -23,7 +23,8 @@ namespace {
 struct ExportArguments {
   std::string scene, output, format, before, keys;
   std::optional<double> frames_per_second, tolerance, light, ghosts;
-  bool camera = false, nails = false, refuse_overlaps = false;
+  bool camera = false, nails = false;
+  MotionArguments motion;
 };
 
 /// The words of --format: the extensions without their dots.
@@ -118,16 +119,19 @@ Exit exportScene(const ExportArguments& options, Output& out) {
   const std::string format = formatOf(options);
   requireSense(options, format);
   reserveOutput(options, format, out);
-  Loaded loaded(options.scene, options.refuse_overlaps);
+  requireOutput(options.output);
+  Loaded loaded(out, options.scene, options.motion);
   warnOfOverlaps(out, loaded);
   const Motion motion = loaded.simulate(out);
+  requireNotStopped(motion);
   ExportOptions export_options;
   export_options.gltf = gltfOptionsOf(options);
   export_options.csv_rate = options.frames_per_second.value_or(export_options.csv_rate);
   std::optional<Motion> before;
   if (!options.before.empty()) {
-    Loaded earlier(options.before);
+    Loaded earlier(out, options.before, {false, options.motion.step_limit});
     before = earlier.simulate(out);
+    requireNotStopped(*before);
     export_options.before = &*before;
   }
   const std::size_t bytes = writeExport(options, format, loaded, motion, export_options, out);
@@ -148,6 +152,7 @@ Action declareExport(CLI::App& app) {
   app.add_option("-o,--output", options->output,
                  "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output")
       ->required()
+      ->check(fileName())
       ->type_name("FILE");
   app.add_option("--format", options->format, "What to write, where the name of the file does not say it")
       ->check(CLI::IsMember(formats()))
@@ -173,7 +178,7 @@ Action declareExport(CLI::App& app) {
   app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
   app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")
       ->type_name("OLD.json");
-  addRefuseOverlaps(app, options->refuse_overlaps);
+  addMotion(app, options->motion);
   return [options](Output& out) { return exportScene(*options, out); };
 }
 

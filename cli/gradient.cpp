@@ -18,7 +18,7 @@ namespace {
 
 struct GradientArguments {
   std::string scene, method = "adjoint";
-  bool refuse_overlaps = false;
+  MotionArguments motion;
 };
 
 /// The worst of all rows, with everything there is to say about it.
@@ -65,13 +65,13 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
 }
 
 Exit gradient(const GradientArguments& options, Output& out) {
-  Loaded loaded(options.scene, options.refuse_overlaps);
+  Loaded loaded(out, options.scene, options.motion);
   warnOfOverlaps(out, loaded);
-  const EditProblem problem = derivativeProblem(loaded);
+  EditProblem problem = derivativeProblem(loaded);
   const Eigen::VectorXd values = problem.controls.startValues();
   RowsAndJacobian result;
   std::optional<Progress> progress(std::in_place, out, "differentiating");
-  result.motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
+  result.motion = inFile(loaded.path, [&] { return simulateStoppable(out, problem, values); });
   result.rows = requireRows(loaded.path, problem, result.motion);
   // The adjoint pass walks the impacts that each row depends on, and so knows the margins.
   result.jacobian = jacobianByAdjoint(problem, values, result.motion, result.rows, &result.reliability);
@@ -91,7 +91,7 @@ Exit gradient(const GradientArguments& options, Output& out) {
 Action declareGradient(CLI::App& app) {
   const auto options = std::make_shared<GradientArguments>();
   addScene(app, options->scene);
-  addRefuseOverlaps(app, options->refuse_overlaps);
+  addMotion(app, options->motion);
   app.add_option("--method", options->method, "adjoint: one reverse pass a row; tangent: one forward pass a control")
       ->check(CLI::IsMember({"adjoint", "tangent"}))
       ->type_name("NAME");

@@ -48,6 +48,7 @@ Exit importScene(const ImportArguments& options, Output& out) {
   if (std::filesystem::equivalent(options.input, options.output, error))
     throw UsageError("-o " + options.output + ": found the file that is read, expected another one");
   if (isStandard(options.output)) out.reserveForContent();
+  requireOutput(options.output);
   Imported imported = [&] {
     const Progress progress(out, "reading");
     return importFrom(options.input);
@@ -75,6 +76,7 @@ Action declareImport(CLI::App& app) {
       ->type_name("M.glb");
   app.add_option("-o,--output", options->output, "The scene document to write; - for standard output")
       ->required()
+      ->check(fileName())
       ->type_name("S.json");
   app.add_option("--duration", options->duration, "Seconds to simulate, 1 if neither this nor the file says it")
       ->check(positiveNumber())

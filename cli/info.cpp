@@ -158,7 +158,7 @@ void printOverlaps(Output& out, const Scene& scene, const ScenePlan& plan) {
 }
 
 Exit describeScene(const std::string& path, Output& out) {
-  Loaded loaded(path);
+  Loaded loaded(out, path);
   const ScenePlan plan = planOf(out, loaded);
   if (out.json()) {
     out.document(infoJson(loaded.document.scene, plan));

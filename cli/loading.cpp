@@ -59,12 +59,33 @@ std::string describeMissing(const Motion& motion, const Constraint& constraint) 
 
 }  // namespace
 
-Loaded::Loaded(const std::string& file, bool refuse_overlaps)
+namespace {
+
+Document readScene(const Output& out, const std::string& file) {
+  const Progress progress(out, "reading");
+  return readSceneFrom(file);
+}
+
+}  // namespace
+
+Loaded::Loaded(const Output& out, const std::string& file, const MotionArguments& arguments)
     : path(nameOfInput(file)),
-      document(readSceneFrom(file)),
-      contacts(inFile(path, [&] { return OdeContacts(document.scene); })) {
+      document(readScene(out, file)),
+      contacts(inFile(path, [&] {
+        const Progress progress(out, "looking at the bodies");
+        WorkCount work(arguments.step_limit, {}, nullptr);
+        try {
+          return OdeContacts(document.scene, &work);
+        } catch (const WorkEnded&) {
+          throw InputError("/bodies", "found so many bodies near each other that it takes more than " +
+                                          std::to_string(arguments.step_limit) +
+                                          " steps of work to see which overlap at the start, expected fewer, or a higher "
+                                          "--step-limit");
+        }
+      })),
+      step_limit(arguments.step_limit) {
   const std::vector<StartOverlap> overlaps = contacts.overlaps();
-  if (refuse_overlaps && !overlaps.empty()) inFile(path, [&] { refuseOverlap(document.scene, overlaps.front()); });
+  if (arguments.refuse_overlaps && !overlaps.empty()) inFile(path, [&] { refuseOverlap(document.scene, overlaps.front()); });
 }
 
 void warnOfOverlaps(const Output& out, const Loaded& loaded) {
@@ -73,8 +94,20 @@ void warnOfOverlaps(const Output& out, const Loaded& loaded) {
 }
 
 Motion Loaded::simulate(const Output& out) {
-  const Progress progress(out, "simulating");
-  return inFile(path, [&] { return carom::simulate(document.scene, contacts, document.duration); });
+  Progress progress(out, "simulating");
+  const Interruption::Stoppable stoppable(out.interruption());
+  SimulateOptions options;
+  options.step_limit = step_limit;
+  options.stop = stoppable.token();
+  options.progress = [&](const SimulateProgress& at) {
+    progress.show(Output::brief(at.time) + " s of " + Output::brief(document.duration) + " s, " +
+                  counted(static_cast<long long>(at.impacts), "impact") + ", " + std::to_string(at.steps) + " steps");
+  };
+  return inFile(path, [&] { return carom::simulate(document.scene, contacts, document.duration, options); });
+}
+
+void requireNotStopped(const Motion& motion) {
+  if (motion.status == MotionStatus::stopped) throw Interrupted("the motion was " + motion.message);
 }
 
 void warnIfEnded(const Output& out, const Motion& motion) {
@@ -92,8 +125,19 @@ EditProblem derivativeProblem(Loaded& loaded) {
       control.min.clear();
       if (control.vary != "tilt") control.max.clear();  // the cone of a tilt is no bound of its components
     }
-    return EditProblem(document.scene, loaded.contacts, document.duration, unbounded, document.constraints);
+    EditProblem problem(document.scene, loaded.contacts, document.duration, unbounded, document.constraints);
+    problem.step_limit = loaded.step_limit;
+    return problem;
   });
+}
+
+Motion simulateStoppable(const Output& out, EditProblem& problem, const Eigen::VectorXd& values) {
+  const Interruption::Stoppable stoppable(out.interruption());
+  problem.stop = stoppable.token();
+  Motion motion = simulateAt(problem, values, problem.horizon);
+  problem.stop = {};
+  requireNotStopped(motion);
+  return motion;
 }
 
 RowValues requireRows(const std::string& path, const EditProblem& problem, const Motion& motion) {

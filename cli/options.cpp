@@ -11,8 +11,20 @@ void addScene(CLI::App& app, std::string& path, bool required) {
   app.add_option("scene", path, "The scene document; - for standard input")->required(required)->type_name("S.json");
 }
 
-void addRefuseOverlaps(CLI::App& app, bool& refuse) {
-  app.add_flag("--refuse-overlaps", refuse, "Refuse bodies that overlap at the start; else they collide once they have parted");
+void addMotion(CLI::App& app, MotionArguments& arguments) {
+  app.add_flag("--refuse-overlaps", arguments.refuse_overlaps,
+               "Refuse bodies that overlap at the start; else they collide once they have parted");
+  app.add_option("--step-limit", arguments.step_limit,
+                 "End a motion that takes more steps of work, 3000000 (some seconds) if not given")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000'000}))
+      ->type_name("N");
+}
+
+CLI::Validator fileName() {
+  const auto check = [](std::string& text) {
+    return text.empty() ? std::string("found an empty name, expected that of a file, or - for standard output") : std::string();
+  };
+  return CLI::Validator(check, "", "file name");
 }
 
 CLI::Validator positiveNumber() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adjoint/types.h"
+#include "cli/interruption.h"
 #include "cli/terminal.h"
 
 namespace carom::cli {
@@ -22,10 +23,12 @@ struct Settings {
 /// gives way to a file, warnings and progress go to standard error.
 class Output {
  public:
-  explicit Output(const Settings& settings) : settings_(settings) {}
+  Output(const Settings& settings, Interruption& interruption) : settings_(settings), interruption_(interruption) {}
 
   bool json() const { return settings_.json; }
   bool quiet() const { return settings_.quiet; }
+  /// The signals that people end a command with.
+  Interruption& interruption() const { return interruption_; }
   /// Whether text for people is coloured.
   bool colours() const { return hasColours(content_ ? Stream::error : Stream::out); }
 
@@ -61,6 +64,7 @@ class Output {
   static std::string numberOf(int digits, double value);
 
   Settings settings_;
+  Interruption& interruption_;
   std::string document_;
   std::optional<std::string> content_;
   std::ostringstream text_;

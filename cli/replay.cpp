@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // carom replay: plays the journal of an edit session again.
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/loading.h"
+#include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
 #include "cli/table.h"
@@ -50,6 +52,7 @@ void print(Output& out, const SessionJournal& journal, const std::vector<Replaye
 
 Exit replay(const ReplayArguments& options, Output& out) {
   if (isStandard(options.output)) out.reserveForContent();
+  if (!options.output.empty()) requireOutput(options.output);
   const JournalDocument document = readJournalFrom(options.journal);
   const std::string name = nameOfInput(options.journal);
   OdeContacts contacts = inFile(name, [&] { return OdeContacts(document.journal.scene); });
@@ -96,6 +99,7 @@ Action declareReplay(CLI::App& app) {
       ->required()
       ->type_name("J.json");
   app.add_option("-o,--output", options->output, "Write the scene at its end here; - for standard output")
+      ->check(fileName())
       ->type_name("OUT.json");
   return [options](Output& out) { return replay(*options, out); };
 }

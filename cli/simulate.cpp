@@ -20,7 +20,8 @@ namespace {
 struct SimulateArguments {
   std::string scene;
   std::vector<double> at;
-  bool impacts = false, refuse_overlaps = false;
+  bool impacts = false;
+  MotionArguments motion;
 };
 
 constexpr std::size_t kMostStates = 50;  // of bodies, at the end of a motion that was not asked for
@@ -51,7 +52,8 @@ void printEnd(Output& out, const Motion& motion) {
              << " moving bodies at the end.\n";
 }
 
-void printMotion(Output& out, const Motion& motion, const SimulateArguments& arguments) {
+void printMotion(Output& out, const Motion& motion, const SimulateArguments& arguments,
+                 const std::vector<double>& times) {
   out.text() << counted(static_cast<long long>(motion.events.size()), "impact") << " in " << out.number(motion.end)
              << " s";
   if (motion.status != MotionStatus::complete)
@@ -64,8 +66,8 @@ void printMotion(Output& out, const Motion& motion, const SimulateArguments& arg
     printImpacts(out, motion);
   else
     printImpactSummary(out, motion);
-  if (arguments.at.empty()) printEnd(out, motion);
-  for (const double time : arguments.at) printStates(out, motion, time);
+  if (times.empty()) printEnd(out, motion);
+  for (const double time : times) printStates(out, motion, time);
 }
 
 void requireReached(const Motion& motion, double time) {
@@ -75,6 +77,12 @@ void requireReached(const Motion& motion, double time) {
                                ", expected one in [0, " + numberText(motion.end) + "]" + why);
 }
 
+/// Of a motion that was stopped, those that it came to.
+std::vector<double> timesWithin(const Motion& motion, std::vector<double> times) {
+  std::erase_if(times, [&](double time) { return !(time >= 0 && time <= motion.end); });
+  return times;
+}
+
 Action declareSimulate(CLI::App& app) {
   const auto options = std::make_shared<SimulateArguments>();
   addScene(app, options->scene);
@@ -82,18 +90,21 @@ Action declareSimulate(CLI::App& app) {
       ->allow_extra_args(false)
       ->type_name("T");
   app.add_flag("--impacts", options->impacts, "List all impacts, where more than 50 are summed up otherwise");
-  addRefuseOverlaps(app, options->refuse_overlaps);
+  addMotion(app, options->motion);
   return [options](Output& out) {
-    Loaded loaded(options->scene, options->refuse_overlaps);
+    Loaded loaded(out, options->scene, options->motion);
     const Motion motion = loaded.simulate(out);
-    for (const double time : options->at) requireReached(motion, time);
+    const bool stopped = motion.status == MotionStatus::stopped;
+    for (const double time : options->at)
+      if (!stopped) requireReached(motion, time);
+    const std::vector<double> times = timesWithin(motion, options->at);
     if (out.json()) {
-      out.document(motionJson(motion, options->at));
+      out.document(motionJson(motion, times));
       warnIfEnded(out, motion);
     } else {
-      printMotion(out, motion, *options);
+      printMotion(out, motion, *options, times);
     }
-    return Exit::done;
+    return stopped ? exitOf(out.interruption()) : Exit::done;
   };
 }
 
@@ -104,7 +115,8 @@ const Command kSimulateCommand{
     "Prints every impact (time, bodies, contact point and normal, mode, and the margin to where\n"
     "derivatives stop) and the state at the end of the motion, or at the times asked for. Of more than\n"
     "50 impacts it prints how many there are by mode, pair and body instead, if not --impacts.\n"
-    "A motion that cannot be continued ends early: the answer says where, when and why.\n"
+    "A motion that cannot be continued ends early: the answer says where, when and why. So does one that\n"
+    "takes more steps of work than --step-limit, or that Ctrl-C stops (then the command ends with 130).\n"
     "\n"
     "Examples:\n"
     "  carom simulate scene.json\n"

@@ -7,6 +7,7 @@
 #include "formats/mesh_file.h"
 #include "formats/read_file.h"
 #include "formats/scene_json.h"
+#include "formats/write_file.h"
 
 namespace carom::cli {
 namespace {
@@ -36,6 +37,15 @@ JournalDocument readJournalFrom(const std::string& path) {
 Imported importFrom(const std::string& path) {
   if (!isStandard(path)) return importGltf(path);
   return inFile(kInput, [] { return parseGltfScene(readInput(kLargestMeshFile), kHere); });
+}
+
+void requireOutput(const std::string& path) {
+  if (isStandard(path)) return;
+  try {
+    requireWritable(path);
+  } catch (const InputError& error) {
+    throw FormatError(path, "", error.message());
+  }
 }
 
 void saveSceneTo(Output& out, const std::string& path, const Document& document) {

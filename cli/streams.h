@@ -21,6 +21,9 @@ Document readSceneFrom(const std::string& path);
 JournalDocument readJournalFrom(const std::string& path);
 Imported importFrom(const std::string& path);
 
+/// Before the work: throws FormatError where the file cannot be written. Standard output can.
+void requireOutput(const std::string& path);
+
 /// Saves the document, or makes it the content of standard output.
 void saveSceneTo(Output& out, const std::string& path, const Document& document);
 /// For people, that a file was written. Of standard output there is nothing to say.

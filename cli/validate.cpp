@@ -17,12 +17,13 @@ namespace {
 void checkEdit(const Output& out, Loaded& loaded) {
   std::optional<Progress> progress(std::in_place, out, "checking");
   const Document& document = loaded.document;
-  const EditProblem problem = inFile(loaded.path, [&] {
+  EditProblem problem = inFile(loaded.path, [&] {
     return EditProblem(document.scene, loaded.contacts, document.duration, document.controls, document.constraints);
   });
   if (document.constraints.empty()) return;
+  problem.step_limit = loaded.step_limit;
   const Eigen::VectorXd values = problem.controls.startValues();
-  const Motion motion = inFile(loaded.path, [&] { return simulateAt(problem, values, problem.horizon); });
+  const Motion motion = inFile(loaded.path, [&] { return simulateStoppable(out, problem, values); });
   requireRows(loaded.path, problem, motion);
   progress.reset();
   for (const std::string& note : problem.controls.notes()) out.warn(note);
@@ -30,12 +31,12 @@ void checkEdit(const Output& out, Loaded& loaded) {
 
 struct ValidateArguments {
   std::string scene;
-  bool refuse_overlaps = false;
+  MotionArguments motion;
 };
 
 Exit validate(const ValidateArguments& options, Output& out) {
   const std::string& path = options.scene;
-  Loaded loaded(path, options.refuse_overlaps);
+  Loaded loaded(out, path, options.motion);
   warnOfOverlaps(out, loaded);
   checkEdit(out, loaded);
   const Document& document = loaded.document;
@@ -56,7 +57,7 @@ Exit validate(const ValidateArguments& options, Output& out) {
 Action declareValidate(CLI::App& app) {
   const auto options = std::make_shared<ValidateArguments>();
   addScene(app, options->scene);
-  addRefuseOverlaps(app, options->refuse_overlaps);
+  addMotion(app, options->motion);
   return [options](Output& out) { return validate(*options, out); };
 }
 

@@ -59,12 +59,14 @@ void checkEditOptions(const EditOptions& options) {
 EditResult Edit::solve(const EditOptions& options) const {
   checkEditOptions(options);
   const auto began = std::chrono::steady_clock::now();
-  const EditProblem problem = this->problem();
+  EditProblem problem = this->problem();
+  problem.step_limit = options.step_limit;
+  problem.stop = options.stop;
   EditSearch search(problem, options);
   const EditSolution solution = findSolution(search);
   EditResult result = verify(scene_, search, solution);
   if (options.explain) explainInto(result, scene_, search, solution);
-  if (result.solved()) result.alternatives = alternativesTo(scene_, search, solution);
+  if (result.solved() && search.halt() != Halt::cancelled) result.alternatives = alternativesTo(scene_, search, solution);
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   return result;
 }

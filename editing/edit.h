@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,7 @@ enum class EditStatus {
   infeasible,               ///< the constraints cannot all be met, or no way was found from anywhere that was tried
   not_converged,            ///< the limit of iterations, or no progress
   out_of_time,
-  cancelled,  ///< by the progress callback
+  cancelled,  ///< by the progress callback, or a stop was requested
   bad_start,  ///< a constraint that the start's motion does not have: after its end, an impact not there
 };
 const char* nameOf(EditStatus status);
@@ -66,6 +68,10 @@ struct EditOptions {
   int alternatives = 1;  ///< distinct solutions that are looked for, see EditResult::alternatives
   int threads = 0;       ///< of the search across impact sequences; 0: all cores. The answer does not depend on it
   bool certify = true;   ///< fill in EditResult::certificate
+  /// Of each motion, see SimulateOptions::step_limit: a point whose motion ends before its constraints is not taken.
+  std::size_t step_limit = std::numeric_limits<std::size_t>::max();
+  /// Once a stop is requested, from any thread, the edit ends with EditStatus::cancelled and the best that it has.
+  std::stop_token stop;
   bool explain = true;   ///< fill in EditResult::why_not where the edit is infeasible or does not converge
   std::function<bool(const EditProgress&)> progress;  ///< false cancels; must not solve an edit itself
 };

@@ -102,9 +102,18 @@ double EditProblem::objective(const Eigen::VectorXd& unknowns) const {
   return 0.5 * unknowns.head(controls.size()).squaredNorm();
 }
 
-Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, ContactSource* contacts) {
+Motion simulateScene(const EditProblem& problem, const Scene& scene, double until) {
+  SimulateOptions options;
+  options.step_limit = problem.step_limit;
+  return simulate(scene, *problem.contacts, until, options);
+}
+
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, ContactSource* contacts,
+                  bool even_if_stopped) {
   SimulateOptions options;
   options.asked = problem.asked;
+  options.step_limit = problem.step_limit;
+  if (!even_if_stopped) options.stop = problem.stop;
   return simulate(problem.controls.sceneAt(values), contacts ? *contacts : *problem.contacts, until, options);
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <limits>
+#include <stop_token>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,6 +42,9 @@ struct EditProblem {
   double duration;           ///< s, of the motion
   double horizon;            ///< s; nothing after it counts for the constraints
   std::vector<Asked> asked;  ///< as little as the rows and their derivatives need
+  /// Of every motion, see SimulateOptions.
+  std::size_t step_limit = std::numeric_limits<std::size_t>::max();
+  std::stop_token stop;  ///< of motions that are tried; one that an answer is read from is simulated in any case
 };
 
 /// All rows of a problem at one point, and their exact derivative by every control value (SI by SI).
@@ -49,10 +55,14 @@ struct RowsAndJacobian {
   std::vector<Reliability> reliability;  ///< of each row; by adjoint only
 };
 
+/// The motion of a scene of the problem, with everything that can be asked of it.
+Motion simulateScene(const EditProblem& problem, const Scene& scene, double until);
+
 /// Simulates up to a time, with no more detail than the problem asks for.
-/// By another source than the problem's, if one is given: the problem's is for one thread at a time.
+/// By another source than the problem's, if one is given: the problem's is for one thread at a time. A requested stop
+/// ends it early, unless it is to be simulated in any case.
 Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until,
-                  ContactSource* contacts = nullptr);
+                  ContactSource* contacts = nullptr, bool even_if_stopped = false);
 /// The same along the impact sequence of another motion of the problem, see adjoint/replay.h.
 Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
                 ContactSource* contacts = nullptr);

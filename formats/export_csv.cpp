@@ -18,7 +18,7 @@ constexpr const char* kColumns =
     "velocity.x [m/s],velocity.y [m/s],velocity.z [m/s],"
     "angular_velocity.x [rad/s],angular_velocity.y [rad/s],angular_velocity.z [rad/s]\r\n";
 
-constexpr double kMostRows = 1e7;  // some gigabytes
+constexpr double kMostRows = 2e6;  // half a gigabyte
 
 enum class RowKind { sample, before, after };
 constexpr const char* kKindNames[] = {"sample", "before", "after"};

@@ -165,6 +165,9 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 }  // namespace
 
 Json parseJson(std::string_view text, std::size_t most_values) {
+  // the parser takes a NUL byte for the end of the text, whatever follows
+  if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos)
+    fail(lineAndColumn(text, nul), "a NUL byte", "text");
   TreeBuilder builder(text, most_values);
   Json::sax_parse(text.begin(), text.end(), &builder);
   return builder.take();

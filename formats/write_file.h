@@ -6,8 +6,13 @@
 
 namespace carom {
 
-/// Writes `content` to a new file beside `path` and renames it onto `path`, so that a reader sees the old file or the
-/// whole new one. Throws InputError naming the path; the temporary file is removed.
+/// Writes `content` to the file `path`. A file is replaced as a whole: a reader sees the old one or the new one, which
+/// has the mode of the old one, and its owner where that is permitted. A symbolic link stays, and what it points to is
+/// written. What is no file (a device, a pipe) is written in place. Throws InputError naming the path; then a file is
+/// as it was.
 void writeFile(const std::string& path, std::string_view content);
+
+/// Throws InputError where `writeFile` could not write, as far as that can be told before: to ask before long work.
+void requireWritable(const std::string& path);
 
 }  // namespace carom

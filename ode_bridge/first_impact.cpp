@@ -94,6 +94,7 @@ class Search {
     const bool leaves = a.node->piece >= 0 && b.node->piece >= 0;
     const double apart = separationOf(a, b), size = sizeOf(a) + sizeOf(b);
     if (!std::isfinite(apart)) throw NotComputable("their distance is beyond the range of doubles");
+    if (pair_.work) pair_.work->step();
     if (++steps_ > kMostSteps)
       throw NotComputable("it takes more than " + std::to_string(kMostSteps) +
                           " steps: they turn too fast, or move along each other too closely");

@@ -22,6 +22,8 @@ namespace {
 // Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).
 constexpr double kOverlap = 1e-9;
 
+constexpr std::size_t kMostOverlaps = 100'000;
+
 // The box that a solid stands in, with room for rounding and for the tolerance of contact.
 Bounds standingBounds(const Solid& solid, const Kinematics& k) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -74,7 +76,7 @@ struct OdeContacts::State {
   std::vector<StartOverlap> overlaps;
   std::set<std::pair<std::string, std::string>> accepted;  // names of pairs that overlap in the scene it was made for
 
-  void findOverlaps(const std::vector<Arc>& arcs);
+  void findOverlaps(const std::vector<Arc>& arcs, WorkCount* work);
   bool isAccepted(const Scene& scene, const StartOverlap& overlap) const;
   BallImpact quickImpact(int a, int b, double from, double until) const;
   void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
@@ -82,8 +84,10 @@ struct OdeContacts::State {
 
 OdeContacts::OdeContacts() : state_(std::make_unique<State>()) {}
 
-OdeContacts::OdeContacts(const Scene& scene) : OdeContacts() {
+OdeContacts::OdeContacts(const Scene& scene, WorkCount* work) : OdeContacts() {
+  countIn(work);
   take(scene);
+  countIn(nullptr);
   for (const StartOverlap& o : state_->overlaps)
     state_->accepted.emplace(scene.bodies[static_cast<std::size_t>(o.a)].name,
                              scene.bodies[static_cast<std::size_t>(o.b)].name);
@@ -122,10 +126,10 @@ void OdeContacts::take(const Scene& scene) {
   state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
   state_->narrow_phase.reset(state_->geometry->solids());
   state_->neighbours.begin(std::move(extents), scene.gravity, Neighbours::kFew, CollisionClasses(scene));
-  state_->findOverlaps(arcs);
+  state_->findOverlaps(arcs, work());
 }
 
-void OdeContacts::State::findOverlaps(const std::vector<Arc>& arcs) {
+void OdeContacts::State::findOverlaps(const std::vector<Arc>& arcs, WorkCount* work) {
   overlaps.clear();
   std::vector<std::pair<int, int>> near;
   neighbours.pairs(near);
@@ -133,8 +137,11 @@ void OdeContacts::State::findOverlaps(const std::vector<Arc>& arcs) {
   for (const auto& [first, second] : near) {
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const Placed a(geometry->solids()[i], arcs[i], 0), b(geometry->solids()[j], arcs[j], 0);
-    const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13));
+    const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13), work);
     if (depth) overlaps.push_back({first, second, *depth, std::nullopt});
+    if (overlaps.size() > kMostOverlaps)
+      throw InputError("/bodies", "found more than " + std::to_string(kMostOverlaps) +
+                                      " pairs of bodies that overlap at the start, expected fewer");
   }
 }
 
@@ -148,7 +155,8 @@ std::vector<StartOverlap> OdeContacts::overlaps() const { return state_->overlap
 std::optional<double> OdeContacts::parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) {
   for (int body : {a, b}) state_->checkedBody("parting", body);
   for (double t : {from, until}) checkedNumber("parting", "the time", t);
-  return partingTime(state_->geometry->solid(a), state_->geometry->solid(b), arc_a, arc_b, from, until);
+  return partingTime(state_->geometry->solid(a), state_->geometry->solid(b), arc_a, arc_b, from, until,
+                     work());
 }
 
 void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
@@ -231,7 +239,7 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
     const std::int16_t kind = isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint;
     return PredictedImpact{quick.time, {kind, 0, 0, 1}};
   }
-  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b}, from, until);
+  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work()}, from, until);
 }
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,

@@ -12,9 +12,10 @@ namespace carom {
 /// touch. One object serves one simulation at a time; different objects may be used from different threads.
 class OdeContacts final : public ContactSource {
  public:
+  /// The search for those that overlap is counted in `work`, if there is one, and lets its WorkEnded through.
   /// Throws InputError for a scene that is not valid (see validate); so does begin, and when two bodies overlap at the
-  /// start that do not in the scene given here: what overlaps here is left alone until it parts. The other functions throw it for bodies that are not there and times that are not finite.
-  explicit OdeContacts(const Scene& scene);
+  /// start that do not in the scene given here: what overlaps here is left alone until it parts. More than 100 000 pairs that overlap are an error, too. The other functions throw it for bodies that are not there and times that are not finite.
+  explicit OdeContacts(const Scene& scene, WorkCount* work = nullptr);
   ~OdeContacts() override;
   OdeContacts(const OdeContacts&) = delete;
   OdeContacts& operator=(const OdeContacts&) = delete;

@@ -11,6 +11,9 @@
 namespace carom {
 namespace {
 
+// What the distance of two pieces that overlap costs.
+constexpr std::size_t kStepsOfPieces = 8;
+
 const Vec3& vertexOf(const Solid& solid, int corner) {
   return solid.vertices[static_cast<std::size_t>(solid.corners[static_cast<std::size_t>(corner)])].point;
 }
@@ -57,9 +60,11 @@ std::optional<double> insideMesh(const Placed& a, const Placed& mesh) {
 
 }  // namespace
 
-std::optional<double> overlapOf(const Placed& a, const Placed& b, double tolerance) {
+std::optional<double> overlapOf(const Placed& a, const Placed& b, double tolerance, WorkCount* work) {
   std::optional<double> deepest;
+  if (work) work->step();
   eachLeafPair(a, b, 0, [&](const PlacedPiece& p, const PlacedPiece& q) {
+    if (work) work->step(kStepsOfPieces);
     const double separation = findWitness(p, q).separation;
     if (separation < -tolerance) deepest = std::max(deepest.value_or(0), -separation);
   });

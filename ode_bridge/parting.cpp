@@ -18,7 +18,8 @@ constexpr int kMostSteps = 1'000'000;
 
 class Pair {
  public:
-  Pair(const Solid& a, const Solid& b, Arc& arc_a, Arc& arc_b) : a_(a), b_(b), arc_a_(arc_a), arc_b_(arc_b) {
+  Pair(const Solid& a, const Solid& b, Arc& arc_a, Arc& arc_b, WorkCount* work)
+      : a_(a), b_(b), arc_a_(arc_a), arc_b_(arc_b), work_(work) {
     size_ = std::min(a.plane ? std::numeric_limits<double>::infinity() : a.bound(),
                      b.plane ? std::numeric_limits<double>::infinity() : b.bound());
   }
@@ -28,7 +29,7 @@ class Pair {
     arc_a_.extendTo(t);
     arc_b_.extendTo(t);
     const Placed a(a_, arc_a_, t), b(b_, arc_b_, t);
-    return overlapOf(a, b, touchTolerance(a, b));
+    return overlapOf(a, b, touchTolerance(a, b), work_);
   }
 
   // A time that it takes to move by `depth` against each other, at the least.
@@ -44,6 +45,7 @@ class Pair {
 
   const Solid &a_, &b_;
   Arc &arc_a_, &arc_b_;
+  WorkCount* work_;
   double size_;
 };
 
@@ -58,8 +60,9 @@ double bisected(Pair& pair, double overlapping, double apart) {
 
 }  // namespace
 
-std::optional<double> partingTime(const Solid& a, const Solid& b, Arc& arc_a, Arc& arc_b, double from, double until) {
-  Pair pair(a, b, arc_a, arc_b);
+std::optional<double> partingTime(const Solid& a, const Solid& b, Arc& arc_a, Arc& arc_b, double from, double until,
+                                  WorkCount* work) {
+  Pair pair(a, b, arc_a, arc_b, work);
   double before = from;
   for (int steps = 0; steps < kMostSteps; ++steps) {
     const std::optional<double> depth = pair.depthAt(before);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/options.h"
 #include "cli/pages/pages.h"
 #include "cli/streams.h"
 #include "formats/write_file.h"
@@ -18,6 +19,7 @@ struct PageArguments {
 
 void addPageOutput(CLI::App& app, PageArguments& arguments) {
   app.add_option("-o,--output", arguments.output, "The file to write; - for standard output, as without it")
+      ->check(fileName())
       ->type_name("FILE");
 }
 

@@ -79,7 +79,7 @@ std::vector<Candidate> candidatesFor(const EditProblem& problem, const EditPoint
   const Scene scene = problem.controls.sceneAt(point.values);
   const double until = point.motion.duration;
   const Eigen::VectorXd times = problem.timesOf(point.changes);
-  const Motion plain = simulate(scene, *problem.contacts, until);
+  const Motion plain = simulateScene(problem, scene, until);
   const std::size_t events = problem.constraints.extentIn(plain, times).events;
   const std::vector<Row>& rows = problem.constraints.rows();
   std::vector<Candidate> candidates;
@@ -91,7 +91,7 @@ std::vector<Candidate> candidatesFor(const EditProblem& problem, const EditPoint
     const ControlSet set(scene, controls);
     // Kinds that only read what is written share one motion.
     const bool rewrites = kind->prepare || kind->owner == OwnerKind::impact;
-    const Motion own = rewrites ? simulate(set.startScene(), *problem.contacts, until) : Motion();
+    const Motion own = rewrites ? simulateScene(problem, set.startScene(), until) : Motion();
     const Motion& motion = rewrites ? own : plain;
     const RowValues read = problem.constraints.evaluate(motion, times);
     if (!read.available) continue;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
 #include "editing/text.h"
 
 namespace carom {
@@ -82,7 +81,7 @@ std::vector<SequenceChange> sequenceChangesOf(const Scene& written, const EditPr
   const std::size_t after = counted(end.motion, end.rows.times);
   if (!problem.controls.startMoved())
     return sequenceChanges(start.motion, counted(start.motion, start.rows.times), end.motion, after);
-  const Motion motion = simulate(written, *problem.contacts, problem.horizon);
+  const Motion motion = simulateScene(problem, written, problem.horizon);
   return sequenceChanges(motion, counted(motion, {}), end.motion, after);
 }
 
@@ -112,7 +111,7 @@ Certificate certificateOf(const EditProblem& problem, const EditPoint& point, bo
     return certify(problem, point.changes, m, problem.constraints.evaluate(m, problem.timesOf(point.changes)));
   };
   if (!untouched) return of(motion);
-  return of(simulate(problem.controls.sceneAt(point.values), *problem.contacts, problem.duration));
+  return of(simulateScene(problem, problem.controls.sceneAt(point.values), problem.duration));
 }
 
 void conclude(const EditOptions& options, const EditSolution& solution, EditResult& result) {
@@ -150,17 +149,19 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   result.sequence_changes = sequenceChangesOf(written, problem, solution);
   result.signature_changed = !result.sequence_changes.empty();
 
-  result.motion = simulate(result.scene, *problem.contacts, problem.duration);
+  result.motion = simulateScene(problem, result.scene, problem.duration);
   result.sequence_before = untouched ? describeEvents(result.motion)
-                                     : describeEvents(simulate(written, *problem.contacts, problem.duration));
+                                     : describeEvents(simulateScene(problem, written, problem.duration));
   readMotion(problem, problem.timesOf(point.changes), result);
-  if (search.options().certify) {
+  if (search.options().certify && search.halt() != Halt::cancelled) {
     Certificate& certificate = result.certificate = certificateOf(problem, point, untouched, result.motion);
     certificate.residual = result.residual;
     certificate.scaled_residual = result.scaled_residual;
     certificate.reliability = result.reliability;
   }
   conclude(search.options(), solution, result);
+  if (result.solved() && search.halt() == Halt::cancelled)
+    result.message += " It was cancelled while it looked for a smaller change.";
   result.growth = solution.shooting.growth;
   result.segments = solution.shooting.segments;
   const std::string shooting = describe(solution.shooting, search.options(), result.solved());

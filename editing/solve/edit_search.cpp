@@ -30,6 +30,7 @@ EditSearch::EditSearch(const EditProblem& problem, const EditOptions& options)
 }
 
 bool EditSearch::expired() {
+  if (options_.stop.stop_requested() && halt_ == Halt::none) halt_ = Halt::cancelled;
   if (deadline_ && std::chrono::steady_clock::now() >= *deadline_ && halt_ == Halt::none) halt_ = Halt::out_of_time;
   return halt_ != Halt::none;
 }
@@ -58,7 +59,7 @@ EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
     if (!replay.complete) return nullptr;
     point->motion = std::move(replay.motion);
   } else {
-    point->motion = simulateAt(problem, point->values, until, maker.contacts);
+    point->motion = simulateAt(problem, point->values, until, maker.contacts, maker.even_if_stopped);
   }
   if (nearest_times && problem.times() > 0)
     point->changes.tail(problem.times()) = problem.unknownTimes(problem.constraints.nearestTimes(point->motion));

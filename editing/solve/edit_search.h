@@ -34,6 +34,7 @@ using EditPointPtr = std::shared_ptr<EditPoint>;
 struct MotionMaker {
   ContactSource* contacts = nullptr;  ///< null: that of the problem
   EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/replay.h)
+  bool even_if_stopped = false;       ///< simulated to the end although a stop was requested
 };
 
 /// Simulates up to a time and reads the rows. `nearest_times`: the free times of `unknowns` do not count, they are

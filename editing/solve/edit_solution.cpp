@@ -99,7 +99,7 @@ EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const 
   EditSearch smooth = search.branch({nullptr, from}, false);
   const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
   search.adopt(smooth);
-  const EditPointPtr real = search.make(end->changes, false, {});
+  const EditPointPtr real = search.make(end->changes, false, {nullptr, nullptr, true});
   if (real) search.consider(real);
   return real;
 }
@@ -146,6 +146,11 @@ std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch
 EditSolution findSolution(EditSearch& search) {
   EditSolution solution;
   const EditPointPtr start = solution.start = solution.point = search.evaluateStart();
+  if (!start->rows.available && search.options().stop.stop_requested()) {
+    solution.status = EditStatus::cancelled;
+    solution.message = "The edit was cancelled before the motion of its start was known.";
+    return solution;
+  }
   if (!start->rows.available) {
     solution.status = EditStatus::bad_start;
     solution.message = start->rows.message;

@@ -182,7 +182,9 @@ void tryHelp(const Scene& written, const EditSearch& search, WhyNot& why) {
       options.time_budget_seconds = left.count();
       if (!(left.count() > 0)) return;
     }
-    const EditProblem extended(written, *problem.contacts, problem.duration, more, problem.constraints.constraints());
+    EditProblem extended(written, *problem.contacts, problem.duration, more, problem.constraints.constraints());
+    extended.step_limit = problem.step_limit;
+    extended.stop = options.stop = problem.stop;
     EditSearch again(extended, options);
     const EditSolution solution = findSolution(again);
     help.tried = true;

@@ -33,6 +33,7 @@ struct RotationKeys {
 /// mass beside its origin gets as many keys between as kCubicTolerance asks for. The functions of this file throw
 /// InputError when the body would need more than kMaxKeys.
 inline constexpr double kMaxKeys = 2e6;
+inline constexpr double kMaxKeysOfAll = 5e6;  // bodies, if all need as many
 TranslationKeys cubicKeys(const Motion& motion, int body);
 /// Keys at the start, at each impact, at the end and as many between as kRotationTolerance asks for.
 RotationKeys turnKeys(const Motion& motion, int body);

@@ -139,7 +139,8 @@ std::vector<std::string> impacts(int count, const std::string& name) {
 
 std::vector<std::string> sequencesOf(const std::vector<std::string>& before, const std::vector<std::string>& after,
                                      bool all) {
-  cli::Output out(cli::Settings{});
+  cli::Interruption interruption;
+  cli::Output out(cli::Settings{}, interruption);
   cli::printSequences(out, before, after, all);
   testing::internal::CaptureStdout();
   out.finish();
