@@ -7,6 +7,7 @@
 #include "adjoint/detail/joint_law.hpp"
 #include "adjoint/detail/single_laws.hpp"
 #include "adjoint/detail/tilt_frame.hpp"
+#include "adjoint/detail/wide_lanes.hpp"
 #include "adjoint/impact/law.h"
 #include "adjoint/impact/wide_impact.h"
 
@@ -31,26 +32,6 @@ bool takesFriction(const OneContact& one, const FrictionTerms<Num>& terms) {
   return one.pair.friction > 0 || slipsWithoutFriction(terms);
 }
 
-// The same lanes in numbers of 32 digits, and back.
-using WideNum = Dual<static_cast<int>(kLanes), Wide>;
-WideNum widened(const Num& x) {
-  WideNum w(x.value);
-  for (std::size_t i = 0; i < kLanes; ++i) w.rate[i] = x.rate[i];
-  return w;
-}
-Num narrowed(const WideNum& w) {
-  Num x(w.value.high);
-  for (std::size_t i = 0; i < kLanes; ++i) x.rate[i] = w.rate[i].high;
-  return x;
-}
-V3<WideNum> widened(const NVec& v) { return {widened(v[0]), widened(v[1]), widened(v[2])}; }
-NVec narrowed(const V3<WideNum>& v) { return {narrowed(v[0]), narrowed(v[1]), narrowed(v[2])}; }
-M3<WideNum> widened(const NMat& m) {
-  return m.unaryExpr([](const Num& x) { return widened(x); });
-}
-NMat narrowed(const M3<WideNum>& m) {
-  return m.unaryExpr([](const WideNum& x) { return narrowed(x); });
-}
 PairNums narrowed(const ImpactPass<WideNum>::Pair& p) {
   return {narrowed(p.elasticity), narrowed(p.friction), narrowed(p.tangential_elasticity)};
 }
