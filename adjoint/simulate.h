@@ -23,9 +23,9 @@ struct SimulateOptions {
   /// microsecond or some each, but the same number on every machine. Motion::steps says how many were taken.
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();
   /// Once a stop is requested, from any thread, the motion ends with MotionStatus::stopped.
-  std::stop_token stop;
+  std::stop_token stop = {};
   /// Called every few thousand steps, in the thread of the call. The motion does not depend on it.
-  std::function<void(const SimulateProgress&)> progress;
+  std::function<void(const SimulateProgress&)> progress = {};
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.

@@ -70,7 +70,7 @@ void simulateThreeImpacts(benchmark::State& state) {
   state.counters["seconds"] = 0.999 * duration;
 }
 
-void simulateScene(benchmark::State& state, const std::string& name) {
+void simulateAgain(benchmark::State& state, const std::string& name) {
   Case& c = caseOf(name);
   std::size_t impacts = 0;
   for (auto _ : state) {
@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
       benchmark::RegisterBenchmark((std::string(what) + "/" + name).c_str(), function, name)
           ->Unit(benchmark::kMicrosecond);
     };
-    add("simulate", carom::simulateScene);
+    add("simulate", carom::simulateAgain);
     add("adjoint_row", carom::adjointRow);
     add("full_jacobian", carom::fullJacobian);
     add("edit", carom::wholeEdit);
