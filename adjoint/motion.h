@@ -59,6 +59,8 @@ struct Event {
   std::vector<Contact> contacts;
   std::vector<Participant> participants;  ///< in increasing order of body
   Margins margins;
+  /// Doubles are too short for its impulses: they and all derivatives are worked out with 32 digits.
+  bool wide = false;
 
   const Participant* find(int body) const;
   bool touches(int body, int with) const;  ///< has a contact between the two

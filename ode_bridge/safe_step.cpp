@@ -139,8 +139,12 @@ struct Mover {
 
   /// |d2r/dt2| of a point at distance 1 is at most |w x (w x r)| + |w' x r|.
   double turning() const { return spin * spin + spin_rate; }
-  /// |n x w| now.
-  double acrossSpin(const Vec3& n) const { return std::min(spin, n.cross(w).norm() + kSpinRounding * spin); }
+  /// |n x w| now; 0 where n is the direction of w but for rounding: turning about it moves nothing along n by more than
+  /// twice that share of its distance, however fast.
+  double acrossSpin(const Vec3& n) const {
+    const double across = n.cross(w).norm(), rounding = kSpinRounding * spin;
+    return across > rounding ? std::min(spin, across + rounding) : 0;
+  }
   /// Bound on it over a window in which |dn/dt| <= turn, from its value `across` at the start.
   double acrossSpin(double across, double turn, double window) const {
     const double drift = turn * spin + spin_rate;

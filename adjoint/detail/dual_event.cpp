@@ -180,7 +180,7 @@ PairNums DualEvent::pairOf(const Contact& c, const ContactPart& part) const {
 }
 
 void DualEvent::assemble() {
-  wide_ = needsWide(event_, *lanes_.motion().models);
+  wide_ = usesWide(event_, *lanes_.motion().models);
   for (std::size_t i = 0; i < bodies_.size(); ++i) problem_.driven = problem_.driven || isKinematic(i);
   const auto n = static_cast<Eigen::Index>(parts_.size());
   problem_.K = MatX::Zero(3 * n, 3 * n);

@@ -13,7 +13,7 @@ namespace carom {
 // A kinematic body adds to u and not to K, and no impulse moves it.
 
 ImpactAssembly::ImpactAssembly(const Event& event, const std::vector<BodyModel>& models)
-    : event_(event), models_(models), wide_(needsWide(event, models)) {
+    : event_(event), models_(models), wide_(usesWide(event, models)) {
   if (wide_) return;
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
@@ -290,12 +290,18 @@ void solveWide(Event& event, const std::vector<BodyModel>& models, std::vector<S
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
   after.clear();
   requireContacts(event);
-  if (needsWide(event, models)) {
+  event.wide = needsWide(event, models);
+  if (event.wide) {
     solveWide(event, models, after);
   } else if (event.contacts.size() == 1) {
     solveSingle(event, models, after);
   } else {
-    solveJoint(event, models, after);
+    try {
+      solveJoint(event, models, after);
+    } catch (const NotComputable&) {  // many contacts, nearly redundant
+      event.wide = true;
+      solveWide(event, models, after);
+    }
   }
   if (!std::all_of(after.begin(), after.end(), isFinite))
     throw NotComputable("its impulses, or the velocities after it, are beyond the range of doubles");

@@ -12,6 +12,11 @@ namespace carom {
 /// over then, for the impact and all of its derivatives.
 bool needsWide(const Event& event, const std::vector<BodyModel>& models);
 
+/// The same of an event that was solved, or is to be.
+inline bool usesWide(const Event& event, const std::vector<BodyModel>& models) {
+  return event.wide || needsWide(event, models);
+}
+
 /// ImpactAssembly in these numbers: states in, states out.
 class WideImpact {
  public:

@@ -166,6 +166,7 @@ TEST(Gliding, CostsWhatItsCurvatureAsksFor) {
     const Motion m = play(makeScene(Vec3::Zero(), 0.5, 0.3, scene.bodies), 1);
     EXPECT_EQ(m.status, MotionStatus::complete) << m.message;
     EXPECT_EQ(m.events.size(), 0u);
+    EXPECT_LE(m.steps, 100u);
   }
 }
 

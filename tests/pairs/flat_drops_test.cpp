@@ -293,7 +293,7 @@ std::string judge(const Drop& drop, DropTally& tally) {
 }
 
 TEST(FlatDrops, OfEveryKindOnEveryOther) {
-  const int each = scaled(18);
+  const int each = scaled(91);
   DropTally all;
   int failures = 0;
   for (const Maker above : kUpper)
