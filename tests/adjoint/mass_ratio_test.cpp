@@ -8,6 +8,7 @@
 
 #include "tests/adjoint/tolerances.h"
 #include "tests/support/compare.h"
+#include "tests/support/dot_product_scenes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/transposed.h"
 
@@ -117,6 +118,17 @@ TEST(MassRatio, HeavyBoxOnALightOne) {
       EXPECT_EQ(m.events[0].contacts.size(), 8u);
       for (int b : {0, 1}) EXPECT_TRUE(velocityAfter(m, 0, b).norm() <= 1e-9) << velocityAfter(m, 0, b).transpose();
     }
+}
+
+// Rows of the table of scenes whose second derivatives, replays and transposed passes other tests hold.
+TEST(MassRatio, RowsOfUnlikeBodiesTakeLongNumbers) {
+  int rows = 0;
+  for (const DotProductScene& row : dotProductScenes()) {
+    if (std::string(row.name).rfind("unlike", 0) != 0) continue;
+    ++rows;
+    EXPECT_TRUE(motionOf(row).events.at(0).wide) << row.name;
+  }
+  EXPECT_EQ(rows, 2);
 }
 
 // Tangent against adjoint through such impacts, with grip and without.

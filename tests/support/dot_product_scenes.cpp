@@ -53,6 +53,17 @@ Scene discOn(const Shape& low, const Vec3& at) {
 Scene discOnBeam() { return discOn(Box{{0.3, 2, 1}}, {0.15, 0, 0}); }
 Scene discOnDisc() { return discOn(Cylinder{0.4, 1}, {0.55, 0.1, 0}); }
 
+// a heavy ball on a light one on the floor: impulses with 32 digits
+Scene unlike(double friction) {
+  Body light = makeBall("light", 0.1, {0, 0, 0.4}, {0.1, 0, -1}), heavy = makeBall("heavy", 0.2, {0.02, 0.01, 0}, light.velocity);
+  heavy.position.z() = 0.4 + std::sqrt(0.09 - heavy.position.squaredNorm());
+  light.mass = 0.3, heavy.mass = 3000;
+  light.angular_velocity = {1, 2, 3};
+  return makeScene({0, 0, -9.81}, 0.6, friction, {light, heavy, floorPlane()});
+}
+Scene unlikeFrictionless() { return unlike(0); }
+Scene unlikeFriction() { return unlike(0.2); }
+
 Scene withMoments(const Vec3& moments) {
   Scene s = boxOnFloor(0.7, 0.3);
   s.bodies[0].inertia = Inertia::fromMoments(moments);
@@ -255,6 +266,8 @@ std::vector<DotProductScene> dotProductScenes() {
       {"joint_frictionless", jointFrictionless, 2, {"joint"}},
       {"joint_stick", jointStick, 2, {"joint"}},
       {"joint_slide", jointSlide, 2, {"joint"}},
+      {"unlike_frictionless", unlikeFrictionless, 1, {"joint"}},
+      {"unlike_friction", unlikeFriction, 1, {"joint"}},
       // flight tiers of body 0: of the motion / of the derivative
       {"tier_none", ballOnFloor, 3, {"none/none"}, {{false, false}, {}}},
       {"tier_spherical", ballOnFloor, 3, {"spherical/spherical"}, {{true, false}, {}}},
