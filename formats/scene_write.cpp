@@ -155,7 +155,7 @@ void writeList(JsonWriter& out, const char* member, const Items& items, Write wr
 }
 
 /// What `validate` does not see. The components that a constraint leaves free are the only numbers that may be NaN.
-void requireWritable(const Document& document) {
+void requireWritableDocument(const Document& document) {
   validate(document.scene);
   for (std::size_t i = 0; i < document.scene.bodies.size(); ++i)
     detail::requireFiles(document.scene.bodies[i].shape, "/bodies/" + std::to_string(i) + "/shape");
@@ -176,7 +176,7 @@ void requireWritable(const Document& document) {
 void detail::writeControl(JsonWriter& out, const Control& control) { carom::writeControl(out, control); }
 
 void detail::writeDocument(JsonWriter& out, const Document& document) {
-  carom::requireWritable(document);
+  requireWritableDocument(document);
   out.beginObject();
   writeText(out, "$schema", document.schema);
   out.key("carom").integer(1);
