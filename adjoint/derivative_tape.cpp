@@ -30,6 +30,22 @@ std::string sentenceOf(const Motion& motion, int index) {
   return text.str();
 }
 
+// Why the derivative through an event cannot be trusted; empty, and made of nothing, where it can.
+std::string doubtOf(const Event& event, double tilt) {
+  const auto with = [](const char* before, double margin, const char* after) {
+    std::ostringstream text;
+    text << before << margin << after;
+    return text.str();
+  };
+  if (event.mode == ImpactMode::joint) return "joins several contacts: the derivative is that of the joint law";
+  if (event.margins.grazing < kReliableMargin) return with("is nearly grazing (margin ", event.margins.grazing, ")");
+  if (event.margins.stick_slip < kReliableMargin)
+    return with("is at the boundary of stick and slide (margin ", event.margins.stick_slip, "): one-sided derivative");
+  if (tilt < kReliableTilt)
+    return with("has a normal near the one direction whose tilt has no axes (margin ", tilt, ")");
+  return {};
+}
+
 RotationSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
   const auto b = static_cast<std::size_t>(body);
   const BodyPlan& plan = motion.plan.bodies[b];
@@ -81,21 +97,10 @@ void Reliability::pass(const Motion& motion, int index) {
   const double tilt = tiltMarginOf(event);
   smallest_margin = std::min({smallest_margin, event.margins.smallest(), tilt});
   if (!reliable) return;
-  std::ostringstream text;
-  text << sentenceOf(motion, index);
-  if (event.mode == ImpactMode::joint) {
-    text << "joins several contacts: the derivative is that of the joint law";
-  } else if (event.margins.grazing < kReliableMargin) {
-    text << "is nearly grazing (margin " << event.margins.grazing << ")";
-  } else if (event.margins.stick_slip < kReliableMargin) {
-    text << "is at the boundary of stick and slide (margin " << event.margins.stick_slip << "): one-sided derivative";
-  } else if (tilt < kReliableTilt) {
-    text << "has a normal near the one direction whose tilt has no axes (margin " << tilt << ")";
-  } else {
-    return;
-  }
+  const std::string doubt = doubtOf(event, tilt);
+  if (doubt.empty()) return;
   reliable = false;
-  message = text.str();
+  message = sentenceOf(motion, index) + doubt;
 }
 
 void Reliability::passFriction(const Motion& motion, int index, double margin) {

@@ -262,14 +262,15 @@ void Simulator::solveDraft() {
   }
 }
 
+Pose Simulator::poseAt(int body, double time) {
+  const Kinematics k = pathOf(body).kinematicsAt(time);
+  return {k.x, k.R};
+}
+
 // Whether features meet at `time` where they are predicted to: the lowest point of a rim that lies nearly flat may be
 // elsewhere an instant later, and then it is another contact.
 bool Simulator::meetsThere(const Prediction& p, double time) {
-  const auto pose = [&](int body) {
-    const Kinematics k = pathOf(body).kinematicsAt(p.time);
-    return Pose{k.x, k.R};
-  };
-  const Pose a = pose(p.a), b = pose(p.b);
+  const Pose a = poseAt(p.a, p.time), b = poseAt(p.b, p.time);
   const Vec3 there = motion_.geometry->contact(p.a, p.b, p.features, a, b).point;
   const Vec3 here = makeContact(time, p.a, p.b, p.features).at.point;
   double arm = 0;

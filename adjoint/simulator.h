@@ -98,6 +98,7 @@ class Simulator {
   bool joinInstant();
   bool inDraft(int a, int b, const FeaturePair& features) const;
   bool meetsThere(const Prediction& p, double time);
+  Pose poseAt(int body, double time);  ///< on its path, that of the draft where it is in it
   void commit();
   int tiltOf(int body, int impact) const;
 

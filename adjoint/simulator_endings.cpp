@@ -55,11 +55,9 @@ bool Simulator::isLow(const Contact& c, const Prediction*& next) {
   if (!next) return false;
   const double start = draft_.event.time, slowest = std::abs(c.pair.elasticity * c.approach);
   if (!(0.25 * slowest * (next->time - start) < kLowestBounce)) return false;
-  const auto poseOf = [&](int body) {
-    const Kinematics k = pathOf(body).kinematicsAt(start + 0.5 * (next->time - start));
-    return Pose{k.x, k.R};
-  };
-  return !(motion_.geometry->contact(c.a, c.b, c.features, poseOf(c.a), poseOf(c.b)).gap >= kLowestBounce);
+  const double halfway = start + 0.5 * (next->time - start);
+  const ContactPoint then = motion_.geometry->contact(c.a, c.b, c.features, poseAt(c.a, halfway), poseAt(c.b, halfway));
+  return !(then.gap >= kLowestBounce);
 }
 
 // A body that is in infinitely many of the events that pile up has this many of them in no time.

@@ -370,12 +370,18 @@ TEST(Edit, TheSameEditTwiceIsTheSameToTheBit) {
   for (std::size_t i = 0; i < a.changed.size(); ++i) EXPECT_EQ(a.changed[i].after, b.changed[i].after);
 }
 
-// x = 3 T - mu (1 + e) sqrt(18) (T - sqrt(0.18)): the coefficient may grow from 0, and the impacts stay the same.
-TEST(Edit, FrictionGrowsFromZero) {
+// Thrown along a floor 1 m below.
+Scene ballWithoutFriction() {
   Scene scene;
   scene.gravity = {0, 0, -10};
   scene.materials = {material("m", 0.5, 0)};
   scene.bodies = {fixedPlane("floor", "m", Vec3::UnitZ(), -1), ball("s", "m", 0.1, {0, 0, 0}, {3, 0, 0})};
+  return scene;
+}
+
+// x = 3 T - mu (1 + e) sqrt(18) (T - sqrt(0.18)): the coefficient may grow from 0, and the impacts stay the same.
+TEST(Edit, FrictionGrowsFromZero) {
+  const Scene scene = ballWithoutFriction();
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 1);
   edit.vary(friction("m"));
@@ -390,10 +396,7 @@ TEST(Edit, FrictionGrowsFromZero) {
 
 // The same ball, asked to come slower than one that sticks, which keeps 5/7 of its speed: it cannot, and comes so near.
 TEST(Edit, FrictionStopsAtSticking) {
-  Scene scene;
-  scene.gravity = {0, 0, -10};
-  scene.materials = {material("m", 0.5, 0)};
-  scene.bodies = {fixedPlane("floor", "m", Vec3::UnitZ(), -1), ball("s", "m", 0.1, {0, 0, 0}, {3, 0, 0})};
+  const Scene scene = ballWithoutFriction();
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 1);
   edit.vary(friction("m"));
