@@ -1,12 +1,42 @@
 # SPDX-License-Identifier: MIT
-# Installs the libraries, their headers and the command, and the package for find_package(carom).
+# Installs the libraries, their public headers and the command, the package for find_package(carom), and carom.pc.
 include(CMakePackageConfigHelpers)
 
 set(carom_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
+set(carom_header_dir ${CMAKE_INSTALL_INCLUDEDIR}/carom)
 
-install(TARGETS carom_adjoint carom_ode_bridge carom_editing carom_formats EXPORT caromTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS carom_c_functions EXPORT caromTargets OBJECTS DESTINATION ${CMAKE_INSTALL_LIBDIR}/carom)
+# All libraries under one name.
+add_library(carom_all INTERFACE)
+add_library(carom::carom ALIAS carom_all)
+set_target_properties(carom_all PROPERTIES EXPORT_NAME carom)
+target_link_libraries(carom_all INTERFACE carom_formats carom_editing carom_ode_bridge carom_adjoint)
+
+# A component is a library; its targets are exported apart, so that nobody needs what the others stand on.
+foreach(component adjoint ode_bridge editing formats)
+  install(TARGETS carom_${component} EXPORT carom_${component}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${carom_header_dir})
+endforeach()
+install(TARGETS carom_c_functions EXPORT carom_adjoint OBJECTS DESTINATION ${CMAKE_INSTALL_LIBDIR}/carom)
+install(TARGETS carom_all EXPORT carom_all)
+foreach(set adjoint ode_bridge editing formats all)
+  install(EXPORT carom_${set} FILE carom_${set}.cmake NAMESPACE carom:: DESTINATION ${carom_package_dir})
+endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/generated/carom/version.h DESTINATION ${carom_header_dir}/carom)
+
+configure_package_config_file(cmake/caromConfig.cmake.in ${PROJECT_BINARY_DIR}/caromConfig.cmake
+  INSTALL_DESTINATION ${carom_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/caromConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/caromConfig.cmake
+  ${PROJECT_BINARY_DIR}/caromConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/carom_solvers.cmake
+  DESTINATION ${carom_package_dir})
+# The file says where it is from, so that what was installed can be moved.
+file(RELATIVE_PATH carom_pc_to_prefix ${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(cmake/carom.pc.in ${PROJECT_BINARY_DIR}/carom.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/carom.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
 if(TARGET carom)
   install(TARGETS carom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
@@ -17,23 +47,10 @@ if(CAROM_PAGES)
   install(FILES ${CAROM_PAGES}/_carom DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
   install(FILES ${CAROM_PAGES}/carom.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 endif()
-foreach(folder adjoint ode_bridge editing formats)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/carom
-    FILES_MATCHING PATTERN "*.h")
-endforeach()
-install(FILES ${PROJECT_BINARY_DIR}/generated/carom/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/carom/carom)
 
 # What editors check documents with, and what goes with a copy of the program.
-install(FILES ${PROJECT_SOURCE_DIR}/formats/scene.schema.json ${PROJECT_SOURCE_DIR}/formats/journal.schema.json
+install(FILES
+  ${PROJECT_SOURCE_DIR}/formats/documents/scene.schema.json
+  ${PROJECT_SOURCE_DIR}/formats/documents/journal.schema.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/carom)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-
-install(EXPORT caromTargets NAMESPACE carom:: DESTINATION ${carom_package_dir})
-configure_package_config_file(cmake/caromConfig.cmake.in ${PROJECT_BINARY_DIR}/caromConfig.cmake
-  INSTALL_DESTINATION ${carom_package_dir})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/caromConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES
-  ${PROJECT_BINARY_DIR}/caromConfig.cmake
-  ${PROJECT_BINARY_DIR}/caromConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/carom_solvers.cmake
-  DESTINATION ${carom_package_dir})

@@ -1,16 +1,25 @@
 # SPDX-License-Identifier: MIT
-# carom_library(<name>): the static library carom_<name> (alias carom::<name>) from all .cpp files of the current folder
-# and its sub-folders. Include paths start at the project root: #include "adjoint/scene.h".
+# carom_library(<name> [PUBLIC_HEADERS <header>...]): the static library carom_<name> (alias carom::<name>) from all .cpp
+# files of the current folder and its sub-folders. Include paths start at the project root:
+# #include "adjoint/scene/scene.h". The public headers, which are installed, end in .h and are listed one by one, so that
+# nothing becomes public by accident; private ones end in .hpp.
 function(carom_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" PUBLIC_HEADERS)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   if(NOT sources)
     # A library needs at least one file.
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp)
     file(CONFIGURE OUTPUT ${sources} CONTENT "")
   endif()
-  add_library(carom_${name} STATIC ${sources} ${headers})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  set(unlisted ${headers})
+  list(REMOVE_ITEM unlisted ${arg_PUBLIC_HEADERS})
+  if(unlisted)
+    message(FATAL_ERROR "${name}/CMakeLists.txt: ${unlisted} is not listed as a public header; private ones end in .hpp")
+  endif()
+  add_library(carom_${name} STATIC ${sources})
   add_library(carom::${name} ALIAS carom_${name})
+  target_sources(carom_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_PUBLIC_HEADERS})
   set_target_properties(carom_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(carom_${name} PUBLIC cxx_std_20)
   target_include_directories(carom_${name} PUBLIC

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # cmake -DSOURCE=... -DBUILD=... -DWORK=... -DCOMPILER=... -P try_installed.cmake
 # Does what somebody does who finds carom installed: installs the build BUILD under WORK, builds examples/consumer and the
-# C++ program of the README against it, word for word, and runs both. What goes with the command is there, too.
+# C++ program of the README against it, word for word, and runs both; builds that program with what pkg-config says, too.
+# Every installed header compiles alone, and all of them in one file. What goes with the command is there.
 
 function(run)
   execute_process(COMMAND ${ARGV} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
@@ -27,6 +28,56 @@ foreach(page man/man1/carom.1 bash-completion/completions/carom zsh/site-functio
   endforeach()
 endforeach()
 
+foreach(file share/carom/scene.schema.json share/carom/journal.schema.json share/doc/carom/LICENSE share/doc/carom/NOTICE)
+  if(NOT EXISTS ${WORK}/installed/${file})
+    message(FATAL_ERROR "${file} was not installed")
+  endif()
+endforeach()
+
+# Headers: the public ones alone, each of which needs no other.
+set(include ${WORK}/installed/include/carom)
+file(GLOB_RECURSE headers RELATIVE ${include} ${include}/*)
+list(LENGTH headers count)
+if(count LESS 40)
+  message(FATAL_ERROR "only ${count} headers were installed")
+endif()
+set(all "")
+foreach(header IN LISTS headers)
+  if(NOT header MATCHES "\\.h$")
+    message(FATAL_ERROR "${header} is installed; it is no public header")
+  endif()
+  string(MAKE_C_IDENTIFIER ${header} name)
+  file(WRITE ${WORK}/headers/alone/${name}.cpp "#include \"${header}\"\n")
+  string(APPEND all "#include \"${header}\"\n")
+endforeach()
+file(WRITE ${WORK}/headers/alone/all.cpp "${all}int main() { return 0; }\n")
+file(WRITE ${WORK}/headers/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(headers LANGUAGES CXX)
+find_package(carom REQUIRED COMPONENTS formats)
+file(GLOB sources alone/*.cpp)
+add_library(headers OBJECT \${sources})
+target_compile_options(headers PRIVATE -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Werror)
+target_link_libraries(headers PRIVATE carom::formats carom::ode_bridge)
+")
+run(${CMAKE_COMMAND} -S ${WORK}/headers -B ${WORK}/headers/build -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER}
+  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH=${WORK}/installed)
+run(${CMAKE_COMMAND} --build ${WORK}/headers/build)
+
+# One component needs no package of the others; a component that there is not is named.
+file(WRITE ${WORK}/component/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(component LANGUAGES CXX)
+find_package(carom REQUIRED COMPONENTS adjoint)
+if(TARGET carom::editing OR TARGET TBB::tbb OR TARGET PkgConfig::ODE)
+  message(FATAL_ERROR \"the component adjoint brought more than itself\")
+endif()
+find_package(carom COMPONENTS adjoint studio9)
+if(carom_FOUND)
+  message(FATAL_ERROR \"there is no component studio9\")
+endif()
+")
+run(${CMAKE_COMMAND} -S ${WORK}/component -B ${WORK}/component/build -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER}
+  -DCMAKE_PREFIX_PATH=${WORK}/installed)
+
 file(READ ${SOURCE}/README.md readme)
 if(NOT readme MATCHES "```cpp\n(#include[^`]*)```")
   message(FATAL_ERROR "README.md has no C++ program")
@@ -42,6 +93,12 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/examples/consumer -B ${WORK}/build -G Ninja -D
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/readme)
 run(${WORK}/build/consumer ${WORK}/scene.json)
+
+file(GLOB_RECURSE pc ${WORK}/installed/*/carom.pc)
+cmake_path(GET pc PARENT_PATH pc_folder)
+set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+run(sh -c "${COMPILER} '${WORK}/readme.cpp' -o '${WORK}/readme_by_pkg_config' $(pkg-config --cflags --libs carom)")
+run(${WORK}/readme_by_pkg_config)
 foreach(command validate info simulate gradient check edit)
   run(${WORK}/installed/bin/carom ${command} ${WORK}/scene.json)
 endforeach()

@@ -5,8 +5,9 @@
 
 #include <cmath>
 
-#include "adjoint/flight_symmetric.h"
-#include "adjoint/so3.h"
+#include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/flight/flight_triaxial.hpp"
+#include "adjoint/numeric/so3.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 

@@ -5,7 +5,8 @@
 
 #include <filesystem>
 
-#include "formats/scene_json.h"
+#include "formats/documents/save_with_meshes.h"
+#include "formats/documents/scene_json.h"
 #include "tests/import/gltf_files.h"
 #include "tests/import/same_scene.h"
 #include "tests/import/scenes.h"

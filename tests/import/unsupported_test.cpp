@@ -2,6 +2,7 @@
 // What is not supported is named, with its node, and the rest is read.
 #include <gtest/gtest.h>
 
+#include "formats/documents/save_with_meshes.h"
 #include "tests/import/gltf_files.h"
 
 namespace carom::import_tests {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "tests/structure/layers.h"
+#include "tests/structure/public_headers.h"
 #include "tests/structure/source_rules.h"
 #include "tests/test_paths.h"
 
@@ -9,7 +11,7 @@ namespace {
 
 TEST(Structure, SourcesKeepTheLayering) {
   const Sources sources = readSources(CAROM_SOURCE_DIR);
-  ASSERT_TRUE(sources.contains("adjoint/scene.h")) << "no sources under " CAROM_SOURCE_DIR;
+  ASSERT_TRUE(sources.contains("adjoint/scene/scene.h")) << "no sources under " CAROM_SOURCE_DIR;
   for (const std::string& violation : violations(sources)) ADD_FAILURE() << violation;
 }
 
@@ -32,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
     Table, IncludeRule,
     testing::Values(
         Planted{"ode_bridge/world.cpp", "<ode/ode.h>", true}, Planted{"ode_bridge/world.h", "<ode/ode.h>", false},
-        Planted{"adjoint/simulate.cpp", "<ode/collision.h>", false}, Planted{"cli/main.cpp", "<ode/ode.h>", false},
+        Planted{"adjoint/simulate/simulate.cpp", "<ode/collision.h>", false}, Planted{"cli/main.cpp", "<ode/ode.h>", false},
         Planted{"ode_bridge/hull.cpp", "<libqhull_r/qhull_ra.h>", true},
         Planted{"ode_bridge/hull.h", "<libqhull_r/qhull_ra.h>", false},
         Planted{"adjoint/hull.cpp", "<libqhull_r/libqhull_r.h>", false},
@@ -41,27 +43,33 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"editing/edit.h", "<IpTNLP.hpp>", false}, Planted{"cli/main.cpp", "<coin/IpTNLP.hpp>", false},
         Planted{"formats/read.cpp", "<nlohmann/json.hpp>", true},
         Planted{"formats/read.h", "<nlohmann/json_fwd.hpp>", false},
-        Planted{"formats/detail/json.hpp", "<nlohmann/json.hpp>", true},
-        Planted{"formats/read.h", "\"formats/detail/json.hpp\"", false},
-        Planted{"cli/main.cpp", "\"formats/detail/json.hpp\"", false},
-        Planted{"formats/read.cpp", "\"formats/detail/json.hpp\"", true},
+        Planted{"formats/json/json.hpp", "<nlohmann/json.hpp>", true},
+        Planted{"formats/documents/read.h", "\"formats/json/json.hpp\"", false},
+        Planted{"formats/documents/read.cpp", "\"formats/json/json.hpp\"", true},
+        Planted{"formats/json/json.hpp", "\"formats/documents/read.h\"", false},
+        Planted{"formats/gltf/read/bodies.cpp", "\"formats/gltf/axes.hpp\"", true},
+        Planted{"formats/gltf/axes.hpp", "\"formats/gltf/read/bodies.hpp\"", false},
+        Planted{"adjoint/simulate/simulate.h", "\"adjoint/simulate/simulator.hpp\"", false},
+        Planted{"adjoint/simulate/simulate.cpp", "\"adjoint/simulate/simulator.hpp\"", true},
+        Planted{"adjoint/simulate/simulate.cpp", "\"adjoint/derivative/adjoint.h\"", false},
+        Planted{"adjoint/derivative/adjoint.cpp", "\"adjoint/simulate/simulate.h\"", true},
         Planted{"cli/main.cpp", "<nlohmann/json.hpp>", false}, Planted{"studio/serve.cpp", "<nlohmann/json.hpp>", true},
         Planted{"formats/schema.cpp", "<valijson/validator.hpp>", true},
         Planted{"editing/edit.cpp", "<valijson/validator.hpp>", false},
         Planted{"formats/gltf.cpp", "<tiny_gltf.h>", true}, Planted{"cli/export.cpp", "\"tiny_gltf.h\"", false},
         Planted{"tests/reference/flight.cpp", "<boost/multiprecision/cpp_bin_float.hpp>", true},
         Planted{"adjoint/flight.cpp", "<boost/multiprecision/cpp_bin_float.hpp>", false},
-        Planted{"editing/edit.cpp", "<boost/beast.hpp>", false}, Planted{"adjoint/arc.cpp", "\"adjoint/arc.h\"", true},
-        Planted{"adjoint/arc.cpp", "\"ode_bridge/ode_contacts.h\"", false},
-        Planted{"adjoint/arc.cpp", "\"editing/edit.h\"", false},
-        Planted{"adjoint/arc.cpp", "\"formats/document.h\"", false},
+        Planted{"editing/edit.cpp", "<boost/beast.hpp>", false}, Planted{"adjoint/flight/arc.cpp", "\"adjoint/flight/arc.h\"", true},
+        Planted{"adjoint/flight/arc.cpp", "\"ode_bridge/ode_contacts.h\"", false},
+        Planted{"adjoint/flight/arc.cpp", "\"editing/edit.h\"", false},
+        Planted{"adjoint/flight/arc.cpp", "\"formats/base/document.h\"", false},
         Planted{"adjoint/impact/law.cpp", "\"../../formats/document.h\"", false},
-        Planted{"editing/edit.cpp", "\"adjoint/contact_source.h\"", true},
+        Planted{"editing/edit.cpp", "\"adjoint/motion/contact_source.h\"", true},
         Planted{"editing/edit.cpp", "\"ode_bridge/ode_contacts.h\"", false},
-        Planted{"editing/edit.cpp", "\"formats/document.h\"", false},
+        Planted{"editing/edit.cpp", "\"formats/base/document.h\"", false},
         Planted{"ode_bridge/world.cpp", "\"editing/edit.h\"", false},
-        Planted{"ode_bridge/world.cpp", "\"formats/document.h\"", false},
-        Planted{"formats/document.h", "\"editing/control.h\"", true},
+        Planted{"ode_bridge/world.cpp", "\"formats/base/document.h\"", false},
+        Planted{"formats/base/document.h", "\"editing/control.h\"", true},
         Planted{"formats/read.cpp", "\"cli/options.h\"", false},
         Planted{"cli/main.cpp", "\"ode_bridge/ode_contacts.h\"", true}));
 
@@ -89,8 +97,8 @@ TEST_P(InexactRule, JudgesOneLine) {
 INSTANTIATE_TEST_SUITE_P(
     Table, InexactRule,
     testing::Values(
-        PlantedCall{"adjoint/arc.cpp", "y = std::sin(x);", false},
-        PlantedCall{"adjoint/so3.h", "y = std::cos(x);", false},
+        PlantedCall{"adjoint/flight/arc.cpp", "y = std::sin(x);", false},
+        PlantedCall{"adjoint/numeric/so3.hpp", "y = std::cos(x);", false},
         PlantedCall{"ode_bridge/gaps/rim.cpp", "y = std::cbrt(x);", false},
         PlantedCall{"ode_bridge/gaps.cpp", "return std::hypot(x, y);", false},
         PlantedCall{"editing/edit.cpp", "y = std::pow(x, 2);", false},
@@ -99,22 +107,63 @@ INSTANTIATE_TEST_SUITE_P(
         PlantedCall{"editing/edit.cpp", "y = exp(x);", false},
         PlantedCall{"editing/edit.cpp", "return -sin(x);", false},
         PlantedCall{"editing/edit.cpp", "using elementary::sin; y = sin(x);", true},
-        PlantedCall{"adjoint/arc.cpp", "y = elementary::sin(x);", true},
-        PlantedCall{"adjoint/arc.cpp", "y = std::sqrt(x) + std::floor(x) + std::fma(x, x, x) + std::fmod(x, y);", true},
-        PlantedCall{"adjoint/arc.cpp", "double sine(double x);  // std::sin(x)", true},
-        PlantedCall{"adjoint/arc.cpp", "friend Dual sin(const Dual& a);", true},
-        PlantedCall{"adjoint/arc.cpp", "R = Eigen::AngleAxisd(a, axis);", false},
-        PlantedCall{"adjoint/arc.cpp", "q = p.slerp(t, r);", false},
-        PlantedCall{"adjoint/arc.cpp", "v = w.array().exp();", false},
-        PlantedCall{"adjoint/elementary/circular.cpp", "y = std::sin(x);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "y = elementary::sin(x);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "y = std::sqrt(x) + std::floor(x) + std::fma(x, x, x) + std::fmod(x, y);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "double sine(double x);  // std::sin(x)", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "friend Dual sin(const Dual& a);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "R = Eigen::AngleAxisd(a, axis);", false},
+        PlantedCall{"adjoint/flight/arc.cpp", "q = p.slerp(t, r);", false},
+        PlantedCall{"adjoint/flight/arc.cpp", "v = w.array().exp();", false},
+        PlantedCall{"adjoint/numeric/elementary/circular.cpp", "y = std::sin(x);", true},
         PlantedCall{"formats/svg.cpp", "y = std::sin(x);", true},
         PlantedCall{"tests/a.cpp", "y = std::sin(x);", true}));
 
 TEST(Structure, LongFilesAreFound) {
-  std::string text;
-  for (int i = 0; i < 450; ++i) text += "int x;\n";
-  EXPECT_TRUE(violations("cli/main.cpp", text).empty());
-  EXPECT_EQ(violations("cli/main.cpp", text + "\n").size(), 1u);
+  const auto lines = [](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "int x;\n";
+    return text;
+  };
+  EXPECT_TRUE(violations("cli/main.cpp", lines(350)).empty());
+  EXPECT_EQ(violations("cli/main.cpp", lines(351)).size(), 1u);
+  EXPECT_TRUE(violations("tests/cli/main.cpp", lines(450)).empty());
+  EXPECT_EQ(violations("tests/cli/main.cpp", lines(451)).size(), 1u);
+}
+
+TEST(Structure, LongFunctionsAreFound) {
+  const auto function = [](const std::string& margin, const std::string& head, int lines) {
+    std::string text = margin + head + " {\n";
+    for (int i = 2; i < lines; ++i) text += margin + "  f();\n";
+    return text + margin + "}\n";
+  };
+  EXPECT_TRUE(violations("cli/a.cpp", function("", "void f()", 60)).empty());
+  EXPECT_EQ(violations("cli/a.cpp", function("", "void f()", 61)).size(), 1u);
+  EXPECT_EQ(violations("cli/a.cpp", function("  ", "void f() const", 61)).size(), 1u);
+  EXPECT_TRUE(violations("cli/a.cpp", function("", "namespace carom", 61)).empty());
+  EXPECT_TRUE(violations("cli/a.cpp", function("", "const int kTable[] =", 61)).empty());
+  EXPECT_TRUE(violations("tests/a.cpp", function("", "void f()", 61)).empty());
+}
+
+TEST(Structure, CirclesAreFound) {
+  const auto with = [](const std::string& header) { return "#include \"" + header + "\"\n"; };
+  Sources sources = {{"cli/a.h", ""},
+                     {"cli/a.cpp", with("cli/a.h") + with("cli/b.h")},
+                     {"cli/b.h", with("cli/a.h")},
+                     {"cli/c.h", with("cli/a.h")}};
+  EXPECT_TRUE(circles(sources).empty()) << "two rooms may know each other";
+  sources["cli/b.h"] += with("cli/c.h");
+  EXPECT_EQ(circles(sources), (std::vector<std::vector<std::string>>{{"cli/a", "cli/b", "cli/c"}}));
+}
+
+TEST(Structure, TypesDefinedTwiceAreFound) {
+  const std::string one =
+      "namespace carom {\nstruct Node;\nstruct Node {\n  struct Inner {\n  };\n};\n}  // namespace carom\n";
+  EXPECT_EQ(definedTypes(one), (std::vector<std::string>{"carom::Node"}));
+  EXPECT_EQ(definedTypes("namespace carom::gltf {\nclass A final : public B {\n};\nusing C = int;\n"),
+            (std::vector<std::string>{"carom::gltf::A", "carom::gltf::C"}));
+  EXPECT_EQ(typesDefinedTwice({{"formats/a.h", one}, {"ode_bridge/b.hpp", one}}).size(), 1u);
+  const std::string declared = "namespace carom {\nstruct Node;\n}  // namespace carom\n";
+  EXPECT_TRUE(typesDefinedTwice({{"formats/a.h", one}, {"ode_bridge/b.hpp", declared}}).empty());
 }
 
 TEST(Structure, IpoptMustBeInExactlyOneFile) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/motion/time_argument.hpp"
+
+#include "adjoint/base/refuse.hpp"
+
+namespace carom {
+
+void checkTime(const char* where, const Motion& motion, double t) {
+  if (t >= 0 && t <= motion.end) return;
+  refuse(where, "found the time ", t, ", expected one in [0, ", motion.end, "]",
+         motion.status == MotionStatus::complete ? "" : "; ", motion.status == MotionStatus::complete ? "" : motion.message);
+}
+
+}  // namespace carom

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Private to formats/*.cpp.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "adjoint/motion/motion.h"
+#include "formats/gltf/nodes.hpp"
+
+namespace carom {
+
+/// Where the surfaces of a scene are in a file: indices of meshes.
+using SurfaceMeshes = std::map<const Surface*, int>;
+
+/// A body as glTF has it, in our axes: the node at the shape's origin (that of a plane: on it, facing along it) with the
+/// motion, if it moves, and its collider; colliders that need a pose or a scale of their own are below it.
+/// Materials are numbered as in the scene; the one after the last stands for bodies that name none.
+gltf::PhysicsNode physicsNodeOf(const Scene& scene, int body, const BodyModel& model, const SurfaceMeshes& meshes);
+
+/// All surfaces of hulls and meshes in a shape, parts of compounds too.
+std::vector<const Surface*> surfacesOf(const Shape& shape);
+
+}  // namespace carom
