@@ -33,11 +33,11 @@ void take(std::vector<int>& list, int value) {
 
 }  // namespace
 
-void Neighbours::begin(std::vector<Extent> extents, const Vec3& gravity, std::size_t few, CollisionClasses classes) {
+void Neighbours::begin(std::vector<BodyExtent> extents, const Vec3& gravity, std::size_t few, CollisionClasses classes) {
   few_ = few;
   gravity_ = gravity;
   classes_ = std::move(classes);
-  one_gravity_ = gravity.isZero(0) || std::all_of(extents.begin(), extents.end(), [](const Extent& e) {
+  one_gravity_ = gravity.isZero(0) || std::all_of(extents.begin(), extents.end(), [](const BodyExtent& e) {
                    return !e.moving || e.gravity_factor == 1;
                  });
   extents_ = std::move(extents);
@@ -52,7 +52,7 @@ void Neighbours::begin(std::vector<Extent> extents, const Vec3& gravity, std::si
   span_ = reach_ = 0;
   broad_phase_.reset(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Extent& e = extents_[i];
+    const BodyExtent& e = extents_[i];
     moving_ += e.moving;
     paths_[i].radius = e.radius;
     boxes_[i] = e.box;
@@ -65,7 +65,7 @@ void Neighbours::begin(std::vector<Extent> extents, const Vec3& gravity, std::si
 
 bool Neighbours::touches(int body, int other) const {
   if (!classes_.collide(body, other)) return false;
-  const Extent& e = extents_[at(other)];
+  const BodyExtent& e = extents_[at(other)];
   const Bounds& b = boxes_[at(body)];
   if (!e.half_space) return meet(b, boxes_[at(other)]);
   const double lowest = e.normal.cwiseMax(0).dot(b.low) + e.normal.cwiseMin(0).dot(b.high);
@@ -215,7 +215,7 @@ void Neighbours::renewAll(double t) {
 // have.
 void Neighbours::chooseReach(double t) {
   double radius = 0;
-  for (const Extent& e : extents_) radius += e.moving ? e.radius : 0;
+  for (const BodyExtent& e : extents_) radius += e.moving ? e.radius : 0;
   radius /= static_cast<double>(moving_);
   if (reach_ == 0) {
     Bounds all{Vec3::Constant(kNever), Vec3::Constant(-kNever)};

@@ -11,7 +11,7 @@
 namespace carom {
 
 /// What the neighbour lists know of a body: a ball that moves, something fixed in a box, or a fixed half space.
-struct Extent {
+struct BodyExtent {
   bool moving = false;
   double radius = 0;  ///< moving: of the ball about its centre of mass
   Bounds box{};       ///< fixed, not a half space
@@ -33,14 +33,14 @@ class Neighbours {
   static constexpr std::size_t kFew = 40;
 
   /// `classes` says who never collides: such pairs are in no list.
-  void begin(std::vector<Extent> extents, const Vec3& gravity, std::size_t few = kFew,
+  void begin(std::vector<BodyExtent> extents, const Vec3& gravity, std::size_t few = kFew,
              CollisionClasses classes = {});
 
   /// Moving body `body` follows a path from `from` on; its centre is where it was at that time. `until` is the end of
   /// all paths.
   void setPath(int body, const FlightPath& path, double from, double until);
   const FlightPath& path(int body) const { return paths_[static_cast<std::size_t>(body)]; }
-  const std::vector<Extent>& extents() const { return extents_; }
+  const std::vector<BodyExtent>& extents() const { return extents_; }
   /// The acceleration of a body; FlightPath leaves it out, as it is the same for most.
   Vec3 accelerationOf(int body) const {
     return one_gravity_ ? gravity_ : Vec3(extents_[static_cast<std::size_t>(body)].gravity_factor * gravity_);
@@ -72,7 +72,7 @@ class Neighbours {
   Vec3 gravity_ = Vec3::Zero();
   bool one_gravity_ = true;  // the same for all that move
   CollisionClasses classes_;
-  std::vector<Extent> extents_;
+  std::vector<BodyExtent> extents_;
   std::vector<FlightPath> paths_;
   std::vector<Bounds> boxes_;
   std::vector<double> until_;            // end of each body's window

@@ -39,8 +39,8 @@ Bounds standingBounds(const Solid& solid, const Kinematics& k) {
   return grown(bounds, roundingRoom(bounds));
 }
 
-Extent extentOf(const Solid& solid, const Arc& arc) {
-  Extent e;
+BodyExtent extentOf(const Solid& solid, const Arc& arc) {
+  BodyExtent e;
   e.moving = arc.moving();
   e.gravity_factor = arc.model().gravity_factor;
   const Kinematics k = arc.kinematicsAt(arc.start());
@@ -113,7 +113,7 @@ void OdeContacts::take(const Scene& scene) {
     models.push_back(modelOf(body));
   }
   std::vector<Arc> arcs;
-  std::vector<Extent> extents;
+  std::vector<BodyExtent> extents;
   arcs.reserve(n);
   state_->quick.assign(n, Quick::fixed);
   state_->in_series.assign(n, 0);
@@ -206,7 +206,7 @@ void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others
       const Approach a = approachOf(ball, neighbours.path(other), gravity, t, until);
       return !(a.meet || (a.overlap && !(is_ball && kind == Quick::ball)));
     }
-    const Extent& plane = neighbours.extents()[static_cast<std::size_t>(other)];
+    const BodyExtent& plane = neighbours.extents()[static_cast<std::size_t>(other)];
     return !mayTouch(ball, gravity, plane.normal, plane.offset, t, until);
   };
   others.erase(std::remove_if(others.begin(), others.end(), apart), others.end());
@@ -221,7 +221,7 @@ BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double unt
     return ballBallImpact(neighbours.path(a), neighbours.path(b), neighbours.accelerationOf(a), from, until);
   }
   const int ball = qa == Quick::ball ? a : b;
-  const Extent& plane = neighbours.extents()[static_cast<std::size_t>(ball == a ? b : a)];
+  const BodyExtent& plane = neighbours.extents()[static_cast<std::size_t>(ball == a ? b : a)];
   return ballPlaneImpact(neighbours.path(ball), neighbours.accelerationOf(ball), plane.normal, plane.offset, from, until);
 }
 

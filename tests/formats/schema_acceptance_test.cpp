@@ -37,7 +37,7 @@ class Judge {
   valijson::Schema schema_;
 };
 
-Json sceneSchema() { return Json::parse(formats_test::textOf(CAROM_SOURCE_DIR "/formats/scene.schema.json")); }
+Json sceneSchema() { return Json::parse(formats_test::textOf(CAROM_SOURCE_DIR "/formats/documents/scene.schema.json")); }
 
 std::vector<Json> goodDocuments() {
   std::vector<Json> documents{Json::parse(formats_test::documentWithEverything())};

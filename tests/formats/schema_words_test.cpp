@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json readSchema(const std::string& name) {
-  return Json::parse(formats_test::textOf(CAROM_SOURCE_DIR "/formats/" + name));
+  return Json::parse(formats_test::textOf(CAROM_SOURCE_DIR "/formats/documents/" + name));
 }
 
 /// Every node with properties, by its JSON pointer.
@@ -176,7 +176,7 @@ TEST(SchemaWords, defaultsAreThoseOfTheProgram) {
 TEST(SchemaWords, everyExampleNamesItselfAndTheSchema) {
   for (const std::string& path : formats_test::exampleScenes()) {
     const Document document = readDocument(path);
-    EXPECT_EQ(document.schema, "../../formats/scene.schema.json") << path;
+    EXPECT_EQ(document.schema, "../../formats/documents/scene.schema.json") << path;
     EXPECT_FALSE(document.name.empty()) << path;
   }
 }

@@ -16,7 +16,7 @@ namespace {
 using test::Random;
 
 struct Crowd {
-  std::vector<Extent> extents;
+  std::vector<BodyExtent> extents;
   std::vector<FlightPath> paths;
   std::vector<double> since;  // of the path in force
   Vec3 gravity;
@@ -27,7 +27,7 @@ Crowd randomCrowd(Random& random, int count, double size) {
   Crowd crowd;
   crowd.gravity = random.below(3) ? Vec3(0, 0, -9.81) : Vec3(0, 0, 0);
   for (int i = 0; i < count; ++i) {
-    Extent e;
+    BodyExtent e;
     FlightPath path;
     const int kind = random.below(20);
     if (kind == 0) {
@@ -50,13 +50,13 @@ Crowd randomCrowd(Random& random, int count, double size) {
 }
 
 Bounds sweptBall(const Crowd& crowd, int i, double from, double until) {
-  const Extent& e = crowd.extents[static_cast<std::size_t>(i)];
+  const BodyExtent& e = crowd.extents[static_cast<std::size_t>(i)];
   if (!e.moving) return e.box;
   return grown(sweptCentre(crowd.paths[static_cast<std::size_t>(i)], crowd.gravity, from, until), e.radius);
 }
 
 bool sweptMeet(const Crowd& crowd, int i, int j, double from, double until) {
-  const Extent& e = crowd.extents[static_cast<std::size_t>(j)];
+  const BodyExtent& e = crowd.extents[static_cast<std::size_t>(j)];
   const Bounds a = sweptBall(crowd, i, from, until);
   if (!e.half_space) return meet(a, sweptBall(crowd, j, from, until));
   return e.normal.cwiseMax(0).dot(a.low) + e.normal.cwiseMin(0).dot(a.high) <= e.offset;
@@ -125,10 +125,10 @@ TEST(Neighbours, NeverMissAPairWithoutWindows) {
 TEST(Neighbours, ListsOfACrowdAreShort) {
   Random random(7);
   const int side = 10, count = side * side * side;
-  std::vector<Extent> extents;
+  std::vector<BodyExtent> extents;
   std::vector<FlightPath> paths;
   for (int i = 0; i < count; ++i) {
-    Extent e;
+    BodyExtent e;
     e.moving = true;
     e.radius = 0.05;
     extents.push_back(e);
