@@ -52,9 +52,12 @@ int branches(GapKind kind);
 ///   point-plane  phi = N.(P - Q) - r,             n = N,                           p = P - r n
 ///   point-point  phi = |P - Q| - r_1 - r_2,       n = (P - Q)/|P - Q|,             p = Q + r_2 n
 ///   point-edge   phi = |w| - r_1 - r_2,           n = w/|w|, w = (1 - d d^T)(P - Q), p = P - r_1 n
-///   edge-edge    phi = n.(Q_1 - Q_2) - r_1 - r_2, n = +-(d_1 x d_2)/|d_1 x d_2|,   p = nearest point of edge 2, + r_2
-///   n rim-plane    phi = N.(C - Q) - rho |d x N|,   n = N,                           p = C - rho (N - d d.N)/|N - d
-///   d.N| rim-point    phi = |w| - r,  w = p - P,       n = w/|w|, p = C + rho (1 - d d^T)(P - C)/|(1 - d d^T)(P - C)|
+///   edge-edge    phi = n.(Q_1 - Q_2) - r_1 - r_2, n = +-(d_1 x d_2)/|d_1 x d_2|,
+///                                                 p = nearest point of edge 2, + r_2 n
+///   rim-plane    phi = N.(C - Q) - rho |d x N|,   n = N,
+///                                                 p = C - rho (N - d d.N)/|N - d d.N|
+///   rim-point    phi = |w| - r,  w = p - P,       n = w/|w|,
+///                                                 p = C + rho (1 - d d^T)(P - C)/|(1 - d d^T)(P - C)|
 ///   rim-edge, rim-rim: w = p - p_2 where p on the first and p_2 on the second are nearest, so that w.t_1 = w.t_2 = 0
 ///     of the tangents t = d x (p - C)/rho of a rim and t = d of an edge;
 ///     sharp edge, rim  phi = n.w,      n = +-(t_1 x t_2)/|t_1 x t_2|

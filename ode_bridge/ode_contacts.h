@@ -7,14 +7,16 @@
 
 namespace carom {
 
-/// Collision detection for all shapes. The Open Dynamics Engine's sweep-and-prune space proposes the
-/// pairs whose swept boxes meet; exact geometry in double precision decides when, where and with which features they
-/// touch. One object serves one simulation at a time; different objects may be used from different threads.
+/// Collision detection for all shapes. The Open Dynamics Engine's sweep-and-prune space proposes the pairs whose swept
+/// boxes meet; exact geometry in double precision decides when, where and with which features they touch. One object
+/// serves one simulation at a time; different objects may be used from different threads. Functions throw InputError for
+/// bodies that are not there and for times that are not finite.
 class OdeContacts final : public ContactSource {
  public:
-  /// The search for those that overlap is counted in `work`, if there is one, and lets its WorkEnded through.
-  /// Throws InputError for a scene that is not valid (see validate); so does begin, and when two bodies overlap at the
-  /// start that do not in the scene given here: what overlaps here is left alone until it parts. More than 100 000 pairs that overlap are an error, too. The other functions throw it for bodies that are not there and times that are not finite.
+  /// For the scenes that are begun later: what overlaps at the start of this one is left alone there until it has
+  /// parted; where others overlap, `begin` throws InputError. So does this for a scene that is not valid (see validate),
+  /// and for more than 100 000 pairs that overlap. The search for them is counted in `work`, if there is one, and lets
+  /// its WorkEnded through.
   explicit OdeContacts(const Scene& scene, WorkCount* work = nullptr);
   ~OdeContacts() override;
   OdeContacts(const OdeContacts&) = delete;

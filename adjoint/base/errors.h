@@ -10,12 +10,14 @@ namespace carom {
 /// plain from the message; `what()` holds where, what was found and what was expected.
 class InputError : public std::runtime_error {
  public:
+  /// what() is "where: message".
   InputError(const std::string& where, const std::string& message)
       : std::runtime_error(where.empty() ? message : where + ": " + message), where_(where), message_(message) {}
+  /// For a message from which the place is plain.
   explicit InputError(const std::string& message) : InputError("", message) {}
 
-  const std::string& where() const { return where_; }
-  const std::string& message() const { return message_; }
+  const std::string& where() const { return where_; }      ///< the place, see above
+  const std::string& message() const { return message_; }  ///< what was found and what was expected
 
  private:
   std::string where_, message_;

@@ -8,12 +8,12 @@
 
 namespace carom {
 
-using Vec2 = Eigen::Vector2d;
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
-using Quat = Eigen::Quaterniond;
+using Vec2 = Eigen::Vector2d;     ///< two numbers
+using Vec3 = Eigen::Vector3d;     ///< three numbers, in the axes that its name says
+using Mat3 = Eigen::Matrix3d;     ///< 3x3
+using Quat = Eigen::Quaterniond;  ///< unit quaternion of a rotation, (w, x, y, z)
 
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< of a double
 
 /// Skew-symmetric matrix [a]x, so that [a]x b = a x b.
 inline Mat3 skew(const Vec3& a) {

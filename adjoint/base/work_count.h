@@ -19,13 +19,14 @@ struct SimulateProgress {
 /// What ends a simulation before its time: its limit of work was reached, or it was asked to stop. No error, and none
 /// of the exceptions that say what is wrong with a scene.
 struct WorkEnded {
-  bool stopped = false;
+  bool stopped = false;  ///< it was asked to stop; otherwise the limit was reached
 };
 
 /// Counts the steps of work of one simulation: the same number for the same scene, on any machine. Every so many steps
 /// it looks whether it was asked to stop, and reports.
 class WorkCount {
  public:
+  /// At most `limit` steps; `report` may be empty.
   WorkCount(std::size_t limit, std::stop_token stop, std::function<void(const SimulateProgress&)> report)
       : limit_(limit), stop_(std::move(stop)), report_(std::move(report)) {}
 
@@ -57,8 +58,8 @@ class WorkCount {
     next_look_ = 0;
   }
 
-  std::size_t steps() const { return steps_; }
-  std::size_t limit() const { return limit_; }
+  std::size_t steps() const { return steps_; }  ///< counted so far
+  std::size_t limit() const { return limit_; }  ///< most of them
 
  private:
   static constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() / 2;

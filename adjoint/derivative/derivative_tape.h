@@ -16,10 +16,12 @@ class EventLinearization;
 /// When a state is read: at a time, or just before an event (then the time itself moves with the causes). A body that
 /// takes no part in the event is read at the time of the event.
 struct Instant {
-  double time = 0;
-  int event = -1;
+  double time = 0;  ///< s, where there is no event
+  int event = -1;   ///< just before this one; -1: at a time
 
+  /// At a given time, s.
   static Instant at(double time) { return {time, -1}; }
+  /// Just before an event.
   static Instant before(int event) { return {0, event}; }
 };
 
@@ -27,24 +29,28 @@ struct Instant {
 /// orientation (world rotation vector), velocity and angular velocity, and of the time of the event; besides, of the
 /// centre of mass.
 struct StateSeed {
-  int body = -1;
-  Instant at;
-  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  int body = -1;  ///< whose state is read
+  Instant at;     ///< when
+  Vec3 position = Vec3::Zero();          ///< weights of the position
+  Vec3 orientation = Vec3::Zero();       ///< weights of the orientation, as a world rotation vector
+  Vec3 velocity = Vec3::Zero();          ///< weights of the velocity
+  Vec3 angular_velocity = Vec3::Zero();  ///< weights of the angular velocity
   Vec3 center_of_mass = Vec3::Zero();  ///< weights of the place of the centre of mass
-  double time = 0;
+  double time = 0;                       ///< weight of the time of the event
 };
 
 /// How far a derivative can be trusted: the smallest margins of the events that it passed through.
 struct Reliability {
-  bool reliable = true;
+  bool reliable = true;        ///< no margin is below kReliableMargin
   int events = 0;              ///< events that the quantity depends on
   double smallest_margin = 1;  ///< see Margins
   std::string message;         ///< a sentence when not reliable
 
   /// Materials by whose friction, which is 0, the derivative cannot be trusted; and why, by the first such event.
   std::vector<int> frictions;
-  std::string friction_message;
+  std::string friction_message;  ///< why; empty where there are none
 
+  /// Counts an event that the derivative passes through.
   void pass(const Motion& motion, int event);
   /// `margin`: EventLinearization::frictionFromZero.
   void passFriction(const Motion& motion, int event, double margin);
@@ -56,14 +62,16 @@ struct Reliability {
 /// Not for use from two threads at once. Keeps a reference to the motion.
 class DerivativeTape {
  public:
+  /// The motion must outlive the tape. Throws InputError for one without recorded events.
   explicit DerivativeTape(const Motion& motion);
   ~DerivativeTape();
 
-  const Motion& motion() const { return motion_; }
+  const Motion& motion() const { return motion_; }  ///< which it is of
   /// Sensitivity over the whole of arc k of a body, which ends in an event.
   const RotationSensitivity& arc(int body, int k);
   /// Sensitivity from the start of arc k to time t; remembered, because the rows of a Jacobian share their times.
   RotationSensitivity arcUntil(int body, int k, double t);
+  /// Linearisation of an event.
   const EventLinearization& event(int event);
 
  private:

@@ -14,10 +14,14 @@ class Reach;
 /// Rate of a BodyState as the scene varies: world rotation vector for the orientation. `time` is the rate of the
 /// instant itself (0 at a given time).
 struct BodyStateRate {
-  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-  Vec3 center_of_mass = Vec3::Zero();
-  double time = 0;
+  Vec3 position = Vec3::Zero();          ///< of the position
+  Vec3 orientation = Vec3::Zero();       ///< of the orientation
+  Vec3 velocity = Vec3::Zero();          ///< of the velocity
+  Vec3 angular_velocity = Vec3::Zero();  ///< of the angular velocity
+  Vec3 center_of_mass = Vec3::Zero();  ///< m/unit, of the place of the centre of mass
+  double time = 0;                     ///< of the instant
 
+  /// Rate of the functional: the sum of weights times rates.
   double dot(const StateSeed& seed) const;
 };
 
@@ -25,9 +29,11 @@ struct BodyStateRate {
 /// docs/equations.md. Bodies, arcs, events and instants that the motion does not have throw InputError.
 class MotionTangent {
  public:
+  /// Of the state of a body at an instant.
   BodyStateRate at(int body, const Instant& instant) const;
-  /// Of the state at the start of an arc, at the fixed time at which it starts; and of the mass properties.
+  /// Of the state at the start of an arc, at the fixed time at which it starts.
   const StateDerivative& start(int body, int arc) const;
+  /// Of the mass properties of a body.
   const BodyModelDerivative& model(int body) const;
   /// d(time of event).
   double eventTime(int event) const;

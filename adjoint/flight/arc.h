@@ -19,10 +19,10 @@ const char* nameOf(Tier tier);
 /// Pose and velocity at one time: x and v of the centre of mass, R = R_WG (shape axes to world). With Tier::none R is
 /// the start's.
 struct Kinematics {
-  Vec3 x = Vec3::Zero();
-  Mat3 R = Mat3::Identity();
-  Vec3 v = Vec3::Zero();
-  Vec3 w = Vec3::Zero();
+  Vec3 x = Vec3::Zero();      ///< m, centre of mass
+  Mat3 R = Mat3::Identity();  ///< shape axes to world
+  Vec3 v = Vec3::Zero();      ///< m/s
+  Vec3 w = Vec3::Zero();      ///< rad/s, world axes
 };
 
 /// One stretch of a world-line: free flight of one body from `start()` on, known in closed form or as Taylor segments.
@@ -31,18 +31,18 @@ class Arc {
  public:
   /// A flight under the scene's gravity, or the model's share of it, from the given state.
   Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
-  Arc(const Arc& other);
-  Arc& operator=(const Arc& other);
-  Arc(Arc&&) noexcept;
-  Arc& operator=(Arc&&) noexcept;
+  Arc(const Arc& other);             ///< keeps what was made available
+  Arc& operator=(const Arc& other);  ///< the same
+  Arc(Arc&&) noexcept;               ///< leaves an arc that can only be destroyed or assigned to
+  Arc& operator=(Arc&&) noexcept;    ///< the same
   ~Arc();
 
-  Tier tier() const { return tier_; }
-  double start() const { return start_; }
-  const State& startState() const { return state_; }
-  const BodyModel& model() const { return *model_; }
-  const Vec3& acceleration() const { return gravity_; }
-  bool moving() const { return model_->moving; }
+  Tier tier() const { return tier_; }                       ///< of its rotation
+  double start() const { return start_; }                   ///< s
+  const State& startState() const { return state_; }        ///< at the start
+  const BodyModel& model() const { return *model_; }        ///< of its body
+  const Vec3& acceleration() const { return gravity_; }     ///< m/s^2, constant
+  bool moving() const { return model_->moving; }            ///< false for a fixed body
 
   /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do). Throws
   /// InputError for a time that is not finite, NotComputable where the rotation cannot be followed that far.
@@ -53,22 +53,25 @@ class Arc {
   /// Series that carry the rotation so far: the work that `extendTo` has done.
   std::size_t series() const;
 
-  State stateAt(double t) const;
+  State stateAt(double t) const;  ///< at time t, which must be available
+  /// The same as pose and velocities.
   Kinematics kinematicsAt(double t) const { return kinematicsOf(stateAt(t)); }
   /// Of a state of this body.
   Kinematics kinematicsOf(const State& state) const;
-  Vec3 positionAt(double t) const;
-  Vec3 velocityAt(double t) const;
+  Vec3 positionAt(double t) const;  ///< m, of the centre of mass
+  Vec3 velocityAt(double t) const;  ///< m/s, of the centre of mass
   /// d(state)/dt of the flow: (v, omega, acceleration, 0).
   StateDerivative rate(const State& state) const;
 
-  /// Bounds over the whole arc: |omega| <= spinBound(), |d omega/dt| <= spinRateBound().
+  /// Bound over the whole arc: |omega| <= spinBound(), rad/s.
   double spinBound() const { return spin_bound_; }
+  /// Bound over the whole arc: |d omega/dt| <= spinRateBound(), rad/s^2.
   double spinRateBound() const { return spin_rate_bound_; }
 
   /// An axis of the body, in shape axes, that precesses about L at the constant rate precession() (rad/s): that of
   /// symmetry; zero where every axis does, nothing for a triaxial body.
   std::optional<Vec3> steadyAxis() const;
+  /// Rate of that precession, rad/s.
   double precession() const { return state_.L.norm() * model_->inverse_inertia[(symmetry_axis_ + 1) % 3]; }
 
   /// Sensitivity of the rotation from start() to t. `tier` is the one the derivative needs: Tier::triaxial gives

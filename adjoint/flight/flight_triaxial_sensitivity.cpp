@@ -5,6 +5,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/flight/flight_triaxial.hpp"
+#include "adjoint/flight/periodic_sensitivity.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom {

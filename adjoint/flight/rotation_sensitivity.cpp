@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/flight/rotation_sensitivity.h"
 
+#include "adjoint/flight/periodic_sensitivity.hpp"
 #include "adjoint/numeric/so3.hpp"
 
 namespace carom {

@@ -14,7 +14,9 @@ namespace carom {
 /// or zero, so that the value is a length or a sine.
 struct FeatureLimit {
   int body = -1;  ///< the one whose feature is left
-  Vec3 point_weight = Vec3::Zero(), border = Vec3::Zero(), normal_weight = Vec3::Zero();
+  Vec3 point_weight = Vec3::Zero();   ///< of the contact point, unit or zero
+  Vec3 border = Vec3::Zero();         ///< m, in the axes of the body
+  Vec3 normal_weight = Vec3::Zero();  ///< of the normal, unit or zero
   Eigen::Matrix3Xd border_rates;  ///< of `border` by the dimensions of the body; none where it has no part
   std::string beyond;             ///< what the contact moves to: "the border of face +z"
 };

@@ -23,41 +23,45 @@ struct FeaturePair {
   std::int32_t a = -1;     ///< feature of the first body
   std::int32_t b = -1;     ///< feature of the second body
   std::int16_t sign = 1;   ///< side or branch of the pair, where the gap needs one (edge-edge, rims)
-  bool operator==(const FeaturePair&) const = default;
+  bool operator==(const FeaturePair&) const = default;  ///< the same features
 };
 
 /// Position of the centre of mass (of a fixed body: of the shape's origin) and R_WG, shape axes to world.
 struct Pose {
-  Vec3 x = Vec3::Zero();
-  Mat3 R = Mat3::Identity();
+  Vec3 x = Vec3::Zero();      ///< m
+  Mat3 R = Mat3::Identity();  ///< R_WG
 };
 
 /// Gap [m], unit normal pointing from b to a, and contact point, all in world axes.
 struct ContactPoint {
-  double gap = 0;
-  Vec3 normal = Vec3::UnitZ();
-  Vec3 point = Vec3::Zero();
+  double gap = 0;               ///< m, below 0 where they overlap
+  Vec3 normal = Vec3::UnitZ();  ///< unit, from b to a
+  Vec3 point = Vec3::Zero();    ///< m
 };
 
 /// d(gap, normal, point), 7 rows: by (x_a, theta_a, x_b, theta_b), theta a world rotation vector, and by the dimensions
 /// of both shapes at fixed poses (a centre of mass that moves in the shape counts here).
 struct ContactJacobian {
-  Eigen::Matrix<double, 7, 12> pose = Eigen::Matrix<double, 7, 12>::Zero();
-  Eigen::Matrix<double, 7, Eigen::Dynamic> size_a, size_b;
+  Eigen::Matrix<double, 7, 12> pose = Eigen::Matrix<double, 7, 12>::Zero();  ///< by the poses
+  Eigen::Matrix<double, 7, Eigen::Dynamic> size_a;                           ///< by the dimensions of a
+  Eigen::Matrix<double, 7, Eigen::Dynamic> size_b;                           ///< by the dimensions of b
 };
 
 /// A direction in which poses and dimensions of two shapes change: rates of (x_a, theta_a, x_b, theta_b), theta a world
 /// rotation vector, and of the dimensions; no dimensions given: they stay.
 struct PairTangent {
-  Eigen::Matrix<double, 12, 1> pose = Eigen::Matrix<double, 12, 1>::Zero();
-  Eigen::VectorXd size_a, size_b;
+  Eigen::Matrix<double, 12, 1> pose = Eigen::Matrix<double, 12, 1>::Zero();  ///< of the poses
+  Eigen::VectorXd size_a;                                                    ///< of the dimensions of a
+  Eigen::VectorXd size_b;                                                    ///< of the dimensions of b
 };
 
 /// The smooth gap of frozen feature pairs, for the shapes of one scene. Immutable: a Motion keeps it.
 class ContactGeometry {
  public:
   virtual ~ContactGeometry() = default;
+  /// Gap, normal and point of bodies a and b at these poses.
   virtual ContactPoint contact(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const = 0;
+  /// Their derivatives.
   virtual ContactJacobian jacobian(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const = 0;
   /// Second derivatives: the rate of every entry of `jacobian` along each direction.
   virtual std::vector<ContactJacobian> jacobianRates(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
@@ -69,8 +73,8 @@ class ContactGeometry {
 /// The first impact of a pair: gap = 0 with a decreasing gap. Without features (kind -1) the bodies come to overlap
 /// from then on, and no features say how they meet: the motion cannot go on.
 struct PredictedImpact {
-  double time = 0;
-  FeaturePair features;
+  double time = 0;       ///< s
+  FeaturePair features;  ///< how they meet
 };
 
 /// Who may touch whom, and when: collision detection as the simulator sees it.
@@ -119,6 +123,7 @@ class ContactSource {
     return {};
   }
 
+  /// The gaps of the scene that was begun; a Motion keeps it.
   virtual std::shared_ptr<const ContactGeometry> geometry() const = 0;
 
   /// An independent source of the same kind, for use in another thread once `begin` was called; null where there is
@@ -129,7 +134,7 @@ class ContactSource {
   void countIn(WorkCount* work) { work_ = work; }
 
  protected:
-  WorkCount* work() const { return work_; }
+  WorkCount* work() const { return work_; }  ///< see countIn
 
  private:
   WorkCount* work_ = nullptr;

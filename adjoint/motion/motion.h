@@ -16,10 +16,12 @@ struct BodyState {
   Vec3 position = Vec3::Zero();         ///< of the shape's origin, m
   Quat orientation = Quat::Identity();  ///< shape to world
   Vec3 velocity = Vec3::Zero();         ///< of the centre of mass, m/s
-  Vec3 angular_velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
 };
 
+/// Branch of the impact law: without friction, sticking, sliding, or several contacts together.
 enum class ImpactMode { frictionless, stick, slide, joint };
+/// "frictionless", "stick", "slide" or "joint".
 const char* nameOf(ImpactMode mode);
 /// A contact without friction is one that slides with a coefficient of 0: a motion varies smoothly from the one to the
 /// other.
@@ -27,13 +29,15 @@ inline ImpactMode branchOf(ImpactMode mode) { return mode == ImpactMode::frictio
 
 /// One contact of an impact, between bodies a and b at frozen features.
 struct Contact {
-  int a = -1, b = -1;
-  FeaturePair features;
+  int a = -1;            ///< body
+  int b = -1;            ///< body that it meets
+  FeaturePair features;  ///< where they meet
   ContactPoint at;  ///< gap, normal (b to a) and point at the impact
   Vec3 impulse_normal =
       Vec3::UnitZ();             ///< the normal that the impulse used: `at.normal`, tilted where the scene says so
-  int tilt_a = -1, tilt_b = -1;  ///< entries of Scene::tilts in force, -1 if none
-  PairCoefficients pair;
+  int tilt_a = -1;               ///< entry of Scene::tilts in force for a's impact, -1 if none
+  int tilt_b = -1;               ///< the same for b's
+  PairCoefficients pair;         ///< coefficients in force
   double approach = 0;          ///< n . u just before, m/s, < 0
   Vec3 impulse = Vec3::Zero();  ///< on a, N s
 };
@@ -42,6 +46,7 @@ struct Contact {
 struct Margins {
   double grazing = 1;     ///< |n.u| / |u| before the impact: 0 is grazing
   double stick_slip = 1;  ///< | mu P_n - |P_t| | / ((1 + mu) P_n) of the untruncated impulse; 1 without friction
+  /// The smaller of the two.
   double smallest() const { return grazing < stick_slip ? grazing : stick_slip; }
 };
 /// Below this margin a gradient through the event is reported as unreliable.
@@ -49,31 +54,33 @@ inline constexpr double kReliableMargin = 1e-6;
 
 /// A moving body in an event.
 struct Participant {
-  int body = -1;
+  int body = -1;   ///< index
   int arc = -1;    ///< of its world-line, the one that ends here; the next one starts here
   int impact = 0;  ///< this is the body's n-th impact, 1 = first
-  State before;
+  State before;    ///< its state just before
 };
 
 /// An impact: the contacts of one instant, solved together.
 struct Event {
-  double time = 0;
-  ImpactMode mode = ImpactMode::frictionless;
-  std::vector<Contact> contacts;
+  double time = 0;                             ///< s
+  ImpactMode mode = ImpactMode::frictionless;  ///< branch of the impact law that was taken
+  std::vector<Contact> contacts;               ///< in increasing order of bodies
   std::vector<Participant> participants;  ///< in increasing order of body
-  Margins margins;
+  Margins margins;                        ///< to where derivatives stop
   /// Doubles are too short for its impulses: they and all derivatives are worked out with 32 digits.
   bool wide = false;
 
-  const Participant* find(int body) const;
+  const Participant* find(int body) const;  ///< null where the body takes no part
   bool touches(int body, int with) const;  ///< has a contact between the two
 };
 
+/// The path of one body: arcs, joined by events.
 struct WorldLine {
-  std::vector<Arc> arcs;
+  std::vector<Arc> arcs;    ///< in increasing order of time
   std::vector<int> events;  ///< events[k] ends arcs[k] and starts arcs[k + 1]; empty when they were not recorded
 };
 
+/// Why a motion ends.
 enum class MotionStatus {
   complete,          ///< known up to the asked duration
   impact_limit,      ///< stopped after the allowed number of impacts
@@ -84,14 +91,15 @@ enum class MotionStatus {
   step_limit,         ///< the allowed number of steps of work was done
   stopped             ///< it was asked to stop
 };
+/// The word of a status in documents: "complete", "impact_limit", ...
 const char* nameOf(MotionStatus status);
 
 /// A motion is its own tape: world-lines of arcs, joined by events. Immutable; safe to read from several threads.
 struct Motion {
-  std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const std::vector<BodyModel>> models;
-  std::shared_ptr<const ContactGeometry> geometry;
-  Plan plan;
+  std::shared_ptr<const Scene> scene;                    ///< what it is the motion of
+  std::shared_ptr<const std::vector<BodyModel>> models;  ///< mass properties in force, one a body
+  std::shared_ptr<const ContactGeometry> geometry;       ///< gaps of the features that met
+  Plan plan;                                             ///< how each body was computed
   std::vector<WorldLine> world_lines;  ///< one a body
   std::vector<Event> events;           ///< in increasing order of time; empty when they were not recorded
   std::size_t impacts = 0;             ///< number of events, recorded or not
@@ -100,11 +108,12 @@ struct Motion {
   std::vector<StartOverlap> overlaps;  ///< pairs that did not collide until they had parted
   double duration = 0;                 ///< asked for
   double end = 0;                      ///< known up to here; = duration when complete
-  MotionStatus status = MotionStatus::complete;
+  MotionStatus status = MotionStatus::complete;  ///< why it ends where it does
   std::string message;  ///< one sentence
 
   /// State of a body at 0 <= t <= end; at the time of an impact, the state after it. Throws InputError outside.
   BodyState stateAt(const std::string& body, double t) const;
+  /// The same by the index of the body.
   BodyState stateAt(int body, double t) const;
   /// State just before event `event`; of a body that takes no part in it, at its time. Throws InputError for an event
   /// or a body that is not there, as do all that follow.
@@ -124,6 +133,7 @@ struct Motion {
   std::string describeEvent(int event) const;
 };
 
+/// A state of the integrator as people write it.
 BodyState toBodyState(const BodyModel& model, const State& state);
 
 }  // namespace carom

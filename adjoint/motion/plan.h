@@ -19,30 +19,37 @@ enum class Law { frictionless, friction };
 
 /// Coefficients in force between two bodies, after combination of their materials.
 struct PairCoefficients {
-  double elasticity = 0, friction = 0, tangential_elasticity = 0;
+  double elasticity = 0;             ///< e, 0 to 1
+  double friction = 0;               ///< Coulomb coefficient mu
+  double tangential_elasticity = 0;  ///< e_t, -1 to 1
 };
+/// The coefficients of two materials in contact, by the rules that they name.
 PairCoefficients combine(const Material& a, const Material& b);
+/// Its tangent.
 PairCoefficients combineTangent(const Material& a, const Material& b, const MaterialDerivative& da,
                                 const MaterialDerivative& db);
+/// Its adjoint; adds to those of the materials.
 void combinePullback(const Material& a, const Material& b, const PairCoefficients& pair_bar, MaterialDerivative& a_bar,
                      MaterialDerivative& b_bar);
 
+/// How one body is computed, and why.
 struct BodyPlan {
   Tier tier = Tier::triaxial;             ///< of the motion
   Tier derivative_tier = Tier::triaxial;  ///< of the tangent and adjoint passes
   bool derivative_products = false;       ///< these need products of inertia: principal axes turn in the shape
-  const char* why = "";
-  const char* derivative_why = "";
+  const char* why = "";                   ///< the tier of the motion, in words
+  const char* derivative_why = "";        ///< the tier of the derivatives, in words
 };
 
 /// What each body and pair got. Pairs are not listed one by one: law(a, b) answers.
 struct Plan {
-  std::vector<BodyPlan> bodies;
+  std::vector<BodyPlan> bodies;  ///< one a body
 };
 
 /// Chooses the cheapest tiers that are exact for what is asked. An empty `asked` asks for everything of every body.
 Plan makePlan(const Scene& scene, const std::vector<Asked>& asked = {});
 
+/// Friction unless its coefficient is 0.
 Law lawOf(const PairCoefficients& pair);
 
 }  // namespace carom

@@ -11,7 +11,8 @@ namespace carom {
 /// Two bodies that overlap at the start by more than counts as touching. They do not meet until they have parted; from
 /// then on they collide as others do.
 struct StartOverlap {
-  int a = -1, b = -1;            ///< a < b
+  int a = -1;                    ///< body
+  int b = -1;                    ///< body, above a
   double depth = 0;              ///< m, at the start
   std::optional<double> parted;  ///< s; none where they overlap up to the end of the motion
 };

@@ -8,22 +8,29 @@ namespace carom {
 /// State of a moving body inside the integrator: `q` turns principal axes into world axes (R_WB), `L` is the world
 /// angular momentum, constant in free flight.
 struct State {
-  Vec3 x = Vec3::Zero();
-  Quat q = Quat::Identity();
-  Vec3 v = Vec3::Zero();
-  Vec3 L = Vec3::Zero();
+  Vec3 x = Vec3::Zero();      ///< m, centre of mass
+  Quat q = Quat::Identity();  ///< R_WB
+  Vec3 v = Vec3::Zero();      ///< m/s, of the centre of mass
+  Vec3 L = Vec3::Zero();      ///< kg m^2/s, about the centre of mass, world axes
 };
 
 /// Tangent of a State (theta: R <- exp([theta]x) R), or the adjoint of one.
 struct StateDerivative {
-  Vec3 x = Vec3::Zero(), theta = Vec3::Zero(), v = Vec3::Zero(), L = Vec3::Zero();
+  Vec3 x = Vec3::Zero();      ///< of the centre of mass
+  Vec3 theta = Vec3::Zero();  ///< of the orientation
+  Vec3 v = Vec3::Zero();      ///< of the velocity
+  Vec3 L = Vec3::Zero();      ///< of the angular momentum
 
+  /// Sum of products, <adjoint, tangent>.
   double dot(const StateDerivative& o) const { return x.dot(o.x) + theta.dot(o.theta) + v.dot(o.v) + L.dot(o.L); }
+  /// Field by field.
   StateDerivative& operator+=(const StateDerivative& o) {
     x += o.x, theta += o.theta, v += o.v, L += o.L;
     return *this;
   }
+  /// Adds s times the other.
   void addScaled(double s, const StateDerivative& o) { x += s * o.x, theta += s * o.theta, v += s * o.v, L += s * o.L; }
+  /// Exactly.
   bool isZero() const { return x.isZero(0) && theta.isZero(0) && v.isZero(0) && L.isZero(0); }
 };
 
@@ -31,11 +38,13 @@ struct StateDerivative {
 /// does that has three equal moments and no weight: its inertia is the unit tensor, so that L is its angular velocity,
 /// and impacts see neither mass nor inertia of it.
 struct BodyModel {
-  bool moving = false;
-  bool kinematic = false;
+  bool moving = false;        ///< not fixed
+  bool kinematic = false;     ///< moves whatever strikes it
   double gravity_factor = 1;  ///< 0 for a kinematic body
-  double mass = 0, inverse_mass = 0;
-  Vec3 inertia = Vec3::Zero(), inverse_inertia = Vec3::Zero();
+  double mass = 0;                       ///< kg
+  double inverse_mass = 0;               ///< 1/kg; 0 for a body that impacts do not move
+  Vec3 inertia = Vec3::Zero();           ///< kg m^2, principal moments about the centre of mass
+  Vec3 inverse_inertia = Vec3::Zero();   ///< their inverses
   Vec3 center = Vec3::Zero();    ///< centre of mass in shape axes, p_GB; 0 for a fixed body
   bool has_offset = false;       ///< shape axes are not the principal axes
   Mat3 R_BG = Mat3::Identity();  ///< shape (geometry) to principal axes
@@ -51,10 +60,10 @@ struct BodyModel {
 /// Tangent or adjoint of the parameters of a BodyModel that vary. The change of the inertia tensor in the principal
 /// axes, which stay where they are in the shape, is diag(inertia) plus `products` off the diagonal: (yz, xz, xy).
 struct BodyModelDerivative {
-  double mass = 0;
-  Vec3 inertia = Vec3::Zero();
-  Vec3 products = Vec3::Zero();
-  Vec3 center = Vec3::Zero();  ///< in shape axes
+  double mass = 0;                ///< kg
+  Vec3 inertia = Vec3::Zero();    ///< kg m^2, of the diagonal
+  Vec3 products = Vec3::Zero();   ///< kg m^2, off the diagonal: yz, xz, xy
+  Vec3 center = Vec3::Zero();     ///< m, in shape axes
 
   /// Read as a tangent: dJ, the change of the inertia tensor in principal axes.
   Mat3 inertiaTensor() const {
@@ -68,29 +77,34 @@ struct BodyModelDerivative {
     inertia += J_bar.diagonal();
     products += Vec3(J_bar(1, 2) + J_bar(2, 1), J_bar(0, 2) + J_bar(2, 0), J_bar(0, 1) + J_bar(1, 0));
   }
+  /// Field by field.
   BodyModelDerivative& operator+=(const BodyModelDerivative& o) {
     mass += o.mass, inertia += o.inertia, products += o.products, center += o.center;
     return *this;
   }
+  /// Exactly.
   bool isZero() const { return mass == 0 && inertia.isZero(0) && products.isZero(0) && center.isZero(0); }
 };
 
-/// Centre of mass of a moving body in shape axes, as written or else the shape's own, and its rates by the dimensions
-/// (3 x dimensions). 0 for a fixed body. Of a kinematic body it is the point that its velocity is of.
+/// Centre of mass of a moving body in shape axes, as written or else the shape's own. 0 for a fixed body. Of a kinematic body it is the point that its velocity is of.
 Vec3 centerOfMass(const Body& body);
+/// Its rates by the dimensions of the shape, 3 x dimensions.
 Eigen::Matrix3Xd centerOfMassRates(const Body& body);
 
+/// Mass properties of a body in force.
 BodyModel modelOf(const Body& body);
 /// `model` is modelOf(body): its principal axes, in which dJ is given, stay where they are.
 BodyModelDerivative modelTangent(const Body& body, const BodyModel& model, const BodyDerivative& dbody);
+/// The adjoint of modelTangent; adds to that of the body.
 void modelPullback(const Body& body, const BodyModel& model, const BodyModelDerivative& model_bar,
                    BodyDerivative& body_bar);
 
-/// Start state as written -> integrator state (x = position + R_WG center, L = R diag(I) R^T omega), and its
-/// derivatives.
+/// Start state as written -> integrator state: x = position + R_WG center, L = R diag(I) R^T omega.
 State startState(const Body& body, const BodyModel& model);
+/// Its tangent.
 StateDerivative startTangent(const Body& body, const BodyModel& model, const BodyDerivative& dbody,
                              const BodyModelDerivative& dmodel);
+/// Its adjoint; adds to those of the body and of the model.
 void startPullback(const Body& body, const BodyModel& model, const StateDerivative& state_bar, BodyDerivative& body_bar,
                    BodyModelDerivative& model_bar);
 

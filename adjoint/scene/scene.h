@@ -14,28 +14,32 @@ namespace carom {
 /// earlier one of average, minimum, maximum, multiply holds (as in glTF's KHR_physics_rigid_bodies).
 enum class Combine { average, minimum, maximum, multiply };
 
+/// What a surface is made of.
 struct Material {
-  std::string name;
+  std::string name;                    ///< by which bodies name it
   double elasticity = 0.5;             ///< coefficient of restitution e, in [0, 1]
   double friction = 0.5;               ///< Coulomb coefficient, >= 0; 0 is frictionless
   double tangential_elasticity = 0.0;  ///< e_t, in [-1, 1]; always combined by average
-  Combine combine_elasticity = Combine::average;
-  Combine combine_friction = Combine::average;
+  Combine combine_elasticity = Combine::average;  ///< rule for e
+  Combine combine_friction = Combine::average;    ///< rule for the friction
   std::string notes = {};  ///< for people; kept in documents
 };
 
 /// Inertia as written: derived from shape and mass; three principal moments about the shape's own axes; or a symmetric
 /// matrix in the shape's axes, kept as principal moments and the rotation from principal to shape axes.
 struct Inertia {
+  /// How it is written.
   enum class Source { derived, moments, matrix };
-  Source source = Source::derived;
+  Source source = Source::derived;  ///< as read
   Vec3 moments = Vec3::Zero();   ///< kg m^2, unless derived
   Quat axes = Quat::Identity();  ///< p_shape = axes * p_principal; identity unless matrix
 
+  /// Three principal moments about the axes of the shape, kg m^2.
   static Inertia fromMoments(const Vec3& moments);
   /// Eigen-decomposition of a symmetric matrix; axes that already are principal keep their order. Throws InputError for
   /// entries that are not finite.
   static Inertia fromMatrix(const Mat3& matrix);
+  /// The tensor in the axes of the shape, kg m^2; 0 where it is derived.
   Mat3 matrix() const;
 };
 
@@ -45,20 +49,21 @@ struct CollisionFilter {
   std::vector<std::string> collide_with;      ///< unless empty: only with bodies that belong to one of these
   std::vector<std::string> not_collide_with;  ///< never with bodies that belong to one of these
 
+  /// Says nothing: the body collides with all.
   bool empty() const { return systems.empty() && collide_with.empty() && not_collide_with.empty(); }
-  bool operator==(const CollisionFilter&) const = default;
+  bool operator==(const CollisionFilter&) const = default;  ///< the same names in the same order
 };
 
 /// One body as written. For bodies that move freely exactly one of `mass` and `density` is given.
 struct Body {
-  std::string name;
-  bool fixed = false;
+  std::string name;    ///< unique in a scene
+  bool fixed = false;  ///< never moves
   /// Moves at its constant velocity and constant angular velocity, whatever strikes it. Not together with `fixed`.
   bool kinematic = false;
   double gravity_factor = 1;  ///< share of the scene's gravity that acts on it; nothing acts on what nothing moves
-  CollisionFilter collision_filter;
+  CollisionFilter collision_filter;  ///< with whom it may collide
   std::string material;  ///< name of a material; empty means a default Material
-  Shape shape = Sphere{};
+  Shape shape = Sphere{};                ///< of its surface, and of its mass where that is derived
   std::optional<double> mass;            ///< kg
   std::optional<double> density;         ///< kg/m^3
   Inertia inertia;                       ///< about the centre of mass
@@ -79,7 +84,7 @@ bool mayCollide(const Body& a, const Body& b);
 /// Tilt of the collision normal at one impact of one body (equation 4 of docs/equations.md): the impulse uses
 /// n' = (n + alpha t1 + beta t2)/|...|, n pointing out of the surface that was struck towards `body`.
 struct Tilt {
-  std::string body;
+  std::string body;           ///< name of the one that is struck
   int impact = 1;             ///< n-th impact of that body, 1 = first
   Vec2 value = Vec2::Zero();  ///< (alpha, beta)
 };
@@ -87,13 +92,14 @@ struct Tilt {
 /// Everything that causes a motion: plain, constant data.
 struct Scene {
   Vec3 gravity{0, 0, -9.81};  ///< m/s^2
-  std::vector<Material> materials;
-  std::vector<Body> bodies;
-  std::vector<Tilt> tilts;
+  std::vector<Material> materials;  ///< named by the bodies
+  std::vector<Body> bodies;         ///< moving and fixed
+  std::vector<Tilt> tilts;          ///< of single impacts
 };
 
-/// Index of the named body or material; throws InputError that lists the names there are.
+/// Index of the named body; throws InputError that lists the names there are.
 int bodyIndex(const Scene& scene, const std::string& name);
+/// Index of the named material; throws InputError that lists the names there are.
 int materialIndex(const Scene& scene, const std::string& name);
 /// Index of the material of a body; -1 when it names none. Throws InputError for a body that is not there.
 int materialIndexOf(const Scene& scene, int body);
@@ -108,28 +114,36 @@ void validate(const Scene& scene);
 /// One set of numbers with the fields of a Scene. Read as a gradient each holds d(quantity)/d(field); read as a tangent
 /// each holds the rate at which the field varies. Orientation is a world rotation vector applied on the left.
 struct BodyDerivative {
-  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-  double mass = 0, density = 0;  ///< only the one that the scene gives is used
+  Vec3 position = Vec3::Zero();          ///< m
+  Vec3 orientation = Vec3::Zero();       ///< rad, a world rotation vector
+  Vec3 velocity = Vec3::Zero();          ///< m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
+  double mass = 0;               ///< kg; used where the scene gives the mass
+  double density = 0;            ///< kg/m^3; used where the scene gives the density
   Vec3 inertia = Vec3::Zero();   ///< principal moments; unused when the inertia is derived
   Eigen::VectorXd size;          ///< the shape's dimensions, in the order of ShapeKind::dimension_names
 };
+/// The coefficients of one material, see BodyDerivative.
 struct MaterialDerivative {
-  double elasticity = 0, friction = 0, tangential_elasticity = 0;
+  double elasticity = 0;             ///< of e
+  double friction = 0;               ///< of mu
+  double tangential_elasticity = 0;  ///< of e_t
 };
+/// All numbers of a scene, see BodyDerivative.
 struct SceneDerivative {
-  SceneDerivative() = default;
+  SceneDerivative() = default;  ///< of a scene without bodies
   /// All zero, with as many entries as the scene has.
   explicit SceneDerivative(const Scene& scene);
 
-  Vec3 gravity = Vec3::Zero();
-  std::vector<MaterialDerivative> materials;
-  std::vector<BodyDerivative> bodies;
-  std::vector<Vec2> tilts;
+  Vec3 gravity = Vec3::Zero();                ///< of Scene::gravity
+  std::vector<MaterialDerivative> materials;  ///< one a material
+  std::vector<BodyDerivative> bodies;         ///< one a body
+  std::vector<Vec2> tilts;                    ///< one a tilt
 
   /// Sum of products of all fields, <gradient, tangent>. Throws InputError where the other is of another scene's size.
   double dot(const SceneDerivative& other) const;
 };
-using SceneGradient = SceneDerivative;
-using SceneTangent = SceneDerivative;
+using SceneGradient = SceneDerivative;  ///< read as a gradient
+using SceneTangent = SceneDerivative;   ///< read as a tangent
 
 }  // namespace carom

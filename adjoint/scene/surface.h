@@ -14,25 +14,28 @@ namespace carom {
 struct Surface {
   /// A flat polygon: corners[first .. first + count), counter-clockwise seen from outside.
   struct Face {
-    int first = 0, count = 0;
+    int first = 0;                ///< its first corner
+    int count = 0;                ///< of its corners
     Vec3 normal = Vec3::UnitZ();  ///< unit, outward
   };
   /// An edge between two faces, or at the border of one (`right` is -1).
   struct Edge {
-    int from = 0, to = 0;       ///< vertices; `left` runs along it in this direction
-    int left = -1, right = -1;  ///< faces
-    double bend = 0;            ///< signed sine of the angle between the normals: > 0 convex, 0 flat, < 0 reflex
+    int from = 0;     ///< vertex; `left` runs along the edge from here
+    int to = 0;       ///< vertex where it ends
+    int left = -1;    ///< face
+    int right = -1;   ///< face on the other side; -1 at a border
+    double bend = 0;  ///< signed sine of the angle between the normals: > 0 convex, 0 flat, < 0 reflex
   };
 
   std::vector<Vec3> vertices;  ///< m
-  std::vector<int> corners;
-  std::vector<Face> faces;
-  std::vector<Edge> edges;
+  std::vector<int> corners;    ///< indices of vertices, face after face
+  std::vector<Face> faces;     ///< polygons
+  std::vector<Edge> edges;     ///< each once
   bool closed = false;  ///< every edge has two faces
 
   // Of a closed surface, by the divergence theorem, at uniform density.
-  double volume = 0;
-  Vec3 center = Vec3::Zero();
+  double volume = 0;                 ///< m^3
+  Vec3 center = Vec3::Zero();        ///< m
   Mat3 unit_inertia = Mat3::Zero();  ///< about the centre, per unit mass, m^2
 };
 

@@ -12,8 +12,8 @@ namespace carom {
 /// A direction in which the inputs of readings change: the scene, and the times of the seeds that are read at a given
 /// time (one number a seed, 0 for those at events; empty: all stay).
 struct ReadingDirection {
-  SceneTangent scene;
-  Eigen::VectorXd time;
+  SceneTangent scene;    ///< how the scene changes
+  Eigen::VectorXd time;  ///< how the times change, s
 };
 
 /// How the weights of the seeds change when the states that they are read from change at `rates`, one a seed, in which

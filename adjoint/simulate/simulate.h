@@ -10,6 +10,7 @@
 
 namespace carom {
 
+/// How far to simulate, and what to keep.
 struct SimulateOptions {
   std::size_t impact_limit = 20000;  ///< events, after which the motion ends with MotionStatus::impact_limit
   std::vector<Asked> asked;          ///< a body each; empty asks for everything
@@ -29,8 +30,9 @@ struct SimulateOptions {
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.
-/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies); ends early, with a status and a sentence, where the motion cannot be
-/// continued. The same input gives the same motion to the last bit.
+/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies); ends
+/// early, with a status and a sentence, where the motion cannot be continued. The same input gives the same motion to the
+/// last bit.
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
 
 }  // namespace carom

@@ -14,17 +14,20 @@ namespace carom {
 struct ScenePlan {
   /// A pair of bodies that can touch (see mayCollide).
   struct Pair {
-    int a = -1, b = -1;
-    PairCoefficients coefficients;
-    Law law = Law::frictionless;
-    std::string why;                           ///< the law
-    std::string elasticity_why, friction_why;  ///< how the materials' coefficients were combined
+    int a = -1;                     ///< body
+    int b = -1;                     ///< body
+    PairCoefficients coefficients;  ///< in force
+    Law law = Law::frictionless;    ///< of their impacts
+    std::string why;                ///< the law, in words
+    std::string elasticity_why;     ///< how the materials' elasticities were combined
+    std::string friction_why;       ///< how their frictions were combined
   };
-  std::string name, notes;  ///< of the document
-  double duration = 0;
+  std::string name;     ///< of the document
+  std::string notes;    ///< of the document
+  double duration = 0;  ///< s
   std::string asked;  ///< what the tiers are chosen for: "edit" or "simulate"
-  Plan plan;
-  std::vector<Pair> pairs;
+  Plan plan;                ///< of the bodies
+  std::vector<Pair> pairs;  ///< that can touch
   std::vector<StartOverlap> overlaps;  ///< at the start, without when they part
   int controls = 0;  ///< numbers that may vary
   int rows = 0;      ///< numbers that are held

@@ -28,12 +28,16 @@ std::string importJson(const std::string& file, const Imported& imported, const 
 
 /// The answer of `carom info --json` without a scene.
 struct ProgramInfo {
+  /// A library that the program is built with.
   struct Library {
-    std::string name, version;
+    std::string name;     ///< as it is called
+    std::string version;  ///< as it says itself
   };
-  std::string version, build, compiler;
-  std::vector<Library> libraries;
-  int scene_format = 1;
+  std::string version;             ///< of carom
+  std::string build;               ///< "Release", "Debug", ...
+  std::string compiler;            ///< name and version
+  std::vector<Library> libraries;  ///< of the build
+  int scene_format = 1;            ///< version of scene documents
   std::vector<std::string> exports;  ///< extensions
 };
 std::string programJson(const ProgramInfo& info);

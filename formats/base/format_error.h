@@ -12,11 +12,12 @@ namespace carom {
 ///   scene.json: /bodies/1/mass: found -2, expected a number > 0
 class FormatError : public InputError {
  public:
+  /// At `where` in `file`.
   FormatError(const std::string& file, const std::string& where, const std::string& message)
       : InputError(where, message), file_(file), text_(file + ": " + InputError::what()) {}
 
-  const char* what() const noexcept override { return text_.c_str(); }
-  const std::string& file() const { return file_; }
+  const char* what() const noexcept override { return text_.c_str(); }  ///< file, place and message
+  const std::string& file() const { return file_; }                     ///< path, as it was given
 
  private:
   std::string file_, text_;

@@ -16,9 +16,10 @@ inline constexpr std::size_t kLargestJournal = 64 * 1024 * 1024;  // bytes
 
 /// A session as a document: version 1 of the format, formats/documents/journal.schema.json.
 struct JournalDocument {
-  SessionJournal journal;
+  SessionJournal journal;             ///< what was done
   std::string folder;                 ///< that file names in its scene are relative to; empty: the current folder
-  std::string name = {}, notes = {};  ///< of its scene
+  std::string name = {};              ///< of its scene
+  std::string notes = {};             ///< of its scene
   std::string schema = {};            ///< member "$schema" of the journal
 };
 

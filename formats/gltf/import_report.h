@@ -8,8 +8,9 @@ namespace carom {
 
 /// What an import could not take over as it was: one sentence each, with the name of the node or material.
 struct ImportReport {
-  std::vector<std::string> warnings;
-  std::vector<std::string> joints, triggers;  ///< names of the nodes that have one; neither is simulated
+  std::vector<std::string> warnings;  ///< a sentence each
+  std::vector<std::string> joints;    ///< names of the nodes that have one; joints are not simulated
+  std::vector<std::string> triggers;  ///< names of the nodes that are one; triggers are not simulated
 };
 
 }  // namespace carom

@@ -11,9 +11,10 @@
 
 namespace carom {
 
+/// What a file holds, and what could not be taken over.
 struct Imported {
-  Document document;
-  ImportReport report;
+  Document document;    ///< the scene, and the edit if carom wrote the file
+  ImportReport report;  ///< what differs
 };
 
 /// Reads the default scene of a .gltf or .glb file with KHR_physics_rigid_bodies and KHR_implicit_shapes (drafts; the

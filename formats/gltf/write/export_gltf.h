@@ -18,8 +18,9 @@ enum class GltfKeys {
   cubic
 };
 
+/// How a motion is written as glTF.
 struct GltfOptions {
-  GltfKeys keys = GltfKeys::linear;
+  GltfKeys keys = GltfKeys::linear;  ///< how it is keyed
   double frames_per_second = 24;  ///< whole frames have keys of their own (linear); Blender has 24 unless told
   /// m; linear keys: how far translations may be off between keys, and at most 0.5 % of the body's radius. With 1e-4
   /// under 9.81 m/s^2 and 24 frames there are 120 keys a second, which hold the whole frames of 30 and 60 as well.
