@@ -14,6 +14,7 @@ class TriaxialRotation;
 
 /// How the rotation of a flight is carried; see docs/equations.md section 2.
 enum class Tier { none, spherical, symmetric, triaxial };
+/// "none", "spherical", "symmetric" or "triaxial".
 const char* nameOf(Tier tier);
 
 /// Pose and velocity at one time: x and v of the centre of mass, R = R_WG (shape axes to world). With Tier::none R is

@@ -26,7 +26,7 @@ std::string exportJson(const std::string& file, std::size_t bytes, const Motion&
 /// (the files beside the document), joints and triggers (names of nodes), and warnings.
 std::string importJson(const std::string& file, const Imported& imported, const std::vector<std::string>& meshes);
 
-/// The answer of `carom info --json` without a scene.
+/// What `carom info` says of the program itself.
 struct ProgramInfo {
   /// A library that the program is built with.
   struct Library {
@@ -40,6 +40,7 @@ struct ProgramInfo {
   int scene_format = 1;            ///< version of scene documents
   std::vector<std::string> exports;  ///< extensions
 };
+/// The answer of `carom info --json` without a scene.
 std::string programJson(const ProgramInfo& info);
 
 }  // namespace carom
