@@ -250,24 +250,18 @@ struct Way {
 };
 
 std::vector<Way> ways() {
-  const auto way = [](const char* name, SequencePolicy policy, Shooting shooting,
-                      SecondDerivatives derivatives = SecondDerivatives::exact) {
+  const auto way = [](const char* name, SequencePolicy policy, SecondDerivatives derivatives) {
     Way w{name, {}};
-    w.options.sequence = policy, w.options.shooting = shooting, w.options.second_derivatives = derivatives;
+    w.options.sequence = policy, w.options.second_derivatives = derivatives;
     w.options.certify = w.options.explain = false;
     w.options.tolerance = kTolerance, w.options.time_budget_seconds = kBudget, w.options.threads = 1;
     return w;
   };
-  const auto stay = SequencePolicy::stay, search = SequencePolicy::prefer_start;
-  return {way("within", stay, Shooting::single),
-          way("within, segments where growth is 100", stay, Shooting::automatic),
-          way("within, segments", stay, Shooting::multiple),
-          way("within, secant", stay, Shooting::single, SecondDerivatives::secant),
-          way("within, limited memory", stay, Shooting::single, SecondDerivatives::limited_memory),
-          way("search", search, Shooting::single),
-          way("search, segments where growth is 100", search, Shooting::automatic),
-          way("search, segments", search, Shooting::multiple),
-          way("search, secant", search, Shooting::single, SecondDerivatives::secant)};
+  return {way("within", SequencePolicy::stay, SecondDerivatives::exact),
+          way("within; secant", SequencePolicy::stay, SecondDerivatives::secant),
+          way("within; limited memory", SequencePolicy::stay, SecondDerivatives::limited_memory),
+          way("search", SequencePolicy::prefer_start, SecondDerivatives::exact),
+          way("search; secant", SequencePolicy::prefer_start, SecondDerivatives::secant)};
 }
 
 // Residuals are those of a scene simulated afresh.
@@ -283,9 +277,9 @@ void solve(const LongTask& task, const Way& way, std::FILE* out) {
   const EditProblem problem(task.start, contacts, task.duration, task.controls, task.constraints);
   const RowValues rows = problem.constraints.evaluate(afresh);
   const double off = rows.available ? rows.scaled.cwiseAbs().maxCoeff() : INFINITY;
-  std::fprintf(out, "%s,%s,%d,%d,%.4g,%.4g,%s,%d,%d,%.3g,%.9g,%d,%d,%.3f\n", task.name.c_str(),
+  std::fprintf(out, "%s,%s,%d,%d,%.4g,%.4g,%s,%d,%.3g,%.9g,%d,%d,%.3f\n", task.name.c_str(),
                task.far ? "other impacts" : "same impacts", task.impacts, task.scene,
-               task.growth, task.hidden, way.name, off <= kTolerance ? 1 : 0, result.segments, off,
+               task.growth, task.hidden, way.name, off <= kTolerance ? 1 : 0, off,
                result.objective, result.iterations, simulations, ms);
   std::fflush(out);
 }
@@ -310,16 +304,10 @@ void run(const std::string& what, const std::string& where) {
   std::fprintf(file.get(),
                "# met: to %g of the natural scales, by a fresh simulation, within %g s; growth: largest entry of the "
                "dimensionless Jacobian at the start; hidden: half the square of a change that meets it\n"
-               "class,target,impacts,scene,growth,hidden,way,met,segments,residual,change,steps,simulations,ms\n",
+               "class,target,impacts,scene,growth,hidden,way,met,residual,change,steps,simulations,ms\n",
                kTolerance, kBudget);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    for (Way way : ways()) {
-      std::string name = way.name;
-      for (char& c : name)
-        if (c == ',') c = ';';
-      way.name = name.c_str();
-      solve(tasks[i], way, file.get());
-    }
+    for (const Way& way : ways()) solve(tasks[i], way, file.get());
     std::fprintf(stderr, "\r%zu of %zu ", i + 1, tasks.size());
   }
   std::fprintf(stderr, "\n");

@@ -8,10 +8,6 @@
 #include "editing/hessian.h"
 
 namespace carom {
-namespace {
-
-}  // namespace
-
 EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature)
     : search_(search),
       start_(std::move(start)),

@@ -114,6 +114,14 @@ Certificate certificateOf(const EditProblem& problem, const EditPoint& point, bo
   return of(simulateScene(problem, problem.controls.sceneAt(point.values), problem.duration));
 }
 
+/// Where rounding alone moves the constraints by more than they may be off; else empty.
+std::string roundingSentence(double growth, double tolerance) {
+  const double rounding = growth * std::numeric_limits<double>::epsilon();
+  if (!(rounding > tolerance)) return "";
+  return " Small changes grow " + number(growth) + "-fold up to the constraints, so that rounding alone moves them by " +
+         number(rounding) + " of the natural scales.";
+}
+
 void conclude(const EditOptions& options, const EditSolution& solution, EditResult& result) {
   result.status = solution.status;
   result.message = solution.message;
@@ -162,10 +170,8 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   conclude(search.options(), solution, result);
   if (result.solved() && search.halt() == Halt::cancelled)
     result.message += " It was cancelled while it looked for a smaller change.";
-  result.growth = solution.shooting.growth;
-  result.segments = solution.shooting.segments;
-  const std::string shooting = describe(solution.shooting, search.options(), result.solved());
-  if (!shooting.empty()) result.message += " " + shooting;
+  result.growth = solution.growth;
+  if (!result.solved()) result.message += roundingSentence(result.growth, search.options().tolerance);
   for (const std::string& note : problem.controls.notes()) result.message += " " + note;
   return result;
 }

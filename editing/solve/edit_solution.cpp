@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editing/problem/growth.h"
 #include "editing/rows/dependence.h"
 #include "editing/rows/row_choice.h"
 #include "editing/search/sequence_search.h"
@@ -115,18 +116,12 @@ namespace {
 
 /// The smallest change within the impact sequence of the start; null where none was found. First as if its features had
 /// no edges: trials may leave the sequence on the way, and where they end outside of it they show where to look.
-EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start,
-                             ShootingReport& shooting) {
+EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start) {
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
   const int iterations = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
   const auto solves = [&](const EditPointPtr& point) {
     return point && search.reached(*point) && point->signature == start->signature;
   };
-  if (wantsSegments(search, *start, shooting)) {
-    const EditPointPtr shot = shootInSegments(search, choice.from, choice.rows, iterations / 2, shooting);
-    if (solves(shot)) return shot;
-    if (!search.goesOn() || (shot && search.options().shooting == Shooting::multiple)) return nullptr;
-  }
   const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations / 2);
   if (solves(followed)) return followed;
   if (!search.goesOn()) return nullptr;
@@ -163,7 +158,8 @@ EditSolution findSolution(EditSearch& search) {
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
   const RowChoice choice = chooseRows(search, start);
   const bool contradicts = !choice.contradiction.empty();  // in this impact sequence at least
-  const EditPointPtr inside = contradicts ? nullptr : solveInSequence(search, choice, start, solution.shooting);
+  if (!contradicts) solution.growth = growthOf(start->motion, search.problem(), start->rows);
+  const EditPointPtr inside = contradicts ? nullptr : solveInSequence(search, choice, start);
   SequenceSearch across(search, start);
   for (int rounds = contradicts ? kRoundsAgainstContradiction : kRounds;
        may_leave && !inside && rounds > 0 && across.solutions().empty() && across.round(); --rounds) {

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "editing/shooting/multiple_shooting.h"
 #include "editing/solve/edit_search.h"
 
 /// The stages of solving an edit. Internal to editing/.
@@ -14,7 +13,7 @@ struct EditSolution {
   EditPointPtr point;  ///< the best that was found
   EditPointPtr start;
   std::vector<EditPointPtr> others;  ///< distinct solutions, `point` among them, when alternatives are asked for
-  ShootingReport shooting;
+  double growth = 0;                 ///< of the start's motion, see growthOf; 0: not measured
   EditStatus status = EditStatus::not_converged;
   std::string message;  ///< why, when it is not solved
 };

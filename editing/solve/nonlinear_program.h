@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
 
 namespace carom {
@@ -32,24 +30,17 @@ class NonlinearProgram {
   virtual bool objective(const Eigen::VectorXd& x, double& f) = 0;
   virtual bool gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) = 0;
   virtual bool constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g) = 0;
-  /// dg_dx is constraints() x variables(), dense. A program gives this, or else the entries below.
-  virtual bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx);
+  /// dg_dx is constraints() x variables().
+  virtual bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) = 0;
 
   /// Second derivatives of factor * f + multipliers . g, a full symmetric matrix. Where hasHessian() is false the
   /// solver approximates them from gradients.
   virtual bool hasHessian() const { return false; }
-  virtual bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& h);
-
-  /// The same for sparse programs: the entries that may differ from zero. Several entries of one place add up. Of
-  /// symmetric matrices the lower triangle alone. Without an override every place has an entry.
-  struct Place {
-    int row = 0, column = 0;
-  };
-  virtual std::vector<Place> jacobianPlaces() const;
-  virtual bool jacobianEntries(const Eigen::VectorXd& x, Eigen::VectorXd& entries);
-  virtual std::vector<Place> hessianPlaces() const;
-  virtual bool hessianEntries(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
-                              Eigen::VectorXd& entries);
+  virtual bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                       Eigen::MatrixXd& h) {
+    (void)x, (void)factor, (void)multipliers, (void)h;
+    return false;
+  }
 
   /// Called after each iteration; false stops the solver.
   virtual bool iteration(const Iteration&) { return true; }

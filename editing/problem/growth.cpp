@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/shooting/growth.h"
+#include "editing/problem/growth.h"
 
 #include <algorithm>
 #include <cmath>
