@@ -13,7 +13,7 @@
 #include "adjoint/adjoint.h"
 #include "adjoint/simulate.h"
 #include "editing/edit.h"
-#include "editing/jacobian.h"
+#include "editing/problem/jacobian.h"
 #include "formats/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 

@@ -10,7 +10,7 @@
 #include "adjoint/errors.h"
 #include "adjoint/simulate.h"
 #include "adjoint/so3.h"
-#include "editing/rows/refined_times.h"
+#include "editing/problem/rows/refined_times.h"
 
 namespace carom::cli {
 namespace {

@@ -14,8 +14,8 @@
 #include "editing/certificate.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
-#include "editing/jacobian.h"
 #include "editing/nail.h"
+#include "editing/problem/jacobian.h"
 #include "editing/sequence_changes.h"
 #include "editing/why_not.h"
 

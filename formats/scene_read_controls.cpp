@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "editing/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.h"
 #include "formats/detail/json.hpp"
 #include "formats/detail/scene_reader.hpp"
 #include "formats/json_writer.h"

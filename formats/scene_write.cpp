@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "adjoint/errors.h"
-#include "editing/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.h"
 #include "formats/detail/scene_reader.hpp"
 #include "formats/detail/scene_writer.hpp"
 #include "formats/json_writer.h"

@@ -22,7 +22,7 @@
 #include "bench/edits/dice.h"
 #include "bench/machine.h"
 #include "editing/edit.h"
-#include "editing/jacobian.h"
+#include "editing/problem/jacobian.h"
 #include "formats/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/growth.h"
+#include "editing/problem/growth.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "adjoint/adjoint.h"
 #include "adjoint/elementary.h"
 #include "adjoint/seed.h"
-#include "editing/controls/natural_scales.h"
+#include "editing/problem/controls/natural_scales.h"
 
 namespace carom {
 namespace {

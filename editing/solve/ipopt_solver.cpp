@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/solve/ipopt_solver.h"
+#include "editing/solve/ipopt_solver.hpp"
 
 #include <IpStdCInterface.h>
 #include <dlfcn.h>

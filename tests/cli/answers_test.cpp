@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "adjoint/simulate.h"
-#include "editing/jacobian.h"
-#include "editing/rows/refined_times.h"
+#include "editing/problem/jacobian.h"
+#include "editing/problem/rows/refined_times.h"
 #include "formats/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"

@@ -7,8 +7,8 @@
 
 #include "adjoint/errors.h"
 #include "adjoint/tangent.h"
-#include "editing/controls/control_set.h"
 #include "editing/edit.h"
+#include "editing/problem/controls/control_set.h"
 #include "tests/editing/scenes.h"
 #include "tests/support/solids.h"
 #include "tests/support/swept_points.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "adjoint/simulate.h"
-#include "editing/jacobian.h"
+#include "editing/problem/jacobian.h"
 #include "formats/export_gltf.h"
 #include "formats/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
