@@ -25,7 +25,6 @@ struct EditArguments {
   double seconds = EditOptions{}.time_budget_seconds;
   bool same_sequence = false, impacts = false;
   MotionArguments motion;
-  std::string shooting = "automatic";
   int alternatives = 1, threads = 0;
 };
 
@@ -121,9 +120,6 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
   edit_options.threads = options.threads;
   edit_options.step_limit = options.motion.step_limit;
   edit_options.stop = stoppable.token();
-  edit_options.shooting = options.shooting == "single"     ? Shooting::single
-                          : options.shooting == "multiple" ? Shooting::multiple
-                                                           : Shooting::automatic;
   if (options.same_sequence) edit_options.sequence = SequencePolicy::stay;
   edit_options.progress = [&](const EditProgress& at) {
     progress.show("iteration " + std::to_string(at.iteration) + ", largest error " + Output::brief(at.violation) +
@@ -189,12 +185,6 @@ Action declareEdit(CLI::App& app) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   app.add_option("--seconds", options->seconds, "Give up after so long")->check(positiveNumber())->type_name("T");
-  app.add_option(
-         "--shooting", options->shooting,
-         "Take the motion whole (single), in segments between its impacts (multiple), or as its growth asks for "
-         "(automatic, if not given)")
-      ->check(CLI::IsMember({"automatic", "single", "multiple"}))
-      ->type_name("HOW");
   app.add_flag("--same-sequence", options->same_sequence, "Stay within the scene's impact sequence");
   app.add_flag("--impacts", options->impacts, "List all impacts, where more than 50 are summed up otherwise");
   app.add_option("--alternatives", options->alternatives, "Look for so many different solutions, 1 if not given")

@@ -11,7 +11,7 @@
 #include "cli/streams.h"
 #include "cli/table.h"
 #include "cli/units.h"
-#include "editing/session/session_replay.h"
+#include "editing/session_replay.h"
 #include "formats/documents/journal_json.h"
 
 namespace carom::cli {

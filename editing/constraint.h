@@ -63,7 +63,7 @@ struct Constraint {
   std::string body;
   When at;
   std::vector<Target> targets;
-  /// Not empty: targets are seen from this body, in its shape's axes (see `seenFrom` in editing/rows/relative.h).
+  /// Not empty: targets are seen from this body, in its shape's axes (see `seenFrom` in editing/problem/rows/relative.h).
   std::string relative_to = {};
   std::vector<Region> regions = {};  ///< whenever `at` is
   std::string notes = {};            ///< for people; kept in documents

@@ -6,11 +6,11 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
-#include "editing/search/alternatives.h"
-#include "editing/solve/edit_result.h"
-#include "editing/solve/edit_solution.h"
-#include "editing/text.h"
-#include "editing/verdict/explain.h"
+#include "editing/detail/messages.hpp"
+#include "editing/report/alternatives.hpp"
+#include "editing/report/explain.hpp"
+#include "editing/report/verify.hpp"
+#include "editing/strategy/edit_solution.hpp"
 
 namespace carom {
 

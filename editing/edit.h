@@ -14,8 +14,8 @@
 #include "editing/certificate.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
-#include "editing/jacobian.h"
 #include "editing/nail.h"
+#include "editing/problem/jacobian.h"
 #include "editing/sequence_changes.h"
 #include "editing/why_not.h"
 
@@ -44,17 +44,10 @@ struct EditProgress {
   double violation = 0;  ///< dimensionless
 };
 
-/// How a motion with many impacts is taken.
-enum class Shooting {
-  automatic,  ///< whole, but in segments where small changes grow too far over it
-  single,     ///< whole, from its start
-  multiple,   ///< in segments, wherever there is a flight to cut
-};
-
 /// Where Ipopt takes the second derivatives of the rows from.
 enum class SecondDerivatives {
   exact,          ///< adjoint/second_order/second_order.h
-  secant,         ///< learnt from the gradients, row by row
+  secant,         ///< learnt from the gradients, row by row: cheaper steps, more of them (docs/decisions.md)
   limited_memory  ///< Ipopt's own approximation
 };
 
@@ -63,7 +56,6 @@ struct EditOptions {
   double time_budget_seconds = std::numeric_limits<double>::infinity();
   double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
   SequencePolicy sequence = SequencePolicy::prefer_start;
-  Shooting shooting = Shooting::automatic;
   SecondDerivatives second_derivatives = SecondDerivatives::exact;
   int alternatives = 1;  ///< distinct solutions that are looked for, see EditResult::alternatives
   int threads = 0;       ///< of the search across impact sequences; 0: all cores. The answer does not depend on it
@@ -133,9 +125,8 @@ struct EditResult {
   std::vector<EditAlternative> alternatives;
   Reliability reliability;  ///< of the derivatives at the result, worst row
   /// How much further the held numbers move with a small change of the start's states than in a free flight as long,
-  /// at the start of the edit; 0 where it was not measured (Shooting::single, or nothing to solve).
+  /// at the start of the edit; 0 where it was not measured: there was nothing to solve, or rows stand against each other.
   double growth = 0;
-  int segments = 0;         ///< that the motion was cut into (multiple shooting); 0: it was taken whole
   Certificate certificate;  ///< of that motion
   WhyNot why_not;           ///< where the edit is infeasible or did not converge
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "adjoint/impact/law.hpp"
-#include "editing/text.h"
+#include "editing/detail/messages.hpp"
 
 namespace carom {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
-#include "editing/session/session_state.h"
-#include "editing/text.h"
+#include "editing/detail/messages.hpp"
+#include "editing/session/session_state.hpp"
 
 namespace carom {
 

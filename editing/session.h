@@ -10,7 +10,7 @@
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/edit.h"
-#include "editing/session/session_journal.h"
+#include "editing/session_journal.h"
 
 namespace carom {
 

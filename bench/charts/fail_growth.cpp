@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Number of impacts: a ball flies among fixed ones, which scatter it. How fast small changes of its throw grow, how
 // soon engines have lost its path, and how often an edit, which moves the ball's place at the end by two centimetres,
-// succeeds by single and by multiple shooting.
+// succeeds.
 
 #include <cmath>
 #include <random>
@@ -52,7 +52,7 @@ double growthOf(const Motion& motion, int ball) {
   return J.jacobiSvd().singularValues()[0] / motion.end;
 }
 
-double shareSolved(const Scene& scene, double duration, const Vec3& end, Shooting shooting, double tolerance) {
+double shareSolved(const Scene& scene, double duration, const Vec3& end, double tolerance) {
   std::mt19937_64 engine(7);
   int solved = 0;
   for (int i = 0; i < kTargets; ++i) {
@@ -62,7 +62,6 @@ double shareSolved(const Scene& scene, double duration, const Vec3& end, Shootin
     edit.vary(velocity("ball").only({"x", "y"}));
     edit.nail("ball", duration).position(end.x() + kOffset * std::cos(angle), end.y() + kOffset * std::sin(angle), any);
     EditOptions options;
-    options.shooting = shooting;
     options.sequence = SequencePolicy::stay;
     options.certify = options.explain = false;
     options.time_budget_seconds = kBudget;
@@ -77,10 +76,10 @@ double shareSolved(const Scene& scene, double duration, const Vec3& end, Shootin
 void measure(Csv& csv) {
   csv.note("growth: how much further the end moves with the throw than in a free flight as long");
   csv.note(
-      "single, multiple, single_tight (met to 1e-9): shares of edits solved within 1 s and within the impact sequence, "
+      "solved, solved_tight (met to 1e-9): shares of edits solved within 1 s and within the impact sequence, "
       "by 6 targets at 2 cm, met to 1e-5 of the size");
   csv.note("others: distance of the engine's ball from carom's at the end, m, at steps of 1e-4 s");
-  std::vector<std::string> names = {"impacts", "time", "growth", "single", "multiple", "single_tight"};
+  std::vector<std::string> names = {"impacts", "time", "growth", "solved", "solved_tight"};
   for (const EngineKind& kind : mapEngines()) names.push_back(kind.name);
   csv.columns(names);
   const Scene scene = pinball();
@@ -98,9 +97,8 @@ void measure(Csv& csv) {
     std::vector<Cell> row = {count,
                              end,
                              growthOf(motion, ball),
-                             shareSolved(scene, end, place, Shooting::single, kTolerance),
-                             shareSolved(scene, end, place, Shooting::multiple, kTolerance),
-                             shareSolved(scene, end, place, Shooting::single, kTight)};
+                             shareSolved(scene, end, place, kTolerance),
+                             shareSolved(scene, end, place, kTight)};
     for (const EngineKind& kind : mapEngines()) {
       const Played played = play(kind, scene, end, 1e-4);
       const BodyState& s = played.states[static_cast<std::size_t>(ball)];

@@ -20,7 +20,6 @@ set format y "%g"
 set yrange [-0.05:1.05]
 set ylabel "share of edits solved"
 set key bottom left
-plot data every ::1 using 1:4 with linespoints ls 2 pt 6 title "single shooting", \
-  data every ::1 using 1:5 with linespoints ls 4 title "multiple shooting", \
-  data every ::1 using 1:6 with linespoints ls 6 dt 3 title "single shooting, met to 1e-9"
+plot data every ::1 using 1:(column("solved")) with linespoints ls 2 pt 6 title "met to 1e-5", \
+  data every ::1 using 1:(column("solved_tight")) with linespoints ls 6 dt 3 title "met to 1e-9"
 unset multiplot

@@ -10,9 +10,9 @@
 #include "bench/charts/chart_scenes.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/tasks.h"
-#include "editing/hessian.h"
-#include "editing/solve/edit_program.h"
-#include "editing/solve/ipopt_solver.h"
+#include "editing/problem/hessian.hpp"
+#include "editing/solve/edit_program.hpp"
+#include "editing/solve/ipopt_solver.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::charts {

@@ -16,9 +16,9 @@ EditOptions derivatives(SecondDerivatives source) {
   return options;
 }
 
-EditOptions shooting(Shooting shooting) {
-  EditOptions options = staying();
-  options.shooting = shooting;
+EditOptions searchSecant() {
+  EditOptions options;
+  options.second_derivatives = SecondDerivatives::secant;
   return options;
 }
 
@@ -27,10 +27,10 @@ EditOptions shooting(Shooting shooting) {
 const std::vector<Configuration>& configurations() {
   static const std::vector<Configuration> rows = {
       {"search", "with search", EditOptions{}},
+      {"search_secant", "with search (secant update)", searchSecant()},
       {"no_search", "Ipopt alone", staying()},
       {"secant", "Ipopt alone (secant update)", derivatives(SecondDerivatives::secant)},
       {"limited_memory", "Ipopt alone (limited memory)", derivatives(SecondDerivatives::limited_memory)},
-      {"shooting", "multiple shooting alone", shooting(Shooting::multiple)},
   };
   return rows;
 }

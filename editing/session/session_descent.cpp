@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "editing/rows/dependence.h"
-#include "editing/session/session_solver.h"
+#include "editing/session/session_solver.hpp"
+#include "editing/solve/dependence.hpp"
 
 namespace carom {
 namespace {

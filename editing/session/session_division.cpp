@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
-#include "editing/session/session_solver.h"
+#include "editing/session/session_solver.hpp"
 
 namespace carom {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
-#include "editing/session/session_state.h"
-#include "editing/text.h"
+#include "editing/detail/messages.hpp"
+#include "editing/session/session_state.hpp"
 
 namespace carom {
 namespace {

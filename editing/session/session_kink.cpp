@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "editing/session/session_kink.h"
+#include "editing/session/session_kink.hpp"
 
 #include <cmath>
 
 #include <Eigen/SVD>
 
-#include "editing/verdict/event_margins.h"
+#include "editing/report/event_margins.hpp"
 
 namespace carom {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editing/detail/messages.hpp"
 #include "editing/sequence_changes.h"
-#include "editing/session/session_solver.h"
-#include "editing/text.h"
+#include "editing/session/session_solver.hpp"
 
 namespace carom {
 namespace {

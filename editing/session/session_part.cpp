@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/session/session_part.h"
+#include "editing/session/session_part.hpp"
 
 #include <algorithm>
 

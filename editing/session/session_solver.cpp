@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "editing/session/session_solver.h"
+#include "editing/session/session_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "adjoint/base/errors.h"
-#include "editing/solve/edit_solution.h"
+#include "editing/strategy/edit_solution.hpp"
 
 namespace carom {
 namespace {

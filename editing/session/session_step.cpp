@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/session/session_step.h"
+#include "editing/session/session_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-#include "editing/rows/dependence.h"
+#include "editing/solve/dependence.hpp"
 
 namespace carom {
 namespace {

@@ -6,8 +6,8 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/simulate/simulate.h"
-#include "editing/session/session_state.h"
-#include "editing/text.h"
+#include "editing/detail/messages.hpp"
+#include "editing/session/session_state.hpp"
 
 namespace carom {
 std::string earlyEnd(const Motion& motion) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/session/session_work.h"
+#include "editing/session/session_work.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/solve/bounded_least_squares.h"
+#include "editing/solve/bounded_least_squares.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "editing/solve/edit_program.h"
+#include "editing/solve/edit_program.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "editing/hessian.h"
+#include "editing/problem/hessian.hpp"
 
 namespace carom {
-namespace {
-
-}  // namespace
-
 EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature)
     : search_(search),
       start_(std::move(start)),

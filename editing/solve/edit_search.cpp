@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/solve/edit_search.h"
+#include "editing/solve/edit_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/solve/ipopt_solver.h"
+#include "editing/solve/ipopt_solver.hpp"
 
 #include <IpStdCInterface.h>
 #include <dlfcn.h>
@@ -72,10 +72,7 @@ class Adapter {
       : program_(program),
         options_(options),
         n_(program.variables()),
-        m_(program.constraints()),
-        jacobian_places_(program.jacobianPlaces()) {
-    if (program.hasHessian()) hessian_places_ = program.hessianPlaces();
-  }
+        m_(program.constraints()) {}
 
   bool outOfTime() const { return out_of_time_; }
   std::exception_ptr thrown() const { return thrown_; }
@@ -85,11 +82,8 @@ class Adapter {
     const NonlinearProgram::Bounds bounds = program_.bounds();
     std::vector<Number> x_lower = limits(bounds.x_lower), x_upper = limits(bounds.x_upper);
     std::vector<Number> g_lower = limits(bounds.g_lower), g_upper = limits(bounds.g_upper);
-    // Rows without any entry need one: Ipopt refuses an empty Jacobian.
-    if (m_ > 0 && jacobian_places_.empty()) jacobian_places_.push_back({0, 0}), empty_jacobian_ = true;
     IpoptProblem problem = ipopt.create(n_, x_lower.data(), x_upper.data(), m_, g_lower.data(), g_upper.data(),
-                                        static_cast<Index>(jacobian_places_.size()),
-                                        static_cast<Index>(hessian_places_.size()), kCStyle, objective,
+                                        m_ * n_, program_.hasHessian() ? n_ * (n_ + 1) / 2 : 0, kCStyle, objective,
                                         constraintValues, gradient, jacobian, hessian);
     if (problem != nullptr) ipopt.set_callback(problem, iteration);
     return problem;
@@ -116,22 +110,38 @@ class Adapter {
     return a.evaluate([&] { return a.program_.constraintValues(a.point(x), a.vector_) && a.copyVector(m, values); });
   }
 
+  // Both matrices are dense, row by row; of the Hessian the lower triangle.
   static Bool jacobian(Index, Number* x, Bool, Index, Index entries, Index* rows, Index* columns, Number* values,
                        UserDataPtr data) {
     Adapter& a = self(data);
-    if (values == nullptr) return copyPlaces(a.jacobian_places_, rows, columns);
-    if (a.empty_jacobian_) return *values = 0, TRUE;
-    return a.evaluate(
-        [&] { return a.program_.jacobianEntries(a.point(x), a.vector_) && a.copyVector(entries, values); });
+    if (values == nullptr) {
+      for (Index i = 0; i < a.m_; ++i)
+        for (Index j = 0; j < a.n_; ++j) *rows++ = i, *columns++ = j;
+      return TRUE;
+    }
+    return a.evaluate([&] {
+      if (!a.program_.jacobian(a.point(x), a.matrix_)) return false;
+      a.vector_ = a.matrix_.reshaped<Eigen::RowMajor>();
+      return a.copyVector(entries, values);
+    });
   }
 
   static Bool hessian(Index, Number* x, Bool, Number factor, Index m, Number* lambda, Bool, Index entries, Index* rows,
                       Index* columns, Number* values, UserDataPtr data) {
     Adapter& a = self(data);
-    if (values == nullptr) return copyPlaces(a.hessian_places_, rows, columns);
+    if (values == nullptr) {
+      for (Index i = 0; i < a.n_; ++i)
+        for (Index j = 0; j <= i; ++j) *rows++ = i, *columns++ = j;
+      return TRUE;
+    }
     return a.evaluate([&] {
       const Eigen::VectorXd multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m);
-      return a.program_.hessianEntries(a.point(x), factor, multipliers, a.vector_) && a.copyVector(entries, values);
+      if (!a.program_.hessian(a.point(x), factor, multipliers, a.matrix_)) return false;
+      a.vector_.resize(entries);
+      Index k = 0;
+      for (Index i = 0; i < a.n_; ++i)
+        for (Index j = 0; j <= i; ++j) a.vector_[k++] = a.matrix_(i, j);
+      return a.copyVector(entries, values);
     });
   }
 
@@ -157,11 +167,6 @@ class Adapter {
     return limits;
   }
 
-  static Bool copyPlaces(const std::vector<NonlinearProgram::Place>& places, Index* rows, Index* columns) {
-    for (const NonlinearProgram::Place& place : places) *rows++ = place.row, *columns++ = place.column;
-    return TRUE;
-  }
-
   bool copyVector(Index size, Number* values) const {
     if (!vector_.allFinite()) return false;
     Eigen::Map<Eigen::VectorXd>(values, size) = vector_;
@@ -185,9 +190,8 @@ class Adapter {
   NonlinearProgram& program_;
   const SolverOptions& options_;
   Index n_, m_;
-  std::vector<NonlinearProgram::Place> jacobian_places_, hessian_places_;
-  bool empty_jacobian_ = false;
   Eigen::VectorXd vector_;
+  Eigen::MatrixXd matrix_;
   int iterations_ = 0;
   bool out_of_time_ = false;
   std::exception_ptr thrown_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/solve/projection.h"
+#include "editing/solve/projection.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "editing/jacobian.h"
+#include "editing/problem/jacobian.h"
 
 namespace carom {
 

@@ -201,7 +201,6 @@ std::string editJson(const EditResult& result, const std::vector<std::string>& o
   out.key("objective").number(result.objective);
   out.key("iterations").integer(result.iterations);
   out.key("growth").number(result.growth);
-  out.key("segments").integer(result.segments);
   out.key("milliseconds").number(result.milliseconds);
   out.key("sequence_before").texts(result.sequence_before);
   out.key("sequence_after").texts(result.sequence_after);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "editing/jacobian.h"
+#include "editing/problem/jacobian.h"
 
 namespace carom {
 

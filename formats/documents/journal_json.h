@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "editing/session/session_replay.h"
+#include "editing/session_replay.h"
 #include "formats/base/document.h"
 #include "formats/base/format_error.h"
 

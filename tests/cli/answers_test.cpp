@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "adjoint/simulate/simulate.h"
-#include "editing/jacobian.h"
-#include "editing/rows/refined_times.h"
+#include "editing/problem/jacobian.h"
+#include "editing/problem/rows/refined_times.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"
@@ -160,7 +160,7 @@ TEST_P(OnScene, EditMeetsEveryConstraintAndWritesTheScene) {
   EXPECT_EQ(membersOf(answer),
             (Names{"alternatives",    "certificate",      "changed",           "growth",   "iterations",
                    "message",         "milliseconds",     "objective",         "output",   "reliable",
-                   "residual",        "residuals",        "scaled_residual",   "segments", "sequence_after",
+                   "residual",        "residuals",        "scaled_residual",   "sequence_after",
                    "sequence_before", "sequence_changes", "signature_changed", "status",   "times",
                    "why_not"}));
   EXPECT_TRUE(answer["why_not"].is_null());

@@ -9,8 +9,8 @@
 
 #include "adjoint/base/errors.h"
 #include "editing/edit.h"
-#include "editing/solve/bounded_least_squares.h"
-#include "editing/solve/edit_search.h"
+#include "editing/solve/bounded_least_squares.hpp"
+#include "editing/solve/edit_search.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "editing/edit.h"
-#include "editing/verdict/event_margins.h"
-#include "editing/verdict/motion_checks.h"
+#include "editing/report/event_margins.hpp"
+#include "editing/report/motion_checks.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

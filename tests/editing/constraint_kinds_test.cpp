@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "editing/edit.h"
-#include "editing/rows/polynomial.h"
-#include "editing/rows/relative.h"
+#include "editing/problem/rows/polynomial.hpp"
+#include "editing/problem/rows/relative.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/rows/dependence.h"
+#include "editing/solve/dependence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,13 +3,13 @@
 // quantity, rows relative to another body, free times and regions. The first derivatives' own test in 50 digits stands
 // in tests/reference; here it is that nothing is left out on the way to the unknowns.
 
-#include "editing/hessian.h"
+#include "editing/problem/hessian.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "editing/solve/edit_search.h"
+#include "editing/solve/edit_search.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

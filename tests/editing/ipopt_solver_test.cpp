@@ -2,7 +2,7 @@
 // The solver adapter alone: small programs with known answers, and everything that can go wrong in one.
 
 #include "adjoint/base/types.h"
-#include "editing/solve/ipopt_solver.h"
+#include "editing/solve/ipopt_solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "adjoint/base/errors.h"
-#include "editing/session/session_replay.h"
+#include "editing/session_replay.h"
 #include "tests/editing/session_scenes.h"
 
 namespace carom {

@@ -7,8 +7,8 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
 #include "editing/session.h"
-#include "editing/session/session_part.h"
-#include "editing/session/session_work.h"
+#include "editing/session/session_part.hpp"
+#include "editing/session/session_work.hpp"
 #include "tests/editing/session_scenes.h"
 
 namespace carom {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "editing/session/session_replay.h"
+#include "editing/session_replay.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 

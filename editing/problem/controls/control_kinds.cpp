@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "editing/problem/controls/control_kinds.h"
+
+#include "editing/problem/controls/control_families.hpp"
+
+namespace carom {
+namespace {
+
+const ControlKind* const kTable[] = {
+    &kPositionControl,
+    &kOrientationControl,
+    &kVelocityControl,
+    &kAngularVelocityControl,
+    &kElasticityControl,
+    &kFrictionControl,
+    &kTangentialElasticityControl,
+    &kMassControl,
+    &kInertiaControl,
+    &kSizeControl,
+    &kTiltControl,
+    &kGravityControl,
+};
+
+}  // namespace
+
+std::span<const ControlKind* const> controlKinds() { return kTable; }
+
+const ControlKind* findControlKind(const std::string& word) {
+  for (const ControlKind* kind : kTable) {
+    if (word == kind->word) return kind;
+  }
+  return nullptr;
+}
+
+}  // namespace carom

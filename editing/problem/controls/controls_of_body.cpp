@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Controls of what a body is: mass, principal moments, the dimensions of its shape.
+//
+// A derivative by one number holds all others as written, so the number that varies must itself be written: a body
+// given by density becomes one given by mass before its mass varies, a derived inertia becomes three written moments
+// before they vary. The motion at the start is the same. What a size moves and is not written (mass by density, derived
+// moments, the shape's own centre of mass) moves along.
+
+#include "editing/problem/controls/control_families.hpp"
+
+#include "adjoint/scene/body_model.h"
+
+namespace carom {
+namespace {
+
+void prepareMass(Scene& scene, const ControlOwner& o) {
+  Body& body = scene.bodies[o.body];
+  if (body.mass) return;
+  body.mass = modelOf(body).mass;
+  body.density.reset();
+}
+Eigen::VectorXd getMass(const Scene& scene, const ControlOwner& o) {
+  return oneNumber(scene.bodies[o.body].mass.value_or(0));
+}
+void setMass(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
+  scene.bodies[o.body].mass = values[0];
+}
+Eigen::VectorXd gatherMass(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
+  return oneNumber(gradient.bodies[o.body].mass);
+}
+void scatterMass(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&, SceneTangent& tangent) {
+  tangent.bodies[o.body].mass += rates[0];
+}
+
+void prepareInertia(Scene& scene, const ControlOwner& o) {
+  Body& body = scene.bodies[o.body];
+  if (body.inertia.source != Inertia::Source::derived) return;
+  const BodyModel model = modelOf(body);
+  body.inertia = Inertia::fromMoments(model.inertia);
+  if (!model.has_offset) return;
+  body.inertia.source = Inertia::Source::matrix;
+  body.inertia.axes = Quat(Mat3(model.R_BG.transpose())).normalized();
+}
+Eigen::VectorXd getInertia(const Scene& scene, const ControlOwner& o) { return scene.bodies[o.body].inertia.moments; }
+void setInertia(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
+  scene.bodies[o.body].inertia.moments = values;
+}
+Eigen::VectorXd gatherInertia(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
+  return gradient.bodies[o.body].inertia;
+}
+void scatterInertia(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&,
+                    SceneTangent& tangent) {
+  tangent.bodies[o.body].inertia += rates;
+}
+
+std::vector<std::string> sizeComponents(const Scene& scene, const ControlOwner& o) {
+  const Shape& shape = scene.bodies[o.body].shape;
+  return kindOf(shape).dimension_names(shape);
+}
+Eigen::VectorXd getSize(const Scene& scene, const ControlOwner& o) {
+  const Shape& shape = scene.bodies[o.body].shape;
+  return kindOf(shape).dimensions(shape);
+}
+void setSize(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
+  Shape& shape = scene.bodies[o.body].shape;
+  kindOf(shape).setDimensions(shape, values);
+}
+Eigen::VectorXd gatherSize(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
+  return gradient.bodies[o.body].size;
+}
+void scatterSize(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&, SceneTangent& tangent) {
+  tangent.bodies[o.body].size += rates;
+}
+
+}  // namespace
+
+const ControlKind kMassControl{"mass",       OwnerKind::free_body,
+                               true,         0,
+                               kUnbounded,   true,
+                               oneComponent, prepareMass,
+                               getMass,      setMass,
+                               gatherMass,   scatterMass,
+                               oneScale};
+
+const ControlKind kInertiaControl{"inertia",     OwnerKind::free_body, true,           0,          kUnbounded,
+                                  true,          xyzComponents,          prepareInertia, getInertia, setInertia,
+                                  gatherInertia, scatterInertia,         xyzScale};
+
+// A size is weighed relative to itself.
+const ControlKind kSizeControl{"size",  OwnerKind::body, false,   0,          kUnbounded,  true,   sizeComponents,
+                               nullptr, getSize,         setSize, gatherSize, scatterSize, getSize};
+
+}  // namespace carom

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Controls of how things start to move: position, orientation, velocity, angular velocity; and gravity.
+//
+// Orientation is a world rotation vector u applied on the left of the written orientation: R = exp([u]x) R_written. Its
+// start is 0. A change of u turns the body by theta = J_l(u) du, so that the derivative by u is J_l(u)^T theta_bar.
+
+#include "adjoint/numeric/so3_rates.hpp"
+#include "editing/problem/controls/control_families.hpp"
+#include "editing/problem/controls/natural_scales.h"
+
+namespace carom {
+namespace {
+
+template <Vec3 Body::*kField, Vec3 BodyDerivative::*kRate>
+struct BodyVector {
+  static Eigen::VectorXd get(const Scene& scene, const ControlOwner& o) { return scene.bodies[o.body].*kField; }
+  static void set(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
+    scene.bodies[o.body].*kField = values;
+  }
+  static Eigen::VectorXd gather(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
+    return gradient.bodies[o.body].*kRate;
+  }
+  static void scatter(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&,
+                      SceneTangent& tangent) {
+    tangent.bodies[o.body].*kRate += rates;
+  }
+};
+using Position = BodyVector<&Body::position, &BodyDerivative::position>;
+using Velocity = BodyVector<&Body::velocity, &BodyDerivative::velocity>;
+using AngularVelocity = BodyVector<&Body::angular_velocity, &BodyDerivative::angular_velocity>;
+
+template <double NaturalScales::*kScale>
+Eigen::VectorXd bodyScale(const Scene& start, const ControlOwner& o) {
+  return Vec3::Constant(naturalScales(start, o.body).*kScale);
+}
+
+Eigen::VectorXd getOrientation(const Scene&, const ControlOwner&) { return Eigen::VectorXd::Zero(3); }
+void setOrientation(const Eigen::VectorXd& values, const Scene& start, const ControlOwner& o, Scene& scene) {
+  const Quat& written = start.bodies[o.body].orientation;
+  scene.bodies[o.body].orientation = values.isZero(0) ? written : (expSO3(values) * written).normalized();
+}
+Eigen::VectorXd gatherOrientation(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd& values) {
+  return leftJacobian(values).transpose() * gradient.bodies[o.body].orientation;
+}
+void scatterOrientation(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd& values,
+                        SceneTangent& tangent) {
+  tangent.bodies[o.body].orientation += leftJacobian(values) * rates;
+}
+
+Eigen::VectorXd gatherRateOrientation(const SceneGradient& gradient, const ControlOwner& o,
+                                      const Eigen::VectorXd& values, const Eigen::VectorXd& rates) {
+  return leftJacobianRate(values, rates).transpose() * gradient.bodies[o.body].orientation;
+}
+
+Eigen::VectorXd getGravity(const Scene& scene, const ControlOwner&) { return scene.gravity; }
+void setGravity(const Eigen::VectorXd& values, const Scene&, const ControlOwner&, Scene& scene) {
+  scene.gravity = values;
+}
+Eigen::VectorXd gatherGravity(const SceneGradient& gradient, const ControlOwner&, const Eigen::VectorXd&) {
+  return gradient.gravity;
+}
+void scatterGravity(const Eigen::VectorXd& rates, const ControlOwner&, const Eigen::VectorXd&, SceneTangent& tangent) {
+  tangent.gravity += rates;
+}
+Eigen::VectorXd scaleGravity(const Scene& start, const ControlOwner&) { return Vec3::Constant(gravityScale(start)); }
+
+}  // namespace
+
+const ControlKind kPositionControl{"position",
+                                   OwnerKind::body,
+                                   false,
+                                   -kUnbounded,
+                                   kUnbounded,
+                                   false,
+                                   xyzComponents,
+                                   nullptr,
+                                   Position::get,
+                                   Position::set,
+                                   Position::gather,
+                                   Position::scatter,
+                                   bodyScale<&NaturalScales::length>};
+
+const ControlKind kOrientationControl{"orientation",
+                                      OwnerKind::body,
+                                      false,
+                                      -kUnbounded,
+                                      kUnbounded,
+                                      false,
+                                      xyzComponents,
+                                      nullptr,
+                                      getOrientation,
+                                      setOrientation,
+                                      gatherOrientation,
+                                      scatterOrientation,
+                                      xyzScale,
+                                      gatherRateOrientation};
+
+const ControlKind kVelocityControl{"velocity",
+                                   OwnerKind::moving_body,
+                                   false,
+                                   -kUnbounded,
+                                   kUnbounded,
+                                   false,
+                                   xyzComponents,
+                                   nullptr,
+                                   Velocity::get,
+                                   Velocity::set,
+                                   Velocity::gather,
+                                   Velocity::scatter,
+                                   bodyScale<&NaturalScales::velocity>};
+
+const ControlKind kAngularVelocityControl{"angular_velocity",
+                                          OwnerKind::moving_body,
+                                          false,
+                                          -kUnbounded,
+                                          kUnbounded,
+                                          false,
+                                          xyzComponents,
+                                          nullptr,
+                                          AngularVelocity::get,
+                                          AngularVelocity::set,
+                                          AngularVelocity::gather,
+                                          AngularVelocity::scatter,
+                                          bodyScale<&NaturalScales::angular_velocity>};
+
+const ControlKind kGravityControl{"gravity",     OwnerKind::scene, false,       -kUnbounded, kUnbounded,
+                                  false,         xyzComponents,    nullptr,     getGravity,  setGravity,
+                                  gatherGravity, scatterGravity,   scaleGravity};
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "editing/problem/controls/natural_scales.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+namespace {
+
+constexpr double kStandardGravity = 9.81;
+
+double boundingDiameter(const Body& body) { return 2 * kindOf(body.shape).boundingRadius(body.shape); }
+
+double lengthOf(const Scene& scene, int body) {
+  const double own = boundingDiameter(scene.bodies[body]);
+  if (std::isfinite(own) && own > 0) return own;
+  double largest = 0;
+  for (const Body& other : scene.bodies) {
+    const double diameter = boundingDiameter(other);
+    if (std::isfinite(diameter)) largest = std::max(largest, diameter);
+  }
+  return largest > 0 ? largest : 1;
+}
+
+}  // namespace
+
+NaturalScales naturalScales(const Scene& scene, int body) {
+  NaturalScales s;
+  s.length = lengthOf(scene, body);
+  const double g = scene.gravity.norm();
+  if (g > 0) {
+    s.velocity = std::sqrt(g * s.length);
+    s.angular_velocity = std::sqrt(g / s.length);
+  } else {
+    const double speed = scene.bodies[body].velocity.norm(), spin = scene.bodies[body].angular_velocity.norm();
+    s.velocity = speed > 0 ? speed : s.length;
+    s.angular_velocity = spin > 0 ? spin : 1;
+  }
+  s.time = s.length / s.velocity;
+  return s;
+}
+
+double gravityScale(const Scene& scene) {
+  const double g = scene.gravity.norm();
+  return g > 0 ? g : kStandardGravity;
+}
+
+}  // namespace carom

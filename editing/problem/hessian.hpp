@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editing/problem/jacobian.h"
+
+/// Second derivatives of an edit. Internal to editing/.
+namespace carom {
+
+/// Second derivatives of weights . (values of the rows, SI) by the unknowns of a problem, whose motion and rows were
+/// read at `unknowns`: exact, by differentiating the adjoint pass (adjoint/second_order/second_order.h). Rows without weight may be
+/// missing.
+Eigen::MatrixXd rowsHessian(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
+                            const RowValues& rows, const Eigen::VectorXd& weights);
+
+/// The same of weights . (rows of validity).
+Eigen::MatrixXd validityHessian(const EditProblem& problem, const Eigen::VectorXd& unknowns,
+                                const Eigen::VectorXd& weights);
+
+}  // namespace carom

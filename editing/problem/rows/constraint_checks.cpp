@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "editing/problem/rows/constraint_checks.hpp"
+
+#include <cmath>
+
+#include "adjoint/base/errors.h"
+#include "editing/detail/messages.hpp"
+
+namespace carom {
+namespace {
+
+std::string quantityWords() {
+  std::vector<std::string> words;
+  for (const QuantityKind* kind : quantityKinds()) words.push_back(kind->word);
+  return listOf(words);
+}
+
+void checkLimits(const Target& target, const QuantityKind& kind, const std::string& where) {
+  for (const std::vector<double>* limits : {&target.min, &target.max}) {
+    if (limits->empty()) continue;
+    const char* word = limits == &target.min ? "/min" : "/max";
+    if (kind.numbers == 4) throw InputError(where + word, "found a range of an orientation, expected a quaternion");
+    if (limits->size() != target.value.size()) {
+      throw InputError(where + word, "found " + std::to_string(limits->size()) + " numbers, expected " +
+                                         std::to_string(target.value.size()));
+    }
+    for (std::size_t i = 0; i < limits->size(); ++i) {
+      if (std::isinf((*limits)[i])) throw InputError(where + word, "found an infinite number, expected a finite one");
+      if (!std::isnan((*limits)[i]) && !std::isnan(target.value[i])) {
+        throw InputError(where + word, "found a limit of a component that has a target, expected one of the two");
+      }
+    }
+  }
+  if (target.min.empty() || target.max.empty()) return;
+  for (std::size_t i = 0; i < target.min.size(); ++i) {
+    if (target.min[i] >= target.max[i]) {
+      throw InputError(where + "/min", "found " + number(target.min[i]) + ", expected less than the max, which is " +
+                                           number(target.max[i]));
+    }
+  }
+}
+
+bool hasLimit(const Target& target, std::size_t component) {
+  return (!target.min.empty() && !std::isnan(target.min[component])) ||
+         (!target.max.empty() && !std::isnan(target.max[component]));
+}
+
+void checkNumbers(const Target& target, const QuantityKind& kind, const std::string& where) {
+  if (static_cast<int>(target.value.size()) != kind.numbers) {
+    throw InputError(
+        where, "found " + std::to_string(target.value.size()) + " numbers, expected " + std::to_string(kind.numbers));
+  }
+  checkLimits(target, kind, where);
+  for (std::size_t i = 0; i < target.value.size(); ++i) {
+    const double value = target.value[i];
+    if (std::isinf(value)) throw InputError(where, "found an infinite number, expected a finite one");
+    if (kind.all_or_nothing && std::isnan(value) && !hasLimit(target, i)) {
+      throw InputError(where, "found NaN, expected a number: a component of this cannot be left free");
+    }
+  }
+  if (!target.body_point.allFinite()) {
+    throw InputError(where, "found a body point that is not finite, expected three numbers");
+  }
+  if (kind.numbers == 4) {
+    double norm2 = 0;
+    for (double value : target.value) norm2 += value * value;
+    if (!(std::abs(norm2 - 1) <= 1e-3)) {
+      throw InputError(where, "found a quaternion of length " + number(std::sqrt(norm2)) + ", expected 1");
+    }
+  }
+}
+
+}  // namespace
+
+const QuantityKind& checkedKind(const Target& target, const When& at, const std::string& where) {
+  const QuantityKind* kind = findQuantityKind(target.quantity);
+  if (!kind) throw InputError(where, "found '" + target.quantity + "', expected one of " + quantityWords());
+  const std::string place = where + "/" + target.quantity;
+  checkNumbers(target, *kind, place);
+  if (kind->only_at_impacts && at.impact == 0) {
+    throw InputError(place, std::string("found ") + kind->word + " held at a time, expected an impact");
+  }
+  return *kind;
+}
+
+void checkSpan(const std::pair<double, double>& span, const std::string& where) {
+  const auto [from, to] = span;
+  if (!(std::isfinite(from) && from >= 0)) {
+    throw InputError(where + "/0", "found " + number(from) + ", expected a time of 0 s or later");
+  }
+  if (!(std::isfinite(to) && to > from)) {
+    throw InputError(where + "/1", "found " + number(to) + ", expected a time after " + number(from) + " s");
+  }
+}
+
+void checkWhen(const When& at, const std::string& where) {
+  if (at.impact < 0 || (at.impact == 0 && !at.with.empty())) {
+    throw InputError(where + "/impact", "found " + std::to_string(at.impact) + ", expected 1 or more");
+  }
+  if (at.span) {
+    if (at.impact > 0) throw InputError(where, "found an impact and a span of time, expected one of the two");
+    checkSpan(*at.span, where + "/between");
+  } else if (at.impact == 0 && !(std::isfinite(at.time) && at.time >= 0)) {
+    throw InputError(where, "found " + number(at.time) + ", expected a time of 0 s or later");
+  }
+}
+
+void checkRegion(const Region& region, const std::string& where) {
+  if (const auto* sphere = std::get_if<Sphere>(&region.shape)) {
+    if (!(sphere->radius > 0 && std::isfinite(sphere->radius))) {
+      throw InputError(where + "/sphere/radius", "found " + number(sphere->radius) + ", expected more than 0 m");
+    }
+  } else {
+    for (double size : std::get<Box>(region.shape).size) {
+      if (!(size > 0 && std::isfinite(size))) {
+        throw InputError(where + "/box/size", "found " + number(size) + ", expected more than 0 m");
+      }
+    }
+  }
+  if (!region.position.allFinite()) {
+    throw InputError(where + "/position", "found a number that is not finite, expected three numbers");
+  }
+  if (!(std::abs(region.orientation.norm() - 1) <= 1e-3)) {
+    throw InputError(where + "/orientation",
+                     "found a quaternion of length " + number(region.orientation.norm()) + ", expected 1");
+  }
+  if (region.during) checkSpan(*region.during, where + "/during");
+  if (region.margin && !(std::isfinite(*region.margin) && *region.margin >= 0)) {
+    throw InputError(where + "/margin", "found " + number(*region.margin) + ", expected 0 m or more");
+  }
+}
+
+}  // namespace carom

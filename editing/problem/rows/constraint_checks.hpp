@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "editing/constraint.h"
+#include "editing/problem/rows/quantities.h"
+
+/// What is checked of constraints that a person wrote. All throw InputError starting at `where`. Internal to editing/.
+namespace carom {
+
+/// The kind of a target, whose numbers are all right.
+const QuantityKind& checkedKind(const Target& target, const When& at, const std::string& where);
+/// Time, impact and span.
+void checkWhen(const When& at, const std::string& where);
+void checkRegion(const Region& region, const std::string& where);
+void checkSpan(const std::pair<double, double>& span, const std::string& where);
+
+}  // namespace carom

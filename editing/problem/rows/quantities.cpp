@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "editing/problem/rows/quantities.h"
+
+#include "adjoint/numeric/so3_rates.hpp"
+
+namespace carom {
+namespace {
+
+Vec3 threeNumbers(const Target& target) { return {target.value[0], target.value[1], target.value[2]}; }
+
+// position, velocity, angular velocity: a vector of the state itself.
+
+template <Vec3 BodyState::*kField>
+Vec3 fieldOf(const BodyState& state, double, const Target&) {
+  return state.*kField;
+}
+template <Vec3 StateSeed::*kField>
+StateSeed fieldSeed(const BodyState&, const Target&, int component) {
+  StateSeed seed;
+  (seed.*kField)[component] = 1;
+  return seed;
+}
+
+// orientation: u = log(R R_target^T), so that du = J_l(u)^-1 theta.
+
+Quat targetOrientation(const Target& target) {
+  return Quat(target.value[0], target.value[1], target.value[2], target.value[3]).normalized();
+}
+Vec3 noTurn(const Target&) { return Vec3::Zero(); }
+Vec3 turnFromTarget(const BodyState& state, double, const Target& target) {
+  return logSO3(state.orientation * targetOrientation(target).conjugate());
+}
+StateSeed turnSeed(const BodyState& state, const Target& target, int component) {
+  StateSeed seed;
+  seed.orientation = leftJacobianInverse(turnFromTarget(state, 0, target)).row(component).transpose();
+  return seed;
+}
+
+// d(J^-1) = -J^-1 dJ J^-1, du = J^-1 theta.
+StateSeed turnSeedRate(const BodyState& state, const BodyStateRate& rate, const Target& target, int component) {
+  const Vec3 u = turnFromTarget(state, 0, target);
+  const Mat3 inverse = leftJacobianInverse(u);
+  StateSeed seed;
+  seed.orientation = -(inverse * leftJacobianRate(u, inverse * rate.orientation) * inverse).row(component).transpose();
+  return seed;
+}
+
+// point: p = x + R b, so that dp = dx + theta x (R b).
+
+Vec3 pointOf(const BodyState& state, double, const Target& target) {
+  return state.position + state.orientation * target.body_point;
+}
+StateSeed pointSeed(const BodyState& state, const Target& target, int component) {
+  StateSeed seed;
+  const Vec3 axis = Vec3::Unit(component);
+  seed.position = axis;
+  seed.orientation = (state.orientation * target.body_point).cross(axis);
+  return seed;
+}
+
+StateSeed pointSeedRate(const BodyState& state, const BodyStateRate& rate, const Target& target, int component) {
+  StateSeed seed;
+  seed.orientation = rate.orientation.cross(state.orientation * target.body_point).cross(Vec3::Unit(component));
+  return seed;
+}
+
+// time of an impact
+
+Vec3 oneNumber(const Target& target) { return {target.value[0], 0, 0}; }
+Vec3 timeOf(const BodyState&, double time, const Target&) { return {time, 0, 0}; }
+StateSeed timeSeed(const BodyState&, const Target&, int) {
+  StateSeed seed;
+  seed.time = 1;
+  return seed;
+}
+
+const QuantityKind kPosition{"position",
+                             3,
+                             3,
+                             false,
+                             false,
+                             false,
+                             &NaturalScales::length,
+                             threeNumbers,
+                             fieldOf<&BodyState::position>,
+                             fieldSeed<&StateSeed::position>,
+                             nullptr};
+const QuantityKind kOrientation{"orientation",  3,        4,           true, false, true, nullptr, noTurn,
+                                turnFromTarget, turnSeed, turnSeedRate};
+const QuantityKind kVelocity{"velocity",
+                             3,
+                             3,
+                             false,
+                             false,
+                             false,
+                             &NaturalScales::velocity,
+                             threeNumbers,
+                             fieldOf<&BodyState::velocity>,
+                             fieldSeed<&StateSeed::velocity>,
+                             nullptr};
+// A spin is read in world axes, but the constant of a flight is the angular momentum.
+const QuantityKind kAngularVelocity{"angular_velocity",
+                                    3,
+                                    3,
+                                    false,
+                                    false,
+                                    true,
+                                    &NaturalScales::angular_velocity,
+                                    threeNumbers,
+                                    fieldOf<&BodyState::angular_velocity>,
+                                    fieldSeed<&StateSeed::angular_velocity>,
+                                    nullptr};
+const QuantityKind kTime{"time", 1, 1, true, true, false, &NaturalScales::time, oneNumber, timeOf, timeSeed, nullptr};
+const QuantityKind kPoint{"point",      3,       3,         false,        false, true, &NaturalScales::length,
+                          threeNumbers, pointOf, pointSeed, pointSeedRate};
+
+const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation, &kVelocity, &kAngularVelocity, &kTime, &kPoint};
+
+}  // namespace
+
+std::span<const QuantityKind* const> quantityKinds() { return kQuantityTable; }
+
+const QuantityKind* findQuantityKind(const std::string& word) {
+  for (const QuantityKind* kind : kQuantityTable) {
+    if (word == kind->word) return kind;
+  }
+  return nullptr;
+}
+
+}  // namespace carom

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "editing/report/alternatives.hpp"
+
+#include "editing/report/verify.hpp"
+#include "editing/strategy/sequence_search.hpp"
+
+namespace carom {
+
+std::vector<EditAlternative> alternativesTo(const Scene& written, const EditSearch& search,
+                                            const EditSolution& solution) {
+  std::vector<EditAlternative> alternatives;
+  for (const EditPointPtr& point : solution.others) {
+    if (static_cast<int>(alternatives.size()) + 1 >= search.options().alternatives) break;
+    if (!areDistinct(*point, *solution.point)) continue;
+    EditSolution other = solution;
+    other.point = point;
+    other.others.clear();
+    EditResult result = verify(written, search, other);
+    if (!result.solved()) continue;
+    alternatives.push_back({std::move(result.scene), std::move(result.changed), result.objective, result.residual,
+                            result.scaled_residual, std::move(result.sequence_after),
+                            std::move(result.sequence_changes)});
+  }
+  return alternatives;
+}
+
+}  // namespace carom

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "editing/problem/jacobian.h"
+#include "editing/why_not.h"
+
+/// Internal to editing/.
+namespace carom {
+
+/// Nails at which the body would overlap a fixed body that nothing moves. A nail of place and orientation is tried with
+/// the body itself, one of place alone with a ball about the shape's origin that the body holds whichever way it turns
+/// (spheres, boxes, capsules, cylinders). A component left free counts only before a plane that it runs along. Uses the
+/// problem's source of contacts, which finds bodies that overlap.
+std::vector<WhyNot::Inside> nailsInSolids(const EditProblem& problem, const Scene& scene);
+
+}  // namespace carom

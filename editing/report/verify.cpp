@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "editing/report/verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "adjoint/derivative/adjoint.h"
+#include "editing/detail/messages.hpp"
+
+namespace carom {
+namespace {
+
+std::vector<std::string> describeEvents(const Motion& motion) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < static_cast<int>(motion.events.size()); ++i) lines.push_back(motion.describeEvent(i));
+  return lines;
+}
+
+std::vector<ChangedNumber> changesOf(const ControlSet& controls, const Eigen::VectorXd& values) {
+  std::vector<ChangedNumber> changed;
+  for (int i = 0; i < controls.size(); ++i) {
+    const Variable& v = controls.variables()[i];
+    changed.push_back({v.control, controls.describeVariable(i), v.component, v.before, values[i]});
+  }
+  return changed;
+}
+
+std::vector<HeldNumber> heldNumbers(const ConstraintSet& constraints, const RowValues& rows) {
+  std::vector<HeldNumber> held;
+  for (int i = 0; i < constraints.size(); ++i) {
+    const Row& row = constraints.rows()[i];
+    held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.wanted, rows.residuals[i],
+                    rows.scaled[i], row.lower, row.upper});
+  }
+  return held;
+}
+
+std::vector<MetTime> metTimes(const ConstraintSet& constraints, const RowValues& rows) {
+  std::vector<MetTime> times;
+  for (std::size_t k = 0; k < constraints.freeTimes().size(); ++k) {
+    const FreeTime& free = constraints.freeTimes()[k];
+    times.push_back({free.constraint, constraints.describeConstraint(free.constraint), free.from, free.to,
+                     rows.times[static_cast<Eigen::Index>(k)]});
+  }
+  return times;
+}
+
+/// Largest magnitude; NaN if any entry is.
+double largest(const Eigen::VectorXd& values) {
+  double most = 0;
+  for (double value : values) most = std::isnan(value) ? value : std::max(most, std::abs(value));
+  return values.hasNaN() ? std::numeric_limits<double>::quiet_NaN() : most;
+}
+
+/// Of the derivatives of all rows, the worst.
+Reliability reliabilityOf(const EditProblem& problem, const Motion& motion, const RowValues& rows) {
+  Reliability worst;
+  DerivativeTape tape(motion);
+  for (const std::vector<StateSeed>& seeds : rows.seeds) {
+    if (seeds.empty()) continue;
+    Reliability one;
+    adjoint(tape, seeds, &one);
+    askFrictions(problem.controls, one);
+    worst.events = std::max(worst.events, one.events);
+    worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
+    if (worst.reliable && !one.reliable) worst.message = one.message;
+    worst.reliable = worst.reliable && one.reliable;
+  }
+  return worst;
+}
+
+/// How the impacts that count differ from those of the scene as written. The start of the search is that, unless its
+/// bounds moved it.
+std::vector<SequenceChange> sequenceChangesOf(const Scene& written, const EditProblem& problem,
+                                              const EditSolution& solution) {
+  const EditPoint &start = *solution.start, &end = *solution.point;
+  const auto counted = [&](const Motion& motion, const Eigen::VectorXd& times) {
+    return problem.constraints.extentIn(motion, times).events;
+  };
+  const std::size_t after = counted(end.motion, end.rows.times);
+  if (!problem.controls.startMoved())
+    return sequenceChanges(start.motion, counted(start.motion, start.rows.times), end.motion, after);
+  const Motion motion = simulateScene(problem, written, problem.horizon);
+  return sequenceChanges(motion, counted(motion, {}), end.motion, after);
+}
+
+/// The first few of them, in sentences.
+std::string sentencesOf(const std::vector<SequenceChange>& changes) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, changes.size()); ++i) text += " " + changes[i].sentence;
+  if (changes.size() > kMost) text += " (" + std::to_string(changes.size() - kMost) + " more differences.)";
+  return text;
+}
+
+/// Fills in everything that is read from the motion of result.scene.
+void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditResult& result) {
+  const RowValues rows = problem.constraints.evaluate(result.motion, times);
+  result.residuals = heldNumbers(problem.constraints, rows);
+  result.times = metTimes(problem.constraints, rows);
+  result.residual = largest(rows.residuals);
+  result.scaled_residual = largest(rows.scaled);
+  result.sequence_after = describeEvents(result.motion);
+  result.reliability = reliabilityOf(problem, result.motion, rows);
+}
+
+/// A scene that stays as written need not say its numbers in the words of the controls: then it is put into them.
+Certificate certificateOf(const EditProblem& problem, const EditPoint& point, bool untouched, const Motion& motion) {
+  const auto of = [&](const Motion& m) {
+    return certify(problem, point.changes, m, problem.constraints.evaluate(m, problem.timesOf(point.changes)));
+  };
+  if (!untouched) return of(motion);
+  return of(simulateScene(problem, problem.controls.sceneAt(point.values), problem.duration));
+}
+
+/// Where rounding alone moves the constraints by more than they may be off; else empty.
+std::string roundingSentence(double growth, double tolerance) {
+  const double rounding = growth * std::numeric_limits<double>::epsilon();
+  if (!(rounding > tolerance)) return "";
+  return " Small changes grow " + number(growth) + "-fold up to the constraints, so that rounding alone moves them by " +
+         number(rounding) + " of the natural scales.";
+}
+
+void conclude(const EditOptions& options, const EditSolution& solution, EditResult& result) {
+  result.status = solution.status;
+  result.message = solution.message;
+  if (solution.status != EditStatus::solved) return;
+  // Written so that a NaN does not pass.
+  if (!(result.scaled_residual <= options.tolerance)) {
+    result.status = EditStatus::not_converged;
+    result.message = "The solution was not confirmed by simulating it afresh: it misses by " +
+                     number(result.scaled_residual) + " of the natural scales.";
+    return;
+  }
+  const bool unchanged = result.objective == 0 && result.iterations == 0;
+  result.message = unchanged ? "The start meets all constraints already."
+                             : "All constraints are met, the largest error is " + number(result.residual) + ".";
+  if (result.signature_changed) {
+    result.status = EditStatus::solved_sequence_changed;
+    result.message += " The impacts on the way are others than before." + sentencesOf(result.sequence_changes);
+  }
+  if (!result.reliability.reliable) result.message += " " + result.reliability.message;
+}
+
+}  // namespace
+
+EditResult verify(const Scene& written, const EditSearch& search, const EditSolution& solution) {
+  const EditProblem& problem = search.problem();
+  const EditPoint& point = *solution.point;
+  EditResult result;
+  const bool untouched = point.objective == 0 && !problem.controls.startMoved();
+  result.scene = untouched ? written : problem.controls.sceneAt(point.values);
+  result.changed = changesOf(problem.controls, point.values);
+  result.objective = point.objective;
+  result.iterations = search.iterations();
+  result.sequence_changes = sequenceChangesOf(written, problem, solution);
+  result.signature_changed = !result.sequence_changes.empty();
+
+  result.motion = simulateScene(problem, result.scene, problem.duration);
+  result.sequence_before = untouched ? describeEvents(result.motion)
+                                     : describeEvents(simulateScene(problem, written, problem.duration));
+  readMotion(problem, problem.timesOf(point.changes), result);
+  if (search.options().certify && search.halt() != Halt::cancelled) {
+    Certificate& certificate = result.certificate = certificateOf(problem, point, untouched, result.motion);
+    certificate.residual = result.residual;
+    certificate.scaled_residual = result.scaled_residual;
+    certificate.reliability = result.reliability;
+  }
+  conclude(search.options(), solution, result);
+  if (result.solved() && search.halt() == Halt::cancelled)
+    result.message += " It was cancelled while it looked for a smaller change.";
+  result.growth = solution.growth;
+  if (!result.solved()) result.message += roundingSentence(result.growth, search.options().tolerance);
+  for (const std::string& note : problem.controls.notes()) result.message += " " + note;
+  return result;
+}
+
+}  // namespace carom

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editing/edit.h"
+#include "editing/problem/jacobian.h"
+
+/// Points, and how one is improved. Internal to editing/.
+namespace carom {
+
+/// An impact that is held may come later than at the start: so much of its time is simulated at first.
+inline constexpr double kMarginAfterLast = 1.25;
+
+/// One evaluated point of a search.
+struct EditPoint {
+  Eigen::VectorXd changes;  ///< all unknowns: of the controls, then of the free times
+  Eigen::VectorXd values;   ///< of the controls
+  Motion motion;            ///< a little further than the constraints reach
+  RowValues rows;
+  std::string signature;     ///< of the events that count
+  Eigen::VectorXd validity;  ///< h >= 0
+  double violation = 0;      ///< largest scaled residual or lack of validity
+  double objective = 0;
+  std::optional<Eigen::MatrixXd> row_jacobian, validity_jacobian;  ///< by all unknowns, dimensionless; on demand
+};
+using EditPointPtr = std::shared_ptr<EditPoint>;
+
+/// How the motion of a point is made.
+struct MotionMaker {
+  ContactSource* contacts = nullptr;  ///< null: that of the problem
+  EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/simulate/replay.h)
+  bool even_if_stopped = false;       ///< simulated to the end although a stop was requested
+};
+
+/// Simulates up to a time and reads the rows. `nearest_times`: the free times of `unknowns` do not count, they are
+/// chosen afresh. Throws InputError for a scene that makes no sense; null where a sequence cannot be followed.
+EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
+                     const MotionMaker& maker = {});
+/// The same for a trial: null where the scene makes no sense (bodies overlap, moments are impossible) or a row is not
+/// available, not even up to the horizon of the problem.
+EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
+                     const MotionMaker& maker = {});
+/// Reads the rows of a point's motion again, when targets are other ones than before.
+void readRows(const EditProblem& problem, EditPoint& point);
+/// Fills in the point's derivatives.
+void differentiate(const EditProblem& problem, EditPoint& point);
+
+/// Why a search must end early.
+enum class Halt { none, out_of_time, cancelled };
+
+/// Evaluates points, remembers the best, and watches the clock and the callback.
+class EditSearch {
+ public:
+  EditSearch(const EditProblem& problem, const EditOptions& options);
+
+  const EditProblem& problem() const { return problem_; }
+  const EditOptions& options() const { return options_; }
+  const Eigen::VectorXd& lower() const { return lower_; }
+  const Eigen::VectorXd& upper() const { return upper_; }
+
+  /// Simulates at the start. Throws InputError where the scene cannot be simulated at all.
+  EditPointPtr evaluateStart();
+  /// Null when time is up, when the scene of this point cannot be simulated, or a row is not available. The last few
+  /// points are kept, so that asking again is free.
+  /// `nearest_times`: the free times of `changes` do not count, they are chosen afresh.
+  EditPointPtr evaluate(const Eigen::VectorXd& changes, bool nearest_times = false);
+  /// The same for any thread, with motions made in the way that is given; nothing is remembered.
+  EditPointPtr make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const;
+  /// A search at the same problem that makes its motions in another way. It remembers its own points, counts on from
+  /// here and has the same deadline. In a thread of its own it must be `silent`: then it does not ask the callback.
+  EditSearch branch(const MotionMaker& maker, bool silent) const;
+  /// Counts on from where a branch ended.
+  void adopt(const EditSearch& branch) { iterations_ = branch.iterations_, halt_ = branch.halt_; }
+  /// Remembers a point if it is the best so far. Its motion must be a simulated one.
+  void consider(const EditPointPtr& point);
+
+  /// Fills in the point's derivatives.
+  void differentiate(EditPoint& point) const { carom::differentiate(problem_, point); }
+
+  /// The best point so far: within the tolerance the smallest change, else the smallest violation. By value: what goes
+  /// on from it finds better ones, and it must stay alive meanwhile.
+  EditPointPtr best() const { return best_; }
+  bool reached(const EditPoint& point) const { return point.violation <= options_.tolerance; }
+  bool reached() const { return best_ && reached(*best_); }
+
+  /// Counts a step and asks the callback whether to go on.
+  bool step(double objective, double violation);
+  /// Counts steps that branches took at the same time, as many as the longest of them.
+  void count(int steps) { iterations_ += steps; }
+  int iterations() const { return iterations_; }
+  int iterationsLeft() const { return options_.max_iterations - iterations_; }
+  Halt halt() const { return halt_; }
+  bool goesOn() const { return halt_ == Halt::none && iterationsLeft() > 0; }
+  std::optional<std::chrono::steady_clock::time_point> deadline() const { return deadline_; }
+
+ private:
+  bool expired();
+
+  const EditProblem& problem_;
+  const EditOptions& options_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  Eigen::VectorXd lower_, upper_;
+  double until_;  ///< simulated first; further where a row is not found by then
+  std::vector<EditPointPtr> recent_;
+  EditPointPtr best_;
+  MotionMaker maker_;
+  bool silent_ = false;
+  int iterations_ = 0;
+  Halt halt_ = Halt::none;
+};
+
+}  // namespace carom

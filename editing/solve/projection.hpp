@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "editing/solve/edit_search.hpp"
+
+/// Straight onto the constraints, without minimising the change. Internal to editing/.
+namespace carom {
+
+/// Gauss-Newton steps onto the constraints, each the smallest change that meets the linearised rows within the bounds;
+/// damped (Levenberg and Marquardt) where no way along such a step makes the violation smaller. Quadratic near a
+/// solution. With a signature, points of another impact sequence are refused. Returns the point with the smallest
+/// violation that was met.
+EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int max_steps,
+                                    const std::string* signature = nullptr);
+
+/// The step that projectOntoConstraints would take from a differentiated point.
+Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, double damping = 0);
+
+/// Scaled residuals of all rows after a step, to first order.
+Eigen::VectorXd residualsAfter(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& step);
+
+}  // namespace carom
