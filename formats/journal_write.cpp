@@ -3,6 +3,7 @@
 
 #include "formats/detail/scene_writer.hpp"
 #include "formats/journal_json.h"
+#include "editing/session_numbers.h"
 #include "formats/json_writer.h"
 
 namespace carom {

@@ -25,6 +25,27 @@ const std::map<std::string, std::vector<std::string>> kMayInclude = {
     {"formats", {"formats", "editing", "ode_bridge", "adjoint"}},
 };
 
+// Within editing/, from the bottom up: each file includes those of its own layer and of those below. A file belongs to
+// the first that its path matches.
+struct Layer {
+  const char* name;
+  std::regex paths;
+};
+
+const std::vector<Layer>& layersOfEditing() {
+  static const std::vector<Layer> rows = {
+      {"detail", std::regex("editing/detail/.*")},
+      {"data", std::regex("editing/(certificate|constraint|control|edit_options|edit_result|sequence_changes|"
+                          "session_journal|wanted|why_not)\\.(h|cpp)")},
+      {"problem", std::regex("editing/problem/.*")},
+      {"solve", std::regex("editing/solve/.*")},
+      {"strategy", std::regex("editing/strategy/.*")},
+      {"report", std::regex("editing/report/.*")},
+      {"edits and sessions", std::regex("editing/([^/]*|session/.*)")},
+  };
+  return rows;
+}
+
 // A library that only some files may include. The patterns match whole include names and whole paths.
 struct Confined {
   const char* library;
@@ -49,6 +70,8 @@ const std::vector<Confined>& confinedLibraries() {
       // private headers, which are not installed and may name those libraries
       {"formats/detail", std::regex("formats/detail/.*"), std::regex("formats/(.*\\.cpp|detail/.*\\.hpp)|tests/.*"),
        "formats/*.cpp, formats/detail/*.hpp and tests"},
+      {"editing's private headers", std::regex("editing/.*\\.hpp"), std::regex("editing/.*\\.(cpp|hpp)|(tests|bench)/.*"),
+       "editing/*.cpp, editing/*.hpp, tests and bench"},
       {"valijson", std::regex("valijson/.*"), std::regex("(formats|studio|tests)/.*\\.cpp"),
        "formats/*.cpp, studio/*.cpp and tests"},
       {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests|fuzz)/.*\\.cpp"),
@@ -108,6 +131,34 @@ std::string resolved(const std::string& path, const std::string& include) {
   return (std::filesystem::path(path).parent_path() / include).lexically_normal().generic_string();
 }
 
+// Index of the layer of a file of editing/, from the bottom; past the end: it has none.
+std::size_t layerOf(const std::string& path) {
+  const std::vector<Layer>& layers = layersOfEditing();
+  std::size_t k = 0;
+  while (k < layers.size() && !std::regex_match(path, layers[k].paths)) ++k;
+  return k;
+}
+
+std::vector<std::string> layerViolations(const std::string& path, const std::string& text) {
+  std::vector<std::string> found;
+  if (folderOf(path) != "editing") return found;
+  const std::vector<Layer>& layers = layersOfEditing();
+  const std::size_t own = layerOf(path);
+  if (own == layers.size()) return {path + " belongs to no layer of editing/"};
+  for (const std::string& written : includesOf(text)) {
+    const std::string include = resolved(path, written);
+    if (folderOf(include) != "editing") continue;
+    const std::size_t other = layerOf(include);
+    if (other == layers.size()) {
+      found.push_back(path + " includes " + include + ", which belongs to no layer of editing/");
+    } else if (other > own) {
+      found.push_back(path + " (" + layers[own].name + ") includes " + include + " (" + layers[other].name +
+                      "), which stands above it");
+    }
+  }
+  return found;
+}
+
 bool includesIpopt(const std::string& text) {
   const auto& rows = confinedLibraries();
   const auto ipopt = std::find_if(rows.begin(), rows.end(), [](const Confined& r) { return r.library == "Ipopt"sv; });
@@ -155,8 +206,8 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
       found.push_back(path + " includes " + include + "; " + folder + "/ must not know " + target + "/");
     }
   }
-  const auto inexact = inexactCalls(path, text);
-  found.insert(found.end(), inexact.begin(), inexact.end());
+  for (const auto& more : {layerViolations(path, text), inexactCalls(path, text)})
+    found.insert(found.end(), more.begin(), more.end());
   const auto lines = std::count(text.begin(), text.end(), '\n');
   if (lines > kLongestFile) {
     found.push_back(path + " has " + std::to_string(lines) + " lines; the most is " + std::to_string(kLongestFile));

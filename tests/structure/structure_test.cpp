@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "tests/structure/rooms.h"
 #include "tests/structure/source_rules.h"
 #include "tests/test_paths.h"
 
@@ -11,6 +12,31 @@ TEST(Structure, SourcesKeepTheLayering) {
   const Sources sources = readSources(CAROM_SOURCE_DIR);
   ASSERT_TRUE(sources.contains("adjoint/scene.h")) << "no sources under " CAROM_SOURCE_DIR;
   for (const std::string& violation : violations(sources)) ADD_FAILURE() << violation;
+}
+
+TEST(Structure, NoCircleOfMoreThanTwoRooms) {
+  for (const std::string& violation : circleViolations(readSources(CAROM_SOURCE_DIR))) ADD_FAILURE() << violation;
+}
+
+// Planted circles are found, chains and pairs are not reported.
+TEST(Structure, CirclesAreFound) {
+  const auto including = [](const std::string& header) { return "#include \"" + header + "\"\n"; };
+  Sources sources = {{"editing/a.h", including("editing/b.h")},
+                     {"editing/b.h", ""},
+                     {"editing/b.cpp", including("editing/b.h") + including("editing/c.h")},
+                     {"editing/c.h", ""},
+                     {"editing/c.cpp", including("editing/d.h")},
+                     {"editing/d.h", ""},
+                     {"tests/a.cpp", including("editing/a.h")}};
+  EXPECT_TRUE(circles(sources).empty());
+  sources["editing/b.h"] = including("editing/a.h");
+  EXPECT_EQ(circles(sources), (std::vector<std::vector<std::string>>{{"editing/a", "editing/b"}}));
+  EXPECT_TRUE(circleViolations(sources).empty());
+  sources["editing/d.cpp"] = including("../editing/b.h");  // the header of one and the source of another count alike
+  EXPECT_EQ(circles(sources),
+            (std::vector<std::vector<std::string>>{{"editing/a", "editing/b", "editing/c", "editing/d"}}));
+  ASSERT_EQ(circleViolations(sources).size(), 1u);
+  EXPECT_EQ(circleViolations(sources)[0], "a circle of 4 rooms: editing/a editing/b editing/c editing/d");
 }
 
 // The rules themselves: planted violations are found, what is allowed is not reported.
@@ -57,6 +83,20 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"adjoint/arc.cpp", "\"formats/document.h\"", false},
         Planted{"adjoint/impact/law.cpp", "\"../../formats/document.h\"", false},
         Planted{"editing/edit.cpp", "\"adjoint/contact_source.h\"", true},
+        Planted{"editing/edit.cpp", "\"editing/report/explain.hpp\"", true},
+        Planted{"editing/session/session_solver.cpp", "\"editing/strategy/samples.hpp\"", true},
+        Planted{"editing/report/explain.cpp", "\"editing/strategy/edit_solution.hpp\"", true},
+        Planted{"editing/report/explain.cpp", "\"editing/edit.h\"", false},
+        Planted{"editing/strategy/samples.cpp", "\"editing/report/explain.hpp\"", false},
+        Planted{"editing/solve/projection.cpp", "\"editing/strategy/samples.hpp\"", false},
+        Planted{"editing/solve/projection.cpp", "\"../strategy/samples.hpp\"", false},
+        Planted{"editing/problem/hessian.cpp", "\"editing/solve/projection.hpp\"", false},
+        Planted{"editing/edit_options.h", "\"editing/problem/jacobian.h\"", false},
+        Planted{"editing/detail/messages.cpp", "\"editing/control.h\"", false},
+        Planted{"editing/elsewhere/x.cpp", "\"editing/control.h\"", false},
+        Planted{"editing/edit.h", "\"editing/detail/messages.hpp\"", false},
+        Planted{"cli/main.cpp", "\"editing/detail/messages.hpp\"", false},
+        Planted{"tests/a.cpp", "\"editing/detail/messages.hpp\"", true},
         Planted{"editing/edit.cpp", "\"ode_bridge/ode_contacts.h\"", false},
         Planted{"editing/edit.cpp", "\"formats/document.h\"", false},
         Planted{"ode_bridge/world.cpp", "\"editing/edit.h\"", false},
