@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/edit_options.h"
