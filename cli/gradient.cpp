@@ -48,7 +48,7 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
   for (int i = 0; i < problem.constraints.size(); ++i) {
     const Row& row = problem.constraints.rows()[static_cast<std::size_t>(i)];
     std::vector<std::string> cells{problem.constraints.describeRow(i), out.number(result.rows.values[i]),
-                                   describeWanted(out, row.wanted, row.lower, row.upper), unitOf(row.name)};
+                                   describeWanted(out, row.target, row.lower, row.upper), unitOf(row.name)};
     for (int j = 0; j < problem.controls.size(); ++j) cells.push_back(out.number(result.jacobian(i, j)));
     rows.row(cells);
   }

@@ -12,6 +12,7 @@
 #include "cli/table.h"
 #include "cli/units.h"
 #include "editing/session_replay.h"
+#include "editing/session_numbers.h"
 #include "formats/documents/journal_json.h"
 
 namespace carom::cli {

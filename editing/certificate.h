@@ -47,13 +47,4 @@ struct Certificate {
 inline constexpr int kEnergySamples = 16, kOverlapSamples = 16;
 inline constexpr std::size_t kMarginEvents = 60, kMarginBodies = 100;
 
-struct EditProblem;
-struct RowValues;
-struct Motion;
-
-/// Checks a motion of problem.controls.sceneAt(values), simulated with nothing left out; `unknowns` are those of the
-/// point and `rows` what is held in it. Residuals and reliability are left to the caller, who has them.
-Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
-                    const RowValues& rows);
-
 }  // namespace carom

@@ -13,6 +13,7 @@
 #include "editing/strategy/edit_solution.hpp"
 
 namespace carom {
+using namespace editing_detail;
 
 Edit::Edit(const Scene& scene, ContactSource& contacts, double duration)
     : scene_(scene), contacts_(contacts), duration_(duration) {}
@@ -69,12 +70,6 @@ EditResult Edit::solve(const EditOptions& options) const {
   if (result.solved() && search.halt() != Halt::cancelled) result.alternatives = alternativesTo(scene_, search, solution);
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   return result;
-}
-
-const char* nameOf(EditStatus status) {
-  constexpr const char* kNames[] = {
-      "solved", "solved_sequence_changed", "infeasible", "not_converged", "out_of_time", "cancelled", "bad_start"};
-  return kNames[static_cast<int>(status)];
 }
 
 }  // namespace carom

@@ -9,6 +9,8 @@
 #include "editing/detail/messages.hpp"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 using Kind = SequenceChange::Kind;

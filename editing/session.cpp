@@ -7,8 +7,10 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
+#include "editing/session_numbers.h"
 
 namespace carom {
+using namespace editing_detail;
 
 const char* nameOf(SessionStage stage) {
   constexpr const char* kNames[] = {"kept", "predicted", "improved", "solved"};
@@ -222,6 +224,13 @@ const Constraint& EditSession::constraintOf(NailId id) const {
   }
   throw InputError("nail " + std::to_string(id.value),
                    "found a nail that is not there, expected " + (there.empty() ? "none" : "one of " + listOf(there)));
+}
+
+void EditSession::State::record(SessionGesture gesture) {
+  gesture.reached = last.reached;
+  gesture.distance = last.distance;
+  for (const SessionNumber& number : sessionNumbers(*now.scene, now.controls)) gesture.numbers.push_back(number.value);
+  journal.gestures.push_back(std::move(gesture));
 }
 
 }  // namespace carom

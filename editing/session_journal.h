@@ -9,7 +9,7 @@
 #include "adjoint/scene/scene.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
-#include "editing/edit.h"
+#include "editing/edit_options.h"
 
 namespace carom {
 
@@ -95,13 +95,5 @@ struct SessionJournal {
 };
 const char* nameOf(SessionGesture::Kind kind);
 const char* nameOf(SessionGesture::Ending ending);
-
-/// A number that may vary, as the scene has it.
-struct SessionNumber {
-  std::string name;  ///< "velocity of 'hat', x"
-  double value = 0;  ///< SI
-};
-/// All numbers of a scene that the controls vary, and the others of the same vectors; an orientation as w, x, y, z.
-std::vector<SessionNumber> sessionNumbers(const Scene& scene, const std::vector<Control>& controls);
 
 }  // namespace carom

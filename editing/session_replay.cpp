@@ -7,8 +7,11 @@
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
+#include "editing/session_numbers.h"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 constexpr std::size_t kFewDifferences = 5;

@@ -16,6 +16,8 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::charts {
+using namespace editing_detail;
+
 namespace {
 
 constexpr int kIterations = 100;

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-namespace carom {
+namespace carom::editing_detail {
 
 std::string number(double value) {
   char buffer[32];
@@ -20,4 +20,4 @@ std::string listOf(const std::vector<std::string>& items) {
   return text;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

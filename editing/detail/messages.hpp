@@ -7,7 +7,7 @@
 #include "adjoint/base/errors.h"
 
 /// Small helpers for messages. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Six significant digits: "0.45", "1.2e-07".
 std::string number(double value);
@@ -24,4 +24,4 @@ int findAt(const std::string& where, Find find) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 #if defined(__SANITIZE_THREAD__)
@@ -66,4 +66,4 @@ void ContactPool::give(ContactSource* source) {
   free_.push_back(source);
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

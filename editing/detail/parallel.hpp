@@ -10,7 +10,7 @@
 #include "adjoint/motion/contact_source.h"
 
 /// Work on several cores, with answers that do not depend on how many. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Calls work(0) to work(count - 1), in any order, on up to `threads` cores (0: all there are). Returns when all are
 /// done; an exception of one of them comes out here.
@@ -50,4 +50,4 @@ class ContactPool {
   std::vector<ContactSource*> free_;
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

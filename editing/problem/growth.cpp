@@ -9,7 +9,7 @@
 #include "adjoint/numeric/elementary.hpp"
 #include "editing/problem/controls/natural_scales.h"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// |weights| of a functional of states, in natural scales.
@@ -49,4 +49,4 @@ double growthOf(const Motion& motion, const EditProblem& problem, const RowValue
   return growth;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -4,7 +4,7 @@
 #include "editing/problem/jacobian.h"
 
 /// How sensitive a motion is. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// How much further the numbers that are held move with a small change of the state of the moving bodies at the start
 /// than they would if the bodies had flown freely for as long; of the row with the most. States and rows are in
@@ -14,4 +14,4 @@ namespace carom {
 ///   sqrt(1 + (T/time scale)^2), the farthest that free flight carries a change of velocity in time T.
 double growthOf(const Motion& motion, const EditProblem& problem, const RowValues& rows);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -9,7 +9,7 @@
 // where two faces cross, the value along the way is that of one function Lambda with Lambda_t = 0, so that
 //   d^2 f = Lambda_vv + Lambda_vt r^T + r Lambda_tv + Lambda_tt r r^T.
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 // The seeds of all rows with weight.
@@ -153,4 +153,4 @@ Eigen::MatrixXd validityHessian(const EditProblem& problem, const Eigen::VectorX
   return H;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

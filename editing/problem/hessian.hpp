@@ -4,7 +4,7 @@
 #include "editing/problem/jacobian.h"
 
 /// Second derivatives of an edit. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Second derivatives of weights . (values of the rows, SI) by the unknowns of a problem, whose motion and rows were
 /// read at `unknowns`: exact, by differentiating the adjoint pass (adjoint/second_order/second_order.h). Rows without weight may be
@@ -16,4 +16,4 @@ Eigen::MatrixXd rowsHessian(const EditProblem& problem, const Eigen::VectorXd& u
 Eigen::MatrixXd validityHessian(const EditProblem& problem, const Eigen::VectorXd& unknowns,
                                 const Eigen::VectorXd& weights);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -10,9 +10,10 @@
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/derivative/tangent.h"
 #include "editing/detail/messages.hpp"
-#include "editing/problem/controls/control_families.hpp"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 double checkedDuration(double duration) {
@@ -32,8 +33,7 @@ std::vector<Asked> askedOf(const ControlSet& controls, const ConstraintSet& cons
   std::vector<Asked> asked(orientation.size());
   for (std::size_t i = 0; i < asked.size(); ++i) asked[i] = {orientation[i], false};
   for (const BoundControl& bound : controls.controls()) {
-    const bool shapes_inertia = bound.kind == &kInertiaControl || bound.kind == &kSizeControl;
-    if (shapes_inertia) asked[static_cast<std::size_t>(bound.owner.body)].inertia = true;
+    if (bound.kind->asks_inertia) asked[static_cast<std::size_t>(bound.owner.body)].inertia = true;
   }
   return asked;
 }
@@ -122,7 +122,7 @@ Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const
   const Scene scene = problem.controls.sceneAt(values);
   const std::vector<BoundControl>& controls = problem.controls.controls();
   const bool resized =
-      std::any_of(controls.begin(), controls.end(), [](const BoundControl& c) { return c.kind == &kSizeControl; });
+      std::any_of(controls.begin(), controls.end(), [](const BoundControl& c) { return c.kind->changes_shape; });
   if (!resized) return replay(like, scene, like.geometry, until);
   ContactSource& source = contacts ? *contacts : *problem.contacts;
   source.begin(scene);
@@ -131,7 +131,7 @@ Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const
 
 void askFrictions(const ControlSet& controls, Reliability& reliability) {
   for (const BoundControl& c : controls.controls())
-    if (c.kind == &kFrictionControl) reliability.askFriction(static_cast<int>(c.owner.material));
+    if (c.kind->is_friction) reliability.askFriction(static_cast<int>(c.owner.material));
 }
 
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,

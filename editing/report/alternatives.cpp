@@ -4,7 +4,7 @@
 #include "editing/report/verify.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
 std::vector<EditAlternative> alternativesTo(const Scene& written, const EditSearch& search,
                                             const EditSolution& solution) {
@@ -24,4 +24,4 @@ std::vector<EditAlternative> alternativesTo(const Scene& written, const EditSear
   return alternatives;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

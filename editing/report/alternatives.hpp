@@ -4,11 +4,11 @@
 #include "editing/strategy/edit_solution.hpp"
 
 /// Several solutions of one edit. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// The solutions that a search met besides its best, each simulated afresh, as many as the options ask for; what is
 /// not confirmed is left out.
 std::vector<EditAlternative> alternativesTo(const Scene& written, const EditSearch& search,
                                             const EditSolution& solution);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/certificate.h"
+#include "editing/report/certify.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 #include "editing/report/event_margins.hpp"
 #include "editing/report/motion_checks.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// The instants at which targets are read, and the last one of all, up to which every impact counts. What a region
@@ -77,4 +77,4 @@ Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns,
   return certificate;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

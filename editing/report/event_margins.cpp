@@ -11,7 +11,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/report/event_bars.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 using Way = EventMargin::Way;
@@ -241,4 +241,4 @@ std::vector<EventMargin> eventMargins(DerivativeTape& tape, std::size_t count, c
   return reader.take();
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -8,7 +8,7 @@
 #include "adjoint/derivative/derivative_tape.h"
 
 /// How far the impacts of a motion are from being others. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// One way in which the impacts of a motion can change: a number that is 0 where they do, with its derivative by the
 /// changes of an edit. To first order that is |value| / |gradient| away.
@@ -45,4 +45,4 @@ struct ReadInstant {
 std::vector<EventMargin> eventMargins(DerivativeTape& tape, std::size_t count, const std::vector<ReadInstant>& instants,
                                       const std::function<Eigen::VectorXd(const SceneGradient&)>& byChanges);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

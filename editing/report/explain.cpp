@@ -14,7 +14,7 @@
 #include "editing/report/nail_in_solid.hpp"
 #include "editing/solve/dependence.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr std::size_t kMostConflicts = 4, kMostHelp = 8;
@@ -125,7 +125,7 @@ struct Explanation {
                  c.impact == control.impact;
         }))
       return 0;
-    if (control.vary == "tilt") return 2;
+    if (findControlKind(control.vary)->owner == OwnerKind::impact) return 2;
     const Scene& scene = problem.controls.startScene();
     const auto belongs = [&](const std::string& body) {
       return control.body.empty()
@@ -271,4 +271,4 @@ void explainInto(EditResult& result, const Scene& written, EditSearch& search, c
   }
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

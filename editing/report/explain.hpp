@@ -5,7 +5,7 @@
 #include "editing/why_not.h"
 
 /// Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Why a search ended without meeting all constraints. Solves the edit anew with each of the kTries most helpful
 /// controls added, in at most kTryIterations steps within the impact sequence of the start.
@@ -15,4 +15,4 @@ WhyNot explain(const Scene& written, EditSearch& search, const EditSolution& sol
 void explainInto(EditResult& result, const Scene& written, EditSearch& search, const EditSolution& solution);
 inline constexpr int kTries = 3, kTryIterations = 60;
 
-}  // namespace carom
+}  // namespace carom::editing_detail

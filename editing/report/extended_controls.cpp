@@ -7,7 +7,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/adjoint.h"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Component names of a kind of one owner that the edit varies.
@@ -114,4 +114,4 @@ std::vector<Candidate> candidatesFor(const EditProblem& problem, const EditPoint
   return candidates;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -7,7 +7,7 @@
 #include "editing/solve/edit_search.hpp"
 
 /// Everything else that could vary. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// A control that an edit does not have, or the components of one that it does not vary, with the derivative of the
 /// rows of a point by it.
@@ -24,4 +24,4 @@ struct Candidate {
 std::vector<Candidate> candidatesFor(const EditProblem& problem, const EditPoint& point);
 inline constexpr int kTiltedImpacts = 6;
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -5,7 +5,7 @@
 
 #include "editing/solve/bounded_least_squares.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -91,4 +91,4 @@ std::vector<std::vector<int>> conflictsIn(const LinearReach& reach, double met, 
   return conflicts;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -6,7 +6,7 @@
 #include "editing/solve/edit_search.hpp"
 
 /// What can be reached from a point to first order. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// No number is followed further than this from the point, in natural scales.
 inline constexpr double kLargestStep = 10;
@@ -36,4 +36,4 @@ struct LinearReach {
 /// deletion filtering); disjoint, at most `most`.
 std::vector<std::vector<int>> conflictsIn(const LinearReach& reach, double met, std::size_t most);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -6,7 +6,7 @@
 
 #include "adjoint/motion/body_geometry.h"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Pairs of bodies that are looked at for overlaps; where there would be more, only every so many-th flight is.
@@ -156,4 +156,4 @@ std::optional<double> deepestPenetration(const Motion& motion, int samples) {
   return overlaps.deepest();
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -6,10 +6,10 @@
 #include "adjoint/motion/motion.h"
 
 /// Checks of a motion against physics. Internal to editing/; see Certificate for what each says.
-namespace carom {
+namespace carom::editing_detail {
 
 double energyDrift(const Motion& motion, int samples);
 double energyGain(const Motion& motion);
 std::optional<double> deepestPenetration(const Motion& motion, int samples);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

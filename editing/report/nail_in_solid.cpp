@@ -8,7 +8,7 @@
 
 #include "adjoint/base/errors.h"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Radius of a ball about the shape's origin that lies within the shape, m.
@@ -102,4 +102,4 @@ std::vector<WhyNot::Inside> nailsInSolids(const EditProblem& problem, const Scen
   return found;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

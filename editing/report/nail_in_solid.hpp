@@ -7,7 +7,7 @@
 #include "editing/why_not.h"
 
 /// Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Nails at which the body would overlap a fixed body that nothing moves. A nail of place and orientation is tried with
 /// the body itself, one of place alone with a ball about the shape's origin that the body holds whichever way it turns
@@ -15,4 +15,4 @@ namespace carom {
 /// problem's source of contacts, which finds bodies that overlap.
 std::vector<WhyNot::Inside> nailsInSolids(const EditProblem& problem, const Scene& scene);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

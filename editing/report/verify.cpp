@@ -7,8 +7,9 @@
 
 #include "adjoint/derivative/adjoint.h"
 #include "editing/detail/messages.hpp"
+#include "editing/report/certify.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 std::vector<std::string> describeEvents(const Motion& motion) {
@@ -30,7 +31,7 @@ std::vector<HeldNumber> heldNumbers(const ConstraintSet& constraints, const RowV
   std::vector<HeldNumber> held;
   for (int i = 0; i < constraints.size(); ++i) {
     const Row& row = constraints.rows()[i];
-    held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.wanted, rows.residuals[i],
+    held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.target, rows.residuals[i],
                     rows.scaled[i], row.lower, row.upper});
   }
   return held;
@@ -176,4 +177,4 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   return result;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -4,10 +4,10 @@
 #include "editing/strategy/edit_solution.hpp"
 
 /// The last stage of solving an edit. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Simulates the scene of a solution afresh, over the whole duration and with nothing left out, and reports what that
 /// motion says: a solution that it does not confirm is not called solved. `written` is the scene before the edit.
 EditResult verify(const Scene& written, const EditSearch& search, const EditSolution& solution);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -8,7 +8,7 @@
 #include "editing/session/session_solver.hpp"
 #include "editing/solve/dependence.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Below this violation, dimensionless, steps are taken whole even if the curvature of the constraints makes it larger
@@ -231,4 +231,4 @@ void SessionSolver::descend(EditPointPtr at, Work& work, int most) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -5,7 +5,7 @@
 #include "adjoint/base/errors.h"
 #include "editing/session/session_solver.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// With more than this share of the moving bodies there is little to gain.
@@ -117,4 +117,4 @@ void SessionSolver::finish(Work& work) {
   if (!agrees) finishHere(work);
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

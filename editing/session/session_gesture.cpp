@@ -8,6 +8,8 @@
 #include "editing/session/session_state.hpp"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;

@@ -7,7 +7,7 @@
 
 #include "editing/report/event_margins.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// A kink changes the derivatives by more than this share of them; less is their curvature.
@@ -64,4 +64,4 @@ std::vector<Kink> jumpsBetween(const EditProblem& problem, const EditPoint& a, c
   return jumps;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -7,7 +7,7 @@
 #include "editing/solve/edit_search.hpp"
 
 /// Borders of impact sequences that a motion crosses without a jump. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// The plane normal . y = offset in the space of the unknowns.
 struct Kink {
@@ -25,4 +25,4 @@ std::optional<Kink> kinkBetween(const EditProblem& problem, const EditPoint& a, 
 /// another sequence than `b`, and b: to first order at a, and a little on its side of them.
 std::vector<Kink> jumpsBetween(const EditProblem& problem, const EditPoint& a, const EditPoint& b);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -7,7 +7,7 @@
 #include "editing/sequence_changes.h"
 #include "editing/session/session_solver.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr std::size_t kFewChanges = 3;
@@ -87,4 +87,4 @@ std::string SessionSolver::describeObstacle() {
   return "The work of one update was done before it was there." + at_bounds;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

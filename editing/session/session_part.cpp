@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -81,4 +81,4 @@ Eigen::VectorXd ScenePart::restrict(const Eigen::VectorXd& whole) const { return
 
 void ScenePart::extend(const Eigen::VectorXd& part, Eigen::VectorXd& whole) const { whole(unknowns) = part; }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

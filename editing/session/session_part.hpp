@@ -7,7 +7,7 @@
 #include "editing/solve/edit_search.hpp"
 
 /// The part of a scene that a gesture depends on. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// The moving bodies, one flag a body of the scene, that can have had an influence on what the constraints read: those
 /// that they are about, and those that met them, or met such a body, before.
@@ -31,4 +31,4 @@ ScenePart scenePart(const EditProblem& problem, const std::vector<bool>& moving)
 /// Fills in ScenePart::unknowns; false where the part's numbers are not the same unknowns as those of the whole.
 bool matchUnknowns(const EditProblem& whole, const EditProblem& problem, ScenePart& part);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
+#include "editing/solve/minimise.hpp"
 #include "editing/strategy/edit_solution.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// From this share of the duration on all of it is simulated, so that the motion to show is there already.
@@ -47,9 +48,10 @@ EditPointPtr SessionSolver::evaluate(const Eigen::VectorXd& changes) const {
 void SessionSolver::aim(int target, const std::vector<double>& value) {
   problem_.constraints.setTarget(goal_, target, value);
   // Errors are other ones; derivatives of places are the same, those of a turn depend on where it is to end.
-  const bool turns = problem_.constraints.constraints()[static_cast<std::size_t>(goal_)]
-                         .targets[static_cast<std::size_t>(target)]
-                         .quantity == "orientation";
+  const std::vector<Row>& rows = problem_.constraints.rows();
+  const bool turns = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
+    return row.constraint == goal_ && row.target_index == target && row.kind && row.kind->from_target;
+  });
   for (const EditPointPtr& point : {start_, point_}) {
     readRows(problem_, *point);
     if (turns) point->row_jacobian.reset();
@@ -112,4 +114,4 @@ void SessionSolver::finishHere(Work& work) {
   if (const EditPointPtr again = evaluate(found->changes)) keepIfBetter(again);
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -15,7 +15,7 @@
 #include "editing/strategy/samples.hpp"
 
 /// One gesture as an edit whose targets move. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 class SessionSolver {
  public:
@@ -98,4 +98,4 @@ class SessionSolver {
   std::unique_ptr<SessionSolver> part_;  // null: not divided
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -12,6 +12,9 @@
 /// What an EditSession keeps. Internal to editing/.
 namespace carom {
 
+using editing_detail::SessionSolver;
+using editing_detail::Work;
+
 struct SessionNail {
   NailId id;
   Constraint constraint;

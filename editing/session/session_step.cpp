@@ -10,7 +10,7 @@
 
 #include "editing/solve/dependence.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Pivots below this fraction of the largest count as zero, of hard rows brought to unit length.
@@ -198,4 +198,4 @@ Step hierarchicalStep(const StepProblem& problem) {
   return step;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

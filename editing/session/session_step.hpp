@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 /// One step of a drag from first derivatives. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Rows r + J d of a step d.
 struct LinearRows {
@@ -34,4 +34,4 @@ struct Step {
 
 Step hierarchicalStep(const StepProblem& problem);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

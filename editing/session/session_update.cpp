@@ -10,6 +10,8 @@
 #include "editing/session/session_state.hpp"
 
 namespace carom {
+using namespace editing_detail;
+
 std::string earlyEnd(const Motion& motion) {
   if (motion.status == MotionStatus::complete) return "";
   return "The motion ends at " + number(motion.end) + " s: " + motion.message + ".";

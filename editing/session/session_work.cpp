@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr double kLongestWait = 1e8;  // s, that a clock can add
@@ -36,4 +36,4 @@ void Work::takeReserved() {
   spent_ += price_;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

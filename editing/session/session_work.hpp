@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// How much an update may still do: counted, so that it is the same everywhere, and watched by the clock for safety.
 /// Internal to editing/.
@@ -35,4 +35,4 @@ class Work {
   std::optional<std::chrono::steady_clock::time_point> deadline_;
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

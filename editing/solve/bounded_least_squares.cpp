@@ -7,7 +7,7 @@
 
 #include <Eigen/QR>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 using Eigen::Index;
@@ -94,4 +94,4 @@ VectorXd boundedLeastSquares(const Eigen::MatrixXd& A, const VectorXd& b, const 
   return set.x;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 /// Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// x that minimises |A x + b|^2 + (kSmallness |x|)^2 subject to lower <= x <= upper (which may be infinite), by the
 /// active set of Stark and Parker (Computational Statistics 10, 1995). The second term makes it unique.
@@ -12,4 +12,4 @@ Eigen::VectorXd boundedLeastSquares(const Eigen::MatrixXd& A, const Eigen::Vecto
                                     const Eigen::VectorXd& upper);
 inline constexpr double kSmallness = 1e-7;
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Weights below this are rounding.
@@ -87,4 +87,4 @@ double contradictionOf(const RowSplit& split, const DependentRow& row, const Eig
   return residuals[row.row] - combined;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// A row of a Jacobian that is a combination of others: row = sum_k weights[k] * independent[k].
 struct DependentRow {
@@ -39,4 +39,4 @@ Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& jacobian, double tolerance = kR
 /// residual less the same combination of theirs.
 double contradictionOf(const RowSplit& split, const DependentRow& row, const Eigen::VectorXd& residuals);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -7,7 +7,7 @@
 
 #include "editing/problem/hessian.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature)
     : search_(search),
       start_(std::move(start)),
@@ -126,4 +126,4 @@ bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::
   return true;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

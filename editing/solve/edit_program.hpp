@@ -9,7 +9,7 @@
 #include "editing/solve/progress_monitor.hpp"
 
 /// An edit as a nonlinear program. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// minimise 1/2 |y|^2 subject to chosen rows = 0, ranges, validity >= 0, bounds; y the unknowns of EditProblem, of
 /// which the free times cost nothing.
@@ -34,7 +34,7 @@ class EditProgram final : public NonlinearProgram {
   bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                Eigen::MatrixXd& h) override;
   /// Also stops where the violation hardly falls any more: at the border of the impact sequence, mostly.
-  bool iteration(const Iteration& i) override { return patience_.allows(search_, i); }
+  bool iteration(const Iteration& i) override { return monitor_.allows(search_, i); }
 
  private:
   EditPointPtr at(const Eigen::VectorXd& x);
@@ -47,9 +47,9 @@ class EditProgram final : public NonlinearProgram {
   std::size_t equations_;  // how many
   const std::string* signature_;
   std::vector<Eigen::MatrixXd> curvature_;  // of each constraint
-  Patience patience_;
+  ProgressMonitor monitor_;
   Eigen::VectorXd last_x_;
   Eigen::MatrixXd last_dg_dx_;
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

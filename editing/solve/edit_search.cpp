@@ -8,7 +8,7 @@
 
 #include "adjoint/base/errors.h"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr std::size_t kRecentPoints = 4;
@@ -147,4 +147,4 @@ void EditSearch::consider(const EditPointPtr& point) {
   best_ = point;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "editing/edit.h"
+#include "editing/edit_options.h"
 #include "editing/problem/jacobian.h"
 
 /// Points, and how one is improved. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// An impact that is held may come later than at the start: so much of its time is simulated at first.
 inline constexpr double kMarginAfterLast = 1.25;
@@ -80,7 +80,7 @@ class EditSearch {
   void consider(const EditPointPtr& point);
 
   /// Fills in the point's derivatives.
-  void differentiate(EditPoint& point) const { carom::differentiate(problem_, point); }
+  void differentiate(EditPoint& point) const { editing_detail::differentiate(problem_, point); }
 
   /// The best point so far: within the tolerance the smallest change, else the smallest violation. By value: what goes
   /// on from it finds better ones, and it must stay alive meanwhile.
@@ -114,4 +114,4 @@ class EditSearch {
   Halt halt_ = Halt::none;
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr Number kIpoptInfinity = 2e19;  // beyond Ipopt's nlp_upper_bound_inf
@@ -304,4 +304,4 @@ SolverResult solveWithIpopt(NonlinearProgram& program, const SolverOptions& opti
   return result;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -7,7 +7,7 @@
 
 #include "editing/solve/nonlinear_program.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
 enum class SolverStatus {
   converged,
@@ -47,4 +47,4 @@ struct SolverResult {
 /// on; one out of an evaluation counts as a refused point.
 SolverResult solveWithIpopt(NonlinearProgram& program, const SolverOptions& options = {});
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// minimise f(x) subject to x_lower <= x <= x_upper, g_lower <= g(x) <= g_upper. Infinite bounds are allowed; equal
 /// ones make an equation. Functions that evaluate return false where x cannot be evaluated or is not wanted: the solver
@@ -46,4 +46,4 @@ class NonlinearProgram {
   virtual bool iteration(const Iteration&) { return true; }
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -8,11 +8,11 @@
 #include "editing/solve/edit_search.hpp"
 #include "editing/solve/nonlinear_program.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
-/// How long a solver may go on: it is given up when so many iterations (kMark) neither bring the violation below a
+/// Whether a solver still gets on: it is given up when so many iterations (kMark) neither bring the violation below a
 /// fraction of what it was nor, once it is small, still make the change smaller. Internal to editing/.
-class Patience {
+class ProgressMonitor {
  public:
   /// Counts an iteration of the solver as a step of the search; false where it should stop.
   bool allows(EditSearch& search, const NonlinearProgram::Iteration& i) {
@@ -36,4 +36,4 @@ class Patience {
   double objective_at_mark_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

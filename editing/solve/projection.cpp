@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Validity rows nearer than this to their limit are held at it.
@@ -189,4 +189,4 @@ EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int m
   return nearest;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

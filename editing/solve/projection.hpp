@@ -6,7 +6,7 @@
 #include "editing/solve/edit_search.hpp"
 
 /// Straight onto the constraints, without minimising the change. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Gauss-Newton steps onto the constraints, each the smallest change that meets the linearised rows within the bounds;
 /// damped (Levenberg and Marquardt) where no way along such a step makes the violation smaller. Quadratic near a
@@ -21,4 +21,4 @@ Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, d
 /// Scaled residuals of all rows after a step, to first order.
 Eigen::VectorXd residualsAfter(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& step);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

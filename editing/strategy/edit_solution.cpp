@@ -7,16 +7,14 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/growth.hpp"
 #include "editing/solve/dependence.hpp"
-#include "editing/solve/edit_program.hpp"
-#include "editing/solve/ipopt_solver.hpp"
+#include "editing/solve/minimise.hpp"
 #include "editing/solve/projection.hpp"
 #include "editing/strategy/row_choice.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
-constexpr int kProjectionSteps = 15;
 constexpr int kPolishSteps = 15;
 /// Rounds of the search across impact sequences.
 constexpr int kRounds = 6;
@@ -72,47 +70,6 @@ EditSolution unsolved(EditSearch& search, EditSolution solution) {
   }
   return solution;
 }
-
-}  // namespace
-
-EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
-                            const std::string* signature, int max_iterations) {
-  if (max_iterations <= 0) return from;
-  // From a point that meets the constraints the solver has only the change left to minimise.
-  const EditPointPtr projected = projectOntoConstraints(search, from, kProjectionSteps, signature);
-  const EditPointPtr start = search.reached(*projected) ? projected : from;
-  EditProgram program(search, start->changes, rows, signature);
-  SolverOptions options;
-  options.max_iterations = max_iterations;
-  options.tolerance = 1e-8;
-  options.constraint_tolerance = std::max(search.options().tolerance, 1e-10);
-  options.deadline = search.deadline();
-  const SolverResult result = solveWithIpopt(program, options);
-  EditPointPtr end = search.evaluate(result.x);
-  if (!end || (signature && end->signature != *signature)) return start;
-  end = projectOntoConstraints(search, end, kPolishSteps, signature);
-  const bool worse = search.reached(*start) && (!search.reached(*end) || end->objective > start->objective);
-  return worse ? start : end;
-}
-
-EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
-                            int max_iterations) {
-  EditSearch smooth = search.branch({nullptr, from}, false);
-  const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
-  search.adopt(smooth);
-  const EditPointPtr real = search.make(end->changes, false, {nullptr, nullptr, true});
-  if (real) search.consider(real);
-  return real;
-}
-
-EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {
-  search.differentiate(*point);
-  const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
-  return minimiseChange(search, point, split.independent, &point->signature,
-                        std::min(max_iterations, search.iterationsLeft()));
-}
-
-namespace {
 
 /// The smallest change within the impact sequence of the start; null where none was found. First as if its features had
 /// no edges: trials may leave the sequence on the way, and where they end outside of it they show where to look.
@@ -185,4 +142,4 @@ EditSolution findSolution(EditSearch& search) {
   return solution;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "editing/edit_result.h"
 #include "editing/solve/edit_search.hpp"
 
 /// The stages of solving an edit. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Where a search ended.
 struct EditSolution {
@@ -20,16 +21,4 @@ struct EditSolution {
 
 EditSolution findSolution(EditSearch& search);
 
-/// Smallest change near `from` that meets `rows` (of those that hold a number; ranges count always), then all rows as
-/// well as possible. With a signature, within that impact sequence. Returns the point where it ended; the search
-/// remembers the best of all.
-EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
-                            const std::string* signature, int max_iterations);
-/// The same within the impact sequence of a point that meets all rows.
-EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations);
-/// The same along the impact sequence of a point as if its features had no edges (adjoint/simulate/replay.h). Returns the point
-/// where that ended, with the motion that it really has, which may be of another sequence; or null.
-EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
-                            int max_iterations);
-
-}  // namespace carom
+}  // namespace carom::editing_detail

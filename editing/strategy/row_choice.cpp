@@ -7,7 +7,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/solve/dependence.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr int kPointsBeside = 2;
@@ -44,9 +44,9 @@ std::string offBy(const EditSearch& search, const EditPoint& point, int row) {
 /// With the number that it shall have, where it is one that can be read: two nails of one thing are told apart by it.
 std::string withTarget(const ConstraintSet& constraints, int index) {
   const Row& row = constraints.rows()[static_cast<std::size_t>(index)];
-  const bool turn = row.name.rfind("orientation", 0) == 0;
-  if (turn || !std::isfinite(row.wanted)) return constraints.describeRow(index);
-  return constraints.describeRow(index) + " = " + number(row.wanted);
+  const bool measured_from_it = row.kind && row.kind->from_target;
+  if (measured_from_it || !std::isfinite(row.target)) return constraints.describeRow(index);
+  return constraints.describeRow(index) + " = " + number(row.target);
 }
 
 std::string explainContradictions(const EditSearch& search, const EditPoint& start, const RowSplit& split) {
@@ -94,4 +94,4 @@ RowChoice chooseRows(EditSearch& search, const EditPointPtr& start) {
   return choice;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

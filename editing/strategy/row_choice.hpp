@@ -7,7 +7,7 @@
 #include "editing/solve/edit_search.hpp"
 
 /// Which rows the solver gets. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Rows that say the same as others would stop the solver, and rows that nothing influences cannot be met.
 struct RowChoice {
@@ -21,4 +21,4 @@ struct RowChoice {
 /// holds at all of them is taken as true of the whole impact sequence, the rest as a coincidence.
 RowChoice chooseRows(EditSearch& search, const EditPointPtr& start);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -7,7 +7,7 @@
 
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Half widths of boxes and lengths along free directions, natural scales; used in turn.
@@ -105,4 +105,4 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
   return list;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

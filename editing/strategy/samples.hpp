@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 /// Points spread evenly, the same ones every time. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// A sequence of low discrepancy: point k has the coordinates frac(1/2 + (k + 1) / g^j), where g^(m+1) = g + 1 (the
 /// R_m sequence; for m = 1 g is the golden ratio), m = 2 d: onSphere needs as many. Every beginning of it covers the
@@ -37,4 +37,4 @@ struct Surroundings {
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "editing/solve/dependence.hpp"
+#include "editing/solve/minimise.hpp"
 #include "editing/solve/projection.hpp"
-#include "editing/strategy/edit_solution.hpp"
 #include "editing/strategy/samples.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr int kSampleRounds = 8;
@@ -179,4 +179,4 @@ void SequenceSearch::add(const EditPointPtr& solution) {
                    [](const EditPointPtr& a, const EditPointPtr& b) { return a->objective < b->objective; });
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -9,7 +9,7 @@
 #include "editing/solve/edit_search.hpp"
 
 /// Solutions in other impact sequences. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// A local discrete search, after Harada, Witkin and Baraff (1995), in rounds. Each simulates samples around the start
 /// and the best point on all cores, groups them by impact sequence, goes from the most promising of each group onto the
@@ -50,4 +50,4 @@ class SequenceSearch {
 /// Whether two solutions differ in their impact sequence, or else clearly in their numbers.
 bool areDistinct(const EditPoint& a, const EditPoint& b);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

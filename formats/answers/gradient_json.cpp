@@ -16,7 +16,7 @@ void writeRows(JsonWriter& out, const ConstraintSet& constraints, const RowValue
     out.key("constraint").integer(row.constraint);
     out.key("component").text(row.name);
     out.key("value").number(rows.values[i]);
-    out.key("target").number(row.wanted);
+    out.key("target").number(row.target);
     if (row.isRange()) out.key("min").number(row.lower).key("max").number(row.upper);
     out.endObject();
   }

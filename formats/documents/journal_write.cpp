@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "formats/documents/journal_json.h"
 #include "formats/documents/scene_writer.hpp"
+#include "formats/documents/journal_json.h"
+#include "editing/session_numbers.h"
 #include "formats/json/json_writer.hpp"
 
 namespace carom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/certificate.h"
+#include "editing/report/certify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,8 @@
 #include "tests/editing/scenes.h"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 using namespace testing_scenes;

@@ -12,6 +12,8 @@
 #include "tests/editing/scenes.h"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 using namespace testing_scenes;

@@ -9,6 +9,8 @@
 #include "tests/support/compare.h"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 using test::expectEntries;

@@ -14,6 +14,8 @@
 #include "tests/editing/scenes.h"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 using namespace testing_scenes;

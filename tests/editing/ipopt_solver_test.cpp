@@ -18,6 +18,8 @@
 #include "tests/editing/scenes.h"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 using testing_scenes::kInfinity;

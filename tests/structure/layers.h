@@ -8,13 +8,8 @@
 
 namespace carom::structure {
 
-/// Sentences about includes of one file that go up in the layers of its library: a sub-folder includes itself and those
-/// that stand before it in the list of its library. What stands in no sub-folder is on top of all of them, unless the
-/// list says where ("." is the folder itself).
+/// Sentences about a file of a library that has layers: those of its includes that stand above it, and files that belong
+/// to no layer.
 std::vector<std::string> layerViolations(const std::string& path, const std::string& text);
-
-/// A room is a header and the source file of the same name. Circles of more than two rooms that include one another, in
-/// the folders of the product: each as its rooms in alphabetical order.
-std::vector<std::vector<std::string>> circles(const Sources& sources);
 
 }  // namespace carom::structure

@@ -10,6 +10,7 @@
 #include "tests/structure/layers.h"
 #include "tests/structure/lengths.h"
 #include "tests/structure/public_headers.h"
+#include "tests/structure/rooms.h"
 
 namespace carom::structure {
 namespace {
@@ -48,6 +49,8 @@ const std::vector<Confined>& confinedLibraries() {
       {"nlohmann", std::regex("nlohmann/.*"),
        std::regex("((formats|studio)/.*\\.cpp|formats/.*\\.hpp|tests/.*)"),
        "formats/*.cpp, formats/*.hpp, studio/*.cpp and tests"},
+      {"editing's private headers", std::regex("editing/.*\\.hpp"), std::regex("editing/.*\\.(cpp|hpp)|(tests|bench)/.*"),
+       "editing/*.cpp, editing/*.hpp, tests and bench"},
       {"valijson", std::regex("valijson/.*"), std::regex("(formats|studio|tests)/.*\\.cpp"),
        "formats/*.cpp, studio/*.cpp and tests"},
       {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests|fuzz)/.*\\.cpp"),
@@ -99,12 +102,6 @@ bool contains(const std::vector<std::string>& list, const std::string& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
 }
 
-// "../formats/x.h" in editing/a.cpp means formats/x.h.
-std::string resolved(const std::string& path, const std::string& include) {
-  if (!include.starts_with(".")) return include;
-  return (std::filesystem::path(path).parent_path() / include).lexically_normal().generic_string();
-}
-
 bool includesIpopt(const std::string& text) {
   const auto& rows = confinedLibraries();
   const auto ipopt = std::find_if(rows.begin(), rows.end(), [](const Confined& r) { return r.library == "Ipopt"sv; });
@@ -114,6 +111,11 @@ bool includesIpopt(const std::string& text) {
 }
 
 }  // namespace
+
+std::string resolved(const std::string& path, const std::string& include) {
+  if (!include.starts_with(".")) return include;
+  return (std::filesystem::path(path).parent_path() / include).lexically_normal().generic_string();
+}
 
 std::string folderOf(const std::string& path) { return path.substr(0, path.find('/')); }
 
@@ -176,13 +178,8 @@ std::vector<std::string> violations(const Sources& sources) {
     for (const std::string& path : with_ipopt) sentence += " " + path;
     found.push_back(sentence);
   }
-  for (const auto& circle : circles(sources)) {
-    std::string sentence = "these include one another in a circle:";
-    for (const std::string& room : circle) sentence += " " + room;
-    found.push_back(sentence);
-  }
-  const auto twice = typesDefinedTwice(sources);
-  found.insert(found.end(), twice.begin(), twice.end());
+  for (const auto& more : {circleViolations(sources), typesDefinedTwice(sources)})
+    found.insert(found.end(), more.begin(), more.end());
   return found;
 }
 

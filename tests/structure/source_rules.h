@@ -14,6 +14,9 @@ using Sources = std::map<std::string, std::string>;
 /// Every .h, .hpp and .cpp file of the folders that hold code.
 Sources readSources(const std::filesystem::path& root);
 
+/// An include as a path from the project root: "../formats/x.h" in editing/a.cpp means formats/x.h.
+std::string resolved(const std::string& path, const std::string& include);
+
 /// "adjoint" of "adjoint/scene/scene.h".
 std::string folderOf(const std::string& path);
 

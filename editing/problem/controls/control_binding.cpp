@@ -8,7 +8,7 @@
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Lower bound of strictly positive numbers that are weighed linearly, relative to their start.
@@ -143,4 +143,4 @@ Interval boundsOf(const BoundControl& bound, int k, int count, double start, con
   return bounds;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -6,7 +6,7 @@
 #include "editing/problem/controls/control_set.h"
 
 /// Resolving one control against a scene, with every check on what a person can write. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// Adds a zero Tilt to `scene` where a tilt control needs one. Throws InputError starting at `where`.
 BoundControl bindControl(Scene& scene, const Control& control, const std::string& where);
@@ -20,4 +20,4 @@ struct Interval {
 /// Bounds of the k-th of `count` varying components: the person's inside the physical ones. `start` is its value.
 Interval boundsOf(const BoundControl& bound, int k, int count, double start, const std::string& where);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -4,7 +4,7 @@
 #include "editing/problem/controls/control_kinds.h"
 
 /// The rows of the table of controls, each defined in its family's file. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 extern const ControlKind kPositionControl, kOrientationControl, kVelocityControl, kAngularVelocityControl,
     kGravityControl;  // controls_of_motion.cpp
@@ -21,4 +21,4 @@ inline Eigen::VectorXd oneNumber(double value) { return Eigen::VectorXd::Constan
 inline Eigen::VectorXd oneScale(const Scene&, const ControlOwner&) { return oneNumber(1); }
 inline Eigen::VectorXd xyzScale(const Scene&, const ControlOwner&) { return Vec3::Ones(); }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -4,6 +4,8 @@
 #include "editing/problem/controls/control_families.hpp"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 const ControlKind* const kTable[] = {

@@ -23,14 +23,15 @@ struct ControlOwner {
 struct ControlKind {
   const char* word;  ///< in the scene document
   OwnerKind owner;
-  bool logarithmic;     ///< changes are weighed as log(value / start); otherwise as (value - start) / scale
-  double lower, upper;  ///< physical bounds
-  bool strictly_positive;
+  bool logarithmic = false;  ///< changes are weighed as log(value / start); otherwise as (value - start) / scale
+  /// Physical bounds.
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  bool strictly_positive = false;
 
   std::vector<std::string> (*components)(const Scene&, const ControlOwner&);
   /// Rewrites how the scene says things, without changing the motion, so that the numbers of this kind are written in
   /// it and everything else stays as written. May be null.
-  void (*prepare)(Scene&, const ControlOwner&);
+  void (*prepare)(Scene&, const ControlOwner&) = nullptr;
   Eigen::VectorXd (*get)(const Scene&, const ControlOwner&);
   /// Writes values into `scene`, a copy of `start`.
   void (*set)(const Eigen::VectorXd& values, const Scene& start, const ControlOwner&, Scene& scene);
@@ -42,6 +43,12 @@ struct ControlKind {
   /// How `gather` of one and the same derivative changes as the values change at `rates`; null where it does not.
   Eigen::VectorXd (*gather_rate)(const SceneGradient&, const ControlOwner&, const Eigen::VectorXd& values,
                                  const Eigen::VectorXd& rates) = nullptr;
+
+  bool asks_inertia = false;    ///< its derivatives need those by the moments of inertia
+  bool keeps_triangle = false;  ///< three moments of inertia: none is larger than the sum of the others
+  bool changes_shape = false;   ///< features come to lie elsewhere on the body
+  bool is_friction = false;     ///< a coefficient of friction
+  bool is_turn = false;         ///< its numbers are a rotation vector from where the body was
 };
 
 /// All kinds, in the order of control.h.

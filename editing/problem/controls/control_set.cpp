@@ -12,6 +12,8 @@
 #include "editing/problem/controls/control_binding.hpp"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 std::string pointerOf(int control) { return "/controls/" + std::to_string(control); }
@@ -39,7 +41,8 @@ std::string describe(const Control& control) {
   std::string text = control.vary;
   if (!control.body.empty()) text += " of '" + control.body + "'";
   if (!control.material.empty()) text += " of '" + control.material + "'";
-  if (control.vary == "tilt") text += " at impact " + std::to_string(control.impact);
+  const ControlKind* kind = findControlKind(control.vary);
+  if (kind && kind->owner == OwnerKind::impact) text += " at impact " + std::to_string(control.impact);
   return text;
 }
 

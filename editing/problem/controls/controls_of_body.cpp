@@ -10,7 +10,7 @@
 
 #include "adjoint/scene/body_model.h"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 void prepareMass(Scene& scene, const ControlOwner& o) {
@@ -74,20 +74,52 @@ void scatterSize(const Eigen::VectorXd& rates, const ControlOwner& o, const Eige
 
 }  // namespace
 
-const ControlKind kMassControl{"mass",       OwnerKind::free_body,
-                               true,         0,
-                               kUnbounded,   true,
-                               oneComponent, prepareMass,
-                               getMass,      setMass,
-                               gatherMass,   scatterMass,
-                               oneScale};
+const ControlKind kMassControl{
+    .word = "mass",
+    .owner = OwnerKind::free_body,
+    .logarithmic = true,
+    .lower = 0,
+    .strictly_positive = true,
+    .components = oneComponent,
+    .prepare = prepareMass,
+    .get = getMass,
+    .set = setMass,
+    .gather = gatherMass,
+    .scatter = scatterMass,
+    .scale = oneScale,
+};
 
-const ControlKind kInertiaControl{"inertia",     OwnerKind::free_body, true,           0,          kUnbounded,
-                                  true,          xyzComponents,          prepareInertia, getInertia, setInertia,
-                                  gatherInertia, scatterInertia,         xyzScale};
+const ControlKind kInertiaControl{
+    .word = "inertia",
+    .owner = OwnerKind::free_body,
+    .logarithmic = true,
+    .lower = 0,
+    .strictly_positive = true,
+    .components = xyzComponents,
+    .prepare = prepareInertia,
+    .get = getInertia,
+    .set = setInertia,
+    .gather = gatherInertia,
+    .scatter = scatterInertia,
+    .scale = xyzScale,
+    .asks_inertia = true,
+    .keeps_triangle = true,
+};
 
 // A size is weighed relative to itself.
-const ControlKind kSizeControl{"size",  OwnerKind::body, false,   0,          kUnbounded,  true,   sizeComponents,
-                               nullptr, getSize,         setSize, gatherSize, scatterSize, getSize};
+const ControlKind kSizeControl{
+    .word = "size",
+    .owner = OwnerKind::body,
+    .lower = 0,
+    .strictly_positive = true,
+    .components = sizeComponents,
+    .get = getSize,
+    .set = setSize,
+    .gather = gatherSize,
+    .scatter = scatterSize,
+    .scale = getSize,
+    .asks_inertia = true,
+    .changes_shape = true,
+};
 
-}  // namespace carom
+}  // namespace carom::editing_detail

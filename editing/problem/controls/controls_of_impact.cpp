@@ -4,7 +4,7 @@
 
 #include "editing/problem/controls/control_families.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 std::vector<std::string> tiltComponents(const Scene&, const ControlOwner&) { return {"alpha", "beta"}; }
@@ -23,7 +23,15 @@ Eigen::VectorXd scaleTilt(const Scene&, const ControlOwner&) { return Vec2::Ones
 
 }  // namespace
 
-const ControlKind kTiltControl{"tilt",  OwnerKind::impact, false,   -kUnbounded, kUnbounded,  false,    tiltComponents,
-                               nullptr, getTilt,           setTilt, gatherTilt,  scatterTilt, scaleTilt};
+const ControlKind kTiltControl{
+    .word = "tilt",
+    .owner = OwnerKind::impact,
+    .components = tiltComponents,
+    .get = getTilt,
+    .set = setTilt,
+    .gather = gatherTilt,
+    .scatter = scatterTilt,
+    .scale = scaleTilt,
+};
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -3,7 +3,7 @@
 
 #include "editing/problem/controls/control_families.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 template <double Material::*kField, double MaterialDerivative::*kRate>
@@ -29,46 +29,43 @@ using TangentialElasticity =
 
 }  // namespace
 
-const ControlKind kElasticityControl{"elasticity",
-                                     OwnerKind::material,
-                                     false,
-                                     0,
-                                     1,
-                                     false,
-                                     oneComponent,
-                                     nullptr,
-                                     Elasticity::get,
-                                     Elasticity::set,
-                                     Elasticity::gather,
-                                     Elasticity::scatter,
-                                     oneScale};
+const ControlKind kElasticityControl{
+    .word = "elasticity",
+    .owner = OwnerKind::material,
+    .lower = 0,
+    .upper = 1,
+    .components = oneComponent,
+    .get = Elasticity::get,
+    .set = Elasticity::set,
+    .gather = Elasticity::gather,
+    .scatter = Elasticity::scatter,
+    .scale = oneScale,
+};
 
-const ControlKind kFrictionControl{"friction",
-                                   OwnerKind::material,
-                                   false,
-                                   0,
-                                   kUnbounded,
-                                   false,
-                                   oneComponent,
-                                   nullptr,
-                                   Friction::get,
-                                   Friction::set,
-                                   Friction::gather,
-                                   Friction::scatter,
-                                   oneScale};
+const ControlKind kFrictionControl{
+    .word = "friction",
+    .owner = OwnerKind::material,
+    .lower = 0,
+    .components = oneComponent,
+    .get = Friction::get,
+    .set = Friction::set,
+    .gather = Friction::gather,
+    .scatter = Friction::scatter,
+    .scale = oneScale,
+    .is_friction = true,
+};
 
-const ControlKind kTangentialElasticityControl{"tangential_elasticity",
-                                               OwnerKind::material,
-                                               false,
-                                               -1,
-                                               1,
-                                               false,
-                                               oneComponent,
-                                               nullptr,
-                                               TangentialElasticity::get,
-                                               TangentialElasticity::set,
-                                               TangentialElasticity::gather,
-                                               TangentialElasticity::scatter,
-                                               oneScale};
+const ControlKind kTangentialElasticityControl{
+    .word = "tangential_elasticity",
+    .owner = OwnerKind::material,
+    .lower = -1,
+    .upper = 1,
+    .components = oneComponent,
+    .get = TangentialElasticity::get,
+    .set = TangentialElasticity::set,
+    .gather = TangentialElasticity::gather,
+    .scatter = TangentialElasticity::scatter,
+    .scale = oneScale,
+};
 
-}  // namespace carom
+}  // namespace carom::editing_detail

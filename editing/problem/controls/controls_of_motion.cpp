@@ -8,7 +8,7 @@
 #include "editing/problem/controls/control_families.hpp"
 #include "editing/problem/controls/natural_scales.h"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 template <Vec3 Body::*kField, Vec3 BodyDerivative::*kRate>
@@ -66,65 +66,61 @@ Eigen::VectorXd scaleGravity(const Scene& start, const ControlOwner&) { return V
 
 }  // namespace
 
-const ControlKind kPositionControl{"position",
-                                   OwnerKind::body,
-                                   false,
-                                   -kUnbounded,
-                                   kUnbounded,
-                                   false,
-                                   xyzComponents,
-                                   nullptr,
-                                   Position::get,
-                                   Position::set,
-                                   Position::gather,
-                                   Position::scatter,
-                                   bodyScale<&NaturalScales::length>};
+const ControlKind kPositionControl{
+    .word = "position",
+    .owner = OwnerKind::body,
+    .components = xyzComponents,
+    .get = Position::get,
+    .set = Position::set,
+    .gather = Position::gather,
+    .scatter = Position::scatter,
+    .scale = bodyScale<&NaturalScales::length>,
+};
 
-const ControlKind kOrientationControl{"orientation",
-                                      OwnerKind::body,
-                                      false,
-                                      -kUnbounded,
-                                      kUnbounded,
-                                      false,
-                                      xyzComponents,
-                                      nullptr,
-                                      getOrientation,
-                                      setOrientation,
-                                      gatherOrientation,
-                                      scatterOrientation,
-                                      xyzScale,
-                                      gatherRateOrientation};
+const ControlKind kOrientationControl{
+    .word = "orientation",
+    .owner = OwnerKind::body,
+    .components = xyzComponents,
+    .get = getOrientation,
+    .set = setOrientation,
+    .gather = gatherOrientation,
+    .scatter = scatterOrientation,
+    .scale = xyzScale,
+    .gather_rate = gatherRateOrientation,
+    .is_turn = true,
+};
 
-const ControlKind kVelocityControl{"velocity",
-                                   OwnerKind::moving_body,
-                                   false,
-                                   -kUnbounded,
-                                   kUnbounded,
-                                   false,
-                                   xyzComponents,
-                                   nullptr,
-                                   Velocity::get,
-                                   Velocity::set,
-                                   Velocity::gather,
-                                   Velocity::scatter,
-                                   bodyScale<&NaturalScales::velocity>};
+const ControlKind kVelocityControl{
+    .word = "velocity",
+    .owner = OwnerKind::moving_body,
+    .components = xyzComponents,
+    .get = Velocity::get,
+    .set = Velocity::set,
+    .gather = Velocity::gather,
+    .scatter = Velocity::scatter,
+    .scale = bodyScale<&NaturalScales::velocity>,
+};
 
-const ControlKind kAngularVelocityControl{"angular_velocity",
-                                          OwnerKind::moving_body,
-                                          false,
-                                          -kUnbounded,
-                                          kUnbounded,
-                                          false,
-                                          xyzComponents,
-                                          nullptr,
-                                          AngularVelocity::get,
-                                          AngularVelocity::set,
-                                          AngularVelocity::gather,
-                                          AngularVelocity::scatter,
-                                          bodyScale<&NaturalScales::angular_velocity>};
+const ControlKind kAngularVelocityControl{
+    .word = "angular_velocity",
+    .owner = OwnerKind::moving_body,
+    .components = xyzComponents,
+    .get = AngularVelocity::get,
+    .set = AngularVelocity::set,
+    .gather = AngularVelocity::gather,
+    .scatter = AngularVelocity::scatter,
+    .scale = bodyScale<&NaturalScales::angular_velocity>,
+};
 
-const ControlKind kGravityControl{"gravity",     OwnerKind::scene, false,       -kUnbounded, kUnbounded,
-                                  false,         xyzComponents,    nullptr,     getGravity,  setGravity,
-                                  gatherGravity, scatterGravity,   scaleGravity};
+const ControlKind kGravityControl{
+    .word = "gravity",
+    .owner = OwnerKind::scene,
+    .components = xyzComponents,
+    .get = getGravity,
+    .set = setGravity,
+    .gather = gatherGravity,
+    .scatter = scatterGravity,
+    .scale = scaleGravity,
+};
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -4,6 +4,7 @@
 #include "editing/problem/controls/control_families.hpp"
 
 namespace carom {
+using namespace editing_detail;
 
 ValidityRows::ValidityRows(const ControlSet& controls) {
   const Eigen::VectorXd start = controls.startValues();
@@ -11,7 +12,7 @@ ValidityRows::ValidityRows(const ControlSet& controls) {
     const BoundControl& bound = controls.controls()[c];
     const int control = static_cast<int>(c);
     // of several controls of one owner's moments the first brings the rows
-    if (bound.kind == &kInertiaControl && controls.ownerOf(control).first_control == control) {
+    if (bound.kind->keeps_triangle && controls.ownerOf(control).first_control == control) {
       const double sum = controls.slots(control, start).sum();
       for (int i = 0; i < 3; ++i) rows_.push_back({control, i, sum});
     }

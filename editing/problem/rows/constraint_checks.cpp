@@ -6,7 +6,7 @@
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 std::string quantityWords() {
@@ -130,4 +130,10 @@ void checkRegion(const Region& region, const std::string& where) {
   }
 }
 
-}  // namespace carom
+std::string describeImpact(const When& at, const std::string& noun) {
+  std::string text = noun + " " + std::to_string(at.impact);
+  if (!at.with.empty()) text += " with '" + at.with + "'";
+  return text;
+}
+
+}  // namespace carom::editing_detail

@@ -7,7 +7,7 @@
 #include "editing/problem/rows/quantities.h"
 
 /// What is checked of constraints that a person wrote. All throw InputError starting at `where`. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// The kind of a target, whose numbers are all right.
 const QuantityKind& checkedKind(const Target& target, const When& at, const std::string& where);
@@ -16,4 +16,7 @@ void checkWhen(const When& at, const std::string& where);
 void checkRegion(const Region& region, const std::string& where);
 void checkSpan(const std::pair<double, double>& span, const std::string& where);
 
-}  // namespace carom
+/// "its impact 3 with 'floor'", with the noun given.
+std::string describeImpact(const When& at, const std::string& noun);
+
+}  // namespace carom::editing_detail

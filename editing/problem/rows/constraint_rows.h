@@ -19,12 +19,13 @@ namespace carom {
 /// One number that a constraint holds: equal to a target, or within a range.
 struct Row {
   int constraint = -1;          ///< index of the Constraint
-  int target = 0;               ///< index of its Target; -1: of a region
+  int target_index = 0;         ///< of its Target; -1: of a region
   int region = -1;              ///< index of its Region; -1: of a target
   int component = 0;            ///< of the quantity, or of the region
+  const QuantityKind* kind = nullptr;  ///< null: of a region
   std::string name;             ///< "position.x", "time", "avoid"
-  double wanted = 0;            ///< target, SI; 0 for orientation rows; NaN for a range
-  double lower = 0, upper = 0;  ///< allowed values, SI; both `wanted` where that is a number
+  double target = 0;            ///< SI; 0 for orientation rows; NaN for a range
+  double lower = 0, upper = 0;  ///< allowed values, SI; both `target` where that is a number
   double scale = 1;             ///< residual / scale is dimensionless
 
   bool isRange() const { return !(lower == upper); }
@@ -43,7 +44,7 @@ struct RowValues {
   std::string message;        ///< which, and why
   Eigen::VectorXd times;      ///< of the free times, at which rows were read, s
   Eigen::VectorXd values;     ///< NaN where not available
-  Eigen::VectorXd residuals;  ///< value - wanted; of a range how far outside, negative below it
+  Eigen::VectorXd residuals;  ///< value - target; of a range how far outside, negative below it
   Eigen::VectorXd scaled;     ///< residual / scale
   /// Derivative of each value by the states of bodies, a sum; empty where not available.
   std::vector<std::vector<StateSeed>> seeds;

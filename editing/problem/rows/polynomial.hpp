@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Roots of polynomials of low degree. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
 
 /// c[0] + c[1] s + ... + c[N] s^N.
 template <int N>
@@ -50,4 +50,4 @@ std::vector<double> rootsIn(const Polynomial<N>& c, double lo, double hi) {
   return roots;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

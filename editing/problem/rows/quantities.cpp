@@ -74,45 +74,69 @@ StateSeed timeSeed(const BodyState&, const Target&, int) {
   return seed;
 }
 
-const QuantityKind kPosition{"position",
-                             3,
-                             3,
-                             false,
-                             false,
-                             false,
-                             &NaturalScales::length,
-                             threeNumbers,
-                             fieldOf<&BodyState::position>,
-                             fieldSeed<&StateSeed::position>,
-                             nullptr};
-const QuantityKind kOrientation{"orientation",  3,        4,           true, false, true, nullptr, noTurn,
-                                turnFromTarget, turnSeed, turnSeedRate};
-const QuantityKind kVelocity{"velocity",
-                             3,
-                             3,
-                             false,
-                             false,
-                             false,
-                             &NaturalScales::velocity,
-                             threeNumbers,
-                             fieldOf<&BodyState::velocity>,
-                             fieldSeed<&StateSeed::velocity>,
-                             nullptr};
+const QuantityKind kPosition{
+    .word = "position",
+    .rows = 3,
+    .numbers = 3,
+    .scale = &NaturalScales::length,
+    .target = threeNumbers,
+    .value = fieldOf<&BodyState::position>,
+    .seed = fieldSeed<&StateSeed::position>,
+};
+const QuantityKind kOrientation{
+    .word = "orientation",
+    .rows = 3,
+    .numbers = 4,
+    .all_or_nothing = true,
+    .turns = true,
+    .target = noTurn,
+    .value = turnFromTarget,
+    .seed = turnSeed,
+    .seed_rate = turnSeedRate,
+    .from_target = true,
+};
+const QuantityKind kVelocity{
+    .word = "velocity",
+    .rows = 3,
+    .numbers = 3,
+    .scale = &NaturalScales::velocity,
+    .target = threeNumbers,
+    .value = fieldOf<&BodyState::velocity>,
+    .seed = fieldSeed<&StateSeed::velocity>,
+};
 // A spin is read in world axes, but the constant of a flight is the angular momentum.
-const QuantityKind kAngularVelocity{"angular_velocity",
-                                    3,
-                                    3,
-                                    false,
-                                    false,
-                                    true,
-                                    &NaturalScales::angular_velocity,
-                                    threeNumbers,
-                                    fieldOf<&BodyState::angular_velocity>,
-                                    fieldSeed<&StateSeed::angular_velocity>,
-                                    nullptr};
-const QuantityKind kTime{"time", 1, 1, true, true, false, &NaturalScales::time, oneNumber, timeOf, timeSeed, nullptr};
-const QuantityKind kPoint{"point",      3,       3,         false,        false, true, &NaturalScales::length,
-                          threeNumbers, pointOf, pointSeed, pointSeedRate};
+const QuantityKind kAngularVelocity{
+    .word = "angular_velocity",
+    .rows = 3,
+    .numbers = 3,
+    .turns = true,
+    .scale = &NaturalScales::angular_velocity,
+    .target = threeNumbers,
+    .value = fieldOf<&BodyState::angular_velocity>,
+    .seed = fieldSeed<&StateSeed::angular_velocity>,
+};
+const QuantityKind kTime{
+    .word = "time",
+    .rows = 1,
+    .numbers = 1,
+    .all_or_nothing = true,
+    .only_at_impacts = true,
+    .scale = &NaturalScales::time,
+    .target = oneNumber,
+    .value = timeOf,
+    .seed = timeSeed,
+};
+const QuantityKind kPoint{
+    .word = "point",
+    .rows = 3,
+    .numbers = 3,
+    .turns = true,
+    .scale = &NaturalScales::length,
+    .target = threeNumbers,
+    .value = pointOf,
+    .seed = pointSeed,
+    .seed_rate = pointSeedRate,
+};
 
 const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation, &kVelocity, &kAngularVelocity, &kTime, &kPoint};
 

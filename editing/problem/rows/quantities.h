@@ -16,10 +16,10 @@ struct QuantityKind {
   const char* word;     ///< in the scene document
   int rows;             ///< 3: components x, y, z; 1: a single number
   int numbers;          ///< that a person gives as the target
-  bool all_or_nothing;  ///< no number of the target can be left free
-  bool only_at_impacts;
-  bool turns;                    ///< depends on the orientation of the body when it is read
-  double NaturalScales::*scale;  ///< makes a residual dimensionless; null: 1 rad
+  bool all_or_nothing = false;  ///< no number of the target can be left free
+  bool only_at_impacts = false;
+  bool turns = false;  ///< depends on the orientation of the body when it is read
+  double NaturalScales::*scale = nullptr;  ///< makes a residual dimensionless; null: 1 rad
 
   /// Target of each row, from the numbers a person gave (NaN: free).
   Vec3 (*target)(const Target&);
@@ -28,7 +28,9 @@ struct QuantityKind {
   /// The row's derivative by the state (body and instant are filled in by the caller).
   StateSeed (*seed)(const BodyState&, const Target&, int component);
   /// How that changes with the state; null where it does not.
-  StateSeed (*seed_rate)(const BodyState&, const BodyStateRate&, const Target&, int component);
+  StateSeed (*seed_rate)(const BodyState&, const BodyStateRate&, const Target&, int component) = nullptr;
+  /// Values are measured from the target: their own target is 0, and derivatives depend on where it is.
+  bool from_target = false;
 };
 
 std::span<const QuantityKind* const> quantityKinds();

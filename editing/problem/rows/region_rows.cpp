@@ -8,6 +8,8 @@
 #include "editing/problem/rows/polynomial.hpp"
 
 namespace carom {
+using namespace editing_detail;
+
 namespace {
 
 // A stretch of an arc, s seconds after its start, seen from the region: y(s) by components.

@@ -8,7 +8,7 @@
 #include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 
-/// How far a body stays on the right side of a region. Internal to editing/.
+/// How far a body stays on the right side of a region.
 namespace carom {
 
 /// A Region whose defaults are filled in.

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// What the rows of constraints are in a motion.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "editing/detail/messages.hpp"
+#include "editing/problem/rows/constraint_checks.hpp"
+#include "editing/problem/rows/constraint_rows.h"
+#include "editing/problem/rows/relative.h"
+
+namespace carom {
+using namespace editing_detail;
+
+namespace {
+
+constexpr double kNotRead = std::numeric_limits<double>::quiet_NaN();
+/// Times of a span that are looked at for a start; what is chosen among them is only that.
+constexpr int kLooks = 64;
+
+}  // namespace
+
+ConstraintSet::Reading ConstraintSet::read(const Motion& motion, int index, double free_time) const {
+  const Constraint& constraint = constraints_[index];
+  const Bound& bound = bound_[index];
+  if (constraint.at.impact > 0) {
+    const std::optional<int> event = motion.findImpact(bound.body, constraint.at.impact, bound.with);
+    if (event) return readAt(motion, index, Instant::before(*event), motion.events[*event].time);
+    Reading reading;
+    reading.message = describeImpact(constraint.at, "Impact") + " of '" + constraint.body + "' does not come within " +
+                      number(motion.end) + " s.";
+    return reading;
+  }
+  const double t = bound.free_time >= 0 ? free_time : constraint.at.time;
+  if (t <= motion.end) return readAt(motion, index, Instant::at(t), t);
+  Reading reading;
+  reading.message = "The constraint on " + describeConstraint(index) + " lies after the end of the motion at " +
+                    number(motion.end) + " s.";
+  if (!motion.message.empty() && motion.status != MotionStatus::complete) reading.message += " " + motion.message;
+  return reading;
+}
+
+ConstraintSet::Reading ConstraintSet::readAt(const Motion& motion, int index, const Instant& instant,
+                                             double time) const {
+  const Bound& bound = bound_[index];
+  const auto stateOf = [&](int body) {
+    return instant.event >= 0 ? motion.stateBefore(instant.event, body) : motion.stateAt(body, time);
+  };
+  Reading reading;
+  reading.available = true;
+  reading.instant = instant;
+  reading.time = time;
+  reading.seen = reading.own = stateOf(bound.body);
+  if (bound.relative_to >= 0) {
+    reading.other = stateOf(bound.relative_to);
+    reading.seen = seenFrom(reading.own, reading.other);
+  }
+  return reading;
+}
+
+double ConstraintSet::residual(int row, double value) const {
+  const Row& r = rows_[static_cast<std::size_t>(row)];
+  if (!r.isRange()) return value - r.target;
+  return value < r.lower ? value - r.lower : value > r.upper ? value - r.upper : value - value;  // NaN stays NaN
+}
+
+void ConstraintSet::readRow(int i, const Reading& reading, RowValues& out) const {
+  const Row& row = rows_[i];
+  const Bound& bound = bound_[row.constraint];
+  const Target& target = constraints_[row.constraint].targets[row.target_index];
+  const QuantityKind& kind = *row.kind;
+  out.values[i] = kind.value(reading.seen, reading.time, target)[row.component];
+  StateSeed seed = kind.seed(reading.seen, target, row.component);
+  seed.body = bound.body;
+  seed.at = reading.instant;
+  if (bound.relative_to < 0) {
+    out.seeds[i] = {std::move(seed)};
+    return;
+  }
+  SeedPair pair = seenFromPullback(reading.own, reading.other, seed);
+  pair.of_b.body = bound.relative_to;
+  pair.of_b.at = reading.instant;
+  out.seeds[i] = {std::move(pair.of_a), std::move(pair.of_b)};
+}
+
+std::optional<Clearance> ConstraintSet::clearance(const Motion& motion, int i) const {
+  const Row& row = rows_[i];
+  const Bound& bound = bound_[row.constraint];
+  return leastClearance(motion, bound.body, bound.regions[row.region], row.component);
+}
+
+std::vector<StateSeed> ConstraintSet::seedRates(const Motion& motion, const Eigen::VectorXd& times, int i,
+                                                std::span<const BodyStateRate> rates) const {
+  const Row& row = rows_[i];
+  if (row.region >= 0) {
+    StateSeed seed;
+    seed.center_of_mass = clearance(motion, i)->bend * rates[0].center_of_mass;
+    return {seed};
+  }
+  const Bound& bound = bound_[row.constraint];
+  const Target& target = constraints_[row.constraint].targets[row.target_index];
+  const QuantityKind& kind = *row.kind;
+  if (bound.relative_to < 0 && !kind.seed_rate) return {StateSeed()};
+  const Reading reading = read(motion, row.constraint, bound.free_time >= 0 ? times[bound.free_time] : 0);
+  const auto rateOf = [&](const BodyStateRate& of_seen) {
+    return kind.seed_rate ? kind.seed_rate(reading.seen, of_seen, target, row.component) : StateSeed();
+  };
+  if (bound.relative_to < 0) return {rateOf(rates[0])};
+  const StateSeed seed = kind.seed(reading.seen, target, row.component);
+  const StateSeed dseed = rateOf(seenFromRate(reading.own, reading.other, rates[0], rates[1]));
+  SeedPair pair = seenFromPullbackRate(reading.own, reading.other, rates[0], rates[1], seed, dseed);
+  return {std::move(pair.of_a), std::move(pair.of_b)};
+}
+
+void ConstraintSet::readRegion(const Motion& motion, int i, RowValues& out) const {
+  const Row& row = rows_[i];
+  const Bound& bound = bound_[row.constraint];
+  const BoundRegion& region = bound.regions[row.region];
+  if (const std::optional<Clearance> clearance = this->clearance(motion, i)) {
+    out.values[i] = clearance->value;
+    out.seeds[i] = {clearance->seed};
+    return;
+  }
+  out.available = false;
+  if (!out.message.empty()) return;
+  out.message = "The motion ends at " + number(motion.end) + " s, before " + number(region.to) + " s, up to which '" +
+                constraints_[row.constraint].body + "' keeps to a region. " + motion.message;
+}
+
+RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& times) const {
+  RowValues out;
+  out.times = times;
+  out.values = out.residuals = out.scaled = Eigen::VectorXd::Constant(size(), kNotRead);
+  out.seeds.resize(rows_.size());
+  int current = -1;
+  Reading reading;
+  for (int i = 0; i < size(); ++i) {
+    const Row& row = rows_[i];
+    if (row.region >= 0) {
+      readRegion(motion, i, out);
+    } else {
+      if (row.constraint != current) {
+        current = row.constraint;
+        const int free = bound_[current].free_time;
+        reading = read(motion, current, free >= 0 ? times[free] : 0);
+        if (!reading.available) {
+          out.available = false;
+          if (out.message.empty()) out.message = reading.message;
+        }
+      }
+      if (reading.available) readRow(i, reading, out);
+    }
+    out.residuals[i] = residual(i, out.values[i]);
+    out.scaled[i] = out.residuals[i] / row.scale;
+  }
+  return out;
+}
+
+/// Sum of the squares of the residuals of one constraint when it is read at a time.
+double ConstraintSet::missAt(const Motion& motion, int index, double time) const {
+  const Reading reading = readAt(motion, index, Instant::at(time), time);
+  double sum = 0;
+  for (int i = 0; i < size(); ++i) {
+    const Row& row = rows_[i];
+    if (row.constraint != index || row.region >= 0) continue;
+    const Target& target = constraints_[index].targets[row.target_index];
+    const double value = row.kind->value(reading.seen, time, target)[row.component];
+    const double scaled = residual(i, value) / row.scale;
+    sum += scaled * scaled;
+  }
+  return sum;
+}
+
+Eigen::VectorXd ConstraintSet::nearestTimes(const Motion& motion) const {
+  Eigen::VectorXd times(static_cast<Eigen::Index>(free_times_.size()));
+  for (std::size_t f = 0; f < free_times_.size(); ++f) {
+    const FreeTime& free = free_times_[f];
+    const double last = std::min(free.to, motion.end);
+    double best = free.from, least = kInfinity;
+    for (int k = 0; k <= kLooks && last >= free.from; ++k) {
+      const double t = free.from + (last - free.from) * k / kLooks;
+      const double miss = missAt(motion, free.constraint, t);
+      if (miss < least) least = miss, best = t;
+    }
+    times[static_cast<Eigen::Index>(f)] = best;
+  }
+  return times;
+}
+
+}  // namespace carom

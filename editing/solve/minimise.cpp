@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "editing/solve/minimise.hpp"
+
+#include <algorithm>
+
+#include "editing/solve/dependence.hpp"
+#include "editing/solve/edit_program.hpp"
+#include "editing/solve/ipopt_solver.hpp"
+#include "editing/solve/projection.hpp"
+
+namespace carom::editing_detail {
+namespace {
+
+/// Before the change is minimised, and after it.
+constexpr int kOntoSteps = 15;
+constexpr double kOptimality = 1e-8, kLeastTolerance = 1e-10;
+
+}  // namespace
+
+EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+                            const std::string* signature, int max_iterations) {
+  if (max_iterations <= 0) return from;
+  // From a point that meets the constraints the solver has only the change left to minimise.
+  const EditPointPtr projected = projectOntoConstraints(search, from, kOntoSteps, signature);
+  const EditPointPtr start = search.reached(*projected) ? projected : from;
+  EditProgram program(search, start->changes, rows, signature);
+  SolverOptions options;
+  options.max_iterations = max_iterations;
+  options.tolerance = kOptimality;
+  options.constraint_tolerance = std::max(search.options().tolerance, kLeastTolerance);
+  options.deadline = search.deadline();
+  const SolverResult result = solveWithIpopt(program, options);
+  EditPointPtr end = search.evaluate(result.x);
+  if (!end || (signature && end->signature != *signature)) return start;
+  end = projectOntoConstraints(search, end, kOntoSteps, signature);
+  const bool worse = search.reached(*start) && (!search.reached(*end) || end->objective > start->objective);
+  return worse ? start : end;
+}
+
+EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+                            int max_iterations) {
+  EditSearch smooth = search.branch({nullptr, from}, false);
+  const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
+  search.adopt(smooth);
+  const EditPointPtr real = search.make(end->changes, false, {nullptr, nullptr, true});
+  if (real) search.consider(real);
+  return real;
+}
+
+EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {
+  search.differentiate(*point);
+  const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
+  return minimiseChange(search, point, split.independent, &point->signature,
+                        std::min(max_iterations, search.iterationsLeft()));
+}
+
+}  // namespace carom::editing_detail
