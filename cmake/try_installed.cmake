@@ -21,7 +21,7 @@ foreach(page man/man1/carom.1 bash-completion/completions/carom zsh/site-functio
     message(FATAL_ERROR "share/${page} was not installed")
   endif()
   file(READ ${WORK}/installed/share/${page} text)
-  foreach(word simulate completion shooting alternatives)
+  foreach(word simulate completion alternatives threads)
     if(NOT text MATCHES ${word})
       message(FATAL_ERROR "share/${page} does not name ${word}")
     endif()
