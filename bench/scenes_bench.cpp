@@ -13,7 +13,7 @@
 #include "adjoint/derivative/adjoint.h"
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 

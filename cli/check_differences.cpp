@@ -10,7 +10,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/simulate/simulate.h"
-#include "editing/problem/rows/refined_times.h"
+#include "editing/problem/rows/refined_times.hpp"
 
 namespace carom::cli {
 namespace {

@@ -14,6 +14,7 @@
 #include "cli/table.h"
 #include "cli/units.h"
 #include "editing/edit.h"
+#include "editing/problem/jacobian.hpp"
 #include "formats/answers/edit_json.h"
 
 namespace carom::cli {

@@ -11,7 +11,7 @@
 #include "cli/progress.h"
 #include "cli/table.h"
 #include "cli/units.h"
-#include "formats/answers/gradient_json.h"
+#include "formats/answers/gradient_json.hpp"
 
 namespace carom::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
-#include "editing/problem/rows/refined_times.h"
+#include "editing/problem/rows/refined_times.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom::cli {

@@ -5,7 +5,7 @@
 
 #include "cli/options.h"
 #include "cli/output.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "formats/base/document.h"
 #include "formats/base/format_error.h"
 #include "ode_bridge/ode_contacts.h"

@@ -7,6 +7,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/jacobian.hpp"
 #include "editing/report/alternatives.hpp"
 #include "editing/report/explain.hpp"
 #include "editing/report/verify.hpp"

@@ -10,9 +10,10 @@
 #include "editing/edit_options.h"
 #include "editing/edit_result.h"
 #include "editing/nail.h"
-#include "editing/problem/jacobian.h"
 
 namespace carom {
+
+class EditProblem;
 
 /// Finds the smallest weighted change of some numbers of a scene such that its motion meets constraints:
 ///   minimise 1/2 sum (w_i z_i)^2  subject to  rows = targets, physical validity and bounds,
@@ -22,6 +23,7 @@ class Edit {
  public:
   /// Keeps `contacts` by reference, and uses it for all simulations.
   Edit(const Scene& scene, ContactSource& contacts, double duration);
+  /// With controls and constraints that are there from the start.
   Edit(const Scene& scene, ContactSource& contacts, double duration, std::vector<Control> controls,
        std::vector<Constraint> constraints);
   Edit(const Edit&) = delete;  // nails refer to their edit
@@ -33,15 +35,17 @@ class Edit {
     (controls_.push_back(std::move(controls)), ...);
     return *this;
   }
+  /// A new nail of a body, which holds nothing yet.
   Nail nail(const std::string& body, When at);
+  /// Removes a nail.
   void unnail(const Nail& nail);
 
-  const std::vector<Control>& controls() const { return controls_; }
-  std::vector<Constraint> constraints() const;
+  const std::vector<Control>& controls() const { return controls_; }  ///< what may vary
+  std::vector<Constraint> constraints() const;                        ///< what the nails hold
 
   /// Throws InputError for bad input; everything else is a status and a message.
   EditResult solve(const EditOptions& options = {}) const;
-  /// The same controls and constraints as rows and derivatives, at the start.
+  /// The same controls and constraints as rows and derivatives, at the start; for the command.
   EditProblem problem() const;
 
  private:

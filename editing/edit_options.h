@@ -14,9 +14,10 @@ enum class SequencePolicy {
   stay,          ///< never
 };
 
+/// How far an edit is.
 struct EditProgress {
-  int iteration = 0;
-  double objective = 0;
+  int iteration = 0;     ///< steps so far
+  double objective = 0;  ///< 1/2 sum (w_i z_i)^2
   double violation = 0;  ///< dimensionless
 };
 
@@ -27,12 +28,13 @@ enum class SecondDerivatives {
   limited_memory  ///< Ipopt's own approximation
 };
 
+/// How an edit is solved.
 struct EditOptions {
   int max_iterations = 200;  ///< steps of all stages together; the one under way may add a few
-  double time_budget_seconds = std::numeric_limits<double>::infinity();
+  double time_budget_seconds = std::numeric_limits<double>::infinity();  ///< gives up after so long
   double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
-  SequencePolicy sequence = SequencePolicy::prefer_start;
-  SecondDerivatives second_derivatives = SecondDerivatives::exact;
+  SequencePolicy sequence = SequencePolicy::prefer_start;           ///< whether impacts may become others
+  SecondDerivatives second_derivatives = SecondDerivatives::exact;  ///< where Ipopt takes them from
   int alternatives = 1;  ///< distinct solutions that are looked for, see EditResult::alternatives
   int threads = 0;       ///< of the search across impact sequences; 0: all cores. The answer does not depend on it
   bool certify = true;   ///< fill in EditResult::certificate

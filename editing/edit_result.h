@@ -12,15 +12,17 @@
 
 namespace carom {
 
+/// How an edit ended.
 enum class EditStatus {
   solved,                   ///< verified, in the impact sequence of the start
   solved_sequence_changed,  ///< verified, but other impacts than before happen on the way
   infeasible,               ///< the constraints cannot all be met, or no way was found from anywhere that was tried
   not_converged,            ///< the limit of iterations, or no progress
-  out_of_time,
+  out_of_time,              ///< the time budget was used up
   cancelled,  ///< by the progress callback, or a stop was requested
   bad_start,  ///< a constraint that the start's motion does not have: after its end, an impact not there
 };
+/// The word of the answers: "solved", "infeasible", ...
 const char* nameOf(EditStatus status);
 
 /// One number that was free to change.
@@ -28,7 +30,8 @@ struct ChangedNumber {
   int control = -1;       ///< index of the Control
   std::string name;       ///< "velocity.x of 'hat'"
   std::string component;  ///< "x"
-  double before = 0, after = 0;
+  double before = 0;      ///< SI, at the start
+  double after = 0;       ///< SI, in the result
 };
 
 /// One number that was held, in the verified motion.
@@ -36,43 +39,50 @@ struct HeldNumber {
   int constraint = -1;                      ///< index of the Constraint
   std::string name;                         ///< "position.x of 'hat' at 1.4 s"
   std::string component;                    ///< "position.x"
-  double value = 0, target = 0, error = 0;  ///< SI; NaN where the motion does not have it
+  double value = 0;                         ///< SI; NaN where the motion does not have it
+  double target = 0;                        ///< SI; NaN where a range is allowed
+  double error = 0;                         ///< SI; NaN where the motion does not have it
   double scaled_error = 0;                  ///< dimensionless
-  /// Allowed values, SI, infinite on a side that is open; `target` is NaN where they are a range, else equal to both.
-  double lower = 0, upper = 0;
+  double lower = 0;                         ///< least allowed value, SI; -infinity where it is open
+  double upper = 0;                         ///< greatest allowed value, SI; infinity where it is open
 };
 
 /// When a constraint at some time of a span is met, in the verified motion.
 struct MetTime {
   int constraint = -1;                ///< index of the Constraint
   std::string name;                   ///< "'hat' between 1 s and 2 s"
-  double from = 0, to = 0, time = 0;  ///< s
+  double from = 0;     ///< s, begin of the span
+  double to = 0;       ///< s, end of the span
+  double time = 0;     ///< s, when it is met
 };
 
 /// Another solution of an edit, simulated afresh like the result itself.
 struct EditAlternative {
-  Scene scene;
-  std::vector<ChangedNumber> changed;
-  double objective = 0;
-  double residual = 0, scaled_residual = 0;
+  Scene scene;                                   ///< with its new values
+  std::vector<ChangedNumber> changed;            ///< what differs from the start
+  double objective = 0;                          ///< 1/2 sum (w_i z_i)^2
+  double residual = 0;                           ///< largest |error|, SI
+  double scaled_residual = 0;                    ///< the same, dimensionless
   std::vector<std::string> sequence;             ///< one line an impact
   std::vector<SequenceChange> sequence_changes;  ///< from the start's
 };
 
+/// What came of an edit.
 struct EditResult {
-  EditStatus status = EditStatus::not_converged;
+  EditStatus status = EditStatus::not_converged;  ///< how it ended
   std::string message;  ///< what happened, in sentences
   Scene scene;          ///< with its new values: the best that was found, whatever the status
   Motion motion;        ///< of that scene, simulated afresh
-  std::vector<ChangedNumber> changed;
-  std::vector<HeldNumber> residuals;
+  std::vector<ChangedNumber> changed;  ///< all numbers that were free to change
+  std::vector<HeldNumber> residuals;   ///< all numbers that were held
   std::vector<MetTime> times;  ///< one for each constraint `between` two times
   double residual = 0;         ///< largest |error| of that motion, SI (m, m/s, rad, rad/s, s mixed)
   double scaled_residual = 0;  ///< the same, dimensionless: this is compared with EditOptions::tolerance
   double objective = 0;        ///< 1/2 sum (w_i z_i)^2
-  int iterations = 0;
-  double milliseconds = 0;
-  std::vector<std::string> sequence_before, sequence_after;  ///< one line an impact
+  int iterations = 0;          ///< steps of all stages together
+  double milliseconds = 0;     ///< that it took
+  std::vector<std::string> sequence_before;  ///< of the start, one line an impact
+  std::vector<std::string> sequence_after;   ///< of the result, one line an impact
   bool signature_changed = false;  ///< impacts that can matter to the constraints (up to the last one) are others
   std::vector<SequenceChange> sequence_changes;  ///< which of them came, went, or moved to another feature
   /// Solutions besides this one, where EditOptions::alternatives asks for several: each of another impact sequence, or
@@ -85,6 +95,7 @@ struct EditResult {
   Certificate certificate;  ///< of that motion
   WhyNot why_not;           ///< where the edit is infeasible or did not converge
 
+  /// Verified, whatever the sequence.
   bool solved() const { return status == EditStatus::solved || status == EditStatus::solved_sequence_changed; }
 };
 

@@ -17,22 +17,24 @@ class Edit;
 class Nail {
  public:
   Nail& position(const Vec3& p_W);  ///< m
-  Nail& position(Wanted x, Wanted y, Wanted z);
+  Nail& position(Wanted x, Wanted y, Wanted z);  ///< m, component by component
   Nail& orientation(const Quat& q);  ///< shape to world, unit
   Nail& velocity(const Vec3& v_W);   ///< m/s
-  Nail& velocity(Wanted x, Wanted y, Wanted z);
+  Nail& velocity(Wanted x, Wanted y, Wanted z);  ///< m/s, component by component
   Nail& angularVelocity(const Vec3& w_W);  ///< rad/s, world axes
-  Nail& angularVelocity(Wanted x, Wanted y, Wanted z);
+  Nail& angularVelocity(Wanted x, Wanted y, Wanted z);  ///< rad/s, component by component
   Nail& time(Wanted t);                                    ///< s, of the impact; only for nails at an impact
   Nail& point(const Vec3& body_point, const Vec3& world);  ///< a point in shape axes comes to a place in the world
+  /// The same, component by component.
   Nail& point(const Vec3& body_point, Wanted x, Wanted y, Wanted z);
 
-  /// All quantities are those of the body as seen from another one, in the axes of its shape (see `seenFrom` in
-  /// editing/problem/rows/relative.h). "" takes it back.
+  /// All quantities are those of the body as seen from another one, in the axes of its shape
+  /// (docs/scenes.md). "" takes it back.
   Nail& relativeTo(const std::string& body);
 
-  /// One more region that the body stays out of, or within, over the region's own time, whatever that of the nail.
+  /// One more region that the body stays out of, over the region's own time, whatever that of the nail.
   Nail& avoid(Region region);
+  /// One more region that the body stays within.
   Nail& inside(Region region);
 
  private:

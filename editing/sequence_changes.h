@@ -11,6 +11,7 @@ namespace carom {
 
 /// One difference between two impact sequences.
 struct SequenceChange {
+  /// What differs.
   enum class Kind {
     went,   ///< an impact no longer happens
     came,   ///< an impact happens that did not
@@ -18,10 +19,12 @@ struct SequenceChange {
     mode,   ///< it sticks where it slid, ...
     order,  ///< the same impacts in another order
   };
-  Kind kind = Kind::order;
-  int before = -1, after = -1;  ///< events of the two motions, -1 where there is none
-  std::string sentence;
+  Kind kind = Kind::order;  ///< what differs
+  int before = -1;          ///< event of the motion before, -1 where there is none
+  int after = -1;           ///< event of the motion after, -1 where there is none
+  std::string sentence;     ///< for people
 };
+/// The word of the documents: "went", "came", ...
 const char* nameOf(SequenceChange::Kind kind);
 
 /// How the first `count_after` impacts of one motion differ from the first `count_before` of another, of the same

@@ -16,8 +16,8 @@ namespace carom {
 
 /// A nail of a session. Keeps its meaning through undo and redo.
 struct NailId {
-  int value = -1;
-  bool operator==(const NailId&) const = default;
+  int value = -1;                                  ///< counted from 0
+  bool operator==(const NailId&) const = default;  ///< the same nail
 };
 
 /// Where an update got to.
@@ -27,25 +27,27 @@ enum class SessionStage {
   improved,   ///< by several, until the target was met or the work of one update was done
   solved,     ///< at the end of a gesture: nearest to where it began, as far as the solver tells
 };
+/// "kept", "predicted", "improved" or "solved".
 const char* nameOf(SessionStage stage);
 
 /// What the session holds after a call, and how far that is from what was asked for.
 struct SessionUpdate {
   /// Never null. Simulated from scene(), over the whole duration of the session.
   std::shared_ptr<const Motion> motion;
+  /// That it is the motion of.
   const Scene& scene() const { return *motion->scene; }
 
-  SessionStage stage = SessionStage::kept;
+  SessionStage stage = SessionStage::kept;  ///< how far it got
   bool reached = true;         ///< target and nails are met within SessionOptions::tolerance
   double distance = 0;         ///< m, from the grabbed point to its target; 0 without one
   double turn = 0;             ///< rad, from the grabbed body's orientation to its target; 0 without one
   double scaled_distance = 0;  ///< largest error of a number that the grab holds, dimensionless
   double nail_error = 0;       ///< largest error of a number that a nail holds, SI (m, m/s, rad, ... mixed)
-  double scaled_nail_error = 0;
+  double scaled_nail_error = 0;  ///< the same, dimensionless
 
   int iterations = 0;   ///< steps that were taken
   int simulations = 0;  ///< motions that were tried: the unit in which work is limited
-  double milliseconds = 0;
+  double milliseconds = 0;        ///< that it took
   bool cut_by_clock = false;      ///< the safety stop ended it: on a faster machine it may have gone further
   bool sequence_changed = false;  ///< impacts that count are others than when the gesture began
   std::string message;            ///< what happened, in sentences: what stood in the way, how the impacts changed
@@ -75,8 +77,8 @@ class EditSession {
   EditSession(const Scene& scene, ContactSource& contacts, double duration, std::vector<Control> controls,
               std::vector<Constraint> nails, const SessionOptions& options = {});
   ~EditSession();
-  EditSession(EditSession&&) noexcept;
-  EditSession& operator=(EditSession&&) noexcept;
+  EditSession(EditSession&&) noexcept;             ///< the other can only be destroyed or assigned to
+  EditSession& operator=(EditSession&&) noexcept;  ///< the same
 
   /// Lets more numbers vary. One step for undo, as is setControls.
   template <class... Controls>
@@ -91,6 +93,7 @@ class EditSession {
   /// Adds a nail, which holds until it is removed, and solves for it; last() tells how that went. One step for undo. A
   /// nail that cannot be met stays, and is met as soon as it can be.
   NailId nail(Constraint constraint);
+  /// The same from its parts.
   NailId nail(const std::string& body, When at, const Held& held) { return nail(heldConstraint(body, at, held)); }
   /// Holds the body as it is at that moment: place and orientation.
   NailId nailAsItIs(const std::string& body, When at);
@@ -109,29 +112,29 @@ class EditSession {
   SessionUpdate releaseNailed();
   /// Lets go and puts everything back as it was before the grab.
   SessionUpdate cancel();
-  bool isGrabbed() const;
-  /// Where the grabbed point is, and the orientation of the grabbed body.
-  Vec3 grabbedPlace() const;
-  Quat grabbedOrientation() const;
+  bool isGrabbed() const;           ///< between grab and release, or cancel
+  Vec3 grabbedPlace() const;        ///< m, where the grabbed point is
+  Quat grabbedOrientation() const;  ///< of the grabbed body, shape to world
 
   /// Back by one step; within a gesture, cancels it. Nothing happens where there is none.
   SessionUpdate undo();
+  /// Forward again by one step that was undone.
   SessionUpdate redo();
-  bool canUndo() const;
-  bool canRedo() const;
+  bool canUndo() const;  ///< there is a step back
+  bool canRedo() const;  ///< there is a step that was undone
 
-  const Scene& scene() const { return *motion().scene; }
-  const Motion& motion() const { return *last().motion; }
+  const Scene& scene() const { return *motion().scene; }    ///< as it is now
+  const Motion& motion() const { return *last().motion; }  ///< of that scene
   /// What the last call came to.
   const SessionUpdate& last() const;
-  double duration() const;
-  const std::vector<Control>& controls() const;
+  double duration() const;                       ///< s, of the motion
+  const std::vector<Control>& controls() const;  ///< what may vary
   /// The nails, and in a gesture what is grabbed with its last target.
   std::vector<Constraint> constraints() const;
-  std::vector<NailId> nails() const;
+  std::vector<NailId> nails() const;  ///< those there are, oldest first
   /// Throws InputError for one that is not there.
   const Constraint& constraintOf(NailId id) const;
-  const SessionOptions& options() const;
+  const SessionOptions& options() const;  ///< as they were given
 
   /// All gestures that came to an end, for saving (formats/documents/journal_json.h) and replay.
   const SessionJournal& journal() const;

@@ -22,15 +22,15 @@ enum class MeasureFrom {
 /// How a session works. Work is counted in simulations and iterations, so that it is the same on every machine. The
 /// clock is a safety stop only.
 struct SessionOptions {
-  MeasureFrom measure_from = MeasureFrom::grab;
+  MeasureFrom measure_from = MeasureFrom::grab;            ///< what a change is measured from
   SequencePolicy sequence = SequencePolicy::prefer_start;  ///< stay: no gesture changes which impacts happen
   double tolerance = 1e-9;                                 ///< of every number that is held, dimensionless
   /// At most, for one update. A motion of m bodies that move counts m / 5 where more than 5 move in the scene, m / all
   /// where fewer do: parts of the scene are simulated on their own where nothing else matters.
   int drag_simulations = 14;
   int release_iterations = 200;  ///< at most, when a gesture ends
-  double drag_seconds = 0.25;
-  double release_seconds = 2;
+  double drag_seconds = 0.25;    ///< of the clock, for one update
+  double release_seconds = 2;    ///< of the clock, when a gesture ends
 };
 
 /// How a body is held while it is dragged.
@@ -49,32 +49,35 @@ struct Held {
   std::optional<Vec3> angular_velocity = std::nullopt;  ///< rad/s, world axes
   std::optional<double> time = std::nullopt;            ///< s, of an impact
 };
+/// The constraint that a nail of a session stands for.
 Constraint heldConstraint(const std::string& body, const When& at, const Held& held);
 
 /// One call of dragTo.
 struct DragTarget {
   double milliseconds = 0;  ///< since the session began; for information
-  Vec3 place = Vec3::Zero();
-  std::optional<Quat> orientation;
+  Vec3 place = Vec3::Zero();          ///< m
+  std::optional<Quat> orientation;    ///< shape to world
   std::optional<int> cut_after;  ///< simulations after which the clock ended it
 };
 
 /// One gesture, and what it came to.
 struct SessionGesture {
+  /// What was done.
   enum class Kind { controls, nail, unnail, drag, undo, redo };
+  /// How a drag ended.
   enum class Ending { release, release_nailed, cancel };
 
-  Kind kind = Kind::drag;
+  Kind kind = Kind::drag;                ///< what was done
   double milliseconds = 0;               ///< since the session began, when it began; for information
   std::vector<Control> controls;         ///< controls: all of them, from then on
   std::optional<Constraint> constraint;  ///< nail; drag: what the grab holds, and where that was
   int nail = -1;                         ///< nail, unnail, release_nailed: the number of the nail
 
   std::string body;  ///< drag: from here on
-  When at = 0.0;
-  Grip grip;
-  std::vector<DragTarget> targets;
-  Ending ending = Ending::release;
+  When at = 0.0;                     ///< drag: when it was taken hold of
+  Grip grip;                         ///< drag: how
+  std::vector<DragTarget> targets;   ///< drag: one a call of dragTo
+  Ending ending = Ending::release;   ///< drag: how it ended
 
   std::optional<int> cut_after;  ///< nail, drag: iterations after which the clock ended its last solve
 
@@ -86,14 +89,16 @@ struct SessionGesture {
 /// A session as data: how it began, and every gesture. Played again (editing/session_replay.h) it gives the
 /// same bits.
 struct SessionJournal {
-  Scene scene;
+  Scene scene;                    ///< as it was at the start
   double duration = 1;  ///< s
-  std::vector<Control> controls;
+  std::vector<Control> controls;  ///< there from the start
   std::vector<Constraint> nails;  ///< there from the start, numbered from 0
-  SessionOptions options;
-  std::vector<SessionGesture> gestures;
+  SessionOptions options;                ///< how it works
+  std::vector<SessionGesture> gestures;  ///< in order
 };
+/// The word of the journal: "drag", "nail", ...
 const char* nameOf(SessionGesture::Kind kind);
+/// The word of the journal: "release", ...
 const char* nameOf(SessionGesture::Ending ending);
 
 }  // namespace carom

@@ -23,10 +23,12 @@ class SessionReplay {
   /// Keeps the journal and `contacts` by reference. Throws InputError for a journal that makes no sense.
   SessionReplay(const SessionJournal& journal, ContactSource& contacts);
 
+  /// All gestures were played.
   bool done() const { return next_ == journal_.gestures.size(); }
   /// Throws InputError naming "/gestures/<i>" for a gesture that cannot be done.
   ReplayedGesture next();
 
+  /// As it is after the gestures so far.
   const EditSession& session() const { return session_; }
 
  private:

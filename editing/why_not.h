@@ -19,10 +19,10 @@ struct WhyNot {
   };
   /// A number that ended at one of its bounds.
   struct AtBound {
-    int control = -1;
-    std::string name;  ///< "velocity.x of 'hat'"
-    double bound = 0;  ///< SI
-    bool upper = false;
+    int control = -1;    ///< index of the Control
+    std::string name;    ///< "velocity.x of 'hat'"
+    double bound = 0;    ///< SI
+    bool upper = false;  ///< the upper one of the two
     double removes = 0;  ///< share of the error that goes without this bound, to first order; in [0, 1]
     double change = 0;   ///< how far the number then goes beyond the bound, SI
   };
@@ -38,15 +38,15 @@ struct WhyNot {
   };
   /// A nail that no motion reaches: the body would be inside another that stays where it is.
   struct Inside {
-    int constraint = -1;
+    int constraint = -1;  ///< index of the Constraint
     std::string name;   ///< "'hat' at 1.4 s"
     std::string solid;  ///< name of the body it would be in
   };
 
-  std::vector<Conflict> conflicts;
+  std::vector<Conflict> conflicts;  ///< one set of numbers each
   std::vector<AtBound> at_bounds;  ///< those that help most first
   std::vector<Help> would_help;    ///< the best first
-  std::vector<Inside> inside;
+  std::vector<Inside> inside;      ///< nails within fixed bodies
   std::vector<std::string> sentences;  ///< all of it for people; empty when nothing was asked or found
 
   int rows = 0;           ///< constrained numbers

@@ -13,7 +13,7 @@
 #include "bench/edits/goals.h"
 #include "bench/edits/throws.h"
 #include "bench/edits/varied.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {

@@ -22,7 +22,7 @@
 #include "bench/edits/dice.h"
 #include "bench/machine.h"
 #include "editing/edit.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 

@@ -7,7 +7,7 @@
 #include "adjoint/derivative/adjoint.h"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/numeric/elementary.hpp"
-#include "editing/problem/controls/natural_scales.h"
+#include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "editing/edit_options.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 /// Points, and how one is improved. Internal to editing/.
 namespace carom::editing_detail {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "formats/answers/check_json.h"
+#include "formats/answers/check_json.hpp"
 
-#include "formats/answers/gradient_json.h"
+#include "formats/answers/gradient_json.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/answers/gradient_json.h"
+#include "formats/answers/gradient_json.hpp"
 
 #include "formats/json/json_writer.hpp"
 

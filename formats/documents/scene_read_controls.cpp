@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "editing/problem/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.hpp"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/json/json.hpp"
 #include "formats/json/json_writer.hpp"

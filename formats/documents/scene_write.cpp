@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "adjoint/base/errors.h"
-#include "editing/problem/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.hpp"
 #include "formats/documents/scene_json.h"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/documents/scene_writer.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "editing/problem/rows/refined_times.h"
+#include "editing/problem/rows/refined_times.hpp"
 #include "formats/base/short_text.hpp"
 
 namespace carom {

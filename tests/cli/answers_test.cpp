@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "adjoint/simulate/simulate.h"
-#include "editing/problem/jacobian.h"
-#include "editing/problem/rows/refined_times.h"
+#include "editing/problem/jacobian.hpp"
+#include "editing/problem/rows/refined_times.hpp"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"

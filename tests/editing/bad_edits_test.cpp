@@ -9,6 +9,7 @@
 
 #include "adjoint/base/errors.h"
 #include "editing/edit.h"
+#include "editing/problem/jacobian.hpp"
 #include "editing/solve/bounded_least_squares.hpp"
 #include "editing/solve/edit_search.hpp"
 #include "ode_bridge/ode_contacts.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editing/problem/jacobian.hpp"
 #include "editing/report/certify.hpp"
 
 #include <gtest/gtest.h>

@@ -12,6 +12,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
+#include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

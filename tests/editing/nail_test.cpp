@@ -10,6 +10,7 @@
 
 #include "adjoint/base/errors.h"
 #include "editing/edit.h"
+#include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

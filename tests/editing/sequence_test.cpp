@@ -9,6 +9,7 @@
 
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
+#include "editing/problem/jacobian.hpp"
 #include "editing/strategy/samples.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "editing/problem/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.hpp"
 #include "formats/documents/scene_json.h"
 #include "tests/formats/scene_documents.h"
 #include "tests/test_paths.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "adjoint/simulate/simulate.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "formats/documents/save_with_meshes.h"
 #include "formats/documents/scene_json.h"
 #include "formats/gltf/write/export_gltf.h"

@@ -49,8 +49,6 @@ const std::vector<Confined>& confinedLibraries() {
       {"nlohmann", std::regex("nlohmann/.*"),
        std::regex("((formats|studio)/.*\\.cpp|formats/.*\\.hpp|tests/.*)"),
        "formats/*.cpp, formats/*.hpp, studio/*.cpp and tests"},
-      {"editing's private headers", std::regex("editing/.*\\.hpp"), std::regex("editing/.*\\.(cpp|hpp)|(tests|bench)/.*"),
-       "editing/*.cpp, editing/*.hpp, tests and bench"},
       {"valijson", std::regex("valijson/.*"), std::regex("(formats|studio|tests)/.*\\.cpp"),
        "formats/*.cpp, studio/*.cpp and tests"},
       {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests|fuzz)/.*\\.cpp"),

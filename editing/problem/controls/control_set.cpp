@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include "adjoint/numeric/so3_rates.hpp"
 #include "editing/problem/controls/control_families.hpp"
-#include "editing/problem/controls/natural_scales.h"
+#include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
 namespace {

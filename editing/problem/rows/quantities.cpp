@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/rows/quantities.h"
+#include "editing/problem/rows/quantities.hpp"
 
 #include "adjoint/numeric/so3_rates.hpp"
 

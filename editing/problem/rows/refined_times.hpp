@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editing/problem/rows/constraint_rows.h"
+#include "editing/problem/rows/constraint_rows.hpp"
 
 namespace carom {
 

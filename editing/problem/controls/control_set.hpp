@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "editing/control.h"
-#include "editing/problem/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.hpp"
 
 namespace carom {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 namespace carom {
 

@@ -10,9 +10,9 @@
 
 #include "adjoint/simulate/replay.h"
 #include "adjoint/simulate/simulate.h"
-#include "editing/problem/controls/control_set.h"
-#include "editing/problem/controls/validity_rows.h"
-#include "editing/problem/rows/constraint_rows.h"
+#include "editing/problem/controls/control_set.hpp"
+#include "editing/problem/controls/validity_rows.hpp"
+#include "editing/problem/rows/constraint_rows.hpp"
 
 namespace carom {
 

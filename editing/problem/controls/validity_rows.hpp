@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 
 namespace carom {
 

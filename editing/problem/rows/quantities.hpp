@@ -6,7 +6,7 @@
 
 #include "adjoint/derivative/tangent.h"
 #include "editing/constraint.h"
-#include "editing/problem/controls/natural_scales.h"
+#include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom {
 

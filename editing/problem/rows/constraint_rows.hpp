@@ -11,8 +11,8 @@
 #include "adjoint/derivative/derivative_tape.h"
 #include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
-#include "editing/problem/rows/quantities.h"
-#include "editing/problem/rows/region_rows.h"
+#include "editing/problem/rows/quantities.hpp"
+#include "editing/problem/rows/region_rows.hpp"
 
 namespace carom {
 

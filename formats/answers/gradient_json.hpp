@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 namespace carom {
 
