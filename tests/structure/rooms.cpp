@@ -22,7 +22,6 @@ struct KnownCircle {
 const std::vector<KnownCircle> kKnown = {{"adjoint", 18}, {"formats", 7}, {"adjoint", 3}};
 
 std::string roomOf(const std::string& path) { return path.substr(0, path.rfind('.')); }
-std::string folderOf(const std::string& path) { return path.substr(0, path.find('/')); }
 
 Graph graphOf(const Sources& sources) {
   Graph graph;

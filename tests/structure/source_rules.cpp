@@ -119,8 +119,6 @@ std::vector<std::string> inexactCalls(const std::string& path, const std::string
   return found;
 }
 
-std::string folderOf(const std::string& path) { return path.substr(0, path.find('/')); }
-
 bool contains(const std::vector<std::string>& list, const std::string& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
 }
@@ -168,6 +166,8 @@ bool includesIpopt(const std::string& text) {
 }
 
 }  // namespace
+
+std::string folderOf(const std::string& path) { return path.substr(0, path.find('/')); }
 
 Sources readSources(const std::filesystem::path& root) {
   Sources sources;

@@ -11,6 +11,9 @@ namespace carom::structure {
 /// Sources by their path from the project root, with '/' between folders.
 using Sources = std::map<std::string, std::string>;
 
+/// The first folder of a path from the project root.
+std::string folderOf(const std::string& path);
+
 /// Every .h, .hpp and .cpp file of the folders that hold code.
 Sources readSources(const std::filesystem::path& root);
 
