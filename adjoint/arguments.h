@@ -12,7 +12,8 @@ namespace carom {
 
 struct Motion;
 struct Scene;
-struct SceneDerivative;
+template <class S>
+struct SceneDerivativeOf;
 struct StateSeed;
 
 [[noreturn]] void refuseIndex(const char* where, const char* what, long long found, std::size_t count);
@@ -47,6 +48,6 @@ void checkTime(const char* where, const Motion& motion, double t);
 /// Its body, its instant and its weights.
 void checkSeed(const char* where, const Motion& motion, const StateSeed& seed);
 /// As many entries as the scene has, all finite.
-void checkDirection(const char* where, const Scene& scene, const SceneDerivative& direction);
+void checkDirection(const char* where, const Scene& scene, const SceneDerivativeOf<double>& direction);
 
 }  // namespace carom

@@ -14,18 +14,30 @@ struct State {
   Vec3 L = Vec3::Zero();
 };
 
-/// Tangent of a State (theta: R <- exp([theta]x) R), or the adjoint of one.
-struct StateDerivative {
-  Vec3 x = Vec3::Zero(), theta = Vec3::Zero(), v = Vec3::Zero(), L = Vec3::Zero();
+/// Whether a number, or each of several, is 0; numbers that carry rates have an isZero of their own.
+inline bool isZero(double x) { return x == 0; }
+template <class S>
+bool isZero(const Eigen::Matrix<S, 3, 1>& v) {
+  return isZero(v[0]) && isZero(v[1]) && isZero(v[2]);
+}
 
-  double dot(const StateDerivative& o) const { return x.dot(o.x) + theta.dot(o.theta) + v.dot(o.v) + L.dot(o.L); }
-  StateDerivative& operator+=(const StateDerivative& o) {
+/// Tangent of a State (theta: R <- exp([theta]x) R), or the adjoint of one.
+template <class S>
+struct StateDerivativeOf {
+  using Vector = Eigen::Matrix<S, 3, 1>;
+  Vector x = Vector::Zero(), theta = Vector::Zero(), v = Vector::Zero(), L = Vector::Zero();
+
+  S dot(const StateDerivativeOf& o) const { return x.dot(o.x) + theta.dot(o.theta) + v.dot(o.v) + L.dot(o.L); }
+  StateDerivativeOf& operator+=(const StateDerivativeOf& o) {
     x += o.x, theta += o.theta, v += o.v, L += o.L;
     return *this;
   }
-  void addScaled(double s, const StateDerivative& o) { x += s * o.x, theta += s * o.theta, v += s * o.v, L += s * o.L; }
-  bool isZero() const { return x.isZero(0) && theta.isZero(0) && v.isZero(0) && L.isZero(0); }
+  void addScaled(double s, const StateDerivativeOf& o) {
+    x += s * o.x, theta += s * o.theta, v += s * o.v, L += s * o.L;
+  }
+  bool isZero() const { return carom::isZero(x) && carom::isZero(theta) && carom::isZero(v) && carom::isZero(L); }
 };
+using StateDerivative = StateDerivativeOf<double>;
 
 /// Mass properties in force (whatever way they were written), in principal axes. A kinematic body moves as a free body
 /// does that has three equal moments and no weight: its inertia is the unit tensor, so that L is its angular velocity,
@@ -50,30 +62,37 @@ struct BodyModel {
 
 /// Tangent or adjoint of the parameters of a BodyModel that vary. The change of the inertia tensor in the principal
 /// axes, which stay where they are in the shape, is diag(inertia) plus `products` off the diagonal: (yz, xz, xy).
-struct BodyModelDerivative {
-  double mass = 0;
-  Vec3 inertia = Vec3::Zero();
-  Vec3 products = Vec3::Zero();
-  Vec3 center = Vec3::Zero();  ///< in shape axes
+template <class S>
+struct BodyModelDerivativeOf {
+  using Vector = Eigen::Matrix<S, 3, 1>;
+  using Matrix = Eigen::Matrix<S, 3, 3>;
+  S mass = 0;
+  Vector inertia = Vector::Zero();
+  Vector products = Vector::Zero();
+  Vector center = Vector::Zero();  ///< in shape axes
 
   /// Read as a tangent: dJ, the change of the inertia tensor in principal axes.
-  Mat3 inertiaTensor() const {
-    Mat3 dJ;
+  Matrix inertiaTensor() const {
+    Matrix dJ;
     dJ << inertia[0], products[2], products[1], products[2], inertia[1], products[0], products[1], products[0],
         inertia[2];
     return dJ;
   }
   /// Read as an adjoint: adds that of the functional <J_bar, dJ>.
-  void addInertiaBar(const Mat3& J_bar) {
+  void addInertiaBar(const Matrix& J_bar) {
     inertia += J_bar.diagonal();
-    products += Vec3(J_bar(1, 2) + J_bar(2, 1), J_bar(0, 2) + J_bar(2, 0), J_bar(0, 1) + J_bar(1, 0));
+    products += Vector(J_bar(1, 2) + J_bar(2, 1), J_bar(0, 2) + J_bar(2, 0), J_bar(0, 1) + J_bar(1, 0));
   }
-  BodyModelDerivative& operator+=(const BodyModelDerivative& o) {
+  BodyModelDerivativeOf& operator+=(const BodyModelDerivativeOf& o) {
     mass += o.mass, inertia += o.inertia, products += o.products, center += o.center;
     return *this;
   }
-  bool isZero() const { return mass == 0 && inertia.isZero(0) && products.isZero(0) && center.isZero(0); }
+  bool isZero() const {
+    using carom::isZero;
+    return isZero(mass) && isZero(inertia) && isZero(products) && isZero(center);
+  }
 };
+using BodyModelDerivative = BodyModelDerivativeOf<double>;
 
 /// Centre of mass of a moving body in shape axes, as written or else the shape's own, and its rates by the dimensions
 /// (3 x dimensions). 0 for a fixed body. Of a kinematic body it is the point that its velocity is of.

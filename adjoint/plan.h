@@ -18,9 +18,16 @@ struct Asked {
 enum class Law { frictionless, friction };
 
 /// Coefficients in force between two bodies, after combination of their materials.
-struct PairCoefficients {
-  double elasticity = 0, friction = 0, tangential_elasticity = 0;
+template <class S>
+struct PairCoefficientsOf {
+  S elasticity = 0, friction = 0, tangential_elasticity = 0;
+
+  PairCoefficientsOf& operator+=(const PairCoefficientsOf& o) {
+    elasticity += o.elasticity, friction += o.friction, tangential_elasticity += o.tangential_elasticity;
+    return *this;
+  }
 };
+using PairCoefficients = PairCoefficientsOf<double>;
 PairCoefficients combine(const Material& a, const Material& b);
 PairCoefficients combineTangent(const Material& a, const Material& b, const MaterialDerivative& da,
                                 const MaterialDerivative& db);

@@ -8,12 +8,15 @@ namespace carom {
 /// Derivative of the rotation vector theta at the end of a stretch of free rotation by theta and L at its start, by the
 /// principal moments, and by the products of inertia (yz, xz, xy) in principal axes, which are 0 (every one 3x3). The
 /// last one is 0 unless it was asked for.
-struct RotationSensitivity {
-  Mat3 dtheta_dtheta = Mat3::Identity();
-  Mat3 dtheta_dL = Mat3::Zero();
-  Mat3 dtheta_dI = Mat3::Zero();
-  Mat3 dtheta_dproducts = Mat3::Zero();
+template <class S>
+struct RotationSensitivityOf {
+  using Matrix = Eigen::Matrix<S, 3, 3>;
+  Matrix dtheta_dtheta = Matrix::Identity();
+  Matrix dtheta_dL = Matrix::Zero();
+  Matrix dtheta_dI = Matrix::Zero();
+  Matrix dtheta_dproducts = Matrix::Zero();
 };
+using RotationSensitivity = RotationSensitivityOf<double>;
 
 /// Of two stretches, the first and then the second.
 RotationSensitivity chained(const RotationSensitivity& first, const RotationSensitivity& second);

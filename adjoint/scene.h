@@ -107,28 +107,46 @@ void validate(const Scene& scene);
 
 /// One set of numbers with the fields of a Scene. Read as a gradient each holds d(quantity)/d(field); read as a tangent
 /// each holds the rate at which the field varies. Orientation is a world rotation vector applied on the left.
-struct BodyDerivative {
-  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-  double mass = 0, density = 0;  ///< only the one that the scene gives is used
-  Vec3 inertia = Vec3::Zero();   ///< principal moments; unused when the inertia is derived
-  Eigen::VectorXd size;          ///< the shape's dimensions, in the order of ShapeKind::dimension_names
+template <class S>
+struct BodyDerivativeOf {
+  using Vector = Eigen::Matrix<S, 3, 1>;
+  Vector position = Vector::Zero(), orientation = Vector::Zero(), velocity = Vector::Zero(),
+         angular_velocity = Vector::Zero();
+  S mass = 0, density = 0;                    ///< only the one that the scene gives is used
+  Vector inertia = Vector::Zero();            ///< principal moments; unused when the inertia is derived
+  Eigen::Matrix<S, Eigen::Dynamic, 1> size;   ///< the shape's dimensions, in the order of ShapeKind::dimension_names
 };
-struct MaterialDerivative {
-  double elasticity = 0, friction = 0, tangential_elasticity = 0;
+template <class S>
+struct MaterialDerivativeOf {
+  S elasticity = 0, friction = 0, tangential_elasticity = 0;
 };
-struct SceneDerivative {
-  SceneDerivative() = default;
+template <class S>
+struct SceneDerivativeOf {
+  SceneDerivativeOf() = default;
   /// All zero, with as many entries as the scene has.
-  explicit SceneDerivative(const Scene& scene);
+  explicit SceneDerivativeOf(const Scene& scene)
+      : materials(scene.materials.size()),
+        bodies(scene.bodies.size()),
+        tilts(scene.tilts.size(), Eigen::Matrix<S, 2, 1>::Zero()) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const Shape& shape = scene.bodies[i].shape;
+      bodies[i].size.setZero(kindOf(shape).dimensions(shape).size());
+    }
+  }
 
-  Vec3 gravity = Vec3::Zero();
-  std::vector<MaterialDerivative> materials;
-  std::vector<BodyDerivative> bodies;
-  std::vector<Vec2> tilts;
+  Eigen::Matrix<S, 3, 1> gravity = Eigen::Matrix<S, 3, 1>::Zero();
+  std::vector<MaterialDerivativeOf<S>> materials;
+  std::vector<BodyDerivativeOf<S>> bodies;
+  std::vector<Eigen::Matrix<S, 2, 1>> tilts;
 
   /// Sum of products of all fields, <gradient, tangent>. Throws InputError where the other is of another scene's size.
-  double dot(const SceneDerivative& other) const;
+  S dot(const SceneDerivativeOf& other) const;
 };
+template <>
+double SceneDerivativeOf<double>::dot(const SceneDerivativeOf& other) const;
+using BodyDerivative = BodyDerivativeOf<double>;
+using MaterialDerivative = MaterialDerivativeOf<double>;
+using SceneDerivative = SceneDerivativeOf<double>;
 using SceneGradient = SceneDerivative;
 using SceneTangent = SceneDerivative;
 

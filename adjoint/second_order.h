@@ -5,16 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "adjoint/reading_direction.h"
 #include "adjoint/tangent.h"
 
 namespace carom {
-
-/// A direction in which the inputs of readings change: the scene, and the times of the seeds that are read at a given
-/// time (one number a seed, 0 for those at events; empty: all stay).
-struct ReadingDirection {
-  SceneTangent scene;
-  Eigen::VectorXd time;
-};
 
 /// How the weights of the seeds change when the states that they are read from change at `rates`, one a seed, in which
 /// the instants have moved along; what is returned holds one seed a seed, of which only the weights are read. Empty

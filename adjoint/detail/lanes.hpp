@@ -3,7 +3,8 @@
 
 #include "adjoint/detail/dual_state.hpp"
 #include "adjoint/detail/reach.hpp"
-#include "adjoint/second_order.h"
+#include "adjoint/reading_direction.h"
+#include "adjoint/tangent.h"
 
 namespace carom::detail {
 
