@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "adjoint/impact/tilt.h"
+#include "adjoint/impact/tilt.hpp"
 
 namespace carom {
 

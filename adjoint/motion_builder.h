@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "adjoint/errors.h"
-#include "adjoint/motion.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/motion/motion.h"
 
 namespace carom {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/body_model.h"
-#include "adjoint/detail/dual.hpp"
-#include "adjoint/rotation_sensitivity.h"
+#include "adjoint/flight/rotation_sensitivity.h"
+#include "adjoint/numeric/dual.hpp"
+#include "adjoint/scene/body_model.h"
 
 /// Reverse passes of one body, in any kind of number S: what is read of its state (a seed), its flight, its start as
 /// written and its mass properties. A `Model` is a BodyModel or a DualModel.

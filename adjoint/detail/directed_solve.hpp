@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/detail/dual.hpp"
-#include "adjoint/impact/complementarity.h"
+#include "adjoint/impact/complementarity.hpp"
+#include "adjoint/numeric/dual.hpp"
 
 /// Solves of least norm for any number, with their adjoints.
 namespace carom::detail {

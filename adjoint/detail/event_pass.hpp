@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "adjoint/detail/impact_pass.hpp"
 #include "adjoint/detail/pair_rules.hpp"
-#include "adjoint/motion.h"
+#include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/motion/motion.h"
 
 namespace carom::detail {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/detail/joint_law.hpp"
-#include "adjoint/detail/single_laws.hpp"
-#include "adjoint/impact/law.h"
+#include "adjoint/impact/joint_law.hpp"
+#include "adjoint/impact/law.hpp"
+#include "adjoint/impact/single_laws.hpp"
 
 /// The impact laws of law.h for any number. Derivatives along directions are the law itself in dual numbers; adjoints
 /// are written by hand, and the dot-product tests hold one against the other.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "adjoint/plan.h"
+#include "adjoint/motion/plan.h"
 
 /// How two materials make the coefficients of a pair, for any number.
 namespace carom::detail {

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "adjoint/derivative_tape.h"
+#include "adjoint/derivative/derivative_tape.h"
 
 namespace carom::detail {
 

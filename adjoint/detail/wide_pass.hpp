@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/detail/impact_pass.hpp"
 #include "adjoint/detail/laws.hpp"
+#include "adjoint/impact/impact_pass.hpp"
 
 /// wideImpact and wideImpactPullback of impact_pass.hpp. Each kind of number takes a minute of compilation, and so has
 /// a file of its own.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/law.h"
+#include "adjoint/impact/law.hpp"
 
-#include "adjoint/detail/impact_pass.hpp"
 #include "adjoint/detail/laws.hpp"
+#include "adjoint/impact/impact_pass.hpp"
 
 namespace carom {
 namespace {

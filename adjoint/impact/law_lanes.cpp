@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/detail/dual_state.hpp"
-#include "adjoint/detail/impact_pass.hpp"
 #include "adjoint/detail/laws.hpp"
+#include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/second_order/dual_state.hpp"
 
 // The impact laws with the rates of second derivatives.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/wide_impact.h"
+#include "adjoint/impact/wide_impact.hpp"
 
 #include <algorithm>
 #include <cmath>

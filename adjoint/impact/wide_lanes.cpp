@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/detail/dual_state.hpp"
 #include "adjoint/detail/wide_pass.hpp"
+#include "adjoint/second_order/dual_state.hpp"
 
 // The reverse pass of impacts of 32 digits with the rates of second derivatives.
 

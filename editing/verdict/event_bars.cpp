@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editing/verdict/event_bars.h"
 
-#include "adjoint/adjoint.h"
+#include "adjoint/derivative/adjoint.h"
 #include "adjoint/detail/event_pass.hpp"
 #include "adjoint/guard.h"
 
