@@ -97,7 +97,7 @@ void fold(const JacobianOf<S>& J, int column, const Turned<S>& f, Eigen::Ref<Eig
           Eigen::Matrix<S, 7, Eigen::Dynamic>& by_size) {
   const auto JP = J.template middleCols<3>(column), JD = J.template middleCols<3>(column + 3);
   by_pose.template leftCols<3>() = JP;
-  by_pose.template rightCols<3>() = -JP * skewOf<S>(f.arm) - JD * skewOf<S>(f.direction);
+  by_pose.template rightCols<3>() = -JP * skew(f.arm) - JD * skew(f.direction);
   by_size = JP * f.point_rates + J.col(column + 6) * f.radius_rates + J.col(column + 7) * f.rim_rates;
 }
 

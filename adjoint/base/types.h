@@ -15,14 +15,21 @@ using Quat = Eigen::Quaterniond;  ///< unit quaternion of a rotation, (w, x, y, 
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< of a double
 
-/// Skew-symmetric matrix [a]x, so that [a]x b = a x b.
-inline Mat3 skew(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+/// Skew-symmetric matrix [a]x, so that [a]x b = a x b, of any kind of number.
+template <class Vector>
+Eigen::Matrix<typename Vector::Scalar, 3, 3> skew(const Eigen::MatrixBase<Vector>& vector) {
+  using S = typename Vector::Scalar;
+  const Eigen::Matrix<S, 3, 1> a = vector;
+  Eigen::Matrix<S, 3, 3> m;
+  m << S(0), -a.z(), a.y(), a.z(), S(0), -a.x(), -a.y(), a.x(), S(0);
   return m;
 }
 
 /// The vector d with <M, [d]x> = d . unskew(M) for every d (the adjoint of `skew`).
-inline Vec3 unskew(const Mat3& m) { return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)}; }
+template <class Matrix>
+Eigen::Matrix<typename Matrix::Scalar, 3, 1> unskew(const Eigen::MatrixBase<Matrix>& matrix) {
+  const Eigen::Matrix<typename Matrix::Scalar, 3, 3> m = matrix;
+  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
+}
 
 }  // namespace carom

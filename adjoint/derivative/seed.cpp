@@ -3,28 +3,14 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/derivative/derivative_arguments.hpp"
+#include "adjoint/derivative/seed_pass.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
 namespace carom {
 
 StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
                              BodyModelDerivative& model_bar) {
-  StateDerivative bar;
-  bar.x = seed.position + seed.center_of_mass;
-  bar.theta = seed.orientation;
-  bar.v = seed.velocity;
-  if (!model.moving) return bar;
-  const Mat3 R = state.q.toRotationMatrix(), R_WG = model.shapeToWorld(R);
-  bar.theta += seed.position.cross(R_WG * model.center);  // -p_bar.(theta x c_W)
-  model_bar.center -= R_WG.transpose() * seed.position;
-  if (seed.angular_velocity.isZero(0)) return bar;
-  const Vec3 &w_bar = seed.angular_velocity, A_w_bar = model.inverseInertiaWorld(R) * w_bar;
-  const Vec3 omega = R * model.inverse_inertia.cwiseProduct(R.transpose() * state.L);
-  bar.L = A_w_bar;
-  // w_bar.(theta x omega) - A w_bar.(theta x L)
-  bar.theta += omega.cross(w_bar) - state.L.cross(A_w_bar);
-  model_bar.addInertiaBar(-(R.transpose() * A_w_bar) * (R.transpose() * omega).transpose());
-  return bar;
+  return detail::seedPullbackOf<double>(model, state.q.toRotationMatrix(), state.L, seed, model_bar);
 }
 
 Vec3 originTangent(const BodyModel& model, const State& state, const StateDerivative& ds,

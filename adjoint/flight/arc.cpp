@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/flight/flight_pass.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/flight/flight_triaxial.hpp"
 
@@ -202,16 +203,7 @@ StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivit
 StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& end_bar,
                                Vec3& gravity_bar, BodyModelDerivative& model_bar) {
   if (!arc.moving()) return end_bar;
-  const double s = t - arc.start();
-  StateDerivative d;
-  d.x = end_bar.x;
-  d.v = end_bar.v + s * end_bar.x;
-  d.theta = S.dtheta_dtheta.transpose() * end_bar.theta;
-  d.L = end_bar.L + S.dtheta_dL.transpose() * end_bar.theta;
-  gravity_bar += arc.model().gravity_factor * (0.5 * s * s * end_bar.x + s * end_bar.v);
-  model_bar.inertia += S.dtheta_dI.transpose() * end_bar.theta;
-  model_bar.products += S.dtheta_dproducts.transpose() * end_bar.theta;
-  return d;
+  return detail::flightPullbackOf(arc.model().gravity_factor, t - arc.start(), S, end_bar, gravity_bar, model_bar);
 }
 
 }  // namespace carom

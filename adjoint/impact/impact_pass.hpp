@@ -1,184 +1,217 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/impact/joint_law.hpp"
-#include "adjoint/impact/single_laws.hpp"
-#include "adjoint/motion/motion.h"
+#include "adjoint/impact/law.hpp"
+#include "adjoint/numeric/dual.hpp"
 
 namespace carom::detail {
 
-/// An impact from states to states with its adjoint, in one kind of number S: what ImpactAssembly and DualEvent do, for
-/// bodies whose masses differ too much for doubles. There the velocity that a light body gets is the difference of the
-/// large impulses of heavy ones, which has no digits left once these are rounded; so nothing is, from states to states.
+/// What an impact depends on.
 template <class S>
-struct ImpactPass {
+struct ImpactInputs {
   struct Body {
-    bool kinematic = false;
+    bool kinematic = false;  // adds to u and not to K, and no impulse moves it
     S inverse_mass = 0;
-    M3<S> A = M3<S>::Zero();  // world inverse inertia
-    V3<S> v = V3<S>::Zero(), L = V3<S>::Zero();
+    M3<S> R, D;  // principal axes to world, inverse inertia in them
+    V3<S> x, v, L;
   };
-  // One body at one contact, s = 1 on body a and -1 on b, r from the centre of mass.
+  struct Contact {
+    int a = -1, b = -1;  // of the bodies; -1: one that does not move
+    V3<S> point, normal;
+    PairCoefficientsOf<S> pair;
+  };
+  std::vector<Body> bodies;
+  std::vector<Contact> contacts;
+};
+
+/// Of a body after an impact.
+template <class S>
+struct Velocities {
+  V3<S> v, L;
+};
+template <class S>
+struct ImpactOutcome {
+  ImpactSolutionOf<S> solution;
+  std::vector<Velocities<S>> after;
+};
+
+/// Adjoints of states before, models, contacts (gap, normal of the impulse, point) and coefficients.
+template <class S>
+struct ImpactBars {
+  std::vector<StateDerivativeOf<S>> before;
+  std::vector<BodyModelDerivativeOf<S>> model;
+  std::vector<Eigen::Matrix<S, 7, 1>> contact;
+  std::vector<PairCoefficientsOf<S>> pair;
+};
+
+/// The law that a problem falls under, and its adjoint: laws.hpp, compiled in files of their own.
+template <class S>
+ImpactSolutionOf<S> solveLaw(const ImpactProblemOf<S>& problem);
+template <class S>
+ImpactProblemDerivativeOf<S> lawPullback(const ImpactProblemOf<S>& problem, const VectorOf<S>& P_bar);
+
+/// An impact and its adjoint in numbers of 32 digits, from numbers to numbers of the given kind. Where masses differ
+/// much the velocity that a light body gets is the difference of the large impulses of heavy ones, which has no digits
+/// left once these are rounded; so nothing is rounded on the way.
+template <class S>
+ImpactOutcome<S> wideImpact(const ImpactInputs<S>& inputs);
+template <class S>
+ImpactBars<S> wideImpactPullback(const ImpactInputs<S>& inputs, const std::vector<StateDerivativeOf<S>>& after_bar);
+
+/// An impact from states to states with its adjoint, in one kind of number S:
+///   u_k = sum s (v + omega x r),  K_kl = sum s_k s_l (1/m - [r_k]x A [r_l]x),  A = R D R^T,  omega = A L,
+///   v+ = v + sum s P/m,  L+ = L + sum s r x P,  with s = 1 on body a and -1 on b.
+template <class S>
+class ImpactPass {
+ public:
+  using Problem = ImpactProblemOf<S>;
+  using ProblemBar = ImpactProblemDerivativeOf<S>;
+  using Bars = ImpactBars<S>;
+  // Adjoints of what stands between the inputs and the problem.
+  struct Between {
+    std::vector<V3<S>> r;  // of the arms
+    // of the bodies
+    std::vector<V3<S>> omega;
+    std::vector<M3<S>> A;
+    std::vector<S> inverse_mass;
+  };
+
+  explicit ImpactPass(ImpactInputs<S> inputs) : in_(std::move(inputs)) {
+    for (const auto& b : in_.bodies) {
+      A_.push_back(b.R * b.D * b.R.transpose());
+      omega_.push_back(A_.back() * b.L);
+      problem_.driven = problem_.driven || b.kinematic;
+    }
+    for (std::size_t k = 0; k < in_.contacts.size(); ++k) {
+      const auto& c = in_.contacts[k];
+      problem_.normal.push_back(c.normal);
+      problem_.pair.push_back(c.pair);
+      for (std::size_t i = 0; i < in_.bodies.size(); ++i) {
+        const bool is_a = static_cast<int>(i) == c.a;
+        if (is_a || static_cast<int>(i) == c.b) arms_.push_back({k, i, is_a ? 1.0 : -1.0, c.point - in_.bodies[i].x});
+      }
+    }
+    assemble();
+  }
+
+  const ImpactInputs<S>& inputs() const { return in_; }
+  const Problem& problem() const { return problem_; }
+  ImpactSolutionOf<S> solve() const { return solveLaw(problem_); }
+
+  std::vector<Velocities<S>> after(const VectorOf<S>& P) const {
+    std::vector<Velocities<S>> out;
+    for (const auto& b : in_.bodies) out.push_back({b.v, b.L});
+    for (const Arm& arm : arms_) {
+      if (in_.bodies[arm.body].kinematic) continue;
+      const V3<S> P_k = arm.sign * blockOf(P, arm);
+      out[arm.body].v += in_.bodies[arm.body].inverse_mass * P_k;
+      out[arm.body].L += arm.r.cross(P_k);
+    }
+    return out;
+  }
+
+  Bars pullback(const VectorOf<S>& P, const std::vector<StateDerivativeOf<S>>& after_bar) const {
+    Bars bars = noBars();
+    bars.before = after_bar;
+    Between between = nothingBetween();
+    VectorOf<S> P_bar = VectorOf<S>::Zero(P.size());
+    for (std::size_t j = 0; j < arms_.size(); ++j) {
+      const Arm& arm = arms_[j];
+      const auto& b = in_.bodies[arm.body];
+      if (b.kinematic) continue;
+      const V3<S> P_k = blockOf(P, arm), &v_bar = after_bar[arm.body].v, &L_bar = after_bar[arm.body].L;
+      P_bar.template segment<3>(row(arm)) += arm.sign * V3<S>(b.inverse_mass * v_bar + L_bar.cross(arm.r));
+      between.inverse_mass[arm.body] += arm.sign * P_k.dot(v_bar);
+      between.r[j] = arm.sign * P_k.cross(L_bar);
+    }
+    problemPullback(lawPullback(problem_, P_bar), between, bars);
+    betweenPullback(between, bars);
+    return bars;
+  }
+
+  /// From the adjoint of the problem to those of what it is made of.
+  void problemPullback(const ProblemBar& bar, Between& between, Bars& bars) const {
+    for (std::size_t j = 0; j < arms_.size(); ++j)
+      for (std::size_t l = 0; l < arms_.size(); ++l) {
+        const Arm &a = arms_[j], &b = arms_[l];
+        if (a.body != b.body || in_.bodies[a.body].kinematic) continue;
+        const M3<S> Ra = skew(a.r), Rb = skew(b.r), &A = A_[a.body];
+        const M3<S> K_bar = a.sign * b.sign * M3<S>(bar.K.template block<3, 3>(row(a), row(b)));
+        between.inverse_mass[a.body] += K_bar.trace();
+        between.A[a.body] -= Ra * K_bar * Rb;     // <K_bar, -Ra dA Rb>, Ra^T = -Ra
+        between.r[j] += unskew(K_bar * Rb * A);  // <K_bar, -[dr]x A Rb>
+        between.r[l] += unskew(A * Ra * K_bar);  // <K_bar, -Ra A [dr]x>
+      }
+    for (std::size_t j = 0; j < arms_.size(); ++j) {
+      const Arm& arm = arms_[j];
+      const V3<S> u_bar = arm.sign * blockOf(bar.u, arm);
+      bars.before[arm.body].v += u_bar;
+      between.omega[arm.body] += arm.r.cross(u_bar);
+      between.r[j] += u_bar.cross(omega_[arm.body]);
+      bars.before[arm.body].x -= between.r[j];
+      bars.contact[arm.contact].template tail<3>() += between.r[j];
+    }
+    for (std::size_t k = 0; k < bars.contact.size(); ++k) {
+      bars.contact[k].template segment<3>(1) += bar.normal[k];
+      bars.pair[k] += bar.pair[k];
+    }
+  }
+  void betweenPullback(Between& between, Bars& bars) const {
+    for (std::size_t i = 0; i < in_.bodies.size(); ++i) {
+      const auto& b = in_.bodies[i];
+      const M3<S>& A = A_[i];
+      M3<S>& A_bar = between.A[i];
+      A_bar += between.omega[i] * b.L.transpose();
+      bars.before[i].L += A * between.omega[i];
+      // dA = [theta]x A - A [theta]x - A R dJ R^T A, A symmetric
+      bars.before[i].theta += unskew(A_bar * A - A * A_bar);
+      bars.model[i].addInertiaBar(-(b.R.transpose() * A * A_bar * A * b.R));
+      bars.model[i].mass -= between.inverse_mass[i] * b.inverse_mass * b.inverse_mass;
+    }
+  }
+  Bars noBars() const {
+    const std::size_t bodies = in_.bodies.size(), contacts = in_.contacts.size();
+    return {std::vector<StateDerivativeOf<S>>(bodies), std::vector<BodyModelDerivativeOf<S>>(bodies),
+            std::vector<Eigen::Matrix<S, 7, 1>>(contacts, Eigen::Matrix<S, 7, 1>::Zero()),
+            std::vector<PairCoefficientsOf<S>>(contacts)};
+  }
+  Between nothingBetween() const {
+    const std::size_t n = in_.bodies.size();
+    return {std::vector<V3<S>>(arms_.size(), V3<S>::Zero()), std::vector<V3<S>>(n, V3<S>::Zero()),
+            std::vector<M3<S>>(n, M3<S>::Zero()), std::vector<S>(n, S(0))};
+  }
+
+ private:
+  // One body at one contact, r from its centre of mass.
   struct Arm {
     std::size_t contact, body;
     double sign;
     V3<S> r;
   };
-  struct Pair {
-    S elasticity = 0, friction = 0, tangential_elasticity = 0;
-  };
-  // With the fields of ImpactProblem; as a Bar with those of ImpactProblemDerivative.
-  struct Problem {
-    MatrixOf<S> K;
-    VectorOf<S> u;
-    std::vector<V3<S>> normal;
-    std::vector<Pair> pair;
-    bool driven = false;
-  };
-  // Adjoint of a Body, and of one contact.
-  struct BodyBar {
-    S inverse_mass = 0;
-    M3<S> A = M3<S>::Zero();
-    V3<S> x = V3<S>::Zero(), v = V3<S>::Zero(), L = V3<S>::Zero();
-  };
-  struct ContactBar {
-    V3<S> normal = V3<S>::Zero(), point = V3<S>::Zero();
-    Pair pair;
-  };
-  struct OneContact {
-    M3<S> K;
-    V3<S> u, normal;
-    Pair pair;
-  };
 
-  std::vector<Body> bodies;
-  std::vector<Arm> arms;
-  Problem problem;
-  VectorOf<S> P;
-  ImpactMode mode = ImpactMode::joint;
-  double margin = 1;
+  static Eigen::Index row(const Arm& arm) { return 3 * static_cast<Eigen::Index>(arm.contact); }
+  static V3<S> blockOf(const VectorOf<S>& all, const Arm& arm) { return all.template segment<3>(row(arm)); }
 
-  /// From bodies, arms, normals and pairs: the velocities u, the matrix K and the impulses.
-  void solve() {
-    const auto n = static_cast<Index>(problem.normal.size());
-    problem.u = VectorOf<S>::Zero(3 * n);
-    problem.K = MatrixOf<S>::Zero(3 * n, 3 * n);
-    for (const Body& b : bodies) problem.driven = problem.driven || b.kinematic;
-    for (const Arm& k : arms) problem.u.template segment<3>(row(k)) += S(k.sign) * velocityAt(k);
-    for (const Arm& k : arms)
-      for (const Arm& l : arms) {
-        const Body& b = bodies[k.body];
-        if (k.body != l.body || b.kinematic) continue;
-        const M3<S> translation = b.inverse_mass * M3<S>::Identity(), rotation = skewOf<S>(k.r) * b.A * skewOf<S>(l.r);
-        problem.K.template block<3, 3>(row(k), row(l)) += S(k.sign * l.sign) * (translation - rotation);
+  void assemble() {
+    const auto n = static_cast<Eigen::Index>(in_.contacts.size());
+    problem_.u.setZero(3 * n);
+    problem_.K.setZero(3 * n, 3 * n);
+    for (const Arm& k : arms_)
+      problem_.u.template segment<3>(row(k)) += k.sign * V3<S>(in_.bodies[k.body].v + omega_[k.body].cross(k.r));
+    for (const Arm& k : arms_)
+      for (const Arm& l : arms_) {
+        if (k.body != l.body || in_.bodies[k.body].kinematic) continue;
+        const M3<S> translation = in_.bodies[k.body].inverse_mass * M3<S>::Identity(),
+                    rotation = skew(k.r) * A_[k.body] * skew(l.r);
+        problem_.K.template block<3, 3>(row(k), row(l)) += k.sign * l.sign * (translation - rotation);
       }
-    if (n > 1) {
-      const Branch<S> b(problem);
-      P = b.P_N + b.kappa * b.d;
-      margin = b.limit < 0 ? b.margin : 1.0;
-      return;
-    }
-    if (only().pair.friction > 0) {
-      const FrictionTerms<S> t(only());
-      P = t.impulse();
-      mode = t.slides ? ImpactMode::slide : ImpactMode::stick;
-      margin = t.margin;
-    } else {
-      P = FrictionlessTerms<S>(only()).impulse();
-      mode = ImpactMode::frictionless;
-    }
   }
 
-  /// Velocities and angular momenta after it.
-  std::vector<Body> after() const {
-    std::vector<Body> out = bodies;
-    for (const Arm& arm : arms) {
-      Body& b = out[arm.body];
-      if (b.kinematic) continue;
-      const V3<S> P_k = S(arm.sign) * V3<S>(P.template segment<3>(row(arm)));
-      b.v += b.inverse_mass * P_k;
-      b.L += arm.r.cross(P_k);
-    }
-    return out;
-  }
-
-  /// `bodies_bar` holds the adjoints of v and L after the impact, and gets those of everything before it.
-  void pullback(std::vector<BodyBar>& bodies_bar, std::vector<ContactBar>& contacts_bar) const {
-    std::vector<V3<S>> r_bar(arms.size(), V3<S>::Zero());
-    VectorOf<S> P_bar = VectorOf<S>::Zero(P.size());
-    for (std::size_t j = 0; j < arms.size(); ++j) {
-      const Arm& arm = arms[j];
-      const Body& b = bodies[arm.body];
-      if (b.kinematic) continue;
-      BodyBar& bar = bodies_bar[arm.body];
-      const V3<S> P_k = S(arm.sign) * V3<S>(P.template segment<3>(row(arm)));
-      P_bar.template segment<3>(row(arm)) += S(arm.sign) * V3<S>(b.inverse_mass * bar.v + bar.L.cross(arm.r));
-      bar.inverse_mass += P_k.dot(bar.v);
-      r_bar[j] = P_k.cross(bar.L);
-    }
-    const Problem bar = lawPullback(P_bar);
-    std::vector<V3<S>> omega_bar(bodies.size(), V3<S>::Zero());
-    for (std::size_t j = 0; j < arms.size(); ++j)
-      for (std::size_t l = 0; l < arms.size(); ++l) {
-        const Arm &a = arms[j], &b = arms[l];
-        if (a.body != b.body || bodies[a.body].kinematic) continue;
-        const M3<S> Ra = skewOf<S>(a.r), Rb = skewOf<S>(b.r), &A = bodies[a.body].A;
-        const M3<S> K_bar = S(a.sign * b.sign) * M3<S>(bar.K.template block<3, 3>(row(a), row(b)));
-        bodies_bar[a.body].inverse_mass += K_bar.trace();
-        bodies_bar[a.body].A -= Ra * K_bar * Rb;          // <K_bar, -Ra dA Rb>, Ra^T = -Ra
-        r_bar[j] += unskewOf<S>(M3<S>(K_bar * Rb * A));  // <K_bar, -[dr]x A Rb>
-        r_bar[l] += unskewOf<S>(M3<S>(A * Ra * K_bar));  // <K_bar, -Ra A [dr]x>
-      }
-    for (std::size_t j = 0; j < arms.size(); ++j) {
-      const Arm& arm = arms[j];
-      const V3<S> u_bar = S(arm.sign) * V3<S>(bar.u.template segment<3>(row(arm)));
-      bodies_bar[arm.body].v += u_bar;
-      omega_bar[arm.body] += arm.r.cross(u_bar);
-      r_bar[j] += u_bar.cross(V3<S>(bodies[arm.body].A * bodies[arm.body].L));
-      bodies_bar[arm.body].x -= r_bar[j];
-      contacts_bar[arm.contact].point += r_bar[j];
-    }
-    for (std::size_t k = 0; k < contacts_bar.size(); ++k) {
-      contacts_bar[k].normal += bar.normal[k];
-      contacts_bar[k].pair = bar.pair[k];
-    }
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      bodies_bar[i].A += omega_bar[i] * bodies[i].L.transpose();
-      bodies_bar[i].L += bodies[i].A * omega_bar[i];
-    }
-  }
-
-  /// Of the adjoint of A: that of a turn theta, from dA = [theta]x A - A [theta]x, and that of the inertia tensor in
-  /// the axes R, from dA = -A R dJ R^T A.
-  V3<S> turnBar(std::size_t body, const BodyBar& bar) const {
-    const M3<S>& A = bodies[body].A;
-    return unskewOf<S>(M3<S>(bar.A * A - A * bar.A));
-  }
-  M3<S> inertiaBar(std::size_t body, const BodyBar& bar, const M3<S>& R) const {
-    const M3<S> AR = bodies[body].A * R;
-    return -(AR.transpose() * bar.A * AR);
-  }
-
- private:
-  static Index row(const Arm& arm) { return 3 * static_cast<Index>(arm.contact); }
-  V3<S> velocityAt(const Arm& arm) const {
-    const Body& b = bodies[arm.body];
-    return b.v + V3<S>(b.A * b.L).cross(arm.r);
-  }
-  OneContact only() const { return {problem.K, problem.u, problem.normal[0], problem.pair[0]}; }
-
-  Problem lawPullback(const VectorOf<S>& P_bar) const {
-    const std::size_t n = problem.normal.size();
-    Problem bar{MatrixOf<S>::Zero(P_bar.size(), P_bar.size()), VectorOf<S>::Zero(P_bar.size()),
-                std::vector<V3<S>>(n, V3<S>::Zero()), std::vector<Pair>(n), false};
-    if (n > 1)
-      jointPullback<S>(problem, P_bar, bar);
-    else if (only().pair.friction > 0)
-      FrictionTerms<S>(only()).pullback(V3<S>(P_bar), bar);
-    else
-      FrictionlessTerms<S>(only()).pullback(V3<S>(P_bar), bar);
-    return bar;
-  }
+  ImpactInputs<S> in_;
+  std::vector<M3<S>> A_;
+  std::vector<V3<S>> omega_;
+  std::vector<Arm> arms_;
+  Problem problem_;
 };
 
 }  // namespace carom::detail

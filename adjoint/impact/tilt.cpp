@@ -16,6 +16,10 @@ Vec3 tiltedNormal(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b) {
   return m.normalized();
 }
 
+Vec2 tiltOf(const Scene& scene, int entry) {
+  return entry < 0 ? Vec2(0, 0) : scene.tilts[static_cast<std::size_t>(entry)].value;
+}
+
 double tiltMargin(const Vec3& n, bool a, bool b) {
   const double of_a = a ? 0.5 * (n + detail::tiltCentre()).norm() : 1;
   const double of_b = b ? 0.5 * (detail::tiltCentre() - n).norm() : 1;

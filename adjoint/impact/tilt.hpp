@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/base/types.h"
+#include "adjoint/scene/scene.h"
 
 namespace carom {
 
@@ -11,6 +11,9 @@ namespace carom {
 /// function of n but at n = -m; on a level floor it is the y axis. Each body's tilt is taken about the normal that points
 /// towards that body.
 Vec3 tiltedNormal(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b);
+
+/// An entry of Scene::tilts; none for -1.
+Vec2 tiltOf(const Scene& scene, int entry);
 
 /// How far a frame of n is from the direction where there is none: |n + m|/2, 1 at most; the least of those of n (where
 /// `a` has a tilt) and of -n (where `b` has one). Derivatives by n grow with its inverse.

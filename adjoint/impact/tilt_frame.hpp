@@ -33,7 +33,7 @@ struct TiltFrame {
   M3<S> offsetByNormal(const V2<S>& tilt) const {
     const V3<S> dalong = (2 * a - 2 * along * s) / length2;
     const M3<S> dt1 = -along * M3<S>::Identity() - s * dalong.transpose();
-    const M3<S> dt2 = -skewOf<S>(t1) + skewOf<S>(n) * dt1;
+    const M3<S> dt2 = -skew(t1) + skew(n) * dt1;
     return tilt.x() * dt1 + tilt.y() * dt2;
   }
 

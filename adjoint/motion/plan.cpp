@@ -5,52 +5,14 @@
 #include <cmath>
 
 #include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/motion/pair_rules.hpp"
 
 namespace carom {
-namespace {
-
-struct Rule {
-  double value, by_a, by_b;
-};
-
-// The pair's coefficient and its derivatives by the two materials'. On a tie of minimum or maximum both materials hold
-// the value; the first one, by the order of the bodies, is taken to carry it half and half.
-Rule combined(Combine rule, double a, double b) {
-  switch (rule) {
-    case Combine::average:
-      return {0.5 * (a + b), 0.5, 0.5};
-    case Combine::multiply:
-      return {a * b, b, a};
-    case Combine::minimum:
-    case Combine::maximum:
-      break;
-  }
-  if (a == b) return {a, 0.5, 0.5};
-  const bool takes_a = (a < b) == (rule == Combine::minimum);
-  return takes_a ? Rule{a, 1, 0} : Rule{b, 0, 1};
-}
-
-struct PairRules {
-  Rule elasticity, friction, tangential;
-};
-
-PairRules rulesOf(const Material& a, const Material& b) {
-  // the enumerators stand in the order of precedence
-  return {combined(std::min(a.combine_elasticity, b.combine_elasticity), a.elasticity, b.elasticity),
-          combined(std::min(a.combine_friction, b.combine_friction), a.friction, b.friction),
-          combined(Combine::average, a.tangential_elasticity, b.tangential_elasticity)};
-}
-
-}  // namespace
-
-PairCoefficients combine(const Material& a, const Material& b) {
-  const PairRules r = rulesOf(a, b);
-  return {r.elasticity.value, r.friction.value, r.tangential.value};
-}
+PairCoefficients combine(const Material& a, const Material& b) { return detail::rulesOf(a, b).values(); }
 
 PairCoefficients combineTangent(const Material& a, const Material& b, const MaterialDerivative& da,
                                 const MaterialDerivative& db) {
-  const PairRules r = rulesOf(a, b);
+  const detail::PairRules<double> r = detail::rulesOf(a, b);
   return {r.elasticity.by_a * da.elasticity + r.elasticity.by_b * db.elasticity,
           r.friction.by_a * da.friction + r.friction.by_b * db.friction,
           r.tangential.by_a * da.tangential_elasticity + r.tangential.by_b * db.tangential_elasticity};
@@ -58,13 +20,7 @@ PairCoefficients combineTangent(const Material& a, const Material& b, const Mate
 
 void combinePullback(const Material& a, const Material& b, const PairCoefficients& pair_bar, MaterialDerivative& a_bar,
                      MaterialDerivative& b_bar) {
-  const PairRules r = rulesOf(a, b);
-  a_bar.elasticity += r.elasticity.by_a * pair_bar.elasticity;
-  b_bar.elasticity += r.elasticity.by_b * pair_bar.elasticity;
-  a_bar.friction += r.friction.by_a * pair_bar.friction;
-  b_bar.friction += r.friction.by_b * pair_bar.friction;
-  a_bar.tangential_elasticity += r.tangential.by_a * pair_bar.tangential_elasticity;
-  b_bar.tangential_elasticity += r.tangential.by_b * pair_bar.tangential_elasticity;
+  detail::rulesOf(a, b).pullback(pair_bar, a_bar, b_bar);
 }
 
 Law lawOf(const PairCoefficients& pair) { return pair.friction > 0 ? Law::friction : Law::frictionless; }

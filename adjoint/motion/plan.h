@@ -18,11 +18,19 @@ struct Asked {
 enum class Law { frictionless, friction };
 
 /// Coefficients in force between two bodies, after combination of their materials.
-struct PairCoefficients {
-  double elasticity = 0;             ///< e, 0 to 1
-  double friction = 0;               ///< Coulomb coefficient mu
-  double tangential_elasticity = 0;  ///< e_t, -1 to 1
+template <class S>
+struct PairCoefficientsOf {
+  S elasticity = 0;             ///< e, 0 to 1
+  S friction = 0;               ///< Coulomb coefficient mu
+  S tangential_elasticity = 0;  ///< e_t, -1 to 1
+
+  /// Field by field.
+  PairCoefficientsOf& operator+=(const PairCoefficientsOf& o) {
+    elasticity += o.elasticity, friction += o.friction, tangential_elasticity += o.tangential_elasticity;
+    return *this;
+  }
 };
+using PairCoefficients = PairCoefficientsOf<double>;  ///< of a motion
 /// The coefficients of two materials in contact, by the rules that they name.
 PairCoefficients combine(const Material& a, const Material& b);
 /// Its tangent.

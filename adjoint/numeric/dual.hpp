@@ -105,6 +105,14 @@ struct Dual {
   }
 };
 
+template <int N, class T>
+bool isZero(const Dual<N, T>& x) {
+  if (x.value != 0) return false;
+  for (const T& r : x.rate)
+    if (r != 0) return false;
+  return true;
+}
+
 /// What the values of a number are: T of Dual<N, T>, else the number itself.
 template <class S>
 struct ValueOf {
@@ -152,18 +160,10 @@ template <class S>
 using V3 = Eigen::Matrix<S, 3, 1>;
 template <class S>
 using M3 = Eigen::Matrix<S, 3, 3>;
-
-/// [a]x and its adjoint, as in types.h.
 template <class S>
-M3<S> skewOf(const V3<S>& a) {
-  M3<S> m;
-  m << S(0), -a.z(), a.y(), a.z(), S(0), -a.x(), -a.y(), a.x(), S(0);
-  return m;
-}
+using MatrixOf = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 template <class S>
-V3<S> unskewOf(const M3<S>& m) {
-  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
-}
+using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
 }  // namespace carom::detail
 

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "adjoint/scene/body_pass.hpp"
+
 namespace carom {
 namespace {
 
@@ -131,36 +133,9 @@ BodyModelDerivative modelTangent(const Body& body, const BodyModel& model, const
 void modelPullback(const Body& body, const BodyModel& model, const BodyModelDerivative& model_bar,
                    BodyDerivative& body_bar) {
   if (body.fixed) return;
-  if (body.kinematic) {
-    body_bar.size += centerOfMassRates(body).transpose() * model_bar.center;
-    return;
-  }
-  if (!isDerived(body)) body_bar.inertia += model_bar.inertia;
-  const bool by_size = body.density || isDerived(body) || !body.center_of_mass;
-  if (!by_size) {
-    body_bar.mass += model_bar.mass;
-    return;
-  }
-  const SolidProperties solid = propertiesOf(body);
-  double mass_bar = model_bar.mass;
-  Mat3 dJ_G_bar = Mat3::Zero();
-  if (isDerived(body)) {
-    // <dJ_bar, dJ> with dJ symmetric: half of each product stands on either side of the diagonal
-    Mat3 dJ_bar = model_bar.inertia.asDiagonal();
-    dJ_bar(1, 2) = dJ_bar(2, 1) = 0.5 * model_bar.products[0];
-    dJ_bar(0, 2) = dJ_bar(2, 0) = 0.5 * model_bar.products[1];
-    dJ_bar(0, 1) = dJ_bar(1, 0) = 0.5 * model_bar.products[2];
-    dJ_G_bar = model.R_BG.transpose() * dJ_bar * model.R_BG;
-    mass_bar += dJ_G_bar.cwiseProduct(solid.unit_inertia).sum();
-  }
-  for (std::size_t d = 0; d < solid.rates.size(); ++d) {
-    const SolidRate& rate = solid.rates[d];
-    double& size_bar = body_bar.size[static_cast<Eigen::Index>(d)];
-    if (isDerived(body)) size_bar += model.mass * dJ_G_bar.cwiseProduct(rate.unit_inertia).sum();
-    if (!body.center_of_mass) size_bar += model_bar.center.dot(rate.center);
-    if (body.density) size_bar += mass_bar * *body.density * rate.volume;
-  }
-  (body.density ? body_bar.density : body_bar.mass) += body.density ? mass_bar * solid.volume : mass_bar;
+  const bool by_size = !body.center_of_mass || (!body.kinematic && (body.density || isDerived(body)));
+  detail::modelPullbackOf(body, model, body.density.value_or(0), by_size ? propertiesOf(body) : SolidProperties{},
+                          model_bar, body_bar);
 }
 
 State startState(const Body& body, const BodyModel& model) {
@@ -202,20 +177,8 @@ StateDerivative startTangent(const Body& body, const BodyModel& model, const Bod
 
 void startPullback(const Body& body, const BodyModel& model, const StateDerivative& state_bar, BodyDerivative& body_bar,
                    BodyModelDerivative& model_bar) {
-  body_bar.position += state_bar.x;
-  body_bar.orientation += state_bar.theta;
-  if (!model.moving) return;
-  const Mat3 R_WG = body.orientation.normalized().toRotationMatrix(), R = R_WG * model.R_BG.transpose();
-  body_bar.orientation += (R_WG * model.center).cross(state_bar.x);
-  model_bar.center += R_WG.transpose() * state_bar.x;
-  body_bar.velocity += state_bar.v;
-  const Mat3 J = R * model.inertia.asDiagonal() * R.transpose();
-  const Vec3& w = body.angular_velocity;
-  const Vec3 w_bar = J * state_bar.L;
-  body_bar.angular_velocity += w_bar;
-  // L_bar.(dtheta x Jw) = dtheta.(Jw x L_bar);  -w_bar.(dtheta x w) = -dtheta.(w x w_bar)
-  body_bar.orientation += (J * w).cross(state_bar.L) - w.cross(w_bar);
-  model_bar.addInertiaBar((R.transpose() * state_bar.L) * (R.transpose() * w).transpose());
+  detail::startPullbackOf<double>(model, body.orientation.normalized().toRotationMatrix(), body.angular_velocity,
+                                  state_bar, body_bar, model_bar);
 }
 
 }  // namespace carom

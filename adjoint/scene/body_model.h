@@ -14,25 +14,37 @@ struct State {
   Vec3 L = Vec3::Zero();      ///< kg m^2/s, about the centre of mass, world axes
 };
 
+/// Whether a number, or each of several, is 0; numbers that carry rates have an isZero of their own.
+inline bool isZero(double x) { return x == 0; }
+template <class S>
+bool isZero(const Eigen::Matrix<S, 3, 1>& v) {
+  return isZero(v[0]) && isZero(v[1]) && isZero(v[2]);
+}
+
 /// Tangent of a State (theta: R <- exp([theta]x) R), or the adjoint of one.
-struct StateDerivative {
-  Vec3 x = Vec3::Zero();      ///< of the centre of mass
-  Vec3 theta = Vec3::Zero();  ///< of the orientation
-  Vec3 v = Vec3::Zero();      ///< of the velocity
-  Vec3 L = Vec3::Zero();      ///< of the angular momentum
+template <class S>
+struct StateDerivativeOf {
+  using Vector = Eigen::Matrix<S, 3, 1>;  ///< three numbers
+  Vector x = Vector::Zero();              ///< of the centre of mass
+  Vector theta = Vector::Zero();          ///< of the orientation
+  Vector v = Vector::Zero();              ///< of the velocity
+  Vector L = Vector::Zero();              ///< of the angular momentum
 
   /// Sum of products, <adjoint, tangent>.
-  double dot(const StateDerivative& o) const { return x.dot(o.x) + theta.dot(o.theta) + v.dot(o.v) + L.dot(o.L); }
+  S dot(const StateDerivativeOf& o) const { return x.dot(o.x) + theta.dot(o.theta) + v.dot(o.v) + L.dot(o.L); }
   /// Field by field.
-  StateDerivative& operator+=(const StateDerivative& o) {
+  StateDerivativeOf& operator+=(const StateDerivativeOf& o) {
     x += o.x, theta += o.theta, v += o.v, L += o.L;
     return *this;
   }
   /// Adds s times the other.
-  void addScaled(double s, const StateDerivative& o) { x += s * o.x, theta += s * o.theta, v += s * o.v, L += s * o.L; }
+  void addScaled(double s, const StateDerivativeOf& o) {
+    x += s * o.x, theta += s * o.theta, v += s * o.v, L += s * o.L;
+  }
   /// Exactly.
-  bool isZero() const { return x.isZero(0) && theta.isZero(0) && v.isZero(0) && L.isZero(0); }
+  bool isZero() const { return carom::isZero(x) && carom::isZero(theta) && carom::isZero(v) && carom::isZero(L); }
 };
+using StateDerivative = StateDerivativeOf<double>;
 
 /// Mass properties in force (whatever way they were written), in principal axes. A kinematic body moves as a free body
 /// does that has three equal moments and no weight: its inertia is the unit tensor, so that L is its angular velocity,
@@ -59,32 +71,39 @@ struct BodyModel {
 
 /// Tangent or adjoint of the parameters of a BodyModel that vary. The change of the inertia tensor in the principal
 /// axes, which stay where they are in the shape, is diag(inertia) plus `products` off the diagonal: (yz, xz, xy).
-struct BodyModelDerivative {
-  double mass = 0;                ///< kg
-  Vec3 inertia = Vec3::Zero();    ///< kg m^2, of the diagonal
-  Vec3 products = Vec3::Zero();   ///< kg m^2, off the diagonal: yz, xz, xy
-  Vec3 center = Vec3::Zero();     ///< m, in shape axes
+template <class S>
+struct BodyModelDerivativeOf {
+  using Vector = Eigen::Matrix<S, 3, 1>;  ///< three numbers
+  using Matrix = Eigen::Matrix<S, 3, 3>;  ///< 3x3
+  S mass = 0;                             ///< kg
+  Vector inertia = Vector::Zero();        ///< kg m^2, of the diagonal
+  Vector products = Vector::Zero();       ///< kg m^2, off the diagonal: yz, xz, xy
+  Vector center = Vector::Zero();         ///< m, in shape axes
 
   /// Read as a tangent: dJ, the change of the inertia tensor in principal axes.
-  Mat3 inertiaTensor() const {
-    Mat3 dJ;
+  Matrix inertiaTensor() const {
+    Matrix dJ;
     dJ << inertia[0], products[2], products[1], products[2], inertia[1], products[0], products[1], products[0],
         inertia[2];
     return dJ;
   }
   /// Read as an adjoint: adds that of the functional <J_bar, dJ>.
-  void addInertiaBar(const Mat3& J_bar) {
+  void addInertiaBar(const Matrix& J_bar) {
     inertia += J_bar.diagonal();
-    products += Vec3(J_bar(1, 2) + J_bar(2, 1), J_bar(0, 2) + J_bar(2, 0), J_bar(0, 1) + J_bar(1, 0));
+    products += Vector(J_bar(1, 2) + J_bar(2, 1), J_bar(0, 2) + J_bar(2, 0), J_bar(0, 1) + J_bar(1, 0));
   }
   /// Field by field.
-  BodyModelDerivative& operator+=(const BodyModelDerivative& o) {
+  BodyModelDerivativeOf& operator+=(const BodyModelDerivativeOf& o) {
     mass += o.mass, inertia += o.inertia, products += o.products, center += o.center;
     return *this;
   }
   /// Exactly.
-  bool isZero() const { return mass == 0 && inertia.isZero(0) && products.isZero(0) && center.isZero(0); }
+  bool isZero() const {
+    using carom::isZero;
+    return isZero(mass) && isZero(inertia) && isZero(products) && isZero(center);
+  }
 };
+using BodyModelDerivative = BodyModelDerivativeOf<double>;
 
 /// Centre of mass of a moving body in shape axes, as written or else the shape's own. 0 for a fixed body. Of a kinematic body it is the point that its velocity is of.
 Vec3 centerOfMass(const Body& body);

@@ -86,15 +86,8 @@ bool mayCollide(const Body& a, const Body& b) {
   return lets(a.collision_filter, b.collision_filter) && lets(b.collision_filter, a.collision_filter);
 }
 
-SceneDerivative::SceneDerivative(const Scene& scene)
-    : materials(scene.materials.size()), bodies(scene.bodies.size()), tilts(scene.tilts.size(), Vec2::Zero()) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Shape& shape = scene.bodies[i].shape;
-    bodies[i].size = Eigen::VectorXd::Zero(kindOf(shape).dimensions(shape).size());
-  }
-}
-
-double SceneDerivative::dot(const SceneDerivative& o) const {
+template <>
+double SceneDerivativeOf<double>::dot(const SceneDerivativeOf& o) const {
   checkCount("SceneDerivative::dot", "materials", o.materials.size(), materials.size());
   checkCount("SceneDerivative::dot", "bodies", o.bodies.size(), bodies.size());
   checkCount("SceneDerivative::dot", "tilts", o.tilts.size(), tilts.size());

@@ -113,37 +113,55 @@ void validate(const Scene& scene);
 
 /// One set of numbers with the fields of a Scene. Read as a gradient each holds d(quantity)/d(field); read as a tangent
 /// each holds the rate at which the field varies. Orientation is a world rotation vector applied on the left.
-struct BodyDerivative {
-  Vec3 position = Vec3::Zero();          ///< m
-  Vec3 orientation = Vec3::Zero();       ///< rad, a world rotation vector
-  Vec3 velocity = Vec3::Zero();          ///< m/s
-  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-  double mass = 0;               ///< kg; used where the scene gives the mass
-  double density = 0;            ///< kg/m^3; used where the scene gives the density
-  Vec3 inertia = Vec3::Zero();   ///< principal moments; unused when the inertia is derived
-  Eigen::VectorXd size;          ///< the shape's dimensions, in the order of ShapeKind::dimension_names
+template <class S>
+struct BodyDerivativeOf {
+  using Vector = Eigen::Matrix<S, 3, 1>;      ///< three numbers
+  Vector position = Vector::Zero();           ///< m
+  Vector orientation = Vector::Zero();        ///< rad, a world rotation vector
+  Vector velocity = Vector::Zero();           ///< m/s
+  Vector angular_velocity = Vector::Zero();   ///< rad/s
+  S mass = 0;                                 ///< kg; used where the scene gives the mass
+  S density = 0;                              ///< kg/m^3; used where the scene gives the density
+  Vector inertia = Vector::Zero();            ///< principal moments; unused when the inertia is derived
+  Eigen::Matrix<S, Eigen::Dynamic, 1> size;   ///< the shape's dimensions, in the order of ShapeKind::dimension_names
 };
-/// The coefficients of one material, see BodyDerivative.
-struct MaterialDerivative {
-  double elasticity = 0;             ///< of e
-  double friction = 0;               ///< of mu
-  double tangential_elasticity = 0;  ///< of e_t
+/// The coefficients of one material, see BodyDerivativeOf.
+template <class S>
+struct MaterialDerivativeOf {
+  S elasticity = 0;             ///< of e
+  S friction = 0;               ///< of mu
+  S tangential_elasticity = 0;  ///< of e_t
 };
-/// All numbers of a scene, see BodyDerivative.
-struct SceneDerivative {
-  SceneDerivative() = default;  ///< of a scene without bodies
+/// All numbers of a scene, see BodyDerivativeOf.
+template <class S>
+struct SceneDerivativeOf {
+  SceneDerivativeOf() = default;  ///< of a scene without bodies
   /// All zero, with as many entries as the scene has.
-  explicit SceneDerivative(const Scene& scene);
+  explicit SceneDerivativeOf(const Scene& scene)
+      : materials(scene.materials.size()),
+        bodies(scene.bodies.size()),
+        tilts(scene.tilts.size(), Eigen::Matrix<S, 2, 1>::Zero()) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const Shape& shape = scene.bodies[i].shape;
+      bodies[i].size.setZero(kindOf(shape).dimensions(shape).size());
+    }
+  }
 
-  Vec3 gravity = Vec3::Zero();                ///< of Scene::gravity
-  std::vector<MaterialDerivative> materials;  ///< one a material
-  std::vector<BodyDerivative> bodies;         ///< one a body
-  std::vector<Vec2> tilts;                    ///< one a tilt
+  Eigen::Matrix<S, 3, 1> gravity = Eigen::Matrix<S, 3, 1>::Zero();  ///< of Scene::gravity
+  std::vector<MaterialDerivativeOf<S>> materials;                   ///< one a material
+  std::vector<BodyDerivativeOf<S>> bodies;                          ///< one a body
+  std::vector<Eigen::Matrix<S, 2, 1>> tilts;                        ///< one a tilt
 
   /// Sum of products of all fields, <gradient, tangent>. Throws InputError where the other is of another scene's size.
-  double dot(const SceneDerivative& other) const;
+  S dot(const SceneDerivativeOf& other) const;
 };
-using SceneGradient = SceneDerivative;  ///< read as a gradient
-using SceneTangent = SceneDerivative;   ///< read as a tangent
+/// The sum in doubles.
+template <>
+double SceneDerivativeOf<double>::dot(const SceneDerivativeOf& other) const;
+using BodyDerivative = BodyDerivativeOf<double>;          ///< of one body
+using MaterialDerivative = MaterialDerivativeOf<double>;  ///< of one material
+using SceneDerivative = SceneDerivativeOf<double>;        ///< of a scene
+using SceneGradient = SceneDerivative;                    ///< read as a gradient
+using SceneTangent = SceneDerivative;                     ///< read as a tangent
 
 }  // namespace carom

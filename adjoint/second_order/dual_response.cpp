@@ -174,10 +174,29 @@ struct Steps {
     return out;
   }
 
-  // `turned`: R(h)^T R(0) of the step.
-  template <class S>
-  static V3<S> etaOf(const V3<S>& d, const V3<S>& M, const S& m_eta) {
-    return (d.cross(M) + m_eta * M) / M.squaredNorm();
+  // eta of all columns at the end of a step h; `turned`: R(h)^T R(0) of the step.
+  Columns etas(const Columns& dM_end, const Mat& turned, const Vec& M_end, double h) const {
+    Columns out(3, dM_end.cols());
+    for (Eigen::Index c = 0; c < dM_end.cols(); ++c) {
+      Vec d = dM_end.col(c);
+      if (c < 3) d -= turned.col(c);
+      const Number m_eta = sumOf(along[static_cast<std::size_t>(c)], h);
+      out.col(c) = (d.cross(M_end) + m_eta * M_end) / M_end.squaredNorm();
+    }
+    return out;
+  }
+
+  // R(h)^T R(0) turns by -eta, of which the values are given, as M at the start of the step and the moments change.
+  static Mat turnedOf(const Mat3& now, const Columns& eta, const Vec& M_start) {
+    const Eigen::Matrix3Xd by = valuesOf(eta);
+    Mat turned = now.template cast<Number>();
+    for (std::size_t i = 0; i < K; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      Vec3 by_lane = by.leftCols<3>() * ratesOf(M_start, i);
+      if (i >= 3 && column < by.cols()) by_lane += by.col(column);
+      setRates(turned, Mat3(-skew(by_lane) * now), i);
+    }
+    return turned;
   }
 
   const Arc& arc;
@@ -190,6 +209,23 @@ struct Steps {
   std::array<std::array<Vec, kOrder + 1>, kMostColumns> dM, dw, BM;
   std::array<std::array<Number, kOrder + 1>, kMostColumns> along;
 };
+
+template <int K>
+BodyResponse responseOf(const typename Steps<K>::Columns& eta, const ResponseWanted& wanted) {
+  using Mat = typename Steps<K>::Mat;
+  BodyResponse out;
+  out.products = wanted.products;
+  const auto block = [&](Eigen::Index first) { return Mat(eta.template middleCols<3>(first)); };
+  const Mat G = block(0), H = wanted.inertia ? block(3) : Mat(Mat::Zero());
+  const Mat P = wanted.products ? block(6) : Mat(Mat::Zero());
+  out.G = valuesOf(G), out.H = valuesOf(H), out.P = valuesOf(P);
+  for (std::size_t i = 0; i < K; ++i) {
+    out.dG.push_back(ratesOf(G, i));
+    out.dH.push_back(ratesOf(H, i));
+    out.dP.push_back(ratesOf(P, i));
+  }
+  return out;
+}
 
 template <int K>
 BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wanted) {
@@ -222,32 +258,9 @@ BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wante
     for (Eigen::Index c = 0; c < count; ++c) dM_step.col(c) = S::sumOf(steps.dM[static_cast<std::size_t>(c)], h);
     const bool small = M_end_now.norm() * steps.largest_D * h < kSmallTurn;
     if (small) eta_step = steps.smallTurn(h);
-    Eigen::Matrix3Xd eta_now(3, count);
-    for (Eigen::Index c = 0; c < count; ++c) {
-      if (small) {
-        eta_now.col(c) = valuesOf(Vec(eta_step.col(c)));
-        continue;
-      }
-      Vec3 d = valuesOf(Vec(dM_step.col(c)));
-      if (c < 3) d -= turned_now.col(c);
-      eta_now.col(c) =
-          S::template etaOf<double>(d, M_end_now, S::sumOf(steps.along[static_cast<std::size_t>(c)], h).value);
-    }
-    // R(h)^T R(0) of the step turns by -eta as its M and the moments change
-    Mat turned = turned_now.template cast<Dual<K>>();
-    for (std::size_t i = 0; i < K; ++i) {
-      Vec3 by_lane = eta_now.leftCols<3>() * ratesOf(M, i);
-      if (i >= 3 && static_cast<Eigen::Index>(i) < count) by_lane += eta_now.col(static_cast<Eigen::Index>(i));
-      setRates(turned, Mat3(-skew(by_lane) * turned_now), i);
-    }
-    if (!small) {
-      eta_step.resize(3, count);
-      for (Eigen::Index c = 0; c < count; ++c) {
-        Vec d = dM_step.col(c);
-        if (c < 3) d -= turned.col(c);
-        eta_step.col(c) = S::template etaOf<Dual<K>>(d, M_end, S::sumOf(steps.along[static_cast<std::size_t>(c)], h));
-      }
-    }
+    const Columns eta_now = small ? eta_step : steps.etas(dM_step, turned_now.template cast<Dual<K>>(), M_end, h);
+    const Mat turned = steps.turnedOf(turned_now, eta_now, M);
+    if (!small) eta_step = steps.etas(dM_step, turned, M_end, h);
     const Mat G = eta_step.template leftCols<3>(), Phi = dM_step.template leftCols<3>();
     Columns next_eta = turned * eta + G * dM, next_dM = Phi * dM;
     next_eta.rightCols(count - 3) += eta_step.rightCols(count - 3);
@@ -259,18 +272,7 @@ BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wante
                           std::to_string(TriaxialRotation::kMostSegments) + " series to follow");
     done = last ? elapsed : done + h;
   }
-  BodyResponse out;
-  out.products = wanted.products;
-  const auto block = [&](Eigen::Index first) { return Mat(eta.template middleCols<3>(first)); };
-  const Mat G = block(0), H = wanted.inertia ? block(3) : Mat(Mat::Zero());
-  const Mat P = wanted.products ? block(6) : Mat(Mat::Zero());
-  out.G = valuesOf(G), out.H = valuesOf(H), out.P = valuesOf(P);
-  for (std::size_t i = 0; i < K; ++i) {
-    out.dG.push_back(ratesOf(G, i));
-    out.dH.push_back(ratesOf(H, i));
-    out.dP.push_back(ratesOf(P, i));
-  }
-  return out;
+  return responseOf<K>(eta, wanted);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ struct Turn {
     const std::array<double, 6> c = stumpff(x.value);
     const Num c1 = x.chain(c[1], 0.5 * (c[3] - c[2])), c2 = x.chain(c[2], c[4] - 0.5 * c[3]),
               c3 = x.chain(c[3], 0.5 * (3 * c[5] - c[4]));
-    const NMat U = skewOf<Num>(a), U2 = U * U;
+    const NMat U = skew(a), U2 = U * U;
     E = NMat::Identity() + c1 * U + c2 * U2;
     J = NMat::Identity() + c2 * U + c3 * U2;
   }
@@ -116,7 +116,7 @@ DualSensitivity generalSensitivity(const Stretch& s, const BodyResponse& r) {
   const NMat RG = s.R_end * G, R0t = s.start.R.transpose();
   DualSensitivity S;
   S.dtheta_dL = RG * R0t;
-  S.dtheta_dtheta = NMat::Identity() + RG * skewOf<Num>(M0) * R0t;
+  S.dtheta_dtheta = NMat::Identity() + RG * skew(M0) * R0t;
   S.dtheta_dI = s.R_end * H;
   S.dtheta_dproducts = s.R_end * P;
   return S;

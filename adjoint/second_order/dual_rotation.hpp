@@ -7,11 +7,7 @@
 
 namespace carom::detail {
 
-/// RotationSensitivity with rates.
-struct DualSensitivity {
-  NMat dtheta_dtheta = NMat::Identity(), dtheta_dL = NMat::Zero(), dtheta_dI = NMat::Zero(),
-       dtheta_dproducts = NMat::Zero();
-};
+using DualSensitivity = RotationSensitivityOf<Num>;
 
 /// The response in body axes, eta = R^T dtheta at the end, to dM at the start with the orientation held there, to the
 /// moments and to the products of inertia (G, H, P), and the derivatives of these three by M at the start (0 to 2), by

@@ -73,7 +73,7 @@ StateBar Lanes::rate(int body, const DualState& state) const {
   const DualModel& m = model(body);
   if (!m.moving) return F;
   F.x = state.v;
-  F.theta = state.omega(m);
+  F.theta = spinOf(m, state.R, state.L);
   F.v = m.gravity_factor * gravity_;
   return F;
 }

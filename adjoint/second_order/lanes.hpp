@@ -2,8 +2,9 @@
 #pragma once
 
 #include "adjoint/derivative/reach.hpp"
+#include "adjoint/derivative/tangent.h"
 #include "adjoint/second_order/dual_state.hpp"
-#include "adjoint/second_order/second_order.h"
+#include "adjoint/second_order/reading_direction.h"
 
 namespace carom::detail {
 

@@ -7,6 +7,9 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/seed.hpp"
+#include "adjoint/derivative/seed_pass.hpp"
+#include "adjoint/derivative/waiting_bars.hpp"
+#include "adjoint/flight/flight_pass.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/second_order/dual_event.hpp"
 #include "adjoint/second_order/dual_rotation.hpp"
@@ -19,11 +22,6 @@ using namespace detail;
 // A seed with the rates of its weights.
 struct DualSeed {
   NVec position, orientation, velocity, angular_velocity, center_of_mass;
-  Num time;
-};
-
-struct PendingBars {
-  std::vector<StateBar> after, before;
   Num time;
 };
 
@@ -56,9 +54,7 @@ class DualPass {
         motion_(lanes.motion()),
         responses_(responses),
         inertia_varies_(inertia_varies),
-        scene_bar_(*motion_.scene),
-        start_bar_(motion_.world_lines.size()),
-        model_bar_(motion_.world_lines.size()) {
+        bars_(motion_) {
     for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) plans_.push_back(planOf(b));
   }
 
@@ -70,59 +66,28 @@ class DualPass {
     const auto b = static_cast<std::size_t>(seed.body);
     const DualState state =
         lanes_.stateAt(seed.body, place.arc, time, place.state, plainSensitivity(seed.body, place.arc, place.time));
-    const StateBar bar = seedBar(lanes_.model(seed.body), state, weights, model_bar_[b]);
-    const Num slope = bar.dot(lanes_.rate(seed.body, state));
-    if (seed.at.event < 0) time_rate = slope.rate;
-    if (seed.at.event >= 0) {
-      PendingBars& at = pendingAt(seed.at.event);
-      at.time += weights.time;
-      if (motion_.events[static_cast<std::size_t>(seed.at.event)].find(seed.body)) {
-        at.before[participantOf(seed.at.event, seed.body)] += bar;
-        return;
-      }
-      at.time += slope;
-    }
+    const StateBar bar = seedPullbackOf(lanes_.model(seed.body), state.R, state.L, weights, bars_.model[b]);
+    const auto rate = [&] { return lanes_.rate(seed.body, state); };
+    if (seed.at.event < 0) time_rate = bar.dot(rate()).rate;
+    if (seed.at.event >= 0 && bars_.readBefore(seed.at.event, seed.body, bar, weights.time, rate)) return;
     throughFlight(seed.body, place.arc, time, state, bar);
   }
 
   SceneBar run() {
-    while (!pending_.empty()) {
-      const auto latest = pending_.begin();
-      const int index = latest->first;
-      const PendingBars bars = std::move(latest->second);
-      pending_.erase(latest);
-      throughEvent(index, bars);
-    }
-    for (std::size_t b = 0; b < start_bar_.size(); ++b) {
+    bars_.eachEvent([&](int event, const Bars::AtEvent& at) { throughEvent(event, at); });
+    for (std::size_t b = 0; b < bars_.start.size(); ++b) {
       const Body& body = motion_.scene->bodies[b];
       const DualModel& model = lanes_.model(static_cast<int>(b));
       const std::vector<const BodyDerivative*> of_body = lanes_.ofBody(b);
-      if (!start_bar_[b].isZero())
-        startPullback(body, model, of_body, start_bar_[b], scene_bar_.bodies[b], model_bar_[b]);
-      modelPullback(body, model, of_body, model_bar_[b], scene_bar_.bodies[b]);
+      BodyBar& written = bars_.scene.bodies[b];
+      if (!bars_.start[b].isZero()) startPullback(body, model, of_body, bars_.start[b], written, bars_.model[b]);
+      modelPullback(body, model, of_body, bars_.model[b], written);
     }
-    return std::move(scene_bar_);
+    return std::move(bars_.scene);
   }
 
  private:
-  static StateBar seedBar(const DualModel& model, const DualState& state, const DualSeed& seed, ModelBar& model_bar) {
-    StateBar bar;
-    bar.x = seed.position + seed.center_of_mass;
-    bar.theta = seed.orientation;
-    bar.v = seed.velocity;
-    if (!model.moving) return bar;
-    const NMat R_WG = state.R * model.R_BG;
-    bar.theta += seed.position.cross(R_WG * model.center);
-    model_bar.center -= R_WG.transpose() * seed.position;
-    if (isZero(seed.angular_velocity)) return bar;
-    const NMat A = state.R * model.A * state.R.transpose();
-    const NVec& w_bar = seed.angular_velocity;
-    const NVec A_w_bar = A * w_bar, omega = A * state.L;
-    bar.L = A_w_bar;
-    bar.theta += omega.cross(w_bar) - state.L.cross(A_w_bar);
-    model_bar.addInertiaBar(-(state.R.transpose() * A_w_bar) * (state.R.transpose() * omega).transpose());
-    return bar;
-  }
+  using Bars = WaitingBars<Num>;
 
   // A compound may keep its symmetry to first order and not to second; then all moments and products are carried.
   RotationPlan planOf(std::size_t b) const {
@@ -166,12 +131,7 @@ class DualPass {
     }
     const auto [at, made] = responses_.try_emplace({body, k, t.value, wanted.lanes, wanted.products});
     if (made) at->second = bodyResponse(arc, t.value - arc.start(), wanted);
-    DualSensitivity S = generalSensitivity(stretch, at->second);
-    // both series agree to rounding; one of them is that of the gradient
-    const BodyPlan& first = motion_.plan.bodies[b];
-    if (plan.tier == first.derivative_tier && plan.products == first.derivative_products)
-      setValues(S, plainSensitivity(body, k, t.value));
-    return S;
+    return generalSensitivity(stretch, at->second);
   }
 
   const RotationSensitivity& plainSensitivity(int body, int k, double t) {
@@ -182,45 +142,23 @@ class DualPass {
     return until_ = lanes_.tape().arcUntil(body, k, t);
   }
 
-  static void setValues(DualSensitivity& S, const RotationSensitivity& now) {
-    const auto set = [](NMat& m, const Mat3& values) {
-      for (Eigen::Index c = 0; c < 3; ++c)
-        for (Eigen::Index r = 0; r < 3; ++r) m(r, c).value = values(r, c);
-    };
-    set(S.dtheta_dtheta, now.dtheta_dtheta);
-    set(S.dtheta_dL, now.dtheta_dL);
-    set(S.dtheta_dI, now.dtheta_dI);
-    set(S.dtheta_dproducts, now.dtheta_dproducts);
-  }
-
   void throughFlight(int body, int k, const Num& t, const DualState& end, const StateBar& bar) {
     if (!reaches(body, k) && !hasRates(t) && !hasRates(bar)) return;
     const auto b = static_cast<std::size_t>(body);
     StateBar d = bar;
-    if (lanes_.model(body).moving) {
-      const Num s = t - lanes_.startTime(body, k);
-      d.v += s * bar.x;
-      scene_bar_.gravity += lanes_.model(body).gravity_factor * ((0.5 * s * s) * bar.x + s * bar.v);
-      if (!isZero(bar.theta)) {
-        const DualSensitivity S = dualSensitivity(body, k, t, lanes_.startOf(body, k), end);
-        d.theta = S.dtheta_dtheta.transpose() * bar.theta;
-        d.L += S.dtheta_dL.transpose() * bar.theta;
-        model_bar_[b].inertia += S.dtheta_dI.transpose() * bar.theta;
-        model_bar_[b].products += S.dtheta_dproducts.transpose() * bar.theta;
-      }
+    if (const DualModel& model = lanes_.model(body); model.moving) {
+      DualSensitivity S;
+      if (!isZero(bar.theta)) S = dualSensitivity(body, k, t, lanes_.startOf(body, k), end);
+      d = flightPullbackOf(model.gravity_factor, t - lanes_.startTime(body, k), S, bar, bars_.scene.gravity,
+                           bars_.model[b]);
     }
-    if (k == 0) {
-      start_bar_[b] += d;
-    } else {
-      const int event = motion_.world_lines[b].events[static_cast<std::size_t>(k) - 1];
-      pendingAt(event).after[participantOf(event, body)] += d;
-    }
+    bars_.arriveAt(body, k, d);
   }
 
-  void throughEvent(int index, const PendingBars& bars) {
+  void throughEvent(int index, const Bars::AtEvent& at) {
     const Event& event = motion_.events[static_cast<std::size_t>(index)];
     const DualEvent dual(lanes_, index);
-    const std::vector<StateBar> before = dual.pullback(bars.after, bars.before, bars.time, scene_bar_, model_bar_);
+    const std::vector<StateBar> before = dual.pullback(at.after, at.before, at.time, bars_.scene, bars_.model);
     for (std::size_t i = 0; i < before.size(); ++i) {
       const Participant& p = event.participants[i];
       if (!before[i].isZero()) throughFlight(p.body, p.arc, lanes_.eventTime(index), dual.before(i), before[i]);
@@ -228,17 +166,6 @@ class DualPass {
   }
 
   bool reaches(int body, int k) const { return whole_ || lanes_.reach().arc(body, k); }
-  std::size_t participantOf(int event, int body) const {
-    const Event& e = motion_.events[static_cast<std::size_t>(event)];
-    return static_cast<std::size_t>(e.find(body) - e.participants.data());
-  }
-  PendingBars& pendingAt(int event) {
-    PendingBars& p = pending_[event];
-    const std::size_t n = motion_.events[static_cast<std::size_t>(event)].participants.size();
-    p.after.resize(n);
-    p.before.resize(n);
-    return p;
-  }
 
   const Lanes& lanes_;
   bool whole_;
@@ -246,10 +173,7 @@ class DualPass {
   Responses& responses_;
   const std::vector<bool>& inertia_varies_;
   std::vector<RotationPlan> plans_;
-  SceneBar scene_bar_;
-  std::vector<StateBar> start_bar_;
-  std::vector<ModelBar> model_bar_;
-  std::map<int, PendingBars, std::greater<>> pending_;  // latest event first
+  Bars bars_;
   RotationSensitivity until_;
 };
 
@@ -337,10 +261,10 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
     }
     const SceneBar bar = pass.run();
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      out.gradient_rates.push_back(bar.rates(*motion.scene, lane));
+      out.gradient_rates.push_back(ratesOf(bar, *motion.scene, lane));
       out.time_rates.push_back(std::move(time_rates[lane]));
     }
-    if (first == 0) out.gradient = bar.values(*motion.scene);
+    if (first == 0) out.gradient = valuesOf(bar, *motion.scene);
   }
   return out;
 }

@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "adjoint/derivative/tangent.h"
+#include "adjoint/second_order/reading_direction.h"
 
 namespace carom {
-
-/// A direction in which the inputs of readings change: the scene, and the times of the seeds that are read at a given
-/// time (one number a seed, 0 for those at events; empty: all stay).
-struct ReadingDirection {
-  SceneTangent scene;    ///< how the scene changes
-  Eigen::VectorXd time;  ///< how the times change, s
-};
 
 /// How the weights of the seeds change when the states that they are read from change at `rates`, one a seed, in which
 /// the instants have moved along; what is returned holds one seed a seed, of which only the weights are read. Empty

@@ -10,7 +10,8 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/impact/impact.hpp"
-#include "adjoint/impact/tilt.hpp"
+#include "adjoint/motion/guard.hpp"
+#include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/replay_root.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
@@ -35,22 +36,23 @@ class Follower {
   void markLate(const Event& was);
   GuardValue guardAt(const Event& was, double time);
   bool meetInOneInstant() const;
-  void place(const Event& was, double time);
-  void tilt();
-  bool parts(const std::vector<State>& after);
-  void commit(const Event& was, std::vector<State>& after);
+  void place(double time);
+  void commit(const Event& was, const std::vector<State>& after);
   void orderByTime();
   void extendLast(std::size_t body);
   Outcome fail(const Event& was, const std::string& why);
 
-  Arc& arcOf(int body) { return replay_.motion.world_lines[index(body)].arcs.back(); }
-  const Arc& arcOf(int body) const { return replay_.motion.world_lines[index(body)].arcs.back(); }
+  Arc& arcOf(int body) { return motion_.world_lines[index(body)].arcs.back(); }
+  const Arc& arcOf(int body) const { return motion_.world_lines[index(body)].arcs.back(); }
 
   const Motion& like_;
   const Scene& scene_;
-  Replay replay_;
+  MotionBuilder builder_;
+  Motion& motion_;
+  Replay replay_;             // but for its motion
   std::vector<bool> late_;  // a body each: its next impact comes after the duration
-  Event event_;             // being worked out
+  std::vector<double> weights_;  // of the gaps of the event that is followed
+  Event event_;                  // being worked out
 };
 
 void requireSameParts(const Scene& was, const Scene& scene) {
@@ -81,25 +83,16 @@ Plan planFor(const Motion& like, const Scene& scene, const std::vector<BodyModel
 
 Follower::Follower(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,
                    double duration)
-    : like_(like), scene_(scene), late_(scene.bodies.size(), false) {
-  Motion& motion = replay_.motion;
-  motion.scene = std::make_shared<const Scene>(scene);
-  auto models = std::make_shared<std::vector<BodyModel>>();
-  models->reserve(scene.bodies.size());
-  for (const Body& body : scene.bodies) models->push_back(modelOf(body));
-  motion.plan = planFor(like, scene, *models);
-  motion.models = std::move(models);
-  motion.geometry = std::move(geometry);
-  motion.overlaps = like.overlaps;
-  motion.duration = duration;
-  motion.world_lines.resize(scene.bodies.size());
+    : like_(like), scene_(scene), builder_(scene, duration), motion_(builder_.motion), late_(scene.bodies.size(), false) {
+  motion_.plan = planFor(like, scene, *motion_.models);
+  motion_.geometry = std::move(geometry);
+  motion_.overlaps = like.overlaps;
 }
 
 Replay Follower::run() {
   start();
-  Motion& motion = replay_.motion;
-  motion.end = motion.duration;
-  motion.message = "complete";
+  motion_.end = motion_.duration;
+  motion_.message = "complete";
   Outcome outcome = Outcome::found;
   for (const Event& was : like_.events) {
     try {
@@ -112,41 +105,36 @@ Replay Follower::run() {
   }
   replay_.complete = outcome != Outcome::failed;
   // what is followed may end early; then its last impact says how much later this one does
-  if (replay_.complete && like_.status != MotionStatus::complete && replay_.left_out == 0 && !motion.events.empty()) {
-    motion.status = like_.status;
-    motion.end = std::min(motion.duration, like_.end + (motion.events.back().time - like_.events.back().time));
-    motion.message = like_.message;
+  if (replay_.complete && like_.status != MotionStatus::complete && replay_.left_out == 0 && !motion_.events.empty()) {
+    motion_.status = like_.status;
+    motion_.end = std::min(motion_.duration, like_.end + (motion_.events.back().time - like_.events.back().time));
+    motion_.message = like_.message;
   }
   orderByTime();
-  motion.impacts = motion.events.size();
-  for (std::size_t b = 0; b < motion.world_lines.size(); ++b) extendLast(b);
+  for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) extendLast(b);
+  replay_.motion = std::move(motion_);
   return std::move(replay_);
 }
 
 void Follower::extendLast(std::size_t body) {
-  Motion& motion = replay_.motion;
-  Arc& arc = motion.world_lines[body].arcs.back();
+  Arc& arc = motion_.world_lines[body].arcs.back();
   try {
-    arc.extendTo(motion.end);
+    arc.extendTo(motion_.end);
   } catch (const NotComputable& error) {
-    motion.end = std::min(motion.end, arc.reach());
-    motion.status = MotionStatus::not_computable;
+    motion_.end = std::min(motion_.end, arc.reach());
+    builder_.endFlight(body, error);
     replay_.complete = false;
-    replay_.why_not = motion.message =
-        "the flight of '" + scene_.bodies[body].name + "' cannot be computed: " + error.what();
+    replay_.why_not = motion_.message;
   }
 }
 
 void Follower::start() {
-  Motion& motion = replay_.motion;
-  motion.events.reserve(like_.events.size());
+  motion_.events.reserve(like_.events.size());
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-    const BodyModel& model = (*motion.models)[b];
-    WorldLine& line = motion.world_lines[b];
-    line.arcs.reserve(like_.world_lines[b].arcs.size());
-    line.events.reserve(like_.world_lines[b].events.size());
-    line.arcs.emplace_back(model, motion.plan.bodies[b].tier, scene_.gravity, 0.0, startState(scene_.bodies[b], model));
+    motion_.world_lines[b].arcs.reserve(like_.world_lines[b].arcs.size());
+    motion_.world_lines[b].events.reserve(like_.world_lines[b].events.size());
   }
+  builder_.start();
 }
 
 Follower::Outcome Follower::follow(const Event& was) {
@@ -156,9 +144,8 @@ Follower::Outcome Follower::follow(const Event& was) {
     return Outcome::late;
   }
   event_ = was;
-  for (Contact& c : event_.contacts) {
-    c.pair = combine(materialOf(scene_, scene_.bodies[index(c.a)]), materialOf(scene_, scene_.bodies[index(c.b)]));
-  }
+  weights_ = guardWeights(was);
+  for (Contact& c : event_.contacts) c.pair = builder_.pairOf(c.a, c.b);
   double from = 0, flight = was.time;
   for (const Participant& p : was.participants) {
     from = std::max(from, arcOf(p.body).start());
@@ -166,7 +153,7 @@ Follower::Outcome Follower::follow(const Event& was) {
   }
   RootSearch search;
   search.from = from;
-  search.until = replay_.motion.duration;
+  search.until = motion_.duration;
   search.guess = guess(was);
   search.stride = std::max(flight, kInstant);
   const GuardRoot root = descendingRoot(search, [&](double t) { return guardAt(was, t); });
@@ -175,13 +162,12 @@ Follower::Outcome Follower::follow(const Event& was) {
     return Outcome::late;
   }
   if (root.outcome != GuardRoot::Outcome::found) return fail(was, root.why());
-  place(was, root.time);
-  tilt();
+  place(root.time);
   if (!meetInOneInstant()) return fail(was, "its contacts no longer meet in one instant");
 
   std::vector<State> after;
-  solveImpact(event_, *replay_.motion.models, after);
-  if (!parts(after)) return fail(was, "its impulse does not part the bodies");
+  solveImpact(event_, *motion_.models, after);
+  if (builder_.notParted(event_, after)) return fail(was, "its impulse does not part the bodies");
   commit(was, after);
   return Outcome::found;
 }
@@ -189,7 +175,7 @@ Follower::Outcome Follower::follow(const Event& was) {
 // What strikes a body later goes another way without the impact; a kinematic body goes on.
 void Follower::markLate(const Event& was) {
   for (const Participant& p : was.participants)
-    if (!(*replay_.motion.models)[index(p.body)].kinematic) late_[index(p.body)] = true;
+    if (!(*motion_.models)[index(p.body)].kinematic) late_[index(p.body)] = true;
 }
 
 // Where it was, moved as the last impact of its bodies was.
@@ -205,7 +191,7 @@ double Follower::guess(const Event& was) const {
 }
 
 // States, contact points and approach of event_ at a time.
-void Follower::place(const Event& was, double time) {
+void Follower::place(double time) {
   event_.time = time;
   for (Participant& p : event_.participants) {
     Arc& arc = arcOf(p.body);
@@ -216,34 +202,17 @@ void Follower::place(const Event& was, double time) {
     const Participant* p = event_.find(body);
     return arcOf(body).kinematicsOf(p ? p->before : arcOf(body).startState());
   };
-  for (std::size_t k = 0; k < event_.contacts.size(); ++k) {
-    Contact& c = event_.contacts[k];
-    const Kinematics a = kinematics(c.a), b = kinematics(c.b);
-    c.at = replay_.motion.geometry->contact(c.a, c.b, was.contacts[k].features, {a.x, a.R}, {b.x, b.R});
-    c.approach = c.at.normal.dot(a.v + a.w.cross(c.at.point - a.x) - b.v - b.w.cross(c.at.point - b.x));
-  }
-}
-
-void Follower::tilt() {
-  const auto value = [&](int t) { return t < 0 ? Vec2(0, 0) : scene_.tilts[index(t)].value; };
-  for (Contact& c : event_.contacts)
-    c.impulse_normal =
-        c.tilt_a < 0 && c.tilt_b < 0 ? c.at.normal : tiltedNormal(c.at.normal, value(c.tilt_a), value(c.tilt_b));
+  for (Contact& c : event_.contacts) builder_.place(c, kinematics(c.a), kinematics(c.b));
 }
 
 // The mean gap of the contacts, less what it was in `like`: contacts of one instant need not touch to the last bit.
 GuardValue Follower::guardAt(const Event& was, double time) {
-  place(was, time);
-  const auto weightOf = [](const Contact& c) { return std::max(0.0, c.impulse_normal.dot(c.impulse)); };
-  double total = 0;
-  for (const Contact& c : was.contacts) total += weightOf(c);
+  place(time);
   GuardValue guard;
   for (std::size_t k = 0; k < event_.contacts.size(); ++k) {
     const Contact& c = event_.contacts[k];
-    const double weight =
-        total > 0 ? weightOf(was.contacts[k]) / total : 1.0 / static_cast<double>(was.contacts.size());
-    guard.gap += weight * (was.contacts.size() > 1 ? c.at.gap - was.contacts[k].at.gap : c.at.gap);
-    guard.rate += weight * c.approach;
+    guard.gap += weights_[k] * (was.contacts.size() > 1 ? c.at.gap - was.contacts[k].at.gap : c.at.gap);
+    guard.rate += weights_[k] * c.approach;
     guard.size = std::max(guard.size, c.at.point.cwiseAbs().maxCoeff());
   }
   for (const Participant& p : event_.participants) {
@@ -261,64 +230,42 @@ bool Follower::meetInOneInstant() const {
   });
 }
 
-// Bodies must not go on into one another: an impulse along a tilted normal may fail to part them.
-bool Follower::parts(const std::vector<State>& after) {
-  for (const Contact& c : event_.contacts) {
-    if (c.tilt_a < 0 && c.tilt_b < 0) continue;
-    Vec3 u = Vec3::Zero();
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      const int body = event_.participants[i].body;
-      if (body != c.a && body != c.b) continue;
-      const Kinematics k = arcOf(body).kinematicsOf(after[i]);
-      u += (body == c.a ? 1.0 : -1.0) * (k.v + k.w.cross(c.at.point - k.x));
-    }
-    if (!(c.at.normal.dot(u) >= 0 && c.impulse.dot(c.impulse_normal) > 0)) return false;
-  }
-  return true;
-}
-
-void Follower::commit(const Event& was, std::vector<State>& after) {
-  Motion& motion = replay_.motion;
+void Follower::commit(const Event& was, const std::vector<State>& after) {
   if (branchOf(event_.mode) != branchOf(was.mode)) replay_.mode_changed = true;
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    const auto b = index(event_.participants[i].body);
-    WorldLine& line = motion.world_lines[b];
-    line.events.push_back(static_cast<int>(motion.events.size()));
-    line.arcs.emplace_back((*motion.models)[b], motion.plan.bodies[b].tier, scene_.gravity, event_.time, after[i]);
-  }
-  motion.events.push_back(std::move(event_));
+  std::vector<Arc> arcs;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    arcs.push_back(builder_.flight(event_.participants[i].body, event_.time, after[i]));
+  builder_.add(std::move(event_), std::move(arcs));
 }
 
 void Follower::orderByTime() {
-  Motion& motion = replay_.motion;
   const auto earlier = [](const Event& a, const Event& b) { return a.time < b.time; };
-  if (std::is_sorted(motion.events.begin(), motion.events.end(), earlier)) return;
+  if (std::is_sorted(motion_.events.begin(), motion_.events.end(), earlier)) return;
   replay_.order_changed = true;
-  std::vector<int> order(motion.events.size()), place_of(motion.events.size());
+  std::vector<int> order(motion_.events.size()), place_of(motion_.events.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return earlier(motion.events[index(a)], motion.events[index(b)]); });
+                   [&](int a, int b) { return earlier(motion_.events[index(a)], motion_.events[index(b)]); });
   std::vector<Event> sorted;
   sorted.reserve(order.size());
   for (int e : order) {
     place_of[index(e)] = static_cast<int>(sorted.size());
-    sorted.push_back(std::move(motion.events[index(e)]));
+    sorted.push_back(std::move(motion_.events[index(e)]));
   }
-  motion.events = std::move(sorted);
-  for (WorldLine& line : motion.world_lines)
+  motion_.events = std::move(sorted);
+  for (WorldLine& line : motion_.world_lines)
     for (int& e : line.events) e = place_of[index(e)];
 }
 
 Follower::Outcome Follower::fail(const Event& was, const std::string& why) {
-  Motion& motion = replay_.motion;
-  motion.end = motion.duration;
-  for (const Participant& p : was.participants) motion.end = std::min(motion.end, arcOf(p.body).start());
+  motion_.end = motion_.duration;
+  for (const Participant& p : was.participants) motion_.end = std::min(motion_.end, arcOf(p.body).start());
   std::ostringstream text;
   const Contact& c = was.contacts[0];
   text << "the impact of '" << scene_.bodies[index(c.a)].name << "' and '" << scene_.bodies[index(c.b)].name
        << "' that was at t = " << was.time << " s does not follow: " << why;
-  replay_.why_not = motion.message = text.str();
-  motion.status = MotionStatus::unresolved_impact;
+  replay_.why_not = motion_.message = text.str();
+  motion_.status = MotionStatus::unresolved_impact;
   return Outcome::failed;
 }
 

@@ -7,7 +7,6 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/impact/impact.hpp"
-#include "adjoint/impact/tilt.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 namespace carom {
@@ -77,21 +76,11 @@ bool Simulator::follow() {
 Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
     : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit),
       refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
-      queue_(scene.bodies.size()) {
+      builder_(scene, duration), motion_(builder_.motion), queue_(scene.bodies.size()) {
   contacts_.countIn(&work_);
   const std::size_t n = scene.bodies.size();
-  motion_.scene = std::make_shared<const Scene>(scene);
-  auto models = std::make_shared<std::vector<BodyModel>>();
-  models->reserve(n);
-  for (const Body& body : scene.bodies) {
-    models->push_back(modelOf(body));
-    material_.push_back(&materialOf(scene, body));
-  }
-  motion_.models = std::move(models);
   motion_.plan = makePlan(scene, options.asked);
-  motion_.duration = duration;
   motion_.has_events = options.record_events;
-  motion_.world_lines.resize(n);
   arc_.assign(n, nullptr);
   version_.assign(n, 0);
   impacts_.assign(n, 0);
@@ -106,11 +95,8 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
 
 void Simulator::start() {
   const int n = static_cast<int>(scene_.bodies.size());
-  for (int b = 0; b < n; ++b) {
-    const BodyModel& model = (*motion_.models)[index(b)];
-    arc_[index(b)] = &motion_.world_lines[index(b)].arcs.emplace_back(
-        model, motion_.plan.bodies[index(b)].tier, scene_.gravity, 0.0, startState(scene_.bodies[index(b)], model));
-  }
+  builder_.start();
+  for (int b = 0; b < n; ++b) arc_[index(b)] = &motion_.world_lines[index(b)].arcs.back();
   contacts_.begin(scene_);
   motion_.geometry = contacts_.geometry();
   startOverlaps();
@@ -206,19 +192,15 @@ Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& fea
   c.a = a;
   c.b = b;
   c.features = features;
-  c.at = motion_.geometry->contact(a, b, features, {ka.x, ka.R}, {kb.x, kb.R});
+  const auto tilt = [&](int body) { return arcOf(body).moving() ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
+  c.tilt_a = tilt(a);
+  c.tilt_b = tilt(b);
+  builder_.place(c, ka, kb);
   if (!(std::isfinite(c.at.gap) && c.at.point.allFinite() && c.at.normal.allFinite()))
     giveUp("contact", a, b, time,
            NotComputable("its features (" + motion_.geometry->describe(a, b, features) +
                          ") give it no point or no normal"));
-  c.pair = combine(*material_[index(a)], *material_[index(b)]);
-  const auto tilt = [&](int body) { return arcOf(body).moving() ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
-  c.tilt_a = tilt(a);
-  c.tilt_b = tilt(b);
-  const auto value = [&](int t) { return t < 0 ? Vec2(0, 0) : scene_.tilts[index(t)].value; };
-  c.impulse_normal =
-      c.tilt_a < 0 && c.tilt_b < 0 ? c.at.normal : tiltedNormal(c.at.normal, value(c.tilt_a), value(c.tilt_b));
-  c.approach = c.at.normal.dot(ka.v + ka.w.cross(c.at.point - ka.x) - kb.v - kb.w.cross(c.at.point - kb.x));
+  c.pair = builder_.pairOf(a, b);
   return c;
 }
 
@@ -255,8 +237,7 @@ void Simulator::solveDraft() {
   draft_.arcs.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto b = index(bodies_[i]);
-    draft_.arcs.emplace_back((*motion_.models)[b], motion_.plan.bodies[b].tier, scene_.gravity, event.time,
-                             draft_.after[i]);
+    draft_.arcs.push_back(builder_.flight(bodies_[i], event.time, draft_.after[i]));
     requireFlight(bodies_[i], draft_.arcs.back());
     in_draft_[b] = static_cast<int>(i);
   }
@@ -299,25 +280,21 @@ bool Simulator::joinInstant() {
 
 void Simulator::commit() {
   Event& event = draft_.event;
-  const int number = static_cast<int>(motion_.impacts++);
   for (const Contact& c : event.contacts)
     if (StartOverlap* overlap = overlapOf(c.a, c.b); overlap && !overlap->parted) {
       followOverlap(*overlap, event.time);
       if (!overlap->parted) overlap->parted = event.time;
     }
   searches_ = 0;
-  for (std::size_t i = 0; i < draft_.arcs.size(); ++i) {
-    const int body = event.participants[i].body;
-    WorldLine& line = motion_.world_lines[index(body)];
-    line.arcs.push_back(std::move(draft_.arcs[i]));
-    arc_[index(body)] = &line.arcs.back();
-    if (motion_.has_events) line.events.push_back(number);
+  builder_.add(std::move(event), std::move(draft_.arcs));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {  // the participants
+    const int body = bodies_[i];
+    arc_[index(body)] = &motion_.world_lines[index(body)].arcs.back();
     if (isMoved(body)) ++version_[index(body)];
     ++impacts_[index(body)];
     in_draft_[index(body)] = -1;
     enter(body, draft_.outlooks[i]);
   }
-  if (motion_.has_events) motion_.events.push_back(std::move(event));
 }
 
 void Simulator::finish(MotionStatus status, double end, std::string message) {

@@ -7,6 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/event_queue.hpp"
+#include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/simulate.h"
 
 namespace carom {
@@ -151,11 +152,11 @@ class Simulator {
   bool work_ended_ = false;
   double now_ = 0;     // everything before it is known
   long searches_ = 0;  // since the last impact
-  Motion motion_;
+  MotionBuilder builder_;
+  Motion& motion_;
   // a body each
   std::vector<Arc*> arc_;  // the last one of its world-line
   std::vector<int> version_, impacts_, in_draft_;
-  std::vector<const Material*> material_;
   std::vector<Outlook> outlook_;
   EventQueue queue_;
 

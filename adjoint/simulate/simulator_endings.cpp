@@ -21,25 +21,13 @@ bool Simulator::isExplained(const Prediction& next) {
 
 // An impulse along a tilted normal may fail to part the bodies: there is no motion after it.
 bool Simulator::separates() {
-  const Event& event = draft_.event;
-  for (const Contact& c : event.contacts) {
-    if (c.tilt_a < 0 && c.tilt_b < 0) continue;
-    Vec3 u = Vec3::Zero();
-    const auto add = [&](int body, double sign) {
-      if (in_draft_[index(body)] < 0) return;
-      const Kinematics k = pathOf(body).kinematicsAt(event.time);
-      u += sign * (k.v + k.w.cross(c.at.point - k.x));
-    };
-    add(c.a, 1);
-    add(c.b, -1);
-    if (c.at.normal.dot(u) >= 0 && c.impulse.dot(c.impulse_normal) > 0) continue;
-    std::ostringstream text;
-    text << "the tilted normal at the impact of '" << scene_.bodies[index(c.a)].name << "' and '"
-         << scene_.bodies[index(c.b)].name << "' at t = " << event.time << " s does not part the bodies";
-    finish(MotionStatus::unresolved_impact, event.time, text.str());
-    return false;
-  }
-  return true;
+  const Contact* c = builder_.notParted(draft_.event, draft_.after);
+  if (!c) return true;
+  std::ostringstream text;
+  text << "the tilted normal at the impact of '" << scene_.bodies[index(c->a)].name << "' and '"
+       << scene_.bodies[index(c->b)].name << "' at t = " << draft_.event.time << " s does not part the bodies";
+  finish(MotionStatus::unresolved_impact, draft_.event.time, text.str());
+  return false;
 }
 
 // Whether the next bounce of a contact, if it is known, is too low to count. The contact leaves at e times its approach
@@ -137,8 +125,7 @@ void Simulator::extendAll() {
     try {
       extend(arc, motion_.end);
     } catch (const NotComputable& error) {
-      motion_.status = MotionStatus::not_computable;
-      motion_.message = "the flight of '" + scene_.bodies[b].name + "' cannot be computed: " + error.what();
+      builder_.endFlight(b, error);
       endAtReach(arc);
     } catch (const WorkEnded&) {
       if (!work_ended_) throw;

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/derivative/event_linearization.hpp"
+#include "adjoint/impact/law.hpp"
 
 /// Gradients of numbers that are read at an impact. Internal to editing/.
 namespace carom {
@@ -36,21 +38,12 @@ class EventBars {
   SceneGradient gradient(DerivativeTape& tape) const;
 
  private:
-  struct Moving {
-    const BodyModel* model;
-    Mat3 R, A;  ///< principal axes to world; world inverse inertia
-    Vec3 omega;
-  };
-  /// Calls visit(participant, sign, arm) for the moving bodies of a contact.
-  template <class Visit>
-  void eachArm(int contact, const Visit& visit) const;
-  void addPoint(int contact, const Vec3& point_bar);
-
   const Motion& motion_;
   const Event& event_;
-  std::vector<Moving> moving_;    // of the participants
-  std::vector<StateSeed> seeds_;  // of the participants
-  std::vector<BodyModelDerivative> models_;
+  EventLinearization linearization_;
+  ImpactProblemDerivative problem_;                    // by what the law sees
+  std::vector<Eigen::Matrix<double, 7, 1>> contacts_;  // by the contacts themselves
+  std::vector<StateSeed> seeds_;                       // of the participants
   SceneGradient direct_;
 };
 

@@ -81,7 +81,7 @@ JacobianOf<S> sharpCrossingJacobian(const CurvePoint<S>& f, const CurvePoint<S>&
   JacobianOf<S> J;
   J.row(0) = n.transpose() * r.fixed_w;
   J.template middleRows<3>(1) =
-      along * (M3<S>::Identity() - n * n.transpose()) * (skewOf<S>(f.tangent) * r.t2 - skewOf<S>(g.tangent) * r.t1);
+      along * (M3<S>::Identity() - n * n.transpose()) * (skew(f.tangent) * r.t2 - skew(g.tangent) * r.t1);
   J.template middleRows<3>(4) = r.point;
   return J;
 }

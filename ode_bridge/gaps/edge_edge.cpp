@@ -21,7 +21,7 @@ JacobianOf<S> edgeEdgeJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int
   const S along = (sign < 0 ? -1 : 1) / s;
   const V3<S> n = along * c, d1c = d1.cross(c);
   const S t2 = -w.dot(d1c) / s2;
-  const M3<S> dc_dd1 = -skewOf<S>(d2), dc_dd2 = skewOf<S>(d1);
+  const M3<S> dc_dd1 = -skew(d2), dc_dd2 = skew(d1);
   const M3<S> dn_dc = along * (M3<S>::Identity() - n * n.transpose());
   J.template block<3, 3>(1, kD1) = dn_dc * dc_dd1;
   J.template block<3, 3>(1, kD2) = dn_dc * dc_dd2;

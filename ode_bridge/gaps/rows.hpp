@@ -11,7 +11,6 @@
 namespace carom::gaps {
 
 using detail::M3;
-using detail::skewOf;
 using detail::V3;
 
 /// Numbers of second derivatives, four directions at a time.

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"adjoint/flight/arc.cpp", "\"ode_bridge/ode_contacts.h\"", false},
         Planted{"adjoint/flight/arc.cpp", "\"editing/edit.h\"", false},
         Planted{"adjoint/flight/arc.cpp", "\"formats/base/document.h\"", false},
-        Planted{"adjoint/impact/law.cpp", "\"../../formats/base/document.h\"", false},
+        Planted{"adjoint/impact/laws.cpp", "\"../../formats/base/document.h\"", false},
         Planted{"editing/edit.cpp", "\"adjoint/motion/contact_source.h\"", true},
         Planted{"editing/edit.cpp", "\"editing/report/explain.hpp\"", true},
         Planted{"editing/session/session_solver.cpp", "\"editing/strategy/samples.hpp\"", true},
