@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/shape.h"
 
-#include <array>
-
 #include "adjoint/shapes/kinds.h"
+#include "adjoint/shapes/table.h"
 
 namespace carom {
-namespace {
 
-// In the order of the alternatives of Shape.
-const std::array<ShapeKind, std::variant_size_v<Shape>>& table() {
-  static const std::array<ShapeKind, std::variant_size_v<Shape>> kinds{
-      shapes::sphereKind(),   shapes::boxKind(),  shapes::planeKind(), shapes::capsuleKind(),
-      shapes::cylinderKind(), shapes::hullKind(), shapes::meshKind(),  shapes::compoundKind(),
-  };
+std::span<const ShapeKind> shapeKinds() {
+  static const auto kinds = shapes::tableOf([](auto kind) {
+    static_assert(requires { shapes::kindRow(kind); }, "a shape without a row: see adjoint/shapes/kinds.h");
+    return shapes::kindRow(kind);
+  });
   return kinds;
 }
 
-}  // namespace
-
-const ShapeKind& kindOf(const Shape& shape) { return table()[shape.index()]; }
+const ShapeKind& kindOf(const Shape& shape) { return shapeKinds()[shape.index()]; }
 
 }  // namespace carom

@@ -2,14 +2,23 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "adjoint/required.h"
+#include "adjoint/shapes/cone.h"
 #include "adjoint/surface.h"
 #include "adjoint/types.h"
 
 namespace carom {
+
+namespace shapes {
+/// Stands for a kind of shape where a row is chosen (adjoint/shapes/table.h).
+template <class S>
+struct KindOf {};
+}  // namespace shapes
 
 /// Ball about the shape's origin.
 struct Sphere {
@@ -59,7 +68,7 @@ struct Compound {
   std::vector<CompoundPart> parts;
 };
 
-using Shape = std::variant<Sphere, Box, Plane, Capsule, Cylinder, Hull, Mesh, Compound>;
+using Shape = std::variant<Sphere, Box, Plane, Capsule, Cylinder, Hull, Mesh, Compound, Cone>;
 
 struct CompoundPart {
   Shape shape;                          ///< any but a plane
@@ -82,22 +91,33 @@ struct SolidProperties {
   std::vector<SolidRate> rates;      ///< by dimension, in the order of ShapeKind::dimensions
 };
 
-/// One row of the table of shapes: what the rest of the program asks of a shape. A new shape adds a struct above, a row
-/// in shape.cpp and its features in ode_bridge/. What takes a vector throws InputError where it has not one number a
-/// dimension.
+namespace validation {
+struct ShapeCheck;  // adjoint/validation.h
+}
+
+/// One row of the table of shapes: what the rest of the program asks of a shape, whatever its kind. A row that leaves
+/// one of them out does not compile, nor does a table without a row for every alternative of Shape. What takes a vector
+/// throws InputError where it has not one number a dimension. Collision detection and documents have tables of their
+/// own, in ode_bridge/solids/ and formats/shapes/.
 struct ShapeKind {
   const char* name;  ///< word in the scene document
+  /// Throws InputError for members that no such shape can have.
+  Required<void(const Shape&, const validation::ShapeCheck&)> check;
   /// Words of the `size` control: "radius"; "x", "y", "z"; "scale"; of a part of a compound "0.radius".
-  std::vector<std::string> (*dimension_names)(const Shape&);
-  Eigen::VectorXd (*dimensions)(const Shape&);  ///< one a name: metres, or a factor (scale)
-  void (*setDimensions)(Shape&, const Eigen::VectorXd&);
-  bool (*solid)(const Shape&);  ///< has a volume, so that mass properties can be derived
-  SolidProperties (*properties)(const Shape&);
+  Required<std::vector<std::string>(const Shape&)> dimension_names;
+  Required<Eigen::VectorXd(const Shape&)> dimensions;  ///< one a name: metres, or a factor (scale)
+  Required<void(Shape&, const Eigen::VectorXd&)> setDimensions;
+  Required<bool(const Shape&)> solid;  ///< has a volume, so that mass properties can be derived
+  Required<SolidProperties(const Shape&)> properties;
   /// Rate of every entry of `properties`, its rates included, as the dimensions change at the given rates.
-  SolidProperties (*propertiesRate)(const Shape&, const Eigen::VectorXd& dimension_rates);
-  double (*boundingRadius)(const Shape&);  ///< about the shape's origin; infinite for a plane
+  Required<SolidProperties(const Shape&, const Eigen::VectorXd& dimension_rates)> propertiesRate;
+  Required<double(const Shape&)> boundingRadius;  ///< about the shape's origin; infinite for a plane
+  /// Of a ball about the shape's origin that lies within the shape, m; 0 where none is known.
+  Required<double(const Shape&)> innerRadius;
 };
 
+/// The rows, in the order of the alternatives of Shape.
+std::span<const ShapeKind> shapeKinds();
 const ShapeKind& kindOf(const Shape& shape);
 
 }  // namespace carom
