@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <numbers>
 
-#include "adjoint/elementary.h"
-#include "adjoint/shapes/kinds.h"
-#include "adjoint/validation.h"
+#include "adjoint/numeric/elementary.hpp"
+#include "adjoint/scene/shapes/kinds.hpp"
+#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "adjoint/shape.h"
+#include "adjoint/scene/shape.h"
 
 /// How the tables of shapes are put together: each layer that asks something of shapes declares one row a shape,
 ///   Row row(KindOf<Sphere>);

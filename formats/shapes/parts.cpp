@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "formats/json_writer.h"
+#include "formats/json/json_writer.hpp"
 #include "formats/shapes/rows.hpp"
 
 namespace carom::shapes {

@@ -2,9 +2,9 @@
 // Private to formats/. What the rows of several shapes are made of.
 #pragma once
 
-#include "adjoint/shape.h"
-#include "formats/detail/json.hpp"
-#include "formats/shape_extent.h"
+#include "adjoint/scene/shape.h"
+#include "formats/drawing/shape_extent.hpp"
+#include "formats/json/json.hpp"
 
 namespace carom {
 

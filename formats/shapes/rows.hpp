@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "adjoint/required.h"
-#include "adjoint/shape.h"
-#include "formats/detail/json.hpp"
-#include "formats/shape_extent.h"
+#include "adjoint/scene/shape.h"
+#include "formats/drawing/shape_extent.hpp"
+#include "formats/json/json.hpp"
 
 namespace carom {
 
