@@ -85,12 +85,21 @@ void ofFace(const Limits& limits, int f, const Vec3& point) {
   }
 }
 
+// Unit, from the side of a cylinder or cone towards the cap, along the line of it that ends at a rim's point in the
+// direction `across`.
+Vec3 sideAbove(const Solid& solid, const Feature& rim, const Vec3& across) {
+  for (const SolidEdge& side : solid.edges)
+    if (side.part == rim.part && side.apex > 0 && across.norm() > 0)
+      return (rim.rim * across.normalized() + 2 * side.apex * rim.direction).normalized();
+  return rim.direction;
+}
+
 // The contact is at the outermost point of the rim, on the side of the cap.
 void ofRim(const Limits& limits, int r, const Vec3& point) {
   const Feature& rim = limits.solid.rims[static_cast<std::size_t>(r)];
   const std::string name = nameOf(limits.solid, Family::rim, r);
-  limits.normal(rim.direction, "the side of " + name);
   const Vec3 to = point - rim.point, across = to - rim.direction.dot(to) * rim.direction;
+  limits.normal(sideAbove(limits.solid, rim, across), "the side of " + name);
   if (across.norm() > 0) limits.normal(across.normalized(), "the cap of " + name);
 }
 

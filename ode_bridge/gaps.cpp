@@ -88,7 +88,7 @@ template <class S>
 struct Turned {
   V3<S> arm, direction;
   Eigen::Matrix<S, 3, Eigen::Dynamic> point_rates;
-  Eigen::RowVectorXd radius_rates, rim_rates;
+  Eigen::RowVectorXd radius_rates, rim_rates, apex_rates;  // the last one empty unless the feature is tapered
 };
 
 // d(feature in the world) by (x, theta) and by the dimensions, folded into the columns of one side.
@@ -99,11 +99,13 @@ void fold(const JacobianOf<S>& J, int column, const Turned<S>& f, Eigen::Ref<Eig
   by_pose.template leftCols<3>() = JP;
   by_pose.template rightCols<3>() = -JP * skew(f.arm) - JD * skew(f.direction);
   by_size = JP * f.point_rates + J.col(column + 6) * f.radius_rates + J.col(column + 7) * f.rim_rates;
+  if (f.apex_rates.size() > 0) by_size += J.col(column + 8) * f.apex_rates;
 }
 
 Turned<double> turnedFeature(const Solid& solid, const Feature& f, const Pose& pose) {
   FeatureRates rates = ratesOf(solid, f);
-  return {pose.R * f.point, pose.R * f.direction, pose.R * rates.point, std::move(rates.radius), std::move(rates.rim)};
+  return {pose.R * f.point,        pose.R * f.direction, pose.R * rates.point,
+          std::move(rates.radius), std::move(rates.rim), std::move(rates.apex)};
 }
 
 // Up to four directions, of one of the two bodies.
@@ -122,9 +124,9 @@ PlacedRates place(const Solid& solid, const Feature& f, const Pose& pose, const 
   const WorldFeature at = placeFeature(f, pose);
   const Turned<double> turned = turnedFeature(solid, f, pose);
   PlacedRates out;
-  out.feature = {at.point.cast<Rate4>(), at.direction.cast<Rate4>(), at.radius, at.rim};
+  out.feature = {at.point.cast<Rate4>(), at.direction.cast<Rate4>(), at.radius, at.rim, at.apex};
   out.turned = {turned.arm.cast<Rate4>(), turned.direction.cast<Rate4>(), turned.point_rates.cast<Rate4>(),
-                turned.radius_rates, turned.rim_rates};
+                turned.radius_rates, turned.rim_rates, turned.apex_rates};
   for (std::size_t i = 0; i < side.directions.size(); ++i) {
     const Vec3 dx = side.directions[i].pose.segment<3>(side.first);
     const Vec3 theta = side.directions[i].pose.segment<3>(side.first + 3);
@@ -134,6 +136,7 @@ PlacedRates place(const Solid& solid, const Feature& f, const Pose& pose, const 
       darm += turned.point_rates * size;
       out.feature.radius.rate[i] = turned.radius_rates.dot(size);
       out.feature.rim.rate[i] = turned.rim_rates.dot(size);
+      if (turned.apex_rates.size() > 0) out.feature.apex.rate[i] = turned.apex_rates.dot(size);
     }
     const Vec3 ddirection = theta.cross(turned.direction);
     detail::setRates(out.feature.point, Vec3(dx + darm), i);

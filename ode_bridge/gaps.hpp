@@ -30,10 +30,11 @@ struct WorldFeature {
   Vec3 point, direction;
   double radius;
   double rim;
+  double apex = 0;
 };
 
 inline WorldFeature placeFeature(const Feature& f, const Pose& pose) {
-  return {pose.x + pose.R * f.point, pose.R * f.direction, f.radius, f.rim};
+  return {pose.x + pose.R * f.point, pose.R * f.direction, f.radius, f.rim, f.apex};
 }
 
 /// Whether two features of these families have a gap in which neither hides the other; faces meet what lies before
@@ -63,9 +64,15 @@ int branches(GapKind kind);
 ///     sharp edge, rim  phi = n.w,      n = +-(t_1 x t_2)/|t_1 x t_2|
 ///     swept edge       phi = |w| - r,  n = w/|w|
 ///
+/// Of a tapered edge, the side of a cone of slope tau = sin(half its opening angle), every tangent plane goes through the
+/// apex A, and all normals out of it have the same n.d = tau:
+///   point, cone  phi = n.(P - A) - r_1,           n = sqrt(1 - tau^2) w/|w| + tau d, p = P - r_1 n
+///   edge, cone   phi = n.(Q - A) - r_1,           n.d_1 = -tau_1, n.d_2 = tau_2, one on each side of the two axes
+///   rim, cone    as point-cone, at the p of the rim where n.t_1 = 0
+///
 /// `sign` is +-1 or +-2. Its sign picks the side of a plane (N or -N, the back of a sheet) and the orientation of a
 /// cross product; other rows ignore it. |sign| picks between two places where rims come nearest: the first or the
-/// second along the edge, or along d_1 x d_2 of two rims; where there is one place both give it.
+/// second along the edge (of a cone, its axis), or along d_1 x d_2 of two rims; where there is one place both give it.
 ///
 /// Where nothing is defined (parallel edges, points that coincide, rims in parallel planes) the gap is NaN. Of a rim
 /// that lies flat before a plane the gap is defined and the point is NaN.

@@ -24,18 +24,31 @@ bool nearFace(const Solid& solid, const SolidFace& face, const Vec3& p, double d
   return std::abs(face.direction.dot(p - face.point)) <= distance && outsideFace(solid, face, p) <= distance;
 }
 
-void nearCylinder(const Solid& solid, const Piece& piece, const Vec3& p, double distance, NearFeatures& out) {
+// How far a point is from the line that the side of a frustum shows from the side, less than 0 within. m
+double outsideSide(const Piece& piece, double along, double out_of_axis) {
+  if (piece.rho == piece.rho_high) return out_of_axis - piece.rho;
+  const double rise = 2 * piece.half_length, fall = piece.rho - piece.rho_high;
+  const double middle = 0.5 * (piece.rho + piece.rho_high);
+  return ((out_of_axis - middle) * rise + along * fall) / std::sqrt(rise * rise + fall * fall);
+}
+
+void nearFrustum(const Solid& solid, const Piece& piece, const Vec3& p, double distance, NearFeatures& out) {
   const Vec3 to = p - piece.center;
   const double along = piece.axis.dot(to), out_of_axis = (to - along * piece.axis).norm();
   each(solid, piece.faces, [&](int f) {
     if (nearFace(solid, solid.faces[static_cast<std::size_t>(f)], p, distance)) out.add(Family::face, f);
   });
-  if (std::abs(out_of_axis - piece.rho) > distance) return;
+  each(solid, piece.vertices, [&](int v) {
+    const Feature& apex = solid.vertices[static_cast<std::size_t>(v)];
+    if (!apex.mark && (apex.point - p).squaredNorm() <= distance * distance) out.add(Family::vertex, v);
+  });
+  if (std::abs(outsideSide(piece, along, out_of_axis)) > distance) return;
   if (std::abs(along) <= piece.half_length + distance)
     each(solid, piece.edges, [&](int e) { out.add(Family::edge, e); });
   each(solid, piece.rims, [&](int r) {
     const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
-    if (std::abs(rim.direction.dot(p - rim.point)) <= distance) out.add(Family::rim, r);
+    if (std::abs(rim.direction.dot(p - rim.point)) <= distance && std::abs(out_of_axis - rim.rim) <= distance)
+      out.add(Family::rim, r);
   });
 }
 
@@ -60,8 +73,8 @@ double outsideFace(const Solid& solid, const SolidFace& face, const Vec3& p) {
 
 NearFeatures featuresNear(const Solid& solid, const Piece& piece, const Vec3& p, double distance) {
   NearFeatures near;
-  if (piece.core == Piece::Core::cylinder) {
-    nearCylinder(solid, piece, p, distance, near);
+  if (piece.core == Piece::Core::frustum) {
+    nearFrustum(solid, piece, p, distance, near);
     return near;
   }
   const bool few = piece.core != Piece::Core::polytope && piece.core != Piece::Core::triangle;

@@ -108,7 +108,7 @@ std::optional<Vec3> axisOfRevolution(const PlacedPiece& p) {
   if (piece.core == Piece::Core::segment) {
     const Vec3* points = p.solid().points.data() + piece.points.first;
     axis = (points[1] - points[0]).normalized();
-  } else if (piece.core != Piece::Core::cylinder) {
+  } else if (piece.core != Piece::Core::frustum) {
     return std::nullopt;
   }
   if (!piece.center.cross(axis).isZero(0)) return std::nullopt;

@@ -27,20 +27,30 @@ Support furthestPoint(const Solid& solid, const Piece& piece, const Vec3& direct
   return {solid.points[best], static_cast<int>(best)};
 }
 
-Vec3 furthestOfCylinder(const Piece& piece, const Vec3& direction) {
+// 2 h along > (rho_low - rho_high) across
+int endOf(const Piece& piece, double along, double across) {
+  return 2 * piece.half_length * along + (piece.rho_high - piece.rho) * across >= 0 ? 1 : -1;
+}
+
+Vec3 furthestOfFrustum(const Piece& piece, const Vec3& direction) {
   const double along = piece.axis.dot(direction);
   // as a double cross product it stays across the axis even where it is all rounding
   const Vec3 across = piece.axis.cross(direction).cross(piece.axis);
   const double length = across.norm();
-  Vec3 at = piece.center + (along >= 0 ? piece.half_length : -piece.half_length) * piece.axis;
-  if (length > 0) at += piece.rho / length * across;
+  const bool high = endOf(piece, along, length) > 0;
+  Vec3 at = piece.center + (high ? piece.half_length : -piece.half_length) * piece.axis;
+  if (length > 0) at += (high ? piece.rho_high : piece.rho) / length * across;
   return at;
 }
 
 }  // namespace
 
+int furthestEnd(const Piece& piece, const Vec3& direction) {
+  return endOf(piece, piece.axis.dot(direction), piece.axis.cross(direction).cross(piece.axis).norm());
+}
+
 Support supportOf(const Solid& solid, const Piece& piece, const Vec3& direction) {
-  if (piece.core == Piece::Core::cylinder) return {furthestOfCylinder(piece, direction), -1};
+  if (piece.core == Piece::Core::frustum) return {furthestOfFrustum(piece, direction), -1};
   if (piece.core == Piece::Core::point) return {piece.center, piece.points.first};
   return furthestPoint(solid, piece, direction);
 }

@@ -33,12 +33,15 @@ struct PlacedPiece {
 };
 
 /// The point of a core that lies furthest along a direction, both in the solid's axes. `index` is that of the support
-/// point in Solid::points; -1 on a cylinder.
+/// point in Solid::points; -1 on a frustum.
 struct Support {
   Vec3 at;
   int index;
 };
 Support supportOf(const Solid& solid, const Piece& piece, const Vec3& direction);
+
+/// The end of a frustum that its point furthest along a direction is at: 1 for the high one, -1 for the low one.
+int furthestEnd(const Piece& piece, const Vec3& direction);
 
 /// How far the core reaches along a world direction, seen from the body's origin.
 double extentAlong(const PlacedPiece& p, const Vec3& direction);

@@ -38,7 +38,7 @@ struct Touching {
   }
 
   // The features of a piece that lie, as a whole, within tolerance of its furthest extent along a direction (of a rim:
-  // one point of it). The marks of a cylinder's rim count where it stands flat.
+  // one point of it). The marks of a rim count where it stands flat.
   std::vector<FacingFeature> frontOf(const PlacedPiece& p, const Vec3& direction) const {
     std::vector<FacingFeature> front;
     const Solid& solid = p.solid();
@@ -48,25 +48,40 @@ struct Touching {
     const auto vertex = [&](int v) { return solid.vertices[static_cast<std::size_t>(v)].point.dot(d) >= furthest; };
     int marks = 0;
     each(p, p.piece->vertices, [&](int v) {
-      if (vertex(v)) front.push_back({Family::vertex, v}), ++marks;
+      if (!vertex(v)) return;
+      front.push_back({Family::vertex, v});
+      if (isMark(solid, front.back())) ++marks;
     });
-    const bool round = p.piece->core == Piece::Core::cylinder;
     each(p, p.piece->edges, [&](int e) {
       const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
       const bool lies = edge.from >= 0 ? vertex(edge.from) && vertex(edge.to)
-                                       : 2 * edge.half_length * std::abs(edge.direction.dot(d)) <= level;
+                                       : liesInFront(edge, d);
       if (lies) front.push_back({Family::edge, e});
     });
     each(p, p.piece->faces, [&](int f) {
       const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
       if (liesInFront(solid, face, d, vertex)) front.push_back({Family::face, f});
     });
-    if (round && marks < 3) std::erase_if(front, [](const FacingFeature& f) { return f.family == Family::vertex; });
+    if (marks < 3) std::erase_if(front, [&](const FacingFeature& f) { return isMark(solid, f); });
     each(p, p.piece->rims, [&](int r) {
       const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
       if (rim.point.dot(d) + rim.rim * rim.direction.cross(d).norm() >= furthest) front.push_back({Family::rim, r});
     });
     return front;
+  }
+
+  static bool isMark(const Solid& solid, const FacingFeature& f) {
+    return f.family == Family::vertex && solid.vertices[static_cast<std::size_t>(f.index)].mark;
+  }
+
+  // The side of a cylinder or cone: the line of it that faces d is across d.
+  bool liesInFront(const SolidEdge& side, const Vec3& d) const {
+    double along = side.direction.dot(d);
+    if (side.apex > 0) {
+      const double slant = std::sqrt(side.rim * side.rim + 4 * side.apex * side.apex);
+      along = (2 * side.apex * along - side.rim * side.direction.cross(d).norm()) / slant;
+    }
+    return 2 * side.half_length * std::abs(along) <= level;
   }
 
   template <class Vertex>
@@ -147,17 +162,25 @@ struct Touching {
   bool crossAt(const FacingFeature& f, const FacingFeature& g, const Vec3& point) const {
     const auto curve = [](const FacingFeature& h) { return h.family == Family::rim || h.family == Family::edge; };
     const auto swept = [](const PlacedPiece& p, const FacingFeature& h) {
-      return p.solid().feature(h.family, h.index).radius > 0;
+      return isSwept(p.solid().feature(h.family, h.index));
     };
     if (!curve(f) || !curve(g) || swept(a, f) || swept(b, g)) return true;
     return tangentAt(a, f, point).cross(tangentAt(b, g, point)).norm() >= kParallel;
+  }
+
+  // The sides of a cone and of what it touches have a point in common only if their lines there cross.
+  bool linesCross(const FacingFeature& f, const FacingFeature& g, const Vec3& n) const {
+    if (f.family != Family::edge || g.family != Family::edge) return true;
+    const Feature &fa = a.solid().feature(f.family, f.index), &fb = b.solid().feature(g.family, g.index);
+    if (fa.apex == 0 && fb.apex == 0) return true;
+    return std::abs(n.dot((a.body->k.R * fa.direction).cross(b.body->k.R * fb.direction))) >= kParallel;
   }
 
   bool tryPair(const FacingFeature& f, const FacingFeature& g, int sign) {
     const GapKind kind = gapKind(f.family, g.family);
     const ContactPoint c = contactNow(kind, f, g, sign);
     if (!(std::abs(c.gap) <= tolerance) || !c.point.allFinite() || !c.normal.allFinite()) return false;
-    if (!crossAt(f, g, c.point)) return false;
+    if (!crossAt(f, g, c.point) || !linesCross(f, g, c.normal)) return false;
     if (!(separationAlong(a, b, c.normal) >= c.gap - level)) return false;
     if (!inCone(a, f, -c.normal) || !inCone(b, g, c.normal)) return false;
     if (!onFeature(a, f, g, c.point) || !onFeature(b, g, f, c.point)) return false;
@@ -171,9 +194,9 @@ struct Touching {
     const Feature &fa = a.solid().feature(f.family, f.index), &fb = b.solid().feature(g.family, g.index);
     const bool face = f.family == Family::face || g.family == Family::face;
     const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
-    if (vertex && !face) return fa.radius + fb.radius > 0;  // sharp points meet in no general way
-    if (face && (fa.rim > 0 || fb.rim > 0)) return !liesFlat(fa, fb);
-    if (f.family == Family::edge && g.family == Family::edge)
+    if (vertex && !face) return isSwept(fa) || isSwept(fb);  // sharp points meet in no general way
+    if (face && (f.family == Family::rim || g.family == Family::rim)) return !liesFlat(fa, fb);
+    if (f.family == Family::edge && g.family == Family::edge && fa.apex == 0 && fb.apex == 0)
       return (a.body->k.R * fa.direction).cross(b.body->k.R * fb.direction).norm() >= kParallel;
     return true;
   }

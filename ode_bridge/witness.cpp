@@ -28,16 +28,26 @@ FeaturePair pairOf(GapKind kind, int a, int b, int sign) {
   return {static_cast<std::int16_t>(kind), a, b, static_cast<std::int16_t>(sign)};
 }
 
-// The vertex that a support point is; on a cylinder the rim.
+// The vertex of a cone that is no mark: its last.
+int apexOf(const PlacedPiece& p) {
+  const Piece::Range& own = p.piece->vertices;
+  return p.solid().piece_features[static_cast<std::size_t>(own.first + own.count - 1)];
+}
+
+// The vertex that a support point is; on a frustum the rim, or the apex that takes its place.
 FeaturePair facing(const PlacedPiece& p, const Vec3& direction, GapKind with_vertex, GapKind with_rim, int face,
                    int sign, bool piece_is_a) {
   const Vec3 local = p.body->k.R.transpose() * direction;
   GapKind kind = with_vertex;
   int feature;
-  if (p.piece->core == Piece::Core::cylinder) {
-    kind = with_rim;
-    const int end = p.piece->axis.dot(local) >= 0 ? 1 : 0;
-    feature = p.solid().piece_features[static_cast<std::size_t>(p.piece->rims.first + end)];
+  if (p.piece->core == Piece::Core::frustum) {
+    const bool high = furthestEnd(*p.piece, local) > 0;
+    if (high && p.piece->rho_high == 0) {
+      feature = apexOf(p);
+    } else {
+      kind = with_rim;
+      feature = p.solid().piece_features[static_cast<std::size_t>(p.piece->rims.first + (high ? 1 : 0))];
+    }
   } else {
     const int point = supportOf(p.solid(), *p.piece, local).index - p.piece->points.first;
     feature = p.solid().piece_features[static_cast<std::size_t>(p.piece->vertices.first + point)];
@@ -116,7 +126,7 @@ class WitnessSearch {
     using Frame = Witness::Frame;
     const int on_a = different(points.of_a), on_b = different(points.of_b);
     Frame frame = Frame::world;
-    if (a_.piece->core != Piece::Core::cylinder && b_.piece->core != Piece::Core::cylinder) {
+    if (a_.piece->core != Piece::Core::frustum && b_.piece->core != Piece::Core::frustum) {
       if (on_a == 1 && on_b > 1) frame = Frame::body_b;
       if (on_b == 1 && on_a > 1) frame = Frame::body_a;
       if (points.count == 3 && on_a == 2 && on_b == 2) frame = Frame::crossed;
@@ -164,28 +174,33 @@ class WitnessSearch {
     if (!hasKind(f.family, g.family)) return;
     const Feature &fa = a_.solid().feature(f.family, f.index), &fb = b_.solid().feature(g.family, g.index);
     const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
-    if (vertex && !(fa.radius + fb.radius > 0)) return;  // sharp points meet in no general way
+    if (vertex && !isSwept(fa) && !isSwept(fb)) return;  // sharp points meet in no general way
     const GapKind kind = gapKind(f.family, g.family);
     const WorldFeature wa = placeFeature(fa, {a_.body->k.x, a_.body->k.R}),
                        wb = placeFeature(fb, {b_.body->k.x, b_.body->k.R});
     const double scale = a_.piece->reach + b_.piece->reach + (wa.point - wb.point).norm();
+    const bool tapered = fa.apex > 0 || fb.apex > 0;
     double handicap = 0;
-    if (!vertex && f.family == Family::edge && g.family == Family::edge) {
-      const double sine = wa.direction.cross(wb.direction).norm();
+    const bool edges = f.family == Family::edge && g.family == Family::edge;
+    const Vec3 crossed = wa.direction.cross(wb.direction);
+    if (edges && !tapered) {
+      const double sine = crossed.norm();
       if (!(sine > 1e-14)) return;
       handicap = kEdgeRounding * scale / sine;
     }
     for (int branch = 1; branch <= branches(kind); ++branch)
       for (const int sign : {branch, -branch}) {
         const ContactPoint c = contactOf(kind, wa, wb, sign);
-        if (!std::isfinite(c.gap) || !offer(c.normal, frameOf(f.family, g.family), handicap)) continue;
+        if (edges && tapered) handicap = kEdgeRounding * scale / std::abs(crossed.dot(c.normal));
+        if (!std::isfinite(c.gap) || !offer(c.normal, frameOf(f.family, g.family, tapered), handicap)) continue;
         best_.features = pairOf(kind, f.index, g.index, sign);
         if (best_.frame == Witness::Frame::crossed) best_.edge_a = wa.direction, best_.edge_b = wb.direction;
       }
   }
 
-  static Witness::Frame frameOf(Family a, Family b) {
-    if (a == Family::edge && b == Family::edge) return Witness::Frame::crossed;
+  // What is normal to two edges stays so as they turn, but for tapered ones, whose normal is not across them.
+  static Witness::Frame frameOf(Family a, Family b, bool tapered) {
+    if (a == Family::edge && b == Family::edge) return tapered ? Witness::Frame::world : Witness::Frame::crossed;
     if (b == Family::edge) return Witness::Frame::body_b;
     if (a == Family::edge) return Witness::Frame::body_a;
     return Witness::Frame::world;

@@ -2,14 +2,23 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "adjoint/base/required.h"
 #include "adjoint/base/types.h"
+#include "adjoint/scene/shapes/cone.h"
 #include "adjoint/scene/surface.h"
 
 namespace carom {
+
+namespace shapes {
+/// Stands for a kind of shape where a row is chosen (adjoint/scene/shape_kinds/table.hpp).
+template <class S>
+struct KindOf {};
+}  // namespace shapes
 
 /// Ball about the shape's origin.
 struct Sphere {
@@ -53,14 +62,16 @@ struct Mesh {
   std::string file;                        ///< where it was read from; empty when it was made in memory
 };
 
-/// Several shapes that move as one. They may overlap: mass properties are the sums over the parts.
 struct CompoundPart;
+/// Several shapes that move as one. They may overlap: mass properties are the sums over the parts.
 struct Compound {
-  std::vector<CompoundPart> parts;
+  std::vector<CompoundPart> parts;  ///< at least one
 };
 
-using Shape = std::variant<Sphere, Box, Plane, Capsule, Cylinder, Hull, Mesh, Compound>;
+/// Any of them.
+using Shape = std::variant<Sphere, Box, Plane, Capsule, Cylinder, Hull, Mesh, Compound, Cone>;
 
+/// One shape of a compound, and where it is.
 struct CompoundPart {
   Shape shape;                          ///< any but a plane
   Vec3 position = Vec3::Zero();         ///< of the part's origin in the compound's axes, m
@@ -69,9 +80,9 @@ struct CompoundPart {
 
 /// Rates of SolidProperties by one dimension of the shape.
 struct SolidRate {
-  double volume = 0;
-  Vec3 center = Vec3::Zero();
-  Mat3 unit_inertia = Mat3::Zero();
+  double volume = 0;                 ///< m^3
+  Vec3 center = Vec3::Zero();        ///< m
+  Mat3 unit_inertia = Mat3::Zero();  ///< m^2
 };
 
 /// Mass properties at uniform density, in the shape's axes.
@@ -82,22 +93,34 @@ struct SolidProperties {
   std::vector<SolidRate> rates;      ///< by dimension, in the order of ShapeKind::dimensions
 };
 
-/// One row of the table of shapes: what the rest of the program asks of a shape. A new shape adds a struct above, a row
-/// in shape.cpp and its features in ode_bridge/. What takes a vector throws InputError where it has not one number a
-/// dimension.
+namespace validation {
+struct ShapeCheck;  // adjoint/scene/validation.hpp
+}
+
+/// One row of the table of shapes: what the rest of the program asks of a shape, whatever its kind. A row that leaves
+/// one of them out does not compile, nor does a table without a row for every alternative of Shape. What takes a vector
+/// throws InputError where it has not one number a dimension. Collision detection and documents have tables of their
+/// own, in ode_bridge/solids/ and formats/shapes/.
 struct ShapeKind {
   const char* name;  ///< word in the scene document
+  /// Throws InputError for members that no such shape can have.
+  Required<void(const Shape&, const validation::ShapeCheck&)> check;
   /// Words of the `size` control: "radius"; "x", "y", "z"; "scale"; of a part of a compound "0.radius".
-  std::vector<std::string> (*dimension_names)(const Shape&);
-  Eigen::VectorXd (*dimensions)(const Shape&);  ///< one a name: metres, or a factor (scale)
-  void (*setDimensions)(Shape&, const Eigen::VectorXd&);
-  bool (*solid)(const Shape&);  ///< has a volume, so that mass properties can be derived
-  SolidProperties (*properties)(const Shape&);
+  Required<std::vector<std::string>(const Shape&)> dimension_names;
+  Required<Eigen::VectorXd(const Shape&)> dimensions;  ///< one a name: metres, or a factor (scale)
+  Required<void(Shape&, const Eigen::VectorXd&)> setDimensions;  ///< to these
+  Required<bool(const Shape&)> solid;  ///< has a volume, so that mass properties can be derived
+  Required<SolidProperties(const Shape&)> properties;  ///< with their rates
   /// Rate of every entry of `properties`, its rates included, as the dimensions change at the given rates.
-  SolidProperties (*propertiesRate)(const Shape&, const Eigen::VectorXd& dimension_rates);
-  double (*boundingRadius)(const Shape&);  ///< about the shape's origin; infinite for a plane
+  Required<SolidProperties(const Shape&, const Eigen::VectorXd& dimension_rates)> propertiesRate;
+  Required<double(const Shape&)> boundingRadius;  ///< about the shape's origin; infinite for a plane
+  /// Of a ball about the shape's origin that lies within the shape, m; 0 where none is known.
+  Required<double(const Shape&)> innerRadius;
 };
 
+/// The rows, in the order of the alternatives of Shape.
+std::span<const ShapeKind> shapeKinds();
+/// The row of a shape.
 const ShapeKind& kindOf(const Shape& shape);
 
 }  // namespace carom

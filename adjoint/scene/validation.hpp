@@ -47,6 +47,13 @@ void requireLength(const Place& where, double value);
 void requireDivisor(const Place& where, double value);
 void requireUnit(const Place& where, const Quat& q);
 
+/// What ShapeKind::check is told besides the shape.
+struct ShapeCheck {
+  const Place& where;             ///< the kind's word: "/bodies/3/shape/box"
+  const char* derived = nullptr;  ///< what is derived from the volume of a moving body; null when nothing is
+  int depth = 0;                  ///< how many compounds it is inside of
+};
+
 /// Shape of a body, `where` being the body's place.
 void validateShape(const Place& where, const Body& body);
 

@@ -11,15 +11,6 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Radius of a ball about the shape's origin that lies within the shape, m.
-std::optional<double> innerRadius(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return 0.5 * box->size.minCoeff();
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return std::min(cylinder->radius, 0.5 * cylinder->height);
-  return std::nullopt;
-}
-
 const Target* find(const Constraint& constraint, const char* quantity) {
   for (const Target& target : constraint.targets)
     if (target.quantity == quantity) return &target;
@@ -54,9 +45,9 @@ std::optional<Body> atNail(const Body& body, const Constraint& constraint, const
     placed.orientation = Quat(turn->value[0], turn->value[1], turn->value[2], turn->value[3]).normalized();
     return placed;
   }
-  const auto radius = innerRadius(body.shape);
-  if (!radius) return std::nullopt;
-  placed.shape = Sphere{*radius};
+  const double radius = kindOf(body.shape).innerRadius(body.shape);
+  if (!(radius > 0)) return std::nullopt;
+  placed.shape = Sphere{radius};
   placed.center_of_mass.reset();
   placed.inertia = {};
   return placed;

@@ -11,7 +11,7 @@ namespace carom::editing_detail {
 
 /// Nails at which the body would overlap a fixed body that nothing moves. A nail of place and orientation is tried with
 /// the body itself, one of place alone with a ball about the shape's origin that the body holds whichever way it turns
-/// (spheres, boxes, capsules, cylinders). A component left free counts only before a plane that it runs along. Uses the
+/// (ShapeKind::innerRadius). A component left free counts only before a plane that it runs along. Uses the
 /// problem's source of contacts, which finds bodies that overlap.
 std::vector<WhyNot::Inside> nailsInSolids(const EditProblem& problem, const Scene& scene);
 

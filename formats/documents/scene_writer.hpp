@@ -22,6 +22,8 @@ void writeControl(JsonWriter& out, const Control& control);
 
 /// Writes a shape as an object with its word: { "sphere": { "radius": 1 } }.
 void writeShape(JsonWriter& out, const Shape& shape);
+/// The same without its end, for members that follow.
+void beginShape(JsonWriter& out, const Shape& shape);
 
 /// Writes a constraint as an object, or as several where it has two targets of one kind.
 void writeConstraint(JsonWriter& out, const Constraint& constraint);

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "adjoint/scene/shape.h"
+#include "formats/base/extent.hpp"
 
 namespace carom {
-
-using Extent = Eigen::AlignedBox3d;
 
 /// Smallest axis-aligned box around a shape at a pose (origin x, shape axes to world q); empty for a plane.
 Extent shapeExtent(const Shape& shape, const Vec3& x, const Quat& q);

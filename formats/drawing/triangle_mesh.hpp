@@ -20,6 +20,25 @@ struct TriangleMesh {
 /// square of the given half width in x and y about the origin, facing +z, whatever its normal: that is its node's turn.
 TriangleMesh meshOf(const Shape& shape, double plane_half_width);
 
+// ---- for the rows of shapes ----
+
+/// A circle about z of a surface of revolution, with the surface's normal there (outwards, upwards).
+struct Ring {
+  double radius = 0, z = 0;
+  Vec2 normal{0, 1};
+};
+
+/// The surface through the rings, which run from its top to its bottom. Rings in one place part it: an edge between
+/// them.
+TriangleMesh revolved(const std::vector<Ring>& rings);
+/// Half of a ball's rings, from its pole to its equator (top) or from its equator to its pole.
+void addHalfBall(std::vector<Ring>& rings, double radius, double centre, bool top);
+/// Four corners about `centre`, spanned by u and v with u x v outwards.
+void addFace(TriangleMesh& mesh, const Vec3& centre, const Vec3& u, const Vec3& v);
+TriangleMesh surfaceMesh(const Surface& surface, double scale);
+/// Adds a part at its pose.
+void append(TriangleMesh& whole, const TriangleMesh& part, const Vec3& x, const Quat& q);
+
 /// Adds the faces of a hull or mesh, coordinates times `scale`.
 void addSurface(TriangleMesh& mesh, const Surface& surface, double scale);
 

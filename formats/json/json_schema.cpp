@@ -140,6 +140,21 @@ std::vector<std::string> keysOf(const Json* object) {
        "one of " + expectedOf(member, known));
 }
 
+/// "exactly one shape" goes on with the words that there are: those of the shapes among the node's members.
+std::string withWords(std::string title, const Json* node, const Json& tree) {
+  constexpr std::string_view kPhrase = "exactly one shape";
+  const std::size_t at = title.find(kPhrase);
+  if (at == std::string::npos) return title;
+  const Json* shapes = memberOf(memberOf(memberOf(&tree, "definitions"), "shape"), "properties");
+  std::vector<std::string> words;
+  for (const std::string& word : keysOf(memberOf(node, "properties")))
+    if (memberOf(shapes, word.c_str()) != nullptr) words.push_back('"' + word + '"');
+  std::string list = "exactly one of ";
+  for (std::size_t i = 0; i < words.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return title.replace(at, kPhrase.size(), list);
+}
+
 /// What `value` must be, in the words of the schema.
 std::string expected(const Json* node, const Json& value, const Json& tree) {
   const Json* named = resolved(node, tree);
@@ -148,7 +163,7 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
     named = alternativeFor(node, value, tree);
     title = memberOf(named, "title");
   }
-  const std::string text = title != nullptr ? title->get<std::string>() : "what the schema says";
+  const std::string text = title != nullptr ? withWords(title->get<std::string>(), named, tree) : "what the schema says";
   constexpr double kLargest = 1e9;  // of most numbers; smaller limits stand in the titles
   const Json* maximum = memberOf(alternativeFor(node, value, tree), "maximum");
   const double limit = std::max(kLargest, maximum != nullptr ? maximum->get<double>() : 0);

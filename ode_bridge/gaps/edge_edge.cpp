@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/gaps/rows.hpp"
+#include "ode_bridge/gaps/tapered.hpp"
 
 // phi = n.w - r_1 - r_2, w = Q_1 - Q_2, c = d_1 x d_2, n = +-c/|c|; the nearest point of edge 2 is Q_2 + t_2 d_2 with
 // t_2 = -w.(d_1 x c)/|c|^2, and p lies r_2 n from it.
 namespace carom::gaps {
 
 ContactPoint edgeEdge(const WorldFeature& f, const WorldFeature& g, int sign) {
+  if (f.apex > 0 || g.apex > 0) return edgeTapered(f, g, sign);
   const Vec3 c = f.direction.cross(g.direction), w = f.point - g.point;
   const double s = c.norm();
   const Vec3 n = (sign < 0 ? -1 : 1) / s * c;
@@ -15,6 +16,7 @@ ContactPoint edgeEdge(const WorldFeature& f, const WorldFeature& g, int sign) {
 
 template <class S>
 JacobianOf<S> edgeEdgeJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
+  if (f.apex > 0 || g.apex > 0) return edgeTaperedJacobian<S>(f, g, sign);
   JacobianOf<S> J = JacobianOf<S>::Zero();
   const V3<S>&d1 = f.direction, &d2 = g.direction, c = d1.cross(d2), w = f.point - g.point;
   const S s = c.norm(), s2 = s * s;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/gaps/rows.hpp"
+#include "ode_bridge/gaps/tapered.hpp"
 
 // phi = |w| - r_1 - r_2, w = (1 - d d^T)(P - Q), n = w/|w|, p = P - r_1 n.
 namespace carom::gaps {
 
 ContactPoint pointEdge(const WorldFeature& f, const WorldFeature& g, int) {
+  if (g.apex > 0) return pointTapered(f, g);
   const Vec3 to = f.point - g.point, w = to - g.direction.dot(to) * g.direction;
   const double l = w.norm();
   const Vec3 n = w / l;
@@ -14,6 +15,7 @@ ContactPoint pointEdge(const WorldFeature& f, const WorldFeature& g, int) {
 
 template <class S>
 JacobianOf<S> pointEdgeJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int) {
+  if (g.apex > 0) return pointTaperedJacobian<S>(f, g);
   JacobianOf<S> J = JacobianOf<S>::Zero();
   const V3<S>&d = g.direction, to = f.point - g.point;
   const S t = d.dot(to);

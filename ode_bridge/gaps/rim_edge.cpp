@@ -4,6 +4,7 @@
 
 #include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/gaps/crossing.hpp"
+#include "ode_bridge/gaps/tapered.hpp"
 
 // The line of the edge is X(s) = C + q + s e, q its foot of the perpendicular from C. The distance of X from the rim,
 // F(s) = h^2 + (|a| - rho)^2 with h along d and a across it, has the slope
@@ -87,12 +88,14 @@ Crossing<S> nearest(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
 }  // namespace
 
 ContactPoint rimEdge(const WorldFeature& f, const WorldFeature& g, int sign) {
+  if (g.apex > 0) return rimTapered(f, g, sign);
   const Crossing<double> c = nearest<double>(f, g, sign);
   return g.radius > 0 ? sweptCrossing(c.of_rim, c.of_edge) : sharpCrossing(c.of_rim, c.of_edge, sign);
 }
 
 template <class S>
 JacobianOf<S> rimEdgeJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
+  if (g.apex > 0) return rimTaperedJacobian<S>(f, g, sign);
   const Crossing<S> c = nearest<S>(f, g, sign);
   return g.radius > 0 ? sweptCrossingJacobian(c.of_rim, c.of_edge) : sharpCrossingJacobian(c.of_rim, c.of_edge, sign);
 }

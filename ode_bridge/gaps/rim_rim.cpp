@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
-#include <numbers>
 
 #include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/gaps/crossing.hpp"
+#include "ode_bridge/gaps/turns.hpp"
 
 // With p and v = d x p in the plane of each rim, the points of the smaller one ("moving", radius r) are
 // C_m + r (p_m cos(theta) + v_m sin(theta)); the distance of one from the larger rim (radius R) is
@@ -18,23 +16,8 @@
 namespace carom::gaps {
 namespace {
 
-template <class S>
-struct Turn {
-  S c, s;  // cos and sin of theta
-  explicit Turn(const S& theta) {
-    using elementary::cos, elementary::sin;
-    c = cos(theta), s = sin(theta);
-  }
-  Turn() = default;
-};
-
 double hypotenuse(double x, double y) { return elementary::hypot(x, y); }
 Rate4 hypotenuse(const Rate4& x, const Rate4& y) { return sqrt(x * x + y * y); }
-
-template <class S>
-struct Slope {
-  S G, second;  // G and dG/dtheta
-};
 
 template <class S>
 struct RimBeforeRim {
@@ -103,76 +86,6 @@ struct RimBeforeRim {
     return at;
   }
 };
-
-// The zero of G in (low, high), G(low) < 0 < G(high).
-double zero(const RimBeforeRim<double>& rims, double low, double high) {
-  double theta = 0.5 * (low + high);
-  for (int i = 0; i < 100; ++i) {
-    const Slope<double> at = rims.slope(Turn<double>(theta));
-    if (at.G == 0) break;
-    (at.G < 0 ? low : high) = theta;
-    double next = theta - at.G / at.second;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - theta) <= 1e-16 * std::max(1.0, std::abs(theta))) break;
-    theta = next;
-  }
-  return theta;
-}
-
-// Where between low and high, at both of which G has one sign, G is extreme; `end` is that of G' at low. Stops early
-// where G has the other sign.
-double extreme(const RimBeforeRim<double>& rims, double low, double high, double sign, double end) {
-  for (int i = 0; i < 24; ++i) {
-    const double theta = 0.5 * (low + high);
-    const Slope<double> at = rims.slope(Turn<double>(theta));
-    if (!(at.G * sign > 0)) return theta;
-    (at.second * end > 0 ? low : high) = theta;
-  }
-  return 0.5 * (low + high);
-}
-
-constexpr int kSamples = 32;
-
-double angle(int i) { return 2 * std::numbers::pi / kSamples * i; }
-
-const std::array<Turn<double>, kSamples>& turns() {
-  static const std::array<Turn<double>, kSamples> all = [] {
-    std::array<Turn<double>, kSamples> made;
-    for (int i = 0; i < kSamples; ++i) made[static_cast<std::size_t>(i)] = Turn<double>(angle(i));
-    return made;
-  }();
-  return all;
-}
-
-struct Minima {
-  int count = 0;
-  std::array<double, 2> theta{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-  void add(double at) {
-    if (count < 2) theta[static_cast<std::size_t>(count++)] = at;
-  }
-};
-
-Minima minimaOf(const RimBeforeRim<double>& rims) {
-  const auto& sample = turns();
-  Minima found;
-  const Slope<double> start = rims.slope(sample[0]);
-  Slope<double> left = start;
-  for (int i = 0; i < kSamples; ++i) {
-    const Slope<double> right = i + 1 < kSamples ? rims.slope(sample[static_cast<std::size_t>(i + 1)]) : start;
-    const double low = angle(i), high = angle(i + 1);
-    if (left.G < 0 && right.G >= 0) {
-      found.add(right.G > 0 ? zero(rims, low, high) : high);
-    } else if (left.G > 0 && right.G > 0 && left.second < 0 && right.second > 0) {
-      const double dip = extreme(rims, low, high, 1, -1);
-      if (rims.slope(Turn<double>(dip)).G < 0) found.add(zero(rims, dip, high));
-    } else if (left.G < 0 && right.G < 0 && left.second > 0 && right.second < 0) {
-      const double bump = extreme(rims, low, high, -1, 1);
-      if (rims.slope(Turn<double>(bump)).G > 0) found.add(zero(rims, low, bump));
-    }
-    left = right;
-  }
-  return found;
-}
 
 // Whether the line that the planes share says less than the one between the centres: rounding of the first grows with
 // 1/sine, that of the second with 1/(their distance across the axes).

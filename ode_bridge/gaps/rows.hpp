@@ -20,14 +20,14 @@ using Rate4 = detail::Dual<4>;
 template <class S>
 struct FeatureIn {
   V3<S> point, direction;
-  S radius, rim;
+  S radius, rim, apex;
 };
 template <class S>
 using FeatureOf = std::conditional_t<std::is_same_v<S, double>, WorldFeature, FeatureIn<S>>;
 
 inline const WorldFeature& valueOf(const WorldFeature& f) { return f; }
 inline WorldFeature valueOf(const FeatureIn<Rate4>& f) {
-  return {detail::valuesOf(f.point), detail::valuesOf(f.direction), f.radius.value, f.rim.value};
+  return {detail::valuesOf(f.point), detail::valuesOf(f.direction), f.radius.value, f.rim.value, f.apex.value};
 }
 
 /// A root found with values alone, followed as its equation G(s) = 0 changes: `G` at the root with rates, and dG/ds.
@@ -37,16 +37,16 @@ inline Rate4 followed(double root, const Rate4& G, const Rate4& slope) {
   return s;
 }
 
-/// d(gap, normal, point) by (point, direction, swept radius, radius of the rim) of the first feature, then of the
+/// d(gap, normal, point) by (point, direction, swept radius, radius of the rim, apex) of the first feature, then of the
 /// second. A direction is unit and moves across itself only.
 template <class S>
-using JacobianOf = Eigen::Matrix<S, 7, 16>;
+using JacobianOf = Eigen::Matrix<S, 7, 18>;
 using FeatureJacobian = JacobianOf<double>;
 
 // Columns of a FeatureJacobian.
-constexpr int kSide = 8;
-constexpr int kP1 = 0, kD1 = 3, kR1 = 6, kRim1 = 7;
-constexpr int kP2 = 8, kD2 = 11, kR2 = 14, kRim2 = 15;
+constexpr int kSide = 9;
+constexpr int kP1 = 0, kD1 = 3, kR1 = 6, kRim1 = 7, kApex1 = 8;
+constexpr int kP2 = 9, kD2 = 12, kR2 = 15, kRim2 = 16, kApex2 = 17;
 
 ContactPoint pointPlane(const WorldFeature& f, const WorldFeature& g, int sign);
 ContactPoint pointPoint(const WorldFeature& f, const WorldFeature& g, int sign);

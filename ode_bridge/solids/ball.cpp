@@ -2,6 +2,7 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+namespace {
 
 // One vertex, swept.
 void addBall(PartMaker& part, const Sphere& s) {
@@ -11,5 +12,9 @@ void addBall(PartMaker& part, const Sphere& s) {
   piece.radius = s.radius;
   part.takeAll(piece);
 }
+
+}  // namespace
+
+SolidKind solidRow(KindOf<Sphere>) { return {.add = addPart<Sphere, addBall>, .name = [](Family, int) -> std::string { return "ball"; }}; }
 
 }  // namespace carom::solids

@@ -41,8 +41,6 @@ void addEdge(PartMaker& part, const Vec3& half, int edge) {
   e.right = part.part().first_face + (bit_u == bit_v ? 2 * v + bit_v : 2 * u + bit_u);
 }
 
-}  // namespace
-
 void addBox(PartMaker& part, const Box& s) {
   const Vec3 half = 0.5 * s.size;
   for (int k = 0; k < 3; ++k) part.dimension(Vec3::Unit(k) / s.size[k]);
@@ -51,5 +49,19 @@ void addBox(PartMaker& part, const Box& s) {
   for (int e = 0; e < 12; ++e) addEdge(part, half, e);
   part.takeAll(part.piece(Piece::Core::polytope, Vec3::Zero()));
 }
+
+std::string boxName(Family family, int i) {
+  if (family == Family::face) return "face " + signedAxis(i % 2, i / 2);
+  std::string text = family == Family::edge ? "edge " : "vertex ";
+  if (family == Family::edge)
+    for (int j = 0; j < 2; ++j) text += signedAxis(i >> j & 1, (i / 4 + 1 + j) % 3);
+  else
+    for (int k = 0; k < 3; ++k) text += signedAxis(i >> k & 1, k);
+  return text;
+}
+
+}  // namespace
+
+SolidKind solidRow(KindOf<Box>) { return {.add = addPart<Box, addBox>, .name = boxName}; }
 
 }  // namespace carom::solids

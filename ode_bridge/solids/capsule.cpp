@@ -2,6 +2,7 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+namespace {
 
 // Two vertices and the edge between them, swept.
 void addCapsule(PartMaker& part, const Capsule& s) {
@@ -17,5 +18,11 @@ void addCapsule(PartMaker& part, const Capsule& s) {
   piece.radius = s.radius;
   part.takeAll(piece);
 }
+
+std::string capsuleName(Family family, int i) { return family == Family::edge ? "side" : "end " + signedAxis(i, 2); }
+
+}  // namespace
+
+SolidKind solidRow(KindOf<Capsule>) { return {.add = addPart<Capsule, addCapsule>, .name = capsuleName}; }
 
 }  // namespace carom::solids

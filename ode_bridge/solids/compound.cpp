@@ -4,41 +4,29 @@
 namespace carom::solids {
 namespace {
 
-void add(PartMaker& part, const Sphere& s) { addBall(part, s); }
-void add(PartMaker& part, const Box& s) { addBox(part, s); }
-void add(PartMaker& part, const Plane& s) { addHalfSpace(part, s); }
-void add(PartMaker& part, const Capsule& s) { addCapsule(part, s); }
-void add(PartMaker& part, const Cylinder& s) { addCylinder(part, s); }
-void add(PartMaker& part, const Hull& s) { addHull(part, s); }
-void add(PartMaker& part, const Mesh& s) { addMesh(part, s); }
-
-struct Adder {
-  Solid& solid;
-  const Placement& at;
-  const char* kind;
-
-  template <class Simple>
-  void operator()(const Simple& shape) const {
-    PartMaker part(solid, at, kind);
-    add(part, shape);
+void addCompound(Solid& solid, const Shape& shape, const Placement& at, const SolidKind&) {
+  const std::vector<CompoundPart>& parts = std::get<Compound>(shape).parts;
+  int first_dimension = at.first_dimension;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const CompoundPart& part = parts[i];
+    addShape(solid, part.shape,
+             {at.axes * part.orientation.normalized().toRotationMatrix(), at.point(part.position), first_dimension,
+              at.name + "part " + std::to_string(i) + " "});
+    first_dimension += static_cast<int>(kindOf(part.shape).dimensions(part.shape).size());
   }
-
-  void operator()(const Compound& shape) const {
-    int first_dimension = at.first_dimension;
-    for (std::size_t i = 0; i < shape.parts.size(); ++i) {
-      const CompoundPart& part = shape.parts[i];
-      addShape(solid, part.shape,
-               {at.axes * part.orientation.normalized().toRotationMatrix(), at.point(part.position), first_dimension,
-                at.name + "part " + std::to_string(i) + " "});
-      first_dimension += static_cast<int>(kindOf(part.shape).dimensions(part.shape).size());
-    }
-  }
-};
+}
 
 }  // namespace
 
+SolidKind solidRow(KindOf<Compound>) { return {.add = addCompound, .name = numberedName}; }
+
 void addShape(Solid& solid, const Shape& shape, const Placement& at) {
-  std::visit(Adder{solid, at, kindOf(shape).name}, shape);
+  static const auto kinds = shapes::tableOf([](auto kind) {
+    static_assert(requires { solidRow(kind); }, "a shape without a row: see ode_bridge/solids/parts.hpp");
+    return solidRow(kind);
+  });
+  const SolidKind& kind = kinds[shape.index()];
+  kind.add(solid, shape, at, kind);
 }
 
 }  // namespace carom::solids

@@ -2,26 +2,42 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+namespace {
 
-// The side is an edge swept by the radius; then come two discs and their rims, first the lower ones. A rim that lies
-// flat on a face has no point that touches first, so four marks stand on it as vertices: they serve landings that are
-// flat exactly, and nothing else, and are nobody's neighbours.
+// The side is an edge swept by the radius; then come two discs and their rims, first the lower ones.
 void addCylinder(PartMaker& part, const Cylinder& s) {
   part.dimension({1 / s.radius, 1 / s.radius, 0}, 1, 1);
   part.dimension(Vec3::UnitZ() / s.height);
   const double r = s.radius, half = 0.5 * s.height;
-  for (double z : {-half, half})
-    for (const Vec3& mark : {Vec3(r, 0, z), Vec3(0, r, z), Vec3(-r, 0, z), Vec3(0, -r, z)}) part.vertex(mark);
+  for (double z : {-half, half}) part.marks(r, z);
   part.edge(Vec3::Zero(), Vec3::UnitZ(), half).radius = r;
   for (double side : {-1., 1.}) {
     const Vec3 normal = side * Vec3::UnitZ();
     part.face(half * normal, normal).disc = r;
     part.rim(half * normal, normal, r);
   }
-  Piece& piece = part.piece(Piece::Core::cylinder, Vec3::Zero());
+  Piece& piece = part.piece(Piece::Core::frustum, Vec3::Zero());
   piece.half_length = half;
-  piece.rho = r;
+  piece.rho = piece.rho_high = r;
   part.takeAll(piece);
 }
+
+std::string cylinderName(Family family, int i) {
+  switch (family) {
+    case Family::vertex:
+      return "mark " + std::to_string(i % 4) + " of rim " + signedAxis(i / 4, 2);
+    case Family::edge:
+      return "side";
+    case Family::face:
+      return "cap " + signedAxis(i, 2);
+    case Family::rim:
+      return "rim " + signedAxis(i, 2);
+  }
+  return {};
+}
+
+}  // namespace
+
+SolidKind solidRow(KindOf<Cylinder>) { return {.add = addPart<Cylinder, addCylinder>, .name = cylinderName}; }
 
 }  // namespace carom::solids

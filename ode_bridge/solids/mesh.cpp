@@ -57,8 +57,6 @@ void addTriangle(PartMaker& part, int face, const int* corners, const std::array
   piece.reach = coreReach(solid, piece, piece.center);
 }
 
-}  // namespace
-
 // A piece is a triangle; triangles share vertices and edges.
 void addMesh(PartMaker& part, const Mesh& s) {
   const Surface& surface = *s.surface;
@@ -78,5 +76,9 @@ void addMesh(PartMaker& part, const Mesh& s) {
   for (std::size_t f = 0; f < surface.faces.size(); ++f)
     addTriangle(part, static_cast<int>(f), surface.corners.data() + surface.faces[f].first, edges[f]);
 }
+
+}  // namespace
+
+SolidKind solidRow(KindOf<Mesh>) { return {.add = addPart<Mesh, addMesh>, .name = numberedName}; }
 
 }  // namespace carom::solids

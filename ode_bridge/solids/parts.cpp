@@ -11,13 +11,14 @@ int count(const std::vector<T>& v) {
 
 }  // namespace
 
-PartMaker::PartMaker(Solid& solid, const Placement& at, const char* kind) : solid_(solid), at_(at) {
+PartMaker::PartMaker(Solid& solid, const Placement& at, const char* kind, const SolidKind& row) : solid_(solid), at_(at) {
   Part part;
   part.axes = at.axes;
   part.origin = at.origin;
   part.first_dimension = at.first_dimension;
   part.name = at.name;
   part.kind = kind;
+  part.row = &row;
   part.first_vertex = count(solid.vertices);
   part.first_edge = count(solid.edges);
   part.first_face = count(solid.faces);
@@ -25,8 +26,8 @@ PartMaker::PartMaker(Solid& solid, const Placement& at, const char* kind) : soli
   solid.parts.push_back(std::move(part));
 }
 
-void PartMaker::dimension(const Vec3& stretch, double swept, double rim) {
-  solid_.parts.back().stretches.push_back({stretch, swept, rim});
+void PartMaker::dimension(const Vec3& stretch, double swept, double rim, double apex) {
+  solid_.parts.back().stretches.push_back({stretch, swept, rim, apex});
 }
 
 template <class F>
@@ -41,6 +42,11 @@ F& PartMaker::place(std::vector<F>& family, const Vec3& p, const Vec3& direction
 int PartMaker::vertex(const Vec3& p, double radius) {
   place(solid_.vertices, p, Vec3::Zero()).radius = radius;
   return count(solid_.vertices) - 1;
+}
+
+void PartMaker::marks(double radius, double z) {
+  for (const Vec3& p : {Vec3(radius, 0, z), Vec3(0, radius, z), Vec3(-radius, 0, z), Vec3(0, -radius, z)})
+    solid_.vertices[static_cast<std::size_t>(vertex(p))].mark = true;
 }
 
 SolidEdge& PartMaker::edge(const Vec3& middle, const Vec3& direction, double half_length) {
@@ -84,7 +90,7 @@ void PartMaker::takeAll(Piece& p) {
   p.edges = list(own.first_edge, count(solid_.edges) - own.first_edge);
   p.faces = list(own.first_face, count(solid_.faces) - own.first_face);
   p.rims = list(own.first_rim, count(solid_.rims) - own.first_rim);
-  if (p.core != Piece::Core::cylinder && p.core != Piece::Core::half_space) {
+  if (p.core != Piece::Core::frustum && p.core != Piece::Core::half_space) {
     p.points = {count(solid_.points), p.vertices.count};
     for (std::size_t v = static_cast<std::size_t>(own.first_vertex); v < solid_.vertices.size(); ++v)
       solid_.points.push_back(solid_.vertices[v].point);

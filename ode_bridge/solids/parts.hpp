@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "adjoint/scene/shape_kinds/table.hpp"
 #include "ode_bridge/solids/solid.hpp"
 
 /// How a Solid is put together: one file a shape adds its features and pieces.
 namespace carom::solids {
+
+using shapes::KindOf;
 
 /// Where a part stands in the solid, and what it is called there.
 struct Placement {
@@ -17,16 +20,21 @@ struct Placement {
   Vec3 direction(const Vec3& d) const { return axes * d; }
 };
 
+struct SolidKind;
+
 /// Adds one part to a solid. Points and directions are given in the part's axes, indices are those of the whole solid.
 /// References hold until the next feature of that family is added.
 class PartMaker {
  public:
-  PartMaker(Solid& solid, const Placement& at, const char* kind);
+  PartMaker(Solid& solid, const Placement& at, const char* kind, const SolidKind& row);
 
   /// The next dimension of the part (see Part::Stretch).
-  void dimension(const Vec3& stretch, double swept = 0, double rim = 0);
+  void dimension(const Vec3& stretch, double swept = 0, double rim = 0, double apex = 0);
 
   int vertex(const Vec3& p, double radius = 0);
+  /// Four marks on a rim about z. A rim that lies flat on a face has no point that touches first: they serve landings
+  /// that are flat exactly, and nothing else, and are nobody's neighbours.
+  void marks(double radius, double z);
   SolidEdge& edge(const Vec3& middle, const Vec3& direction, double half_length);
   SolidFace& face(const Vec3& p, const Vec3& normal);
   void rim(const Vec3& center, const Vec3& normal, double radius);
@@ -53,13 +61,37 @@ class PartMaker {
   const Placement& at_;
 };
 
-void addBall(PartMaker& part, const Sphere& s);
-void addBox(PartMaker& part, const Box& s);
-void addHalfSpace(PartMaker& part, const Plane& s);
-void addCapsule(PartMaker& part, const Capsule& s);
-void addCylinder(PartMaker& part, const Cylinder& s);
-void addHull(PartMaker& part, const Hull& s);
-void addMesh(PartMaker& part, const Mesh& s);
+/// One row of the table of shapes: what collision detection asks of a shape. Like those of ShapeKind, rows and the
+/// table are complete or do not compile.
+struct SolidKind {
+  /// Adds features and pieces at a place; `row` is this one, which names the features.
+  Required<void(Solid&, const Shape&, const Placement&, const SolidKind& row)> add;
+  /// What describe() calls feature `index` of a family, counted from the first of the part: "edge 12", "rim +z".
+  Required<std::string(Family family, int index)> name;
+};
+
+// The table: a row each, which stands with its features in the file of that name.
+SolidKind solidRow(KindOf<Sphere>);
+SolidKind solidRow(KindOf<Box>);
+SolidKind solidRow(KindOf<Plane>);
+SolidKind solidRow(KindOf<Capsule>);
+SolidKind solidRow(KindOf<Cylinder>);
+SolidKind solidRow(KindOf<Cone>);
+SolidKind solidRow(KindOf<Hull>);
+SolidKind solidRow(KindOf<Mesh>);
+SolidKind solidRow(KindOf<Compound>);
+
+/// SolidKind::add of a shape that is one part, from addX(PartMaker&, const X&).
+template <class S, void (*addFeatures)(PartMaker&, const S&)>
+void addPart(Solid& solid, const Shape& shape, const Placement& at, const SolidKind& row) {
+  PartMaker part(solid, at, kindOf(shape).name, row);
+  addFeatures(part, std::get<S>(shape));
+}
+
+// For names: "+z", and "vertex 12".
+std::string signedAxis(int positive, int axis);
+std::string numberedName(Family family, int index);
+
 /// Vertices, faces and edges of a surface, for hull and mesh.
 void addSurface(PartMaker& part, const Surface& surface, double scale);
 

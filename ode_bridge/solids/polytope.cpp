@@ -36,11 +36,17 @@ void addSurface(PartMaker& part, const Surface& s, double scale) {
   }
 }
 
+namespace {
+
 void addHull(PartMaker& part, const Hull& s) {
   addSurface(part, *s.surface, s.scale);
   Vec3 low = s.surface->vertices[0], high = low;
   for (const Vec3& v : s.surface->vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
   part.takeAll(part.piece(Piece::Core::polytope, 0.5 * s.scale * (low + high)));
 }
+
+}  // namespace
+
+SolidKind solidRow(KindOf<Hull>) { return {.add = addPart<Hull, addHull>, .name = numberedName}; }
 
 }  // namespace carom::solids

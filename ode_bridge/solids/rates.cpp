@@ -9,6 +9,7 @@ FeatureRates ratesOf(const Solid& solid, const Feature& feature) {
   rates.point = -solid.center_rates;
   rates.radius.setZero(solid.center_rates.cols());
   rates.rim.setZero(solid.center_rates.cols());
+  if (feature.apex > 0) rates.apex.setZero(solid.center_rates.cols());
   const Part& part = solid.parts[static_cast<std::size_t>(feature.part)];
   const Vec3 local = part.axes.transpose() * (feature.point - part.origin);
   for (std::size_t k = 0; k < part.stretches.size(); ++k) {
@@ -17,6 +18,7 @@ FeatureRates ratesOf(const Solid& solid, const Feature& feature) {
     rates.point.col(c) += part.axes * s.stretch.cwiseProduct(local);
     if (feature.radius > 0) rates.radius[c] = s.swept;
     if (feature.rim > 0) rates.rim[c] = s.rim;
+    if (feature.apex > 0) rates.apex[c] = s.apex;
   }
   return rates;
 }

@@ -115,10 +115,10 @@ class TreeMaker {
 
 double coreReach(const Solid& solid, const Piece& piece, const Vec3& center) {
   if (piece.core == Piece::Core::half_space) return kInfinity;
-  if (piece.core == Piece::Core::cylinder) {
+  if (piece.core == Piece::Core::frustum) {
     const Vec3 to = piece.center - center;
     const double along = std::abs(piece.axis.dot(to)), across = piece.axis.cross(to).norm();
-    return kUp * elementary::hypot(along + piece.half_length, across + piece.rho);
+    return kUp * elementary::hypot(along + piece.half_length, across + std::max(piece.rho, piece.rho_high));
   }
   double largest = 0;
   for (int i = 0; i < piece.points.count; ++i)

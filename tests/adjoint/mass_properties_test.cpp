@@ -45,6 +45,10 @@ std::vector<Named> solids() {
       {"box", Box{{0.3, 0.8, 1.7}}, {"x", "y", "z"}},
       {"capsule", Capsule{0.3, 1.1}, {"radius", "height"}},
       {"cylinder", Cylinder{0.4, 0.9}, {"radius", "height"}},
+      {"cone", Cone{0.4, 0.9}, {"radius", "height"}},
+      {"two cones",
+       Compound{{part(Cone{0.3, 0.5}, random.vec(0.5), random.rotation()), part(Cone{0.2, 0.9}, random.vec(0.5))}},
+       {"0.radius", "0.height", "1.radius", "1.height"}},
       {"hull", hullOf(corner, 0.8), {"scale"}},
       {"mesh", meshOf(torusTriangles(0.8, 0.3, 9, 7).placed(random.rotation(), {1, 2, 3}), 1.2), {"scale"}},
       {"hat", hat, {"0.radius", "0.height", "1.radius", "1.height"}},
@@ -90,6 +94,15 @@ TEST(MassProperties, Cylinder) {
   expectEntries(p.volume, kPi * r * r * h, 1e-16, "volume");
   const double x = (3 * r * r + h * h) / 12;
   expectEntries(p.unit_inertia, diagonal(x, x, r * r / 2), 1e-16, "inertia");
+}
+
+TEST(MassProperties, Cone) {
+  const double r = 0.3, h = 0.8;
+  const SolidProperties p = propertiesOf(Cone{r, h});
+  expectEntries(p.volume, kPi * r * r * h / 3, 1e-16, "volume");
+  expectEntries(p.center, Vec3(0, 0, h / 4 - h / 2), 1e-16, "a quarter of the height above the base");
+  const double x = 3. / 80 * (4 * r * r + h * h);
+  expectEntries(p.unit_inertia, diagonal(x, x, 0.3 * r * r), 1e-16, "inertia");
 }
 
 // A cylinder and two half balls with their centres 3r/8 beyond its ends: 83/320 r^2 across their axis, 2/5 r^2 about
@@ -238,10 +251,22 @@ TEST(MassProperties, BoundingRadius) {
   EXPECT_EQ(radius(Box{{2, 4, 4}}), 3);
   EXPECT_EQ(radius(Capsule{0.5, 3}), 2);
   EXPECT_EQ(radius(Cylinder{3, 8}), 5);
+  EXPECT_EQ(radius(Cone{3, 8}), 5);
   EXPECT_EQ(radius(Plane{}), std::numeric_limits<double>::infinity());
   EXPECT_EQ(radius(meshOf(boxTriangles({2, 4, 4}), 0.5)), 1.5);
   EXPECT_EQ(radius(hullOf(boxTriangles({2, 4, 4}), 2)), 6);
   EXPECT_EQ(radius(Compound{{part(Sphere{1}, {0, 3, 4}), part(Sphere{2})}}), 6);
+}
+
+TEST(MassProperties, InnerRadius) {
+  const auto radius = [](const Shape& s) { return kindOf(s).innerRadius(s); };
+  EXPECT_EQ(radius(Sphere{0.7}), 0.7);
+  EXPECT_EQ(radius(Box{{2, 4, 3}}), 1);
+  EXPECT_EQ(radius(Capsule{0.5, 3}), 0.5);
+  EXPECT_EQ(radius(Cylinder{3, 4}), 2);
+  EXPECT_EQ(radius(Cone{3, 4}), 2 * 0.6);  // the distance of the middle from the side
+  EXPECT_EQ(radius(Plane{}), 0);
+  EXPECT_EQ(radius(Compound{{part(Sphere{1})}}), 0);
 }
 
 TEST(MassProperties, WhatHasNoVolume) {

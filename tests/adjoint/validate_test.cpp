@@ -157,6 +157,18 @@ std::vector<Mistake> mistakes() {
        [](Scene& s) {
          s.bodies[1].shape = Cylinder{0.1, 2e9};
        }},
+      {"/bodies/1/shape/cone/radius",
+       [](Scene& s) {
+         s.bodies[1].shape = Cone{kNan, 1};
+       }},
+      {"/bodies/1/shape/cone/height",
+       [](Scene& s) {
+         s.bodies[1].shape = Cone{0.1, 0};
+       }},
+      {"/bodies/1/shape/cone/height",
+       [](Scene& s) {
+         s.bodies[1].shape = Cone{0.1, 2e9};
+       }},
       {"/bodies/1/shape/hull", [](Scene& s) { s.bodies[1].shape = Hull{}; }},
       {"/bodies/1/shape/hull",
        [](Scene& s) {

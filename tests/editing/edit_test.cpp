@@ -5,9 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <stop_token>
-
 #include <cmath>
+#include <stop_token>
 #include <thread>
 
 #include "adjoint/base/errors.h"

@@ -39,6 +39,7 @@ std::vector<SizeRow> sizeRows() {
           {"box", Box{{0.3, 0.2, 0.1}}, {"x", "y", "z"}},
           {"capsule", Capsule{0.06, 0.2}, {"radius", "height"}},
           {"cylinder", Cylinder{0.1, 0.2}, {"radius", "height"}},
+          {"cone", Cone{0.1, 0.2}, {"radius", "height"}},
           {"hull", wedge(1.2), {"scale"}},
           {"mesh", ring, {"scale"}},
           {"compound", hammer, {"0.radius", "1.radius", "1.height", "2.scale"}},

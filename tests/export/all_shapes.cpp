@@ -37,6 +37,7 @@ std::vector<NamedShape> solidShapes() {
           {"box", Box{{0.3, 0.2, 0.1}}},
           {"capsule", Capsule{0.06, 0.2}},
           {"cylinder", Cylinder{0.1, 0.15}},
+          {"cone", Cone{0.1, 0.2}},
           {"hull", Hull{pyramid(), 0.8, ""}},
           {"mesh", Mesh{assetSurface("mug.obj"), 2.5, ""}},
           {"compound", hammer()}};

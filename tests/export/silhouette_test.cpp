@@ -95,6 +95,12 @@ double shadow(const Shape& shape, const Quat& q, const Vec3& viewer) {
     return std::numbers::pi * c->radius * c->radius + 2 * c->radius * c->height * beside;
   if (const Cylinder* c = std::get_if<Cylinder>(&shape))
     return std::numbers::pi * c->radius * c->radius * along + 2 * c->radius * c->height * beside;
+  // An ellipse and a point beside it: in the measure in which it is a unit circle the point is at Y, and its tangents
+  // touch where the angle from it is acos(1/Y).
+  if (const Cone* c = std::get_if<Cone>(&shape)) {
+    const double ellipse = c->radius * c->radius * along, Y = c->height * beside / (c->radius * along);
+    return ellipse * (Y > 1 ? std::numbers::pi - std::acos(1 / Y) + std::sqrt(Y * Y - 1) : std::numbers::pi);
+  }
   const Hull& hull = std::get<Hull>(shape);
   double area = 0;
   for (const Surface::Face& face : hull.surface->faces) {
@@ -133,12 +139,31 @@ TEST(Silhouette, CoversTheShadowOfConvexShapes) {
   for (const ViewText& view : viewsOf(svg)) {
     const double scale = std::stod(attribute(view.text, "sphere", "r")) / 0.1;
     for (const Body& body : document.scene.bodies) {
-      if (body.name != "box" && body.name != "capsule" && body.name != "cylinder" && body.name != "hull") continue;
+      if (body.name != "box" && body.name != "capsule" && body.name != "cylinder" && body.name != "cone" && body.name != "hull") continue;
       const double found = areaOf(polygonsOf(attribute(view.text, body.name, "d"))) / (scale * scale);
       // 48 points to a circle and tenths of a pixel.
       test::expectEntries(found, shadow(body.shape, body.orientation, view.viewer), 6e-3, body.name + " " + view.name,
                           1e-9);
     }
+  }
+}
+
+// From the side, from above and below, and in between, where the apex is seen before the base and behind it.
+TEST(Silhouette, OutlinesOfAConeRunTheSameWayRound) {
+  test::Random random(91);
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE("seed 91, direction " + std::to_string(i));
+    const Cone cone{random.in(0.05, 0.4), random.in(0.05, 0.4)};
+    const Quat q = random.rotation();
+    const Vec3 viewer = i < 6 ? Vec3((i % 2 ? 1 : -1) * (q * Vec3::Unit(i / 2))) : random.unit();
+    Contours contours;
+    addContours(contours, cone, {0.3, -0.2, 1}, q, viewer);
+    ASSERT_EQ(contours.loops.size(), 1u);
+    EXPECT_TRUE(contours.convex);
+    Vec3 area = Vec3::Zero();
+    const std::vector<Vec3>& loop = contours.loops[0];
+    for (std::size_t k = 0; k < loop.size(); ++k) area += 0.5 * loop[k].cross(loop[(k + 1) % loop.size()]);
+    test::expectEntries(area.dot(viewer), shadow(cone, q, viewer), 6e-3, "area, counter-clockwise", 1e-9);
   }
 }
 

@@ -37,6 +37,13 @@ std::vector<BrokenDocument> brokenShapes() {
       instead("cylinderHuge", R"("cylinder": { "radius": 1e10, "height": 1 })", "/cylinder/radius",
               {"of magnitude at most 1e9"}),
 
+      instead("coneWithoutHeight", R"("cone": { "radius": 0.2 })", "/cone", {"no member \"height\""}),
+      instead("coneRadius", R"("cone": { "radius": 0, "height": 1 })", "/cone/radius", {"found 0"}),
+      instead("coneHuge", R"("cone": { "radius": 1, "height": 1e10 })", "/cone/height", {"of magnitude at most 1e9"}),
+      instead("coneApex", R"("cone": { "radius": 0.2, "height": 1, "apex": 0 })", "/cone/apex",
+              {"unknown member", "one of \"radius\", \"height\""}),
+      instead("noSuchShape", R"("con": { "radius": 0.2, "height": 1 })", "/con", {"unknown member", "did you mean \"cone\"?"}),
+
       instead("hullOfNothing", R"("hull": {})", "/hull", {"found an empty object", "one of \"points\" and \"file\""}),
       instead("hullOfBoth", R"("hull": { "file": "a.obj", "points": )" + tetrahedron + "}", "/hull",
               {"both \"points\" and \"file\""}),

@@ -66,7 +66,10 @@ const std::string& documentWithEverything() {
           { "sphere": { "radius": 0.021 }, "position": [0, 0.5, 0] },
           { "hull": { "points": [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]] } },
           { "box": { "size": [0.31, 0.32, 0.33] }, "orientation": [0, 0.6, 0, 0.8] } ], "position": [0, 0, 1.5] } ] },
-      "position": [-20, 0, 6] }
+      "position": [-20, 0, 6] },
+    { "name": "top hat", "density": 300, "shape": { "compound": [ { "cone": { "radius": 0.17, "height": 0.4 } } ] },
+      "position": [-30, 0, 6] },
+    { "name": "pylon", "density": 310, "shape": { "cone": { "radius": 0.18, "height": 0.71 } }, "position": [-40, 0, 6] }
   ],
   "tilts": [
     { "body": "book", "impact": 1, "value": [0.01, -0.02] },

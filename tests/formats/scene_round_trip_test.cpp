@@ -61,7 +61,7 @@ TEST(SceneRoundTrip, membersAreRead) {
   EXPECT_EQ(d.scene.materials[2].combine_elasticity, Combine::average);
   EXPECT_EQ(d.scene.materials[2].combine_friction, Combine::maximum);
   EXPECT_EQ(d.scene.materials[2].elasticity, 0.5);
-  ASSERT_EQ(d.scene.bodies.size(), 9u);
+  ASSERT_EQ(d.scene.bodies.size(), 11u);
   EXPECT_TRUE(d.scene.bodies[0].fixed);
   EXPECT_EQ(std::get<Plane>(d.scene.bodies[0].shape).offset, -0.125);
   EXPECT_EQ(d.scene.bodies[1].orientation.y(), 0.8);
@@ -73,6 +73,8 @@ TEST(SceneRoundTrip, membersAreRead) {
   EXPECT_NEAR(d.scene.bodies[4].inertia.matrix()(1, 2), -0.02, 1e-15);
   EXPECT_EQ(std::get<Capsule>(d.scene.bodies[5].shape).height, 0.7);
   EXPECT_EQ(std::get<Cylinder>(d.scene.bodies[6].shape).radius, 0.12);
+  EXPECT_EQ(std::get<Cone>(d.scene.bodies.back().shape).radius, 0.18);
+  EXPECT_EQ(std::get<Cone>(d.scene.bodies.back().shape).height, 0.71);
   EXPECT_EQ(d.scene.bodies[7].center_of_mass, Vec3(0.013, -0.002, 0.001));
   EXPECT_FALSE(d.scene.bodies[6].center_of_mass);
   const Hull& die = std::get<Hull>(d.scene.bodies[7].shape);

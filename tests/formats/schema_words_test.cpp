@@ -70,6 +70,7 @@ const std::vector<Told> kTold = {
     {"/definitions/plane", "plane"},
     {"/definitions/capsule", "capsule"},
     {"/definitions/cylinder", "cylinder"},
+    {"/definitions/cone", "cone"},
     {"/definitions/hull", "hull"},
     {"/definitions/mesh", "mesh"},
     {"/definitions/part", "Parts"},

@@ -95,6 +95,7 @@ Document documentOfEveryKind() {
             fixedBody("slope", Plane{Vec3(0.3, -0.2, 0.9).normalized(), -1.0 / 3}, {0.1, 0.2, -3}, odd),
             fixedBody("post", Capsule{0.1, 1}, {4, 0, 1}, odd),
             fixedBody("drum", Cylinder{0.3, 0.2}, {4, 2, 1}, odd),
+            fixedBody("spire", Cone{0.3, 0.7}, {4, 3, 1}, odd),
             fixedBody("stone", Hull{hull, 1.7, ""}, {4, 4, 1}, odd),
             fixedBody("terrain", Mesh{openRoof(), 0.8, ""}, {4, 6, 1}, odd),
             fixedBody("shed", hat(hull, mesh), {4, 8, 1}, odd),
@@ -108,6 +109,7 @@ Document documentOfEveryKind() {
             bodyOf("mesh", Mesh{mesh, 1, ""}, {0, 6, 1}),
             bodyOf("scaled mesh", Mesh{mesh, 1.0 / 3, ""}, {0, 7, 1}),
             bodyOf("hat <1> \"x\"", hat(hull, mesh), {0, 8, 1}),
+            bodyOf("cone", Cone{0.1, 0.15}, {0, 9, 1}),
             bodyOf("open mesh", Mesh{openRoof(), 0.5, ""}, {0, 10, 1})};
   int k = 0;
   for (Body& body : bodies) {

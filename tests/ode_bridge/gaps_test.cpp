@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-enum class Kind { ball, box, plane, capsule, cylinder };
+enum class Kind { ball, box, plane, capsule, cylinder, cone };
 
 struct GapRow {
   const char* name;
@@ -66,6 +66,26 @@ const GapRow kRows[] = {
     {"rim on edge that it lies on", Kind::cylinder, Kind::box, kRimEdge, "rim -z", "edge +z+x", 1, 1, true},
     {"rim on edge that it lies on, second place", Kind::cylinder, Kind::box, kRimEdge, "rim +z", "edge +y+z", 2, 2, true},
     {"rim on rim, second place, other side", Kind::cylinder, Kind::cylinder, kRimRim, "rim -z", "rim -z", -2, -1},
+    {"ball on side of cone", Kind::ball, Kind::cone, kPointEdge, "ball", "side"},
+    {"vertex on side of cone", Kind::box, Kind::cone, kPointEdge, "vertex +x-y+z", "side"},
+    {"apex on plane", Kind::cone, Kind::plane, kPointPlane, "apex", "plane"},
+    {"apex on face", Kind::cone, Kind::box, kPointPlane, "apex", "face +y"},
+    {"apex on ball", Kind::cone, Kind::ball, kPointPoint, "apex", "ball"},
+    {"apex on side of cylinder", Kind::cone, Kind::cylinder, kPointEdge, "apex", "side"},
+    {"apex on side of cone", Kind::cone, Kind::cone, kPointEdge, "apex", "side"},
+    {"end on base", Kind::capsule, Kind::cone, kPointPlane, "end -z", "base"},
+    {"side of cone on edge", Kind::cone, Kind::box, kEdgeEdge, "side", "edge +x+y"},
+    {"side of cone on edge, other side", Kind::cone, Kind::box, kEdgeEdge, "side", "edge +y-z", -1, -1},
+    {"side of cone on side of capsule", Kind::cone, Kind::capsule, kEdgeEdge, "side", "side"},
+    {"side of cylinder on side of cone", Kind::cylinder, Kind::cone, kEdgeEdge, "side", "side", -1, -1},
+    {"side of cone on side of cone", Kind::cone, Kind::cone, kEdgeEdge, "side", "side"},
+    {"rim of cone on plane", Kind::cone, Kind::plane, kRimPlane, "rim", "plane"},
+    {"rim of cone on ball", Kind::cone, Kind::ball, kRimPoint, "rim", "ball"},
+    {"rim of cone on edge", Kind::cone, Kind::box, kRimEdge, "rim", "edge +x+y", 1, 1},
+    {"rim of cone on rim of cylinder", Kind::cone, Kind::cylinder, kRimRim, "rim", "rim +z", 1, 2},
+    {"rim on side of cone", Kind::cylinder, Kind::cone, kRimEdge, "rim +z", "side", 1, 1},
+    {"rim on side of cone, second place", Kind::cylinder, Kind::cone, kRimEdge, "rim -z", "side", 2, 2},
+    {"rim of cone on side of cone", Kind::cone, Kind::cone, kRimEdge, "rim", "side", 1, 1},
 };
 
 Body bodyOf(Kind kind, const Vec3& size) {
@@ -78,10 +98,13 @@ Body bodyOf(Kind kind, const Vec3& size) {
       return makePlane("", Vec3(0.6, 0, 0.8), 0.3);
     case Kind::capsule:
     case Kind::cylinder:
+    case Kind::cone:
       break;
   }
   Body body = makeBall("", 1, Vec3::Zero());
-  body.shape = kind == Kind::capsule ? Shape(Capsule{size.x(), size.y()}) : Shape(Cylinder{size.x(), size.y()});
+  if (kind == Kind::capsule) body.shape = Capsule{size.x(), size.y()};
+  if (kind == Kind::cylinder) body.shape = Cylinder{size.x(), size.y()};
+  if (kind == Kind::cone) body.shape = Cone{size.x(), size.y()};
   return body;
 }
 
@@ -176,14 +199,15 @@ struct Setting {
     const FeaturePair pair = features(g);
     const WorldFeature f = placeFeature(g.solid(0).feature(familyOfFirst(row.kind), pair.a), A),
                        h = placeFeature(g.solid(1).feature(familyOfSecond(row.kind), pair.b), B);
-    if (row.kind == kEdgeEdge) return f.direction.cross(h.direction).norm() > 0.2;
-    if (f.rim == 0) return true;
     const ContactPoint c = g.contact(0, 1, pair, A, B);
+    if (row.kind == kEdgeEdge && f.apex == 0 && h.apex == 0) return f.direction.cross(h.direction).norm() > 0.2;
+    if (row.kind == kEdgeEdge) return std::abs(c.normal.dot(f.direction.cross(h.direction))) > 0.3;
+    if (f.rim == 0) return h.apex == 0 || h.direction.cross(c.point - h.point).norm() > 0.2;
     if (row.kind == kRimPlane) return f.direction.cross(h.direction).norm() > 0.2;
     if (!(std::abs(c.gap) < 0.02)) return false;
     const Vec3 u = (c.point - f.point).normalized(), t = f.direction.cross(u);
     if (!(c.normal.dot(u) < -0.2 && c.normal.dot(f.direction) < -0.2)) return false;
-    if (h.rim > 0) {
+    if (h.rim > 0 && h.apex == 0) {
       const Vec3 other = (c.point - c.gap * c.normal - h.point).normalized();
       return c.normal.dot(other) > 0.2 && c.normal.dot(h.direction) > 0.2 &&
              t.cross(h.direction.cross(other)).norm() > 0.5;

@@ -21,9 +21,10 @@ using namespace test;
 // A point of the swept surface of a piece, or of its inside.
 Vec3 pointOf(const Solid& solid, const Piece& piece, Random& random) {
   Vec3 p = Vec3::Zero();
-  if (piece.core == Piece::Core::cylinder) {
+  if (piece.core == Piece::Core::frustum) {
     const Vec3 across = piece.axis.cross(random.unit()).normalized();
-    p = piece.center + (random.below(2) ? 1 : -1) * piece.half_length * piece.axis + piece.rho * across;
+    const bool high = random.below(2);
+    p = piece.center + (high ? 1 : -1) * piece.half_length * piece.axis + (high ? piece.rho_high : piece.rho) * across;
   } else if (random.below(2)) {
     p = solid.points[at(piece.points.first + random.below(piece.points.count))];
   } else {

@@ -41,7 +41,8 @@ std::vector<SolidRow> solidRows(std::uint64_t seed) {
   const std::vector<std::pair<std::string, Shape>> shapes{
       {"sphere", ball},  {"box", box},    {"capsule", capsule},          {"cylinder", cylinder},
       {"hull", hull},    {"mesh", torus}, {"open mesh", bentStrip(0.7)}, {"compound", pair},
-      {"nested", nested}};
+      {"nested", nested},    {"cone", Cone{size(), size()}},
+      {"two cones", Compound{{placed(random, Cone{size(), size()}), placed(random, Cone{size(), size()})}}}};
   std::vector<SolidRow> all;
   for (const auto& [name, shape] : shapes) {
     Body body = makeBall(name, 1, {0, 0, 0});

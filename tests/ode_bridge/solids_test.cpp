@@ -25,6 +25,8 @@ double extentOf(const Shape& shape, const Vec3& d) {
   if (const auto* s = std::get_if<Capsule>(&shape)) return s->radius * d.norm() + s->height / 2 * std::abs(d.z());
   if (const auto* s = std::get_if<Cylinder>(&shape))
     return s->radius * std::hypot(d.x(), d.y()) + s->height / 2 * std::abs(d.z());
+  if (const auto* s = std::get_if<Cone>(&shape))
+    return std::max(s->radius * std::hypot(d.x(), d.y()) - s->height / 2 * d.z(), s->height / 2 * d.z());
   double most = -std::numeric_limits<double>::infinity();
   if (const auto* s = std::get_if<Compound>(&shape)) {
     for (const CompoundPart& p : s->parts)
@@ -51,9 +53,10 @@ double discExtent(const Vec3& center, const Vec3& axis, double radius, const Vec
 double pieceExtent(const Solid& solid, const Piece& piece, const Vec3& d) {
   double most = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < piece.points.count; ++i) most = std::max(most, d.dot(solid.points[at(piece.points.first + i)]));
-  if (piece.core == Piece::Core::cylinder)
+  if (piece.core == Piece::Core::frustum)
     for (double side : {-1., 1.})
-      most = std::max(most, discExtent(piece.center + side * piece.half_length * piece.axis, piece.axis, piece.rho, d));
+      most = std::max(most, discExtent(piece.center + side * piece.half_length * piece.axis, piece.axis,
+                                       side < 0 ? piece.rho : piece.rho_high, d));
   return most + piece.radius;
 }
 
@@ -103,6 +106,8 @@ TEST(Solids, RatesByEveryDimension) {
           expectEntries(rates.point.col(c), (b.point - a.point) / (2 * h), 1e-7, what + ", point");
           expectEntries(rates.radius[c], (b.radius - a.radius) / (2 * h), 1e-7, what + ", radius");
           expectEntries(rates.rim[c], (b.rim - a.rim) / (2 * h), 1e-7, what + ", rim");
+          const double apex = rates.apex.size() > 0 ? rates.apex[c] : 0;
+          expectEntries(apex, (b.apex - a.apex) / (2 * h), 1e-7, what + ", apex");
           EXPECT_EQ(a.direction, b.direction) << what;
         }
       }
@@ -132,8 +137,8 @@ TEST(Solids, EdgesJoinFacesAndVertices) {
     int borders = 0;
     for (int i = 0; i < count(solid.edges); ++i) {
       const SolidEdge& e = solid.edges[at(i)];
-      if (e.from < 0) {  // the side of a cylinder
-        EXPECT_TRUE(e.to == -1 && e.left == -1 && e.right == -1 && e.convex && e.radius > 0);
+      if (e.from < 0) {  // the side of a cylinder or a cone
+        EXPECT_TRUE(e.to == -1 && e.left == -1 && e.right == -1 && e.convex && isSwept(e));
         continue;
       }
       const Vec3 half = e.half_length * e.direction;
@@ -194,7 +199,7 @@ TEST(Solids, NeighboursAreTheOtherEndsOfEdges) {
       EXPECT_EQ(std::multiset<int>(first + solid.neighbour_first[at(v)], first + solid.neighbour_first[at(v + 1)]),
                 expected[at(v)]);
       const std::string kind = solid.parts[at(solid.vertices[at(v)].part)].kind;
-      EXPECT_EQ(expected[at(v)].size() > 0, kind != "sphere" && kind != "cylinder");
+      EXPECT_EQ(expected[at(v)].size() > 0, kind != "sphere" && kind != "cylinder" && kind != "cone");
     }
   }
 }
@@ -248,6 +253,11 @@ TEST(Solids, Names) {
   EXPECT_EQ(name(Cylinder{}, Family::rim, 1), "rim +z");
   EXPECT_EQ(name(Cylinder{}, Family::face, 0), "cap -z");
   EXPECT_EQ(name(Cylinder{}, Family::vertex, 6), "mark 2 of rim +z");
+  EXPECT_EQ(name(Cone{}, Family::vertex, 4), "apex");
+  EXPECT_EQ(name(Cone{}, Family::vertex, 2), "mark 2 of rim");
+  EXPECT_EQ(name(Cone{}, Family::edge, 0), "side");
+  EXPECT_EQ(name(Cone{}, Family::face, 0), "base");
+  EXPECT_EQ(name(Cone{}, Family::rim, 0), "rim");
   Random random(62);
   EXPECT_EQ(name(randomHull(random, 9), Family::face, 3), "face 3");
   EXPECT_EQ(name(bentStrip(1), Family::edge, 7), "edge 7");

@@ -25,14 +25,15 @@ void pointsOnFaces(const Piece& a, int i, const Piece& b, int j, bool swapped, C
   }
 }
 
-void rimsOnHalfSpace(const Piece& cylinder, int i, const Piece& half_space, int j, bool swapped, Collector& out) {
+void rimsOnHalfSpace(const Piece& round, int i, const Piece& half_space, int j, bool swapped, Collector& out) {
   const Piece::Face& face = half_space.faces[0];
-  const Vector axis = unit(cylinder.points[1] - cylinder.points[0]), down = across(face.normal, axis);
+  const Vector axis = unit(round.points[1] - round.points[0]), down = across(face.normal, axis);
   for (int k = 0; k < 2; ++k) {
-    const Vector p = cylinder.points[k] - cylinder.radius / norm(down) * down;
+    const bool apex = k == 1 && round.kind == Piece::Kind::cone;
+    const Vector p = apex ? round.points[k] : round.points[k] - round.radius / norm(down) * down;
     const Real height = dot(face.normal, p - half_space.points[0]);
     if (height > out.cutoff) continue;
-    Candidate c{{i, FeatureKind::circle, k}, {j, FeatureKind::plane, 0}, height, p, p - height * face.normal, 1};
+    Candidate c{{i, apex ? FeatureKind::point : FeatureKind::circle, k}, {j, FeatureKind::plane, 0}, height, p, p - height * face.normal, 1};
     if (swapped) std::swap(c.a, c.b), std::swap(c.p, c.q);
     out.add(c);
   }
@@ -121,15 +122,15 @@ void enumerate(const Piece& a, int i, const Piece& b, int j, Collector& out) {
     const bool swapped = a.kind == Kind::half_space;
     const Piece &piece = swapped ? b : a, &half_space = swapped ? a : b;
     const int k = swapped ? j : i, l = swapped ? i : j;
-    if (piece.kind == Kind::cylinder)
+    if (isRound(piece))
       rimsOnHalfSpace(piece, k, half_space, l, swapped, out);
     else
       pointsOnFaces(piece, k, half_space, l, swapped, out);
     return;
   }
-  if (a.kind == Kind::cylinder && b.kind == Kind::cylinder) return enumerateCylinders(a, i, b, j, out);
-  if (b.kind == Kind::cylinder) return enumerateCylinder(a, i, b, j, false, out);
-  if (a.kind == Kind::cylinder) return enumerateCylinder(b, j, a, i, true, out);
+  if (isRound(a) && isRound(b)) return enumerateRounds(a, i, b, j, out);
+  if (isRound(b)) return enumerateRound(a, i, b, j, false, out);
+  if (isRound(a)) return enumerateRound(b, j, a, i, true, out);
   segmentsOnSegments(a, i, b, j, out);
   pointsOnFaces(a, i, b, j, false, out);
   pointsOnFaces(b, j, a, i, true, out);

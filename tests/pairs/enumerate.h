@@ -19,9 +19,9 @@ class Collector {
 /// and j.
 void enumerate(const Piece& a, int i, const Piece& b, int j, Collector& out);
 
-/// The part of it where a cylinder takes part.
-void enumerateCylinder(const Piece& other, int i, const Piece& cylinder, int j, bool swapped, Collector& out);
-void enumerateCylinders(const Piece& a, int i, const Piece& b, int j, Collector& out);
+/// The part of it where a cylinder or a cone takes part, which are called round.
+void enumerateRound(const Piece& other, int i, const Piece& round, int j, bool swapped, Collector& out);
+void enumerateRounds(const Piece& a, int i, const Piece& b, int j, Collector& out);
 
 /// Parameters in [0, 1] of the nearest points of two segments, which may be points.
 struct SegmentPair {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSamples = 48;  // around a rim, before each minimum is refined
 
-// A placed cylinder, and what of it is nearest to a point.
+// A placed cylinder or cone, and what of it is nearest to a point.
 struct Round {
   const Piece* piece;
   int number;
@@ -28,7 +28,23 @@ struct Round {
     FeatureId feature;
     Vector on_feature;  // the point, or for the side its foot on the axis
   };
+  bool cone() const { return piece->kind == Piece::Kind::cone; }
+  int rims() const { return cone() ? 1 : 2; }
+  // In the half plane of p, with r across the axis and z along it: beside the line from the rim to the apex, or not.
+  Nearest nearestOnCone(const Vector& p) const {
+    const Real z = dot(p - low, axis), slant = std::sqrt(height * height + piece->radius * piece->radius);
+    const Vector out = p - low - z * axis;
+    const Real r = norm(out), sine = piece->radius / slant, cosine = height / slant;
+    const Real up = cosine * z - sine * (r - piece->radius), away = cosine * (r - piece->radius) + sine * z;
+    const Vector rim = low + piece->radius / r * out, apex = low + height * axis;
+    if (z < 0 && r <= piece->radius) return {low + out, {number, FeatureKind::plane, 0}, low + out};
+    if (z < 0 || up < 0) return {rim, {number, FeatureKind::circle, 0}, rim};
+    if (up > slant && away > 0) return {apex, {number, FeatureKind::point, 1}, apex};
+    const Vector point = away > 0 ? rim + up * (cosine * axis - sine / r * out) : p;
+    return {point, {number, FeatureKind::line, 0}, point};
+  }
   Nearest nearestTo(const Vector& p) const {
+    if (cone()) return nearestOnCone(p);
     const Real along = dot(p - low, axis), z = std::clamp(along, Real(0), height);
     const Vector out = p - low - along * axis, foot = low + z * axis;
     const Real rho = norm(out);
@@ -74,7 +90,7 @@ int sideOf(const Vector& tangent_a, const Vector& tangent_b, const Vector& betwe
 Vector tangentOf(const Round& r, const Vector& p) { return cross(r.axis, p - r.low); }
 
 // The distance of a segment's points from a convex body is a convex function along it.
-void segmentOnCylinder(const Piece& piece, int i, const Piece::Edge& edge, int index, const Round& round, bool swapped,
+void segmentOnRound(const Piece& piece, int i, const Piece::Edge& edge, int index, const Round& round, bool swapped,
                        Collector& out) {
   const Vector p = piece.points[edge.from], d = piece.points[edge.to] - p;
   const Real reach = norm(d) / 2 + piece.radius + out.cutoff;
@@ -106,7 +122,7 @@ void rimsOnFaces(const Piece& piece, int i, const Round& round, bool swapped, Co
     const int side = piece.sheet && dot(face.normal, middle - origin) < 0 ? -1 : 1;
     const Vector down = side * across(face.normal, round.axis);
     if (norm(down) < 1e-12L) continue;  // flat on its cap: as near at the borders
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < round.rims(); ++k) {
       const Vector p = round.piece->points[k] - round.piece->radius / norm(down) * down;
       const Real height = side * dot(face.normal, p - origin);
       if (height < 0 || height > out.cutoff || !isOver(piece, face, p)) continue;
@@ -121,8 +137,47 @@ void rimsOnFaces(const Piece& piece, int i, const Round& round, bool swapped, Co
   }
 }
 
-// A rim of one cylinder against another cylinder: sampled all around, and every minimum refined.
-void rimOnCylinder(const Round& a, int rim, const Round& b, bool swapped, Collector& out) {
+// The apex of a cone over the faces, each of which may be seen from behind.
+void apexOnFaces(const Piece& piece, int i, const Round& round, bool swapped, Collector& out) {
+  if (!round.cone()) return;
+  const Vector apex = round.piece->points[1];
+  for (int f = 0; f < static_cast<int>(piece.faces.size()); ++f) {
+    const Piece::Face& face = piece.faces[f];
+    const Real height = dot(face.normal, apex - piece.points[face.at]);
+    const int side = piece.sheet && height < 0 ? -1 : 1;
+    if (side * height < 0 || side * height > out.cutoff || !isOver(piece, face, apex)) continue;
+    tell({{i, FeatureKind::plane, f}, {round.number, FeatureKind::point, 1}, side * height, apex - height * face.normal, apex,
+          side},
+         swapped, out);
+  }
+}
+
+// The apex of one against another.
+void apexOnRound(const Round& a, const Round& b, bool swapped, Collector& out) {
+  if (!a.cone()) return;
+  const Vector apex = a.piece->points[1];
+  const Round::Nearest near = b.nearestTo(apex);
+  tell({{a.number, FeatureKind::point, 1}, near.feature, norm(apex - near.point), apex, near.on_feature, 1}, swapped, out);
+}
+
+// The sides of two, at least one a cone: a plane that touches both, where the lines of contact cross within them.
+void sidesOfCones(const Round& a, const Round& b, Collector& out) {
+  const FeatureId of_a{a.number, FeatureKind::line, 0}, of_b{b.number, FeatureKind::line, 0};
+  const Feature fa = a.piece->feature(of_a), fb = b.piece->feature(of_b);
+  for (const int side : {1, -1}) {
+    const auto touch = exact::lineOnCone<Real>(fa, fb, side);
+    if (!(touch.gap >= 0)) continue;
+    const Vector q = touch.point, p = q + touch.gap * touch.normal;
+    const auto within = [](const Round& r, const Vector& x) {
+      const Real along = dot(x - r.low, r.axis);
+      return along > 0 && along < r.height;
+    };
+    if (within(a, p) && within(b, q)) tell({of_a, of_b, touch.gap, p, q, side}, false, out);
+  }
+}
+
+// A rim of one against another: sampled all around, and every minimum refined.
+void rimOnRound(const Round& a, int rim, const Round& b, bool swapped, Collector& out) {
   const Feature circle = a.piece->feature({a.number, FeatureKind::circle, rim});
   const Vector other = b.low + b.height / 2 * b.axis;
   Vector towards = other - circle.at;
@@ -157,18 +212,7 @@ void rimOnCylinder(const Round& a, int rim, const Round& b, bool swapped, Collec
   }
 }
 
-}  // namespace
-
-void enumerateCylinder(const Piece& other, int i, const Piece& cylinder, int j, bool swapped, Collector& out) {
-  const Round round(cylinder, j);
-  const std::vector<Piece::Edge>& edges = segmentsOf(other);
-  for (int k = 0; k < static_cast<int>(edges.size()); ++k)
-    segmentOnCylinder(other, i, edges[k], k, round, swapped, out);
-  rimsOnFaces(other, i, round, swapped, out);
-}
-
-void enumerateCylinders(const Piece& a, int i, const Piece& b, int j, Collector& out) {
-  const Round first(a, i), second(b, j);
+void sidesOfCylinders(const Piece& a, int i, const Piece& b, int j, Collector& out) {
   const Vector d = a.points[1] - a.points[0], e = b.points[1] - b.points[0];
   const auto [s, t] = nearestOnSegments(a.points[0], d, b.points[0], e);
   if (s > 0 && s < 1 && t > 0 && t < 1) {
@@ -177,10 +221,30 @@ void enumerateCylinders(const Piece& a, int i, const Piece& b, int j, Collector&
     tell({{i, FeatureKind::line, 0}, {j, FeatureKind::line, 0}, norm(p - q) - a.radius - b.radius, p, q, side}, false,
          out);
   }
-  for (int rim = 0; rim < 2; ++rim) {
-    rimOnCylinder(first, rim, second, false, out);
-    rimOnCylinder(second, rim, first, true, out);
+}
+
+}  // namespace
+
+void enumerateRound(const Piece& other, int i, const Piece& piece, int j, bool swapped, Collector& out) {
+  const Round round(piece, j);
+  const std::vector<Piece::Edge>& edges = segmentsOf(other);
+  for (int k = 0; k < static_cast<int>(edges.size()); ++k)
+    segmentOnRound(other, i, edges[k], k, round, swapped, out);
+  rimsOnFaces(other, i, round, swapped, out);
+  apexOnFaces(other, i, round, swapped, out);
+}
+
+void enumerateRounds(const Piece& a, int i, const Piece& b, int j, Collector& out) {
+  const Round first(a, i), second(b, j);
+  if (first.cone() || second.cone()) {
+    sidesOfCones(first, second, out);
+  } else {
+    sidesOfCylinders(a, i, b, j, out);
   }
+  apexOnRound(first, second, false, out);
+  apexOnRound(second, first, true, out);
+  for (int rim = 0; rim < first.rims(); ++rim) rimOnRound(first, rim, second, false, out);
+  for (int rim = 0; rim < second.rims(); ++rim) rimOnRound(second, rim, first, true, out);
 }
 
 }  // namespace carom::pairs

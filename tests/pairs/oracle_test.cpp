@@ -69,6 +69,12 @@ TEST(Oracle, fallOntoAPlane) {
   cylinder.orientation = capsule.orientation;
   expectImpact("cylinder", cylinder, fixed(Plane{}), g,
                {fall(2 - 0.25L * c - 0.125L * s), kUp, {double(-0.25L * s + 0.125L * c), 0, 0}});
+  Body cone = body(Cone{0.125, 0.5}, {0, 0, 2});  // positions are those of the shape's origin, half way up
+  cone.orientation = capsule.orientation;
+  expectImpact("rim of a cone", cone, fixed(Plane{}), g,
+               {fall(2 - 0.25L * c - 0.125L * s), kUp, {double(-0.25L * s + 0.125L * c), 0, 0}});
+  cone.orientation = turn(0.5, Vec3::UnitY()) * turn(std::acos(-1.), Vec3::UnitX());
+  expectImpact("apex of a cone", cone, fixed(Plane{}), g, {fall(2 - 0.25L * c), kUp, {double(-0.25L * s), 0, 0}});
   Body box = body(Box{{0.5, 1, 0.25}}, {0, 0, 2});
   box.orientation = turn(0.5, Vec3::UnitY()) * turn(0.25, Vec3::UnitX());
   const Mat3 R = box.orientation.toRotationMatrix();
@@ -92,6 +98,26 @@ TEST(Oracle, crossedCylindersAndEdges) {
   above.orientation = turn(quarter, Vec3::UnitX()), below.orientation = turn(quarter, Vec3::UnitY());
   const Real half = std::sqrt(Real(0.5L));
   expectImpact("edges", above, below, kNone, {3 - 2 * half, kUp, {0, 0, double(half)}});
+}
+
+// Cones of slope 3/5 (radius 3, height 4): tangent planes through the apex.
+TEST(Oracle, sidesOfCones) {
+  const Body cone = fixed(Cone{0.75, 1});  // apex at (0, 0, 1/2), normals (4/5, 0, 3/5)
+  // a ball at height 1/4 comes along x: 4/5 x + 3/5 (z - 1/2) = radius
+  const Real at_x = (0.25L + 0.15L) / 0.8L;
+  expectImpact("ball on side", body(Sphere{0.25}, {2, 0, 0.25}, {-1, 0, 0}), cone, kNone,
+               {2 - at_x, {0.8, 0, 0.6}, {double(at_x - 0.2L), 0, 0.1}});
+  // a rod along y does the same, at the same height
+  Body rod = body(Capsule{0.25, 3}, {2, 0, 0.25}, {-1, 0, 0});
+  rod.orientation = turn(std::acos(-1.) / 2, Vec3::UnitX());
+  expectImpact("rod on side", rod, cone, kNone, {2 - at_x, {0.8, 0, 0.6}, {double(at_x - 0.2L), 0, 0.1}});
+  // an upright cylinder's low rim falls past the apex onto the side: 4/5 (1/2 - 1/4) + 3/5 (z - 1/2) = 0
+  expectImpact("rim on side", body(Cylinder{0.25, 0.5}, {0.5, 0, 1.25}, {0, 0, -1}), cone, kNone,
+               {1 - (0.5L - 0.2L / 0.6L), {0.8, 0, 0.6}, {0.25, 0, double(0.5L - 0.2L / 0.6L)}});
+  // another cone, apex down, beside it: apex on side
+  Body down = body(Cone{0.25, 0.5}, {0.25, 0, 1.25}, {0, 0, -1});
+  down.orientation = turn(std::acos(-1.), Vec3::UnitX());
+  expectImpact("apex on side", down, cone, kNone, {1 - (0.5L - 0.2L / 0.6L), {0.8, 0, 0.6}, {0.25, 0, double(0.5L - 0.2L / 0.6L)}});
 }
 
 // Two rims that touch at P: tangents y and (1, 0, 1), normals between those of cap and side on both.

@@ -7,10 +7,13 @@
 namespace carom::pairs {
 namespace {
 
-// Largest m . (p - from) of the points that a piece is made of, its radius left out unless it is a cylinder's.
+// Largest m . (p - from) of the points that a piece is made of, its radius left out unless it is a cylinder's or cone's.
 Real farthest(const Piece& piece, const Vector& m, const Vector& from) {
   Real most = -std::numeric_limits<Real>::infinity();
   for (const Vector& p : piece.points) most = std::max(most, dot(m, p - from));
+  if (piece.kind == Piece::Kind::cone)
+    return std::max(most, dot(m, piece.points[0] - from) +
+                              piece.radius * norm(across(m, unit(piece.points[1] - piece.points[0]))));
   if (piece.kind != Piece::Kind::cylinder) return most;
   return most + piece.radius * norm(across(m, unit(piece.points[1] - piece.points[0])));
 }

@@ -7,10 +7,11 @@
 namespace carom::pairs {
 namespace {
 
-// Of what stands around a point of the piece: the swept radius, or the rim of a cylinder's cap.
+// Of what stands around a point of the piece: the swept radius, or the rim of the cap of a cylinder or cone.
 Real radiusAround(const Piece& piece, const Vector& p, const Vector& from) {
   const Real far = norm(p - from);
-  if (piece.kind != Piece::Kind::cylinder) return far + piece.radius;
+  if (piece.kind == Piece::Kind::cone && &p == &piece.points[1]) return far;
+  if (!isRound(piece)) return far + piece.radius;
   const Vector axis = unit(piece.points[1] - piece.points[0]), arm = p - from;
   const Real along = dot(arm, axis), out = norm(across(arm, axis)) + piece.radius;
   return std::sqrt(along * along + out * out);

@@ -37,6 +37,8 @@ struct Solid {
 };
 
 inline bool isHalfSpace(const Piece& piece) { return piece.kind == Piece::Kind::half_space; }
+/// A cylinder or a cone.
+inline bool isRound(const Piece& piece) { return piece.kind == Piece::Kind::cylinder || piece.kind == Piece::Kind::cone; }
 inline bool isHalfSpace(const Solid& solid) { return isHalfSpace(solid.pieces[0]); }
 
 /// A solid with all its points in the world.

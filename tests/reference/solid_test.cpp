@@ -35,11 +35,13 @@ Shape randomShape(Random& random, int kind) {
       return Hull{tetrahedron.surface(), size(), ""};
     case 5:
       return Mesh{t.surface(), size(), ""};
+    case 6:
+      return Cone{size(), size()};
     default:
       break;
   }
   Compound c;
-  for (int part = 0; part < 6; ++part) c.parts.push_back({randomShape(random, part), random.vec(1), random.rotation()});
+  for (int part = 0; part < 7; ++part) c.parts.push_back({randomShape(random, part), random.vec(1), random.rotation()});
   return c;
 }
 

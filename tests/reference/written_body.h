@@ -52,7 +52,7 @@ inline RealSolid solidOf(const Surface& surface) {
 
 /// A part of a shape; `size` is radius; x, y, z; radius and height; or the scale of a surface.
 struct PartNumbers {
-  enum class Kind { ball, box, cylinder, capsule, hull, mesh };
+  enum class Kind { ball, box, cylinder, capsule, cone, hull, mesh };
   Kind kind = Kind::ball;
   std::vector<Real> size;
   std::shared_ptr<const Surface> surface;
@@ -76,6 +76,11 @@ struct PartNumbers {
       const Real &b = size[1], &c = size[2];
       V = a * b * c;
       J = (V / 12) * RVec{b * b + c * c, a * a + c * c, a * a + b * b};
+    } else if (kind == Kind::cone) {
+      const Real &h = size[1], across = 3 * (4 * a * a + h * h) / 80;
+      V = pi * a * a * h / 3;
+      J = V * RVec{across, across, 3 * a * a / 10};
+      return {V, position + orientation * RVec{0, 0, -h / 4}, orientation * (diagonal(J) * transpose(orientation))};
     } else {
       const Real &h = size[1], tube = pi * a * a * h, across = a * a / 4 + h * h / 12;
       V = tube;
@@ -100,6 +105,8 @@ inline PartNumbers partOf(const Shape& shape, const Vec3& position, const Quat& 
     p.kind = PartNumbers::Kind::cylinder, p.size = {cylinder->radius, cylinder->height};
   } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
     p.kind = PartNumbers::Kind::capsule, p.size = {capsule->radius, capsule->height};
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    p.kind = PartNumbers::Kind::cone, p.size = {cone->radius, cone->height};
   } else if (const auto* hull = std::get_if<Hull>(&shape)) {
     p.kind = PartNumbers::Kind::hull, p.size = {hull->scale}, p.surface = hull->surface;
   } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {

@@ -131,6 +131,16 @@ Scene cylinderByDensity() {
   s.bodies[0].density = 200;
   return s;
 }
+Scene cone() { return flying(thrown(Cone{0.12, 0.25}, kCenter)); }
+Scene coneByDensity() {
+  Scene s = flying(thrown(Cone{0.12, 0.25}));
+  s.bodies[0].mass.reset();
+  s.bodies[0].density = 300;
+  return s;
+}
+Scene cones() {
+  return flying(thrown(Compound{{part(Cone{0.12, 0.25}, kCenter, kTurned), part(Cone{0.06, 0.3}, {0.1, 0, 0.02})}}));
+}
 Scene mesh() {  // two pieces, so that no two moments are equal
   const Triangles t = torusTriangles(0.2, 0.07, 9, 6).with(boxTriangles({0.1, 0.2, 0.3}).placed(kTurned, {0.3, 0, 0}));
   return flying(thrown(Mesh{t.placed(kTurned, kCenter).surface(), 0.8, ""}));
@@ -170,6 +180,9 @@ const std::vector<OffsetScene>& offsetScenes() {
       {"every_kind", everyKind, 0.6, T::triaxial, T::triaxial, true},
       {"cylinder", cylinder, 0.8, T::symmetric, T::symmetric, false},
       {"cylinder_density", cylinderByDensity, 0.8, T::symmetric, T::symmetric, false},
+      {"cone", cone, 0.8, T::symmetric, T::symmetric, false},
+      {"cone_density", coneByDensity, 0.8, T::symmetric, T::symmetric, false},
+      {"cones", cones, 0.8, T::triaxial, T::triaxial, true},
       {"mesh", mesh, 0.8, T::triaxial, T::triaxial, false},
       {"open_mesh", openMesh, 0.8, T::triaxial, T::triaxial, false},
   };

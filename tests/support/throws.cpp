@@ -16,6 +16,7 @@ Shape makeBoxShape(Random& r, bool) { return Box{{r.in(0.06, 0.5), r.in(0.06, 0.
 Shape makePlaneShape(Random& r, bool) { return Plane{r.unit(), r.in(-0.3, 0.3)}; }
 Shape makeCapsule(Random& r, bool) { return Capsule{r.in(0.03, 0.15), r.in(0.08, 0.4)}; }
 Shape makeCylinder(Random& r, bool) { return Cylinder{r.in(0.04, 0.2), r.in(0.05, 0.4)}; }
+Shape makeCone(Random& r, bool) { return Cone{r.in(0.04, 0.25), r.in(0.05, 0.5)}; }
 Shape makeHull(Random& r, bool) { return pebbleHull(r, 6 + r.below(9)); }
 Shape makeMesh(Random& r, bool fixed) {
   const double jitter = r.below(2) ? 0 : 0.006;
@@ -85,7 +86,7 @@ const std::vector<ShapeMaker>& shapeMakers() {
   static const std::vector<ShapeMaker> rows = {
       {"sphere", true, makeSphere},   {"box", true, makeBoxShape},      {"plane", false, makePlaneShape},
       {"capsule", true, makeCapsule}, {"cylinder", true, makeCylinder}, {"hull", true, makeHull},
-      {"mesh", true, makeMesh},       {"compound", true, makeCompound},
+      {"mesh", true, makeMesh},       {"compound", true, makeCompound}, {"cone", true, makeCone},
   };
   return rows;
 }

@@ -7,6 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "formats/json/json_writer.hpp"
+#include "formats/shapes/rows.hpp"
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::gltf {
@@ -43,7 +44,7 @@ double uniformScale(const PhysicsNode& node, const Vec3& scale, const char* shap
   return scale.x() == scale.y() && scale.y() == scale.z() ? scale.x() : scale.mean();
 }
 
-// ---- cones, and capsules with two radii: hulls of points on their surfaces ----
+// ---- what narrows, but not to a point: hulls of points on their surfaces ----
 
 constexpr int kMeridians = 48;
 
@@ -97,6 +98,11 @@ Shape sheetMesh(double size_x, double size_y) {
   return mesh;
 }
 
+/// A cone stands on its wide end.
+bool isTurnedOver(const Tapered& shape, const Mat3& stretch) {
+  return !shape.capsule && (stretch(2, 2) < 0 ? shape.top : shape.bottom) == 0;
+}
+
 struct Maker {
   const PhysicsNode& node;
   const Mat3& stretch;
@@ -118,10 +124,10 @@ struct Maker {
       const double across = mean(scale.x(), scale.y());
       out.height *= scale.z(), out.bottom *= across, out.top *= across;
     }
-    if (stretch(2, 2) < 0) std::swap(out.bottom, out.top);
-    if (out.bottom != out.top) return taperedHull(out, node, report);
-    if (out.capsule) return Capsule{out.bottom, out.height};
-    return Cylinder{out.bottom, out.height};
+    if (isTurnedOver(shape, stretch) != (stretch(2, 2) < 0)) std::swap(out.bottom, out.top);
+    for (const shapes::FormatKind& kind : shapes::formatKinds())
+      if (auto made = kind.from_tapered(out)) return made;
+    return taperedHull(out, node, report);
   }
   std::optional<Shape> operator()(const Sheet& sheet) const {
     const Vec3 scale = axisScale(node, stretch);
@@ -142,7 +148,9 @@ struct Maker {
 }  // namespace
 
 Quat axesOf(const ColliderShape& shape, const Mat3& stretch) {
-  const bool turned_over = std::holds_alternative<Sheet>(shape) && stretch(2, 2) < 0;
+  const auto* tapered = std::get_if<Tapered>(&shape);
+  const bool turned_over =
+      tapered ? isTurnedOver(*tapered, stretch) : std::holds_alternative<Sheet>(shape) && stretch(2, 2) < 0;
   return turned_over ? Quat(0, 1, 0, 0) : Quat::Identity();
 }
 

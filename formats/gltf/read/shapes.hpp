@@ -14,7 +14,8 @@ class Model;
 
 namespace carom::gltf {
 
-/// Turn from the axes of our shape to those of the collider's node: half a turn for a plane that is mirrored over.
+/// Turn from the axes of our shape to those of the collider's node: half a turn for a plane that is mirrored over, and
+/// for a cone that stands on its apex.
 Quat axesOf(const ColliderShape& shape, const Mat3& stretch);
 
 /// Shapes of colliders, scaled by the stretch of their nodes. Surfaces are made once for all who use them.

@@ -33,13 +33,14 @@ struct Feature {
   Vec<T> at;     ///< the point; a point of the line or plane; the circle's centre
   Vec<T> along;  ///< unit: the line's direction, the plane's outward normal, the circle's axis
   T radius = 0;  ///< about the point or line; of the circle
+  T slope = 0;   ///< of the side of a cone, a line from its apex: the sine of half the opening angle
 };
 
-/// A convex piece of a shape: the hull of `points` with `radius` about it; a cylinder from points[0] to points[1]; a
-/// half space. A mesh is as many pieces as it has triangles.
+/// A convex piece of a shape: the hull of `points` with `radius` about it; a cylinder from points[0] to points[1], or a
+/// cone with its apex there; a half space. A mesh is as many pieces as it has triangles.
 template <class T>
 struct Piece {
-  enum class Kind { rounded, cylinder, half_space };
+  enum class Kind { rounded, cylinder, cone, half_space };
   struct Edge {
     int from, to;
   };
@@ -63,9 +64,14 @@ struct Piece {
   Feature<T> feature(const FeatureId& id) const {
     switch (id.kind) {
       case FeatureKind::point:
-        return {id.kind, points[id.index], {}, radius};
+        return {id.kind, points[id.index], {}, kind == Kind::cone ? T(0) : radius};
       case FeatureKind::line: {
         const Vec<T>&from = points[edges[id.index].from], &to = points[edges[id.index].to];
+        if (kind == Kind::cone) {
+          using std::sqrt;
+          const Vec<T> up = to - from;
+          return {id.kind, to, unit(up), 0, radius / sqrt(dot(up, up) + radius * radius)};
+        }
         return {id.kind, from, unit(to - from), radius};
       }
       case FeatureKind::plane:
@@ -197,6 +203,12 @@ std::vector<Piece<T>> piecesOf(const ShapeNumbers<T>& n) {
       piece.kind = Piece<T>::Kind::cylinder;
       piece.faces = {{{}, unitVector<T>(2, -1), 0}, {{}, unitVector<T>(2, 1), 1}};
       piece.face_name = "cap";
+      return {piece};
+    case Kind::cone:
+      piece = detail::axisPiece(n.size[0], n.size[1]);
+      piece.kind = Piece<T>::Kind::cone;
+      piece.faces = {{{}, unitVector<T>(2, -1), 0}};
+      piece.point_name = "apex", piece.face_name = "base";
       return {piece};
     case Kind::hull:
     case Kind::mesh:

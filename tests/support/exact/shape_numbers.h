@@ -13,7 +13,7 @@ namespace carom::exact {
 /// of a compound are its parts'). Of a surface only vertices and corners are read.
 template <class T>
 struct ShapeNumbers {
-  enum class Kind { sphere, box, plane, capsule, cylinder, hull, mesh, compound };  // the order of `Shape`
+  enum class Kind { sphere, box, plane, capsule, cylinder, hull, mesh, compound, cone };  // the order of `Shape`
   struct Part;
 
   Kind kind = Kind::sphere;
@@ -58,6 +58,8 @@ ShapeNumbers<T> numbersOf(const Shape& shape) {
     n.size = {T(capsule->radius), T(capsule->height)};
   } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
     n.size = {T(cylinder->radius), T(cylinder->height)};
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    n.size = {T(cone->radius), T(cone->height)};
   } else if (const auto* hull = std::get_if<Hull>(&shape)) {
     n.size = {T(hull->scale)}, n.surface = hull->surface;
   } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
@@ -155,6 +157,10 @@ Integrals<T> integralsOf(const ShapeNumbers<T>& n) {
     case Kind::cylinder: {
       const T r = s[0], h = s[1], V = pi * r * r * h;
       return {V, {}, diagonal<T>(V * r * r / 4, V * r * r / 4, V * h * h / 12)};
+    }
+    case Kind::cone: {
+      const T r = s[0], h = s[1], V = pi * r * r * h / 3, x = V * r * r * 3 / 20;
+      return {V, unitVector<T>(2, -V * h / 4), diagonal<T>(x, x, V * h * h / 10)};
     }
     case Kind::hull:
     case Kind::mesh: {

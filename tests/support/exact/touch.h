@@ -53,6 +53,29 @@ Touch<T> lineOnLine(const Feature<T>& a, const Feature<T>& b, int side) {
   return curveOnCurve<T>(a.at + s * a.along, a.along, a.radius, b.at + t * b.along, b.along, b.radius, side);
 }
 
+/// The side of a cone: normals out of it have n . along = slope, and all planes that touch it go through its apex.
+template <class T>
+Touch<T> pointOnCone(const Vec<T>& p, const Number<T>& radius, const Feature<T>& side) {
+  using std::sqrt;
+  const Vec<T> out = unit(across(p - side.at, side.along));
+  return pointOnPlane<T>(p, radius, side.at, sqrt(1 - side.slope * side.slope) * out + side.slope * side.along);
+}
+/// Two lines, one or both of which are sides of cones: the plane that touches both.
+template <class T>
+Touch<T> lineOnCone(const Feature<T>& a, const Feature<T>& b, int side) {
+  using std::sqrt;
+  const T k = dot(a.along, b.along);
+  const Vec<T> c = cross(a.along, b.along);
+  // n = x a + y b + z c with n.a = -slope_a and n.b = slope_b
+  const T x = -(a.slope + k * b.slope) / dot(c, c), y = (b.slope + k * a.slope) / dot(c, c);
+  const T z = sqrt((1 - x * x - y * y - 2 * x * y * k) / dot(c, c));
+  const Vec<T> n = x * a.along + y * b.along + (side * z) * c;
+  // the lines of contact, from a.at along d and from b.at along e
+  const Vec<T> d = a.along + a.slope * n, e = b.along - b.slope * n, between = a.at - b.at;
+  const T t = dot(n, cross(d, between)) / dot(n, cross(d, e));
+  return {dot(n, between) - a.radius - b.radius, n, b.at + t * e + b.radius * n};
+}
+
 /// A circle c(angle) = centre + R (cos u + sin v) whose angle 0 lies nearest to a given point.
 template <class T>
 struct Circle {
@@ -113,6 +136,25 @@ Touch<T> circleOnLine(const Feature<T>& a, const Feature<T>& line, int side, con
   return curveOnCurve<T>(c.point, c.rate, 0, foot, line.along, 0, side);
 }
 
+/// Where a circle is locally nearest to the side of a cone: its tangent there is across the normal.
+template <class T>
+Touch<T> circleOnCone(const Feature<T>& a, const Feature<T>& side, const Vec<T>& near) {
+  using std::abs, std::sqrt;
+  const Circle<T> circle(a, near);
+  T angle = 0;
+  for (int round = 0; round < kNewtonRounds; ++round) {
+    const auto c = circle.at(angle);
+    const Vec<T> w = across(c.point - side.at, side.along), u = unit(w), rate = across(c.rate, side.along);
+    const T cosine = sqrt(1 - side.slope * side.slope);
+    const Vec<T> n = cosine * u + side.slope * side.along;
+    const Vec<T> turn = (cosine / norm(w)) * (rate - dot(rate, u) * u);
+    const T change = -dot(c.rate, n) / (dot(c.bend, n) + dot(c.rate, turn));
+    angle += change;
+    if (abs(change) < lastChange<T>()) break;
+  }
+  return pointOnCone<T>(circle.at(angle).point, 0, side);
+}
+
 /// Where two circles are locally nearest: their connection is at right angles to both.
 template <class T>
 Touch<T> circleOnCircle(const Feature<T>& a, const Feature<T>& b, int side, const Vec<T>& near_a,
@@ -149,17 +191,20 @@ std::optional<Touch<T>> touchOf(const Feature<T>& a, const Feature<T>& b, int si
     if (t) t = flipped(*t);
     return t;
   }
-  const bool sharp = !(a.radius > 0) && !(b.radius > 0);
+  const bool sharp = !(a.radius > 0) && !(b.radius > 0) && !(a.slope > 0) && !(b.slope > 0);
+  const bool cone = a.slope > 0 || b.slope > 0;
   switch (b.kind) {
     case K::point:
       if (sharp) return {};
       return pointOnPoint<T>(a.at, a.radius, b.at, b.radius);
     case K::line:
-      if (a.kind == K::line) return lineOnLine(a, b, side);
+      if (a.kind == K::line) return cone ? lineOnCone(a, b, side) : lineOnLine(a, b, side);
       if (sharp) return {};
+      if (cone) return pointOnCone<T>(a.at, a.radius, b);
       return pointOnLine<T>(a.at, a.radius, b.at, b.along, b.radius);
     case K::circle:
       if (a.kind == K::circle) return circleOnCircle(a, b, side, near_a, near_b);
+      if (cone) return flipped(circleOnCone(b, a, near_b));
       if (a.kind == K::line) return flipped(circleOnLine(b, a, side, near_b));
       if (!(a.radius > 0)) return {};
       return flipped(circleOnPoint(b, a));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adjoint/scene/shape.h"
+#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 
@@ -11,6 +12,9 @@ SolidProperties scaledProperties(const Surface* surface, double scale, const cha
 
 /// Rates of all of these as the scale changes at `rate`.
 SolidProperties scaledPropertiesRate(const Surface* surface, double scale, double rate, const char* kind);
+
+/// Throws InputError unless the scale is positive and keeps the surface within the sizes that can be computed with.
+void requireScale(const validation::ShapeCheck& at, double scale, const Surface& surface);
 
 /// Largest distance of a vertex from the origin, times s.
 double scaledRadius(const Surface* surface, double scale);

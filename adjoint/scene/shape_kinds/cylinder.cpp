@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "adjoint/numeric/elementary.hpp"
-#include "adjoint/scene/shapes/kinds.hpp"
+#include "adjoint/scene/shape_kinds/kinds.hpp"
+#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 namespace {
@@ -34,23 +36,27 @@ SolidProperties cylinderPropertiesRate(const Shape& s, const Eigen::VectorXd& d)
 
 }  // namespace
 
-ShapeKind cylinderKind() {
-  return {"cylinder",
-          [](const Shape&) {
-            return std::vector<std::string>{"radius", "height"};
+ShapeKind kindRow(KindOf<Cylinder>) {
+  return {
+      .name = "cylinder",
+      .check =
+          [](const Shape& s, const validation::ShapeCheck& at) {
+            validation::requireLength(at.where / "radius", as<Cylinder>(s).radius);
+            validation::requireLength(at.where / "height", as<Cylinder>(s).height);
           },
-          [](const Shape& s) {
-            return dimensionsOf({as<Cylinder>(s).radius, as<Cylinder>(s).height});
-          },
+      .dimension_names = [](const Shape&) -> std::vector<std::string> { return {"radius", "height"}; },
+      .dimensions = [](const Shape& s) { return dimensionsOf({as<Cylinder>(s).radius, as<Cylinder>(s).height}); },
+      .setDimensions =
           [](Shape& s, const Eigen::VectorXd& d) {
             requireDimensions(d, 2);
-            std::get<Cylinder>(s).radius = d[0];
-            std::get<Cylinder>(s).height = d[1];
+            std::get<Cylinder>(s) = {.radius = d[0], .height = d[1]};
           },
-          alwaysSolid,
-          cylinderProperties,
-          cylinderPropertiesRate,
-          [](const Shape& s) { return elementary::hypot(as<Cylinder>(s).radius, as<Cylinder>(s).height / 2); }};
+      .solid = alwaysSolid,
+      .properties = cylinderProperties,
+      .propertiesRate = cylinderPropertiesRate,
+      .boundingRadius = [](const Shape& s) { return elementary::hypot(as<Cylinder>(s).radius, as<Cylinder>(s).height / 2); },
+      .innerRadius = [](const Shape& s) { return std::min(as<Cylinder>(s).radius, 0.5 * as<Cylinder>(s).height); },
+  };
 }
 
 }  // namespace carom::shapes

@@ -6,15 +6,16 @@
 
 namespace carom::shapes {
 
-// One row of the table a shape; each stands with its formulas in the file of that name.
-ShapeKind sphereKind();
-ShapeKind boxKind();
-ShapeKind planeKind();
-ShapeKind capsuleKind();
-ShapeKind cylinderKind();
-ShapeKind hullKind();
-ShapeKind meshKind();
-ShapeKind compoundKind();
+// The table of shapes: a row each, which stands with its formulas in the file of that name.
+ShapeKind kindRow(KindOf<Sphere>);
+ShapeKind kindRow(KindOf<Box>);
+ShapeKind kindRow(KindOf<Plane>);
+ShapeKind kindRow(KindOf<Capsule>);
+ShapeKind kindRow(KindOf<Cylinder>);
+ShapeKind kindRow(KindOf<Cone>);
+ShapeKind kindRow(KindOf<Hull>);
+ShapeKind kindRow(KindOf<Mesh>);
+ShapeKind kindRow(KindOf<Compound>);
 
 /// The shape as the kind that its row is for.
 template <class Kind>

@@ -2,7 +2,8 @@
 #include <numbers>
 
 #include "adjoint/numeric/dual.hpp"
-#include "adjoint/scene/shapes/kinds.hpp"
+#include "adjoint/scene/shape_kinds/kinds.hpp"
+#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 namespace {
@@ -55,23 +56,27 @@ SolidProperties capsulePropertiesRate(const Shape& s, const Eigen::VectorXd& d) 
 
 }  // namespace
 
-ShapeKind capsuleKind() {
-  return {"capsule",
-          [](const Shape&) {
-            return std::vector<std::string>{"radius", "height"};
+ShapeKind kindRow(KindOf<Capsule>) {
+  return {
+      .name = "capsule",
+      .check =
+          [](const Shape& s, const validation::ShapeCheck& at) {
+            validation::requireLength(at.where / "radius", as<Capsule>(s).radius);
+            validation::requireLength(at.where / "height", as<Capsule>(s).height);
           },
-          [](const Shape& s) {
-            return dimensionsOf({as<Capsule>(s).radius, as<Capsule>(s).height});
-          },
+      .dimension_names = [](const Shape&) -> std::vector<std::string> { return {"radius", "height"}; },
+      .dimensions = [](const Shape& s) { return dimensionsOf({as<Capsule>(s).radius, as<Capsule>(s).height}); },
+      .setDimensions =
           [](Shape& s, const Eigen::VectorXd& d) {
             requireDimensions(d, 2);
-            std::get<Capsule>(s).radius = d[0];
-            std::get<Capsule>(s).height = d[1];
+            std::get<Capsule>(s) = {.radius = d[0], .height = d[1]};
           },
-          alwaysSolid,
-          capsuleProperties,
-          capsulePropertiesRate,
-          [](const Shape& s) { return as<Capsule>(s).radius + as<Capsule>(s).height / 2; }};
+      .solid = alwaysSolid,
+      .properties = capsuleProperties,
+      .propertiesRate = capsulePropertiesRate,
+      .boundingRadius = [](const Shape& s) { return as<Capsule>(s).radius + as<Capsule>(s).height / 2; },
+      .innerRadius = [](const Shape& s) { return as<Capsule>(s).radius; },
+  };
 }
 
 }  // namespace carom::shapes

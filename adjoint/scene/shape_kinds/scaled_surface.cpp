@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/scene/shapes/scaled_surface.hpp"
+#include "adjoint/scene/shape_kinds/scaled_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +36,19 @@ SolidProperties scaledPropertiesRate(const Surface* surface, double scale, doubl
   p.unit_inertia = 2 * scale * rate * surface->unit_inertia;
   p.rates = {{6 * scale * rate * surface->volume, Vec3::Zero(), 2 * rate * surface->unit_inertia}};
   return p;
+}
+
+void requireScale(const validation::ShapeCheck& at, double scale, const Surface& surface) {
+  using namespace validation;
+  const Place where = at.where / "scale";
+  requirePositive(where, scale);
+  if (scale == 1) return;  // the surface itself was checked when it was made
+  const double extent = scaledRadius(&surface, scale);
+  if (!(extent >= kLeastLength))
+    fail(where, text(scale) + ", which takes it to " + text(extent) + " m",
+         "an extent of at least " + text(kLeastLength) + " m");
+  if (!(extent <= 2 * kLargest))
+    fail(where, text(scale) + ", which takes it to " + text(extent) + " m", "coordinates of at most 1e9");
 }
 
 double scaledRadius(const Surface* surface, double scale) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <numbers>
 
-#include "adjoint/scene/shapes/kinds.hpp"
+#include "adjoint/scene/shape_kinds/kinds.hpp"
+#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 namespace {
@@ -28,18 +29,24 @@ SolidProperties spherePropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
 
 }  // namespace
 
-ShapeKind sphereKind() {
-  return {"sphere",
-          [](const Shape&) { return std::vector<std::string>{"radius"}; },
-          [](const Shape& s) { return dimensionsOf({as<Sphere>(s).radius}); },
+ShapeKind kindRow(KindOf<Sphere>) {
+  return {
+      .name = "sphere",
+      .check = [](const Shape& s,
+                  const validation::ShapeCheck& at) { validation::requireLength(at.where / "radius", as<Sphere>(s).radius); },
+      .dimension_names = [](const Shape&) -> std::vector<std::string> { return {"radius"}; },
+      .dimensions = [](const Shape& s) { return dimensionsOf({as<Sphere>(s).radius}); },
+      .setDimensions =
           [](Shape& s, const Eigen::VectorXd& d) {
             requireDimensions(d, 1);
             std::get<Sphere>(s).radius = d[0];
           },
-          alwaysSolid,
-          sphereProperties,
-          spherePropertiesRate,
-          [](const Shape& s) { return as<Sphere>(s).radius; }};
+      .solid = alwaysSolid,
+      .properties = sphereProperties,
+      .propertiesRate = spherePropertiesRate,
+      .boundingRadius = [](const Shape& s) { return as<Sphere>(s).radius; },
+      .innerRadius = [](const Shape& s) { return as<Sphere>(s).radius; },
+  };
 }
 
 }  // namespace carom::shapes

@@ -3,7 +3,8 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/numeric/dual.hpp"
-#include "adjoint/scene/shapes/kinds.hpp"
+#include "adjoint/scene/shape_kinds/kinds.hpp"
+#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 namespace {
@@ -185,10 +186,39 @@ double boundingRadius(const Shape& s) {
   return largest;
 }
 
+constexpr int kDeepest = 16;  // compounds inside compounds
+
+void checkCompound(const Shape& s, const validation::ShapeCheck& at) {
+  const validation::Place& where = at.where;
+  if (parts(s).empty()) validation::fail(where, "no parts", "one or more");
+  if (at.depth == kDeepest)
+    validation::fail(where, "compounds nested deeper than " + std::to_string(kDeepest), "fewer levels");
+  for (std::size_t i = 0; i < parts(s).size(); ++i) {
+    const CompoundPart& part = parts(s)[i];
+    const ShapeKind& kind = kindOf(part.shape);
+    const validation::Place here = where / i, inner = here / kind.name;
+    if (std::holds_alternative<Plane>(part.shape)) validation::fail(inner, "a plane", "a part of finite extent");
+    kind.check(part.shape, {.where = inner, .derived = at.derived, .depth = at.depth + 1});
+    validation::requireFinite(here / "position", part.position);
+    validation::requireUnit(here / "orientation", part.orientation);
+  }
+}
+
 }  // namespace
 
-ShapeKind compoundKind() {
-  return {"compound", names, dimensions, setDimensions, solid, compoundProperties, compoundPropertiesRate, boundingRadius};
+ShapeKind kindRow(KindOf<Compound>) {
+  return {
+      .name = "compound",
+      .check = checkCompound,
+      .dimension_names = names,
+      .dimensions = dimensions,
+      .setDimensions = setDimensions,
+      .solid = solid,
+      .properties = compoundProperties,
+      .propertiesRate = compoundPropertiesRate,
+      .boundingRadius = boundingRadius,
+      .innerRadius = [](const Shape&) { return 0.0; },
+  };
 }
 
 }  // namespace carom::shapes

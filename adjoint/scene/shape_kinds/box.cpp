@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/scene/shapes/kinds.hpp"
+#include "adjoint/scene/shape_kinds/kinds.hpp"
+#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 namespace {
@@ -32,20 +33,26 @@ SolidProperties boxPropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
 
 }  // namespace
 
-ShapeKind boxKind() {
-  return {"box",
-          [](const Shape&) {
-            return std::vector<std::string>{"x", "y", "z"};
+ShapeKind kindRow(KindOf<Box>) {
+  return {
+      .name = "box",
+      .check =
+          [](const Shape& s, const validation::ShapeCheck& at) {
+            for (int i = 0; i < 3; ++i) validation::requireLength(at.where / "size" / i, size(s)[i]);
           },
-          [](const Shape& s) { return Eigen::VectorXd(size(s)); },
+      .dimension_names = [](const Shape&) -> std::vector<std::string> { return {"x", "y", "z"}; },
+      .dimensions = [](const Shape& s) { return Eigen::VectorXd(size(s)); },
+      .setDimensions =
           [](Shape& s, const Eigen::VectorXd& d) {
             requireDimensions(d, 3);
             std::get<Box>(s).size = d.head<3>();
           },
-          alwaysSolid,
-          boxProperties,
-          boxPropertiesRate,
-          [](const Shape& s) { return 0.5 * size(s).norm(); }};
+      .solid = alwaysSolid,
+      .properties = boxProperties,
+      .propertiesRate = boxPropertiesRate,
+      .boundingRadius = [](const Shape& s) { return 0.5 * size(s).norm(); },
+      .innerRadius = [](const Shape& s) { return 0.5 * size(s).minCoeff(); },
+  };
 }
 
 }  // namespace carom::shapes

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace carom {
+
+/// Round cone about z, its base at -height/2 and its apex at height/2; the centre of mass lies height/4 above the base.
+struct Cone {
+  double radius = 0.5;  ///< of the base, m
+  double height = 1;    ///< m
+};
+
+}  // namespace carom

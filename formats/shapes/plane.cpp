@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+
+#include "formats/documents/scene_reader.hpp"
+#include "formats/drawing/triangle_mesh.hpp"
+#include "formats/gltf/physics_nodes.hpp"
+#include "formats/json/json_writer.hpp"
+#include "formats/shapes/parts.hpp"
+#include "formats/shapes/rows.hpp"
+#include "formats/svg/contours.hpp"
+
+namespace carom::shapes {
+namespace {
+
+Shape readPlane(const detail::Json& value, const std::string& where, detail::SurfaceFiles&) {
+  Vec3 normal = detail::readVector(value["normal"]);
+  const double length = normal.stableNorm();
+  if (!(length > 0)) detail::fail(where + "/normal", detail::describe(value["normal"]), "a vector that is not 0");
+  if (std::abs(normal.squaredNorm() - 1) > detail::kUnitRounding) normal = (normal / length).normalized();
+  const auto offset = value.find("offset");
+  return Plane{normal, offset == value.end() ? 0 : offset->get<double>()};
+}
+
+TriangleMesh planeMesh(const Shape&, double half_width) {
+  TriangleMesh mesh;
+  addFace(mesh, Vec3::Zero(), half_width * Vec3::UnitX(), half_width * Vec3::UnitY());
+  return mesh;
+}
+
+}  // namespace
+
+FormatKind formatRow(KindOf<Plane>) {
+  return {
+      .read = readPlane,
+      .write =
+          [](JsonWriter& out, const Shape& s) {
+            const Plane& plane = std::get<Plane>(s);
+            out.beginObject().key("normal").vector(plane.normal).key("offset").number(plane.offset).endObject();
+          },
+      .on_one_line = onOneLine,
+      .extent = [](const Shape&, const ShapePose&) { return Extent(); },
+      .radius_about = [](const Shape&, const Vec3&) { return std::numeric_limits<double>::infinity(); },
+      .contours = [](Contours&, const Shape&, const ShapePose&, const Vec3&) {},
+      .mesh = planeMesh,
+      .collider = [](const ColliderAdder& out, const Shape& s) { out.setPlane(std::get<Plane>(s)); },
+      .from_tapered = notTapered,
+  };
+}
+
+}  // namespace carom::shapes

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "formats/documents/scene_reader.hpp"
+#include "formats/drawing/triangle_mesh.hpp"
+#include "formats/gltf/physics_nodes.hpp"
+#include "formats/json/json_writer.hpp"
+#include "formats/shapes/parts.hpp"
+#include "formats/shapes/rows.hpp"
+#include "formats/svg/contours.hpp"
+
+namespace carom::shapes {
+namespace {
+
+TriangleMesh sphereMesh(const Shape& s, double) {
+  std::vector<Ring> rings;
+  addHalfBall(rings, std::get<Sphere>(s).radius, 0, true);
+  rings.pop_back();  // the equator belongs to both halves
+  addHalfBall(rings, std::get<Sphere>(s).radius, 0, false);
+  return revolved(rings);
+}
+
+}  // namespace
+
+FormatKind formatRow(KindOf<Sphere>) {
+  return {
+      .read = [](const detail::Json& value, const std::string&,
+                 detail::SurfaceFiles&) -> Shape { return Sphere{numberOf(value, "radius")}; },
+      .write = [](JsonWriter& out,
+                  const Shape& s) { out.beginObject().key("radius").number(std::get<Sphere>(s).radius).endObject(); },
+      .on_one_line = onOneLine,
+      .extent = [](const Shape& s,
+                   const ShapePose& at) { return extentAround(at.x, Vec3::Constant(std::get<Sphere>(s).radius)); },
+      .radius_about = [](const Shape& s, const Vec3& point) { return point.norm() + std::get<Sphere>(s).radius; },
+      .contours = [](Contours& out, const Shape& s, const ShapePose& at,
+                     const Vec3& viewer) { addStadium(out, std::get<Sphere>(s).radius, 0, at.x, viewer, viewer); },
+      .mesh = sphereMesh,
+      .collider = [](const ColliderAdder& out, const Shape& s) { out.set(std::get<Sphere>(s)); },
+      .from_tapered = notTapered,
+  };
+}
+
+}  // namespace carom::shapes
