@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "formats/shapes/rows.hpp"
+#include "formats/detail/shape_rows.hpp"
 
 namespace carom {
 namespace {

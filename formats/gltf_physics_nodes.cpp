@@ -2,7 +2,7 @@
 // Bodies -> nodes with physics.
 #include "formats/detail/gltf_frame.hpp"
 #include "formats/detail/gltf_physics.hpp"
-#include "formats/shapes/rows.hpp"
+#include "formats/detail/shape_rows.hpp"
 
 namespace carom {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "adjoint/errors.h"
+#include "formats/detail/shape_rows.hpp"
 #include "formats/json_writer.h"
-#include "formats/shapes/rows.hpp"
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::gltf {

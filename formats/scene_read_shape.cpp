@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/detail/json.hpp"
 #include "formats/detail/scene_reader.hpp"
-#include "formats/shapes/rows.hpp"
+#include "formats/detail/shape_rows.hpp"
 
 namespace carom::detail {
 

@@ -3,8 +3,8 @@
 
 #include "adjoint/errors.h"
 #include "formats/detail/scene_writer.hpp"
+#include "formats/detail/shape_rows.hpp"
 #include "formats/json_writer.h"
-#include "formats/shapes/rows.hpp"
 
 namespace carom::detail {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/shape_extent.h"
 
-#include "formats/shapes/rows.hpp"
+#include "formats/detail/shape_rows.hpp"
 
 namespace carom {
 

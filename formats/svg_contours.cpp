@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "formats/shapes/rows.hpp"
+#include "formats/detail/shape_rows.hpp"
 
 namespace carom {
 namespace {

@@ -4,10 +4,10 @@
 #include "formats/detail/gltf_mesh.hpp"
 #include "formats/detail/gltf_physics.hpp"
 #include "formats/detail/scene_reader.hpp"
+#include "formats/detail/shape_parts.hpp"
+#include "formats/detail/shape_rows.hpp"
 #include "formats/detail/svg_contours.hpp"
 #include "formats/json_writer.h"
-#include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
 
 namespace carom::shapes {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/shapes/rows.hpp"
+#include "formats/detail/shape_rows.hpp"
 
 #include "adjoint/shapes/table.h"
 
@@ -7,7 +7,7 @@ namespace carom::shapes {
 
 const std::array<FormatKind, std::variant_size_v<Shape>>& formatKinds() {
   static const auto kinds = tableOf([](auto kind) {
-    static_assert(requires { formatRow(kind); }, "a shape without a row: see formats/shapes/rows.hpp");
+    static_assert(requires { formatRow(kind); }, "a shape without a row: see formats/detail/shape_rows.hpp");
     return formatRow(kind);
   });
   return kinds;
