@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "formats/detail/gltf_mesh.hpp"
-#include "formats/detail/gltf_physics.hpp"
-#include "formats/detail/scene_reader.hpp"
-#include "formats/detail/shape_parts.hpp"
-#include "formats/detail/shape_rows.hpp"
-#include "formats/detail/svg_contours.hpp"
-#include "formats/json_writer.h"
+#include "formats/documents/scene_reader.hpp"
+#include "formats/drawing/triangle_mesh.hpp"
+#include "formats/gltf/write/physics.hpp"
+#include "formats/json/json_writer.hpp"
+#include "formats/shapes/parts.hpp"
+#include "formats/shapes/rows.hpp"
+#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "formats/detail/shape_parts.hpp"
+#include "formats/shapes/parts.hpp"
 
 #include <algorithm>
 
-#include "formats/detail/shape_rows.hpp"
-#include "formats/json_writer.h"
+#include "formats/json/json_writer.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom::shapes {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/gaps/crossing.hpp"
 #include "ode_bridge/gaps/tapered.hpp"
 

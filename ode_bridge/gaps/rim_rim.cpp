@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/gaps/crossing.hpp"
 #include "ode_bridge/gaps/turns.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/gaps/rows.hpp"
 
 /// Where a function F of the angle around a rim is least: zeros of its slope G where G rises, of which there are two at

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/solids/parts.h"
+#include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
 namespace {
@@ -22,7 +22,7 @@ SolidKind solidRow(KindOf<Compound>) { return {.add = addCompound, .name = numbe
 
 void addShape(Solid& solid, const Shape& shape, const Placement& at) {
   static const auto kinds = shapes::tableOf([](auto kind) {
-    static_assert(requires { solidRow(kind); }, "a shape without a row: see ode_bridge/solids/parts.h");
+    static_assert(requires { solidRow(kind); }, "a shape without a row: see ode_bridge/solids/parts.hpp");
     return solidRow(kind);
   });
   const SolidKind& kind = kinds[shape.index()];

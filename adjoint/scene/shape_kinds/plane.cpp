@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/scene/shapes/kinds.hpp"
+#include "adjoint/scene/validation.hpp"
+
+namespace carom::shapes {
+
+namespace {
+
+void checkPlane(const Shape& s, const validation::ShapeCheck& at) {
+  const Plane& plane = as<Plane>(s);
+  if (!(std::abs(plane.normal.norm() - 1) <= 1e-9))
+    validation::fail(at.where / "normal", "a vector of length " + validation::text(plane.normal.norm()), "a unit vector");
+  validation::requireFinite(at.where / "offset", plane.offset);
+}
+
+[[noreturn]] void noMass() {
+  throw InputError("found the mass properties of a plane asked for, expected a shape with a volume");
+}
+
+}  // namespace
+
+ShapeKind kindRow(KindOf<Plane>) {
+  return {
+      .name = "plane",
+      .check = checkPlane,
+      .dimension_names = [](const Shape&) { return std::vector<std::string>{}; },
+      .dimensions = [](const Shape&) { return Eigen::VectorXd(0); },
+      .setDimensions = [](Shape&, const Eigen::VectorXd& d) { requireDimensions(d, 0); },
+      .solid = [](const Shape&) { return false; },
+      .properties = [](const Shape&) -> SolidProperties { noMass(); },
+      .propertiesRate = [](const Shape&, const Eigen::VectorXd&) -> SolidProperties { noMass(); },
+      .boundingRadius = [](const Shape&) { return std::numeric_limits<double>::infinity(); },
+      .innerRadius = [](const Shape&) { return 0.0; },
+  };
+}
+
+}  // namespace carom::shapes

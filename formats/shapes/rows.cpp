@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "formats/shapes/rows.hpp"
+
+#include "adjoint/scene/shapes/table.hpp"
+
+namespace carom::shapes {
+
+const std::array<FormatKind, std::variant_size_v<Shape>>& formatKinds() {
+  static const auto kinds = tableOf([](auto kind) {
+    static_assert(requires { formatRow(kind); }, "a shape without a row: see formats/shapes/rows.hpp");
+    return formatRow(kind);
+  });
+  return kinds;
+}
+
+const FormatKind& formatOf(const Shape& shape) { return formatKinds()[shape.index()]; }
+
+}  // namespace carom::shapes

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Private to formats/*.cpp.
+#pragma once
+
+#include <optional>
+
+#include "adjoint/base/required.h"
+#include "adjoint/scene/shape.h"
+#include "formats/drawing/shape_extent.hpp"
+#include "formats/json/json.hpp"
+
+namespace carom {
+
+struct Contours;
+struct TriangleMesh;
+class JsonWriter;
+struct ColliderAdder;
+namespace detail {
+class SurfaceFiles;
+}
+namespace gltf {
+struct Tapered;
+}
+
+namespace shapes {
+
+/// A pose, shape axes to world.
+struct ShapePose {
+  const Vec3& x;
+  const Quat& q;
+};
+
+/// One row of the table of shapes: what documents, pictures and glTF files ask of a shape, beside its words in
+/// scene.schema.json. Like those of ShapeKind, rows and the table are complete or do not compile.
+struct FormatKind {
+  /// From the value of its word in a document that follows the schema; `where` is the value's place.
+  Required<Shape(const detail::Json& value, const std::string& where, detail::SurfaceFiles& files)> read;
+  /// The value of its word.
+  Required<void(JsonWriter& out, const Shape&)> write;
+  Required<bool(const Shape&)> on_one_line;  ///< whether it is written on one
+  /// Smallest axis-aligned box around it; empty for a plane.
+  Required<Extent(const Shape&, const ShapePose& at)> extent;
+  /// See radiusAbout.
+  Required<double(const Shape&, const Vec3& point)> radius_about;
+  /// See addContours.
+  Required<void(Contours& out, const Shape&, const ShapePose& at, const Vec3& viewer)> contours;
+  /// See meshOf.
+  Required<TriangleMesh(const Shape&, double plane_half_width)> mesh;
+  /// Adds it to a node of a glTF file.
+  Required<void(const ColliderAdder& out, const Shape&)> collider;
+  /// The shape that a capsule or cylinder of a glTF file is, its radii as they may differ, if it is of this kind.
+  Required<std::optional<Shape>(const gltf::Tapered&)> from_tapered;
+};
+
+/// FormatKind::from_tapered of what no such shape is.
+inline std::optional<Shape> notTapered(const gltf::Tapered&) { return std::nullopt; }
+inline bool onOneLine(const Shape&) { return true; }
+
+// The table: a row each, which stands in the file of that name.
+FormatKind formatRow(KindOf<Sphere>);
+FormatKind formatRow(KindOf<Box>);
+FormatKind formatRow(KindOf<Plane>);
+FormatKind formatRow(KindOf<Capsule>);
+FormatKind formatRow(KindOf<Cylinder>);
+FormatKind formatRow(KindOf<Cone>);
+FormatKind formatRow(KindOf<Hull>);
+FormatKind formatRow(KindOf<Mesh>);
+FormatKind formatRow(KindOf<Compound>);
+
+/// All of them, in the order of Shape.
+const std::array<FormatKind, std::variant_size_v<Shape>>& formatKinds();
+const FormatKind& formatOf(const Shape& shape);
+
+}  // namespace shapes
+}  // namespace carom
