@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Private to formats/. What the rows of several shapes are made of.
+// Private to formats/*.cpp. What the rows of several shapes are made of.
 #pragma once
 
 #include "adjoint/scene/shape.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Private to formats/.
+// Private to formats/*.cpp.
 #pragma once
 
 #include <optional>

@@ -87,7 +87,7 @@ std::vector<ShapeRow> shapeRows() {
           {"cylinder_box", pair(Cylinder{0.2, 0.3}, Box{{0.3, 0.4, 0.5}})},
           {"cylinder_cylinder", pair(Cylinder{0.2, 0.3}, Cylinder{0.15, 0.5})},
           {"cone_floor", onFloor(Cone{0.15, 0.3})},
-          {"spire_floor", onFloor(Cone{0.05, 0.5})},
+          {"spire_floor", onFloor(Cone{0.08, 0.4})},
           {"cone_ball", pair(Cone{0.2, 0.3}, Sphere{0.2})},
           {"ball_cone", pair(Sphere{0.2}, Cone{0.25, 0.5})},
           {"cone_box", pair(Cone{0.2, 0.3}, Box{{0.3, 0.4, 0.5}})},

@@ -124,7 +124,7 @@ TEST(RoundTrip, WithoutExtrasBodiesAreTheSameInTheWorld) {
     expectSameBody(bodyIn(again, body.name), expected);
     ++moving;
   }
-  EXPECT_EQ(moving, 10);
+  EXPECT_EQ(moving, 11);
   EXPECT_LE((again.document.scene.gravity - document.scene.gravity).norm(), 1e-14);
   ASSERT_EQ(again.document.scene.materials.size(), 4u);
   EXPECT_EQ(again.document.scene.materials[1].elasticity, 1.0 / 3);

@@ -24,7 +24,7 @@ Scene falling(const Quat& orientation, double height) {
   return makeScene({0, 0, -kGravity}, kElasticity, 0, {cone, makePlane("floor", Vec3::UnitZ(), 0)});
 }
 
-Quat about(const Vec3& axis, double angle) { return Quat(Eigen::AngleAxisd(angle, axis)); }
+Quat turnedAbout(const Vec3& axis, double angle) { return Quat(Eigen::AngleAxisd(angle, axis)); }
 
 TEST(Cone, BouncesOnItsApexAndOnItsBase) {
   for (const bool on_apex : {false, true}) {
@@ -50,7 +50,7 @@ TEST(Cone, TurnsAboutTheCentreOfMassWhenItsRimStrikes) {
     const double side = a > 0 ? 1 : -1, m = 2, inertia = 3. / 80 * m * (4 * kRadius * kRadius + kHeight * kHeight);
     const double low = -kHeight / 2 * std::cos(a) - kRadius * std::abs(std::sin(a));
     const double t = std::sqrt(2 * (2 + low) / kGravity), v = kGravity * t;
-    const Motion motion = play(falling(about(Vec3::UnitY(), a), 2), 1.01 * t, 1);
+    const Motion motion = play(falling(turnedAbout(Vec3::UnitY(), a), 2), 1.01 * t, 1);
     ASSERT_EQ(motion.events.size(), 1u);
     expectEntries(motion.events[0].time, t, 1e-14, "time");
     const double x = side * kRadius * std::cos(a) - kHeight / 4 * std::sin(a);

@@ -192,6 +192,11 @@ struct Setting {
     A.x = B.x + B.R * (h.point + across) - A.R * f.point;
   }
 
+  /// A second place of a rim before a cone is there only near it.
+  bool lastsApart(const FeatureGeometry& g, const FeaturePair& pair, const ContactPoint& c) const {
+    return (g.contact(0, 1, pair, {A.x + 0.25 * c.normal, A.R}, B).normal - c.normal).norm() < 1e-9;
+  }
+
   /// Edges that cross at an angle; rims that cross at an angle and nearly touch the other feature from outside, so
   /// that the solids could touch there.
   bool general() const {
@@ -207,6 +212,7 @@ struct Setting {
     if (!(std::abs(c.gap) < 0.02)) return false;
     const Vec3 u = (c.point - f.point).normalized(), t = f.direction.cross(u);
     if (!(c.normal.dot(u) < -0.2 && c.normal.dot(f.direction) < -0.2)) return false;
+    if (h.apex > 0 && !lastsApart(g, pair, c)) return false;
     if (h.rim > 0 && h.apex == 0) {
       const Vec3 other = (c.point - c.gap * c.normal - h.point).normalized();
       return c.normal.dot(other) > 0.2 && c.normal.dot(h.direction) > 0.2 &&
