@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
-#include "adjoint/so3.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/simulate.h"
 #include "editing/rows/refined_times.h"
 
 namespace carom::cli {

@@ -6,8 +6,8 @@
 #include "cli/options.h"
 #include "cli/output.h"
 #include "editing/jacobian.h"
-#include "formats/document.h"
-#include "formats/format_error.h"
+#include "formats/base/document.h"
+#include "formats/base/format_error.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::cli {

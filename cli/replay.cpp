@@ -12,7 +12,7 @@
 #include "cli/table.h"
 #include "cli/units.h"
 #include "editing/session/session_replay.h"
-#include "formats/journal_json.h"
+#include "formats/documents/journal_json.h"
 
 namespace carom::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "adjoint/shape.h"
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
+#include "adjoint/scene/shape.h"
 
 namespace carom {
 

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/search/alternatives.h"
 #include "editing/solve/edit_result.h"
 #include "editing/solve/edit_solution.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/derivative_tape.h"
-#include "adjoint/motion.h"
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/motion/motion.h"
 #include "editing/certificate.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
@@ -53,7 +53,7 @@ enum class Shooting {
 
 /// Where Ipopt takes the second derivatives of the rows from.
 enum class SecondDerivatives {
-  exact,          ///< adjoint/second_order.h
+  exact,          ///< adjoint/second_order/second_order.h
   secant,         ///< learnt from the gradients, row by row
   limited_memory  ///< Ipopt's own approximation
 };

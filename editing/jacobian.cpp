@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/errors.h"
-#include "adjoint/seed.h"
-#include "adjoint/tangent.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/seed.hpp"
+#include "adjoint/derivative/tangent.h"
 #include "editing/controls/control_families.h"
 #include "editing/text.h"
 

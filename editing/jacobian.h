@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "adjoint/replay.h"
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/replay.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/controls/control_set.h"
 #include "editing/controls/validity_rows.h"
 #include "editing/rows/constraint_rows.h"
@@ -63,7 +63,7 @@ Motion simulateScene(const EditProblem& problem, const Scene& scene, double unti
 /// ends it early, unless it is to be simulated in any case.
 Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until,
                   ContactSource* contacts = nullptr, bool even_if_stopped = false);
-/// The same along the impact sequence of another motion of the problem, see adjoint/replay.h.
+/// The same along the impact sequence of another motion of the problem, see adjoint/simulate/replay.h.
 Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
                 ContactSource* contacts = nullptr);
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/session/session_state.h"
 #include "editing/text.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/impact.h"
+#include "adjoint/impact/impact.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/detail/impact_pass.hpp"
-#include "adjoint/errors.h"
-#include "adjoint/guard.h"
-#include "adjoint/impact/wide_impact.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/impact/wide_impact.hpp"
+#include "adjoint/motion/guard.hpp"
 
 namespace carom {
 

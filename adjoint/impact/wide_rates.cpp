@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/detail/wide_pass.hpp"
+#include "adjoint/impact/wide_pass.hpp"
 
 // Impacts of 32 digits with their rates along one direction.
 

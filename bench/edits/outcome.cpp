@@ -7,7 +7,7 @@
 #include <exception>
 #include <limits>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/jacobian.h"
 #include "ode_bridge/ode_contacts.h"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/goals.h"
 #include "bench/edits/throws.h"

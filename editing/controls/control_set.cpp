@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/arguments.h"
-#include "adjoint/elementary.h"
-#include "adjoint/errors.h"
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "editing/controls/control_binding.h"
 #include "editing/text.h"
 

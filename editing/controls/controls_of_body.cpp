@@ -8,7 +8,7 @@
 
 #include "editing/controls/control_families.h"
 
-#include "adjoint/body_model.h"
+#include "adjoint/scene/body_model.h"
 
 namespace carom {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/body_model.h"
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/scene/body_model.h"
 #include "editing/rows/constraint_checks.h"
 #include "editing/rows/relative.h"
 #include "editing/text.h"

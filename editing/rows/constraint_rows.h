@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "adjoint/derivative_tape.h"
-#include "adjoint/motion.h"
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 #include "editing/rows/quantities.h"
 #include "editing/rows/region_rows.h"

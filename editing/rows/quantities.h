@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/tangent.h"
 #include "editing/constraint.h"
 #include "editing/controls/natural_scales.h"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "adjoint/derivative_tape.h"
-#include "adjoint/motion.h"
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 
 /// How far a body stays on the right side of a region. Internal to editing/.

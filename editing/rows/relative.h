@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/motion.h"
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/tangent.h"
+#include "adjoint/motion/motion.h"
 
 namespace carom {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/session/session_state.h"
 #include "editing/text.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/solve/edit_solution.h"
 
 namespace carom {

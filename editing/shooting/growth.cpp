@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/elementary.h"
-#include "adjoint/seed.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/seed.hpp"
+#include "adjoint/numeric/elementary.hpp"
 #include "editing/controls/natural_scales.h"
 
 namespace carom {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "editing/shooting/growth.h"
 #include "editing/shooting/shooting_program.h"
 #include "editing/solve/edit_solution.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/hessian.h"
 
 namespace carom {

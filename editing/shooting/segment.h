@@ -36,7 +36,7 @@ struct SegmentRow {
 
 /// An EditProblem over the time between two nodes: its controls are the states at its start and the edit's own
 /// controls of other things; its rows those of the edit that fall into it, the state at its end, and times of impacts.
-/// Motions follow the impact sequence of the one that was cut (adjoint/replay.h), so that rows are smooth.
+/// Motions follow the impact sequence of the one that was cut (adjoint/simulate/replay.h), so that rows are smooth.
 class Segment {
  public:
   EditProblem problem;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/controls/control_families.h"
 #include "editing/controls/natural_scales.h"
 #include "editing/shooting/state_parts.h"

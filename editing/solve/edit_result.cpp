@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/adjoint.h"
+#include "adjoint/derivative/adjoint.h"
 #include "editing/text.h"
 
 namespace carom {

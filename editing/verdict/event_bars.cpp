@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editing/verdict/event_bars.h"
 
-#include "adjoint/adjoint.h"
-#include "adjoint/detail/event_pass.hpp"
-#include "adjoint/guard.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/impact/event_pass.hpp"
+#include "adjoint/motion/guard.hpp"
 
 namespace carom {
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "adjoint/derivative_tape.h"
-#include "adjoint/event_linearization.h"
-#include "adjoint/impact/law.h"
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/derivative/event_linearization.hpp"
+#include "adjoint/impact/law.hpp"
 
 /// Gradients of numbers that are read at an impact. Internal to editing/.
 namespace carom {

@@ -7,7 +7,7 @@
 
 #include <Eigen/QR>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/controls/extended_controls.h"
 #include "editing/rows/dependence.h"
 #include "editing/rows/nail_in_solid.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <set>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/edits/best_known.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/tasks.h"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/edit.h"
 #include "editing/solve/bounded_least_squares.h"
 #include "editing/solve/edit_search.h"

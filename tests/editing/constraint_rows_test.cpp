@@ -9,9 +9,9 @@
 #include <functional>
 #include <limits>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
-#include "adjoint/so3.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/simulate.h"
 #include "editing/jacobian.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"

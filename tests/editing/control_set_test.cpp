@@ -10,9 +10,9 @@
 #include <limits>
 #include <random>
 
-#include "adjoint/body_model.h"
-#include "adjoint/errors.h"
-#include "adjoint/so3.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/scene/body_model.h"
 #include "editing/controls/natural_scales.h"
 #include "editing/controls/validity_rows.h"
 #include "tests/editing/scenes.h"

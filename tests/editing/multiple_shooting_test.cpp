@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "editing/shooting/cut.h"
 #include "editing/shooting/shooting_program.h"

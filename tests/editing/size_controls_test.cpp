@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "adjoint/errors.h"
-#include "adjoint/tangent.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/tangent.h"
 #include "editing/controls/control_set.h"
 #include "editing/edit.h"
 #include "tests/editing/scenes.h"

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "editing/controls/control_kinds.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 #include "tests/formats/scene_documents.h"
 #include "tests/test_paths.h"
 

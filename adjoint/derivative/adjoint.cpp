@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/derivative/adjoint.h"
+
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/derivative/event_linearization.hpp"
+#include "adjoint/derivative/seed.hpp"
+#include "adjoint/derivative/waiting_bars.hpp"
+
+namespace carom {
+namespace {
+
+class ReversePass {
+ public:
+  explicit ReversePass(DerivativeTape& tape)
+      : tape_(tape), motion_(tape.motion()), bars_(motion_) {}
+
+  SceneGradient run(std::span<const StateSeed> seeds, Reliability* reliability) {
+    for (const StateSeed& seed : seeds) plant(seed);
+    bars_.eachEvent([&](int event, const Bars::AtEvent& at) {
+      if (reliability) {
+        reliability->pass(motion_, event);
+        reliability->passFriction(motion_, event, tape_.event(event).frictionFromZero());
+      }
+      throughEvent(event, at);
+    });
+    toSceneAsWritten();
+    return std::move(bars_.scene);
+  }
+
+ private:
+  using Bars = detail::WaitingBars<double>;
+
+  void plant(const StateSeed& seed) {
+    const auto b = static_cast<std::size_t>(seed.body);
+    const ReadPlace place = readPlace(motion_, seed.body, seed.at);
+    const StateDerivative bar = seedPullback((*motion_.models)[b], place.state, seed, bars_.model[b]);
+    const auto rate = [&] { return motion_.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state); };
+    if (seed.at.event >= 0 && bars_.readBefore(seed.at.event, seed.body, bar, seed.time, rate)) return;
+    throughFlight(seed.body, place.arc, place.time, tape_.arcUntil(seed.body, place.arc, place.time), bar);
+  }
+
+  // From time t on arc k back to the start of the arc, which is an event or the start of the motion.
+  void throughFlight(int body, int k, double t, const RotationSensitivity& S, const StateDerivative& bar) {
+    const auto b = static_cast<std::size_t>(body);
+    const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
+    bars_.arriveAt(body, k, flightPullback(arc, t, S, bar, bars_.scene.gravity, bars_.model[b]));
+  }
+
+  void throughEvent(int index, const Bars::AtEvent& at) {
+    const Event& event = motion_.events[static_cast<std::size_t>(index)];
+    const std::vector<StateDerivative> before =
+        tape_.event(index).pullback(at.after, at.before, at.time, bars_.scene, bars_.model);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const Participant& p = event.participants[i];
+      if (before[i].isZero()) continue;
+      throughFlight(p.body, p.arc, event.time, tape_.arc(p.body, p.arc), before[i]);
+    }
+  }
+
+  void toSceneAsWritten() {
+    for (std::size_t b = 0; b < bars_.start.size(); ++b) {
+      const Body& body = motion_.scene->bodies[b];
+      const BodyModel& model = (*motion_.models)[b];
+      BodyDerivative& written = bars_.scene.bodies[b];
+      if (!bars_.start[b].isZero()) startPullback(body, model, bars_.start[b], written, bars_.model[b]);
+      if (!bars_.model[b].isZero()) modelPullback(body, model, bars_.model[b], written);
+    }
+  }
+
+  DerivativeTape& tape_;
+  const Motion& motion_;
+  Bars bars_;
+};
+
+}  // namespace
+
+SceneGradient adjoint(DerivativeTape& tape, std::span<const StateSeed> seeds, Reliability* reliability) {
+  for (const StateSeed& seed : seeds) checkSeed("adjoint", tape.motion(), seed);
+  return ReversePass(tape).run(seeds, reliability);
+}
+
+SceneGradient adjoint(const Motion& motion, std::span<const StateSeed> seeds, Reliability* reliability) {
+  DerivativeTape tape(motion);
+  return adjoint(tape, seeds, reliability);
+}
+
+}  // namespace carom

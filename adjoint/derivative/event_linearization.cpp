@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/derivative/event_linearization.hpp"
+
+#include <algorithm>
+
+#include "adjoint/impact/event_pass.hpp"
+#include "adjoint/impact/impact.hpp"
+#include "adjoint/impact/tilt.hpp"
+#include "adjoint/impact/wide_impact.hpp"
+#include "adjoint/motion/guard.hpp"
+
+namespace carom {
+namespace {
+
+using Pass = detail::EventPass<double>;
+using Part = Pass::Part;
+using Vec7 = Pass::Vec7;
+
+Part partOf(const Motion& motion, const Event& event, const Contact& c, double weight) {
+  Part part;
+  part.a = {c.a, participantOf(event, c.a)};
+  part.b = {c.b, participantOf(event, c.b)};
+  part.weight = weight;
+  ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, poseBefore(motion, event, c.a),
+                                                poseBefore(motion, event, c.b));
+  part.pose = J.pose;
+  part.size_a = std::move(J.size_a);
+  part.size_b = std::move(J.size_b);
+  part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
+  if (part.tilted)
+    part.tilt = tiltedNormalJacobian(c.at.normal, tiltOf(*motion.scene, c.tilt_a), tiltOf(*motion.scene, c.tilt_b));
+  part.material_a = materialIndexOf(*motion.scene, c.a);
+  part.material_b = materialIndexOf(*motion.scene, c.b);
+  part.rules = detail::rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
+                               materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.b)]));
+  return part;
+}
+
+std::unique_ptr<const Pass> passOf(const Motion& motion, const Event& event) {
+  std::vector<Part> parts;
+  const std::vector<double> weights = guardWeights(event);
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    parts.push_back(partOf(motion, event, event.contacts[k], weights[k]));
+  std::vector<StateDerivative> rate_before, rate_after;
+  for (const Participant& p : event.participants) {
+    const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
+    const Arc& next = arcs[static_cast<std::size_t>(p.arc) + 1];
+    rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rate(p.before));
+    rate_after.push_back(next.rate(next.startState()));
+  }
+  return std::make_unique<const Pass>(event, usesWide(event, *motion.models), impactInputs(event, *motion.models),
+                                      std::move(parts), std::move(rate_before), std::move(rate_after));
+}
+
+// d(gap, normal, point)
+Vec7 contactTangent(const Part& part, const std::vector<StateDerivative>& before, const SceneTangent& dscene) {
+  Pass::Vec12 poses = Pass::poses(part, before);
+  Eigen::Index at = 0;
+  for (const auto& side : {part.a, part.b}) {
+    const BodyDerivative& body = dscene.bodies[static_cast<std::size_t>(side.body)];
+    if (side.participant < 0) poses.segment<6>(at) << body.position, body.orientation;
+    at += 6;
+  }
+  Vec7 d = part.pose * poses;
+  if (part.size_a.cols() > 0) d += part.size_a * dscene.bodies[static_cast<std::size_t>(part.a.body)].size;
+  if (part.size_b.cols() > 0) d += part.size_b * dscene.bodies[static_cast<std::size_t>(part.b.body)].size;
+  return d;
+}
+
+}  // namespace
+
+EventLinearization::EventLinearization(const Motion& motion, int index)
+    : motion_(motion), event_(motion.events[static_cast<std::size_t>(index)]), pass_(passOf(motion, event_)) {}
+
+EventLinearization::~EventLinearization() = default;
+
+const StateDerivative& EventLinearization::rateBefore(int participant) const {
+  return pass_->rateBefore()[static_cast<std::size_t>(participant)];
+}
+const StateDerivative& EventLinearization::rateAfter(int participant) const {
+  return pass_->rateAfter()[static_cast<std::size_t>(participant)];
+}
+double EventLinearization::guardRate() const { return pass_->guardRate(); }
+
+double EventLinearization::frictionFromZero() const {
+  const ImpactProblem& p = pass_->impact().problem();
+  if (std::none_of(p.pair.begin(), p.pair.end(), [](const PairCoefficients& c) { return c.friction == 0; })) return 1;
+  return p.contacts() > 1 ? 0 : frictionFromZeroMargin(onlyContact(p));
+}
+
+EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateDerivative>& before,
+                                                        const SceneTangent& dscene,
+                                                        const std::vector<BodyModelDerivative>& dmodel) const {
+  Tangent out;
+  double dgap = 0;
+  for (const Part& part : pass_->parts()) dgap += part.weight * contactTangent(part, before, dscene)[0];
+  out.time = -dgap / pass_->guardRate();
+
+  // at the moved time of the impact
+  std::vector<StateDerivative> moved = before;
+  std::vector<BodyModelDerivative> dmodels;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    moved[i].addScaled(out.time, pass_->rateBefore()[i]);
+    dmodels.push_back(dmodel[static_cast<std::size_t>(event_.participants[i].body)]);
+  }
+  std::vector<Vec7> dcontact;
+  std::vector<PairCoefficients> dpair;
+  for (std::size_t k = 0; k < pass_->parts().size(); ++k) {
+    const Part& part = pass_->parts()[k];
+    const Contact& c = event_.contacts[k];
+    Vec7 d = contactTangent(part, moved, dscene);
+    if (part.tilted) {
+      Vec7 by;
+      by << d.segment<3>(1), Vec2(0, 0), Vec2(0, 0);
+      if (c.tilt_a >= 0) by.segment<2>(3) = dscene.tilts[static_cast<std::size_t>(c.tilt_a)];
+      if (c.tilt_b >= 0) by.segment<2>(5) = dscene.tilts[static_cast<std::size_t>(c.tilt_b)];
+      d.segment<3>(1) = part.tilt * by;
+    }
+    dcontact.push_back(d);
+    const auto dmaterial = [&](int m) {
+      return m < 0 ? MaterialDerivative() : dscene.materials[static_cast<std::size_t>(m)];
+    };
+    dpair.push_back(combineTangent(materialOf(*motion_.scene, motion_.scene->bodies[static_cast<std::size_t>(c.a)]),
+                                   materialOf(*motion_.scene, motion_.scene->bodies[static_cast<std::size_t>(c.b)]),
+                                   dmaterial(part.material_a), dmaterial(part.material_b)));
+  }
+  out.after = impactTangent(pass_->impact().inputs(), pass_->wide(), moved, dcontact, dpair, dmodels);
+  for (std::size_t i = 0; i < moved.size(); ++i) out.after[i].addScaled(-out.time, pass_->rateAfter()[i]);
+  return out;
+}
+
+std::vector<StateDerivative> EventLinearization::pullback(const std::vector<StateDerivative>& after_bar,
+                                                          const std::vector<StateDerivative>& read_bar, double time_bar,
+                                                          SceneGradient& scene_bar,
+                                                          std::vector<BodyModelDerivative>& model_bar) const {
+  return pass_->pullback(after_bar, read_bar, time_bar, scene_bar, model_bar);
+}
+
+}  // namespace carom

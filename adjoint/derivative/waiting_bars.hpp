@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "adjoint/derivative/derivative_tape.h"
+
+namespace carom::detail {
+
+/// The adjoints of a reverse pass in numbers S, on their way back through a motion: those that wait at events, the
+/// latest of which comes first, and what they come to in the end.
+template <class S>
+class WaitingBars {
+ public:
+  using StateBar = StateDerivativeOf<S>;
+  // At an event, by participant.
+  struct AtEvent {
+    std::vector<StateBar> after, before;
+    S time = 0;
+  };
+
+  explicit WaitingBars(const Motion& motion)
+      : scene(*motion.scene), start(motion.world_lines.size()), model(motion.world_lines.size()), motion_(motion) {}
+
+  SceneDerivativeOf<S> scene;
+  // a body each: of the start, and of the mass properties
+  std::vector<StateBar> start;
+  std::vector<BodyModelDerivativeOf<S>> model;
+
+  /// What is read of a body just before an event, whose weight of time is `time`; `rateOf()`: how fast its state changes
+  /// there. False where the body has no part in the event: then `bar` is still to go through its flight.
+  template <class Rate>
+  bool readBefore(int event, int body, const StateBar& bar, const S& time, const Rate& rateOf) {
+    AtEvent& at = atEvent(event);
+    at.time += time;
+    const Participant* p = eventOf(event).find(body);
+    if (p) {
+      at.before[placeOf(event, *p)] += bar;
+    } else {  // it moves on while the event comes later
+      at.time += bar.dot(rateOf());
+    }
+    return p;
+  }
+  /// Of a body at the start of its arc k, which is an event or the start of the motion.
+  void arriveAt(int body, int k, const StateBar& bar) {
+    const auto b = static_cast<std::size_t>(body);
+    if (k == 0) {
+      start[b] += bar;
+      return;
+    }
+    const int event = motion_.world_lines[b].events[static_cast<std::size_t>(k) - 1];
+    atEvent(event).after[placeOf(event, *eventOf(event).find(body))] += bar;
+  }
+  /// Calls through(event, bars) from the latest event on; it adds to earlier ones.
+  template <class Through>
+  void eachEvent(const Through& through) {
+    while (!pending_.empty()) {
+      const auto latest = pending_.begin();
+      const int event = latest->first;
+      const AtEvent bars = std::move(latest->second);
+      pending_.erase(latest);
+      through(event, bars);
+    }
+  }
+
+ private:
+  const Event& eventOf(int event) const { return motion_.events[static_cast<std::size_t>(event)]; }
+  std::size_t placeOf(int event, const Participant& p) const {
+    return static_cast<std::size_t>(&p - eventOf(event).participants.data());
+  }
+  AtEvent& atEvent(int event) {
+    AtEvent& at = pending_[event];
+    at.after.resize(eventOf(event).participants.size());
+    at.before.resize(eventOf(event).participants.size());
+    return at;
+  }
+
+  const Motion& motion_;
+  std::map<int, AtEvent, std::greater<>> pending_;
+};
+
+}  // namespace carom::detail

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+#include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/motion/motion.h"
+#include "adjoint/motion/pair_rules.hpp"
+
+namespace carom::detail {
+
+/// A contact of an event, linearised.
+template <class S>
+struct ContactPart {
+  struct Side {
+    int body, participant;  // participant -1: a fixed body
+  };
+  Side a, b;
+  double weight = 0;  // of its gap in the guard
+  // d(gap, normal, point) by (x_a, theta_a, x_b, theta_b) and by the dimensions
+  Eigen::Matrix<S, 7, 12> pose;
+  Eigen::Matrix<S, 7, Eigen::Dynamic> size_a, size_b;
+  bool tilted = false;
+  Eigen::Matrix<S, 3, 7> tilt;  // d(impulse normal) by (normal, tilt a, tilt b)
+  int material_a = -1, material_b = -1;
+  PairRules<S> rules;
+};
+
+/// One event, linearised, and its reverse pass, in one kind of number: impact, contact geometry and guard (equations 5.1
+/// to 5.3 of docs/equations.md). The weights of the guard are held: they weigh gaps that are all 0 there.
+template <class S>
+class EventPass {
+ public:
+  using Vec7 = Eigen::Matrix<S, 7, 1>;
+  using Vec12 = Eigen::Matrix<S, 12, 1>;
+  using Part = ContactPart<S>;
+  using StateBar = StateDerivativeOf<S>;
+  using ModelBar = BodyModelDerivativeOf<S>;
+  using SceneBar = SceneDerivativeOf<S>;
+
+  /// `wide`: doubles are too short for the impact; `rate_before`, `rate_after`: F- and F+ of the participants.
+  EventPass(const Event& event, bool wide, ImpactInputs<S> inputs, std::vector<Part> parts,
+            std::vector<StateBar> rate_before, std::vector<StateBar> rate_after)
+      : event_(event),
+        wide_(wide),
+        impact_(std::move(inputs)),
+        parts_(std::move(parts)),
+        rate_before_(std::move(rate_before)),
+        rate_after_(std::move(rate_after)) {
+    for (const Part& part : parts_) guard_rate_ += part.weight * part.pose.row(0).dot(poses(part, rate_before_));
+    if (wide_) return;
+    if constexpr (std::is_same_v<S, double>) {
+      P_.resize(3 * static_cast<Eigen::Index>(event.contacts.size()));
+      for (std::size_t k = 0; k < event.contacts.size(); ++k)
+        P_.template segment<3>(3 * static_cast<Eigen::Index>(k)) = event.contacts[k].impulse;
+    } else {
+      P_ = impact_.solve().P;
+    }
+  }
+
+  const ImpactPass<S>& impact() const { return impact_; }
+  bool wide() const { return wide_; }
+  const std::vector<Part>& parts() const { return parts_; }
+  const std::vector<StateBar>& rateBefore() const { return rate_before_; }
+  const std::vector<StateBar>& rateAfter() const { return rate_after_; }
+  /// D = d(guard)/dt < 0, m/s.
+  const S& guardRate() const { return guard_rate_; }
+
+  /// (x_a, theta_a, x_b, theta_b) of changes of the participants; fixed bodies stay.
+  static Vec12 poses(const Part& part, const std::vector<StateBar>& states) {
+    Vec12 d = Vec12::Zero();
+    Eigen::Index at = 0;
+    for (const auto& side : {part.a, part.b}) {
+      if (side.participant >= 0) {
+        d.template segment<3>(at) = states[static_cast<std::size_t>(side.participant)].x;
+        d.template segment<3>(at + 3) = states[static_cast<std::size_t>(side.participant)].theta;
+      }
+      at += 6;
+    }
+    return d;
+  }
+
+  /// Adjoint of (gap, normal, point) of a contact, to the participants or to the scene.
+  static void scatter(const Part& part, const Vec7& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar) {
+    const Vec12 d = part.pose.transpose() * bar;
+    Eigen::Index at = 0;
+    for (const auto& side : {part.a, part.b}) {
+      auto& body = scene_bar.bodies[static_cast<std::size_t>(side.body)];
+      const auto add = [&](auto& x, auto& theta) {
+        x += d.template segment<3>(at);
+        theta += d.template segment<3>(at + 3);
+      };
+      if (side.participant < 0) {
+        add(body.position, body.orientation);
+      } else {
+        StateBar& before = before_bar[static_cast<std::size_t>(side.participant)];
+        add(before.x, before.theta);
+      }
+      at += 6;
+    }
+    if (part.size_a.cols() > 0)
+      scene_bar.bodies[static_cast<std::size_t>(part.a.body)].size += part.size_a.transpose() * bar;
+    if (part.size_b.cols() > 0)
+      scene_bar.bodies[static_cast<std::size_t>(part.b.body)].size += part.size_b.transpose() * bar;
+  }
+
+  /// The same of what the impact sees of contact k: (gap, normal of the impulse, point) and coefficients.
+  void contactPullback(std::size_t k, Vec7 bar, const PairCoefficientsOf<S>& pair_bar,
+                       std::vector<StateBar>& before_bar, SceneBar& scene_bar) const {
+    const Part& part = parts_[k];
+    const Contact& c = event_.contacts[k];
+    if (part.tilted) {
+      const Vec7 by = part.tilt.transpose() * bar.template segment<3>(1);
+      bar.template segment<3>(1) = by.template head<3>();
+      if (c.tilt_a >= 0) scene_bar.tilts[static_cast<std::size_t>(c.tilt_a)] += by.template segment<2>(3);
+      if (c.tilt_b >= 0) scene_bar.tilts[static_cast<std::size_t>(c.tilt_b)] += by.template segment<2>(5);
+    }
+    scatter(part, bar, before_bar, scene_bar);
+    MaterialDerivativeOf<S> unused;
+    const auto slot = [&](int m) -> MaterialDerivativeOf<S>& {
+      return m < 0 ? unused : scene_bar.materials[static_cast<std::size_t>(m)];
+    };
+    part.rules.pullback(pair_bar, slot(part.material_a), slot(part.material_b));
+  }
+
+  /// See EventLinearization::pullback.
+  std::vector<StateBar> pullback(const std::vector<StateBar>& after_bar, const std::vector<StateBar>& read_bar,
+                                 const S& time_bar, SceneBar& scene_bar, std::vector<ModelBar>& model_bar) const {
+    std::vector<StateBar> before_bar(after_bar.size());
+    const bool through = std::any_of(after_bar.begin(), after_bar.end(), [](const auto& s) { return !s.isZero(); });
+    if (through) {  // lambda- = C_s^T lambda+, u_bar += C_u^T lambda+
+      ImpactBars<S> bars =
+          wide_ ? wideImpactPullback(impact_.inputs(), after_bar) : impact_.pullback(P_, after_bar);
+      before_bar = std::move(bars.before);
+      for (std::size_t i = 0; i < bars.model.size(); ++i)
+        model_bar[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
+      for (std::size_t k = 0; k < parts_.size(); ++k)
+        contactPullback(k, bars.contact[k], bars.pair[k], before_bar, scene_bar);
+    }
+    // sigma = (lambda+ . F+ - lambda- . F- - time_bar) / D; lambda- += phi_s^T sigma, u_bar += phi_u^T sigma
+    S sigma = -time_bar;
+    for (std::size_t i = 0; i < before_bar.size(); ++i) {
+      before_bar[i] += read_bar[i];
+      sigma += after_bar[i].dot(rate_after_[i]) - before_bar[i].dot(rate_before_[i]);
+    }
+    sigma /= guard_rate_;
+    for (const Part& part : parts_) {
+      Vec7 gap_bar = Vec7::Zero();
+      gap_bar[0] = sigma * part.weight;
+      scatter(part, gap_bar, before_bar, scene_bar);
+    }
+    return before_bar;
+  }
+
+ private:
+  const Event& event_;
+  bool wide_;
+  ImpactPass<S> impact_;
+  VectorOf<S> P_;
+  std::vector<Part> parts_;
+  std::vector<StateBar> rate_before_, rate_after_;
+  S guard_rate_ = 0;
+};
+
+}  // namespace carom::detail

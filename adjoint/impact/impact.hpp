@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/impact/law.hpp"
+#include "adjoint/motion/motion.h"
+
+namespace carom {
+namespace detail {
+template <class S>
+struct ImpactInputs;
+}  // namespace detail
+
+/// What the impulse of an event depends on: its contacts, and its participants with their states before.
+detail::ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyModel>& models);
+
+/// Tangent of (states before, contacts, coefficients, models) -> states after: the impact itself in numbers that carry
+/// their rates. `dcontact[k]` holds d(gap, normal of the impulse, point) of contact k; all others are of participants.
+/// `wide`: with 32 digits, see wide_impact.h.
+std::vector<StateDerivative> impactTangent(const detail::ImpactInputs<double>& inputs, bool wide,
+                                           const std::vector<StateDerivative>& dbefore,
+                                           const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
+                                           const std::vector<PairCoefficients>& dpair,
+                                           const std::vector<BodyModelDerivative>& dmodel);
+
+/// Fills in impulses, mode, approach and margins of an event and gives the states of its participants after it. Throws
+/// NotComputable where these are not finite numbers, and where a contact does not part as fast as its elasticity says.
+void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after);
+
+}  // namespace carom

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/base/types.h"
+#include "adjoint/motion/motion.h"
+
+namespace carom {
+
+/// What an impact law sees: contacts k with unit normals n_k (b to a), relative velocities u_k before the impact and
+/// the matrix K of 3x3 blocks with u+ = u + K P for impulses P (on a). All in world axes, in any kind of number.
+template <class S>
+struct ImpactProblemOf {
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> K;  ///< 3N x 3N, kg^-1
+  Eigen::Matrix<S, Eigen::Dynamic, 1> u;               ///< 3N, m/s
+  std::vector<Eigen::Matrix<S, 3, 1>> normal;          ///< N
+  std::vector<PairCoefficientsOf<S>> pair;             ///< N
+  /// A kinematic body takes part: u need not be in the range of what impulses can change.
+  bool driven = false;
+
+  int contacts() const { return static_cast<int>(normal.size()); }
+};
+using ImpactProblem = ImpactProblemOf<double>;
+
+/// Tangent or adjoint of an ImpactProblem, field by field.
+template <class S>
+struct ImpactProblemDerivativeOf {
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> K;
+  Eigen::Matrix<S, Eigen::Dynamic, 1> u;
+  std::vector<Eigen::Matrix<S, 3, 1>> normal;
+  std::vector<PairCoefficientsOf<S>> pair;
+
+  explicit ImpactProblemDerivativeOf(int contacts) : normal(static_cast<std::size_t>(contacts)) {
+    K.setZero(3 * contacts, 3 * contacts);
+    u.setZero(3 * contacts);
+    for (auto& n : normal) n.setZero();
+    pair.resize(normal.size());
+  }
+};
+using ImpactProblemDerivative = ImpactProblemDerivativeOf<double>;
+
+/// Impulses, and the branch that was taken.
+template <class S>
+struct ImpactSolutionOf {
+  Eigen::Matrix<S, Eigen::Dynamic, 1> P;  ///< 3N, N s, on a
+  ImpactMode mode = ImpactMode::frictionless;
+  double stick_slip_margin = 1;  ///< see Margins
+};
+using ImpactSolution = ImpactSolutionOf<double>;
+
+/// The same for one contact, of fixed size.
+template <class S>
+struct ContactProblemOf {
+  Eigen::Matrix<S, 3, 3> K;
+  Eigen::Matrix<S, 3, 1> u, normal;
+  PairCoefficientsOf<S> pair;
+};
+using ContactProblem = ContactProblemOf<double>;
+struct ContactSolution {
+  Vec3 P;
+  ImpactMode mode = ImpactMode::frictionless;
+  double stick_slip_margin = 1;
+};
+ContactSolution solveContact(const ContactProblem& problem);  ///< 4.1 or 4.2
+
+/// Of a contact without friction: how far it is from where the impulse has no derivative by the coefficient of friction
+/// at 0, because a body that does not slip there sticks with the least friction. |P_t|/P_n of the untruncated impulse.
+double frictionFromZeroMargin(const ContactProblem& problem);
+
+/// The only contact of a problem.
+template <class S>
+ContactProblemOf<S> onlyContact(const ImpactProblemOf<S>& p) {
+  return {p.K, p.u, p.normal[0], p.pair[0]};
+}
+
+/// One row of the table of impact laws. tangent and pullback differentiate the branch that solve takes.
+struct ImpactLaw {
+  const char* name;
+  ImpactSolution (*solve)(const ImpactProblem&);
+  Eigen::VectorXd (*tangent)(const ImpactProblem&, const ImpactProblemDerivative& dproblem);
+  void (*pullback)(const ImpactProblem&, const Eigen::VectorXd& P_bar, ImpactProblemDerivative& problem_bar);
+};
+
+extern const ImpactLaw kFrictionlessLaw;  ///< 4.1, one contact, friction 0
+extern const ImpactLaw kFrictionLaw;      ///< 4.2, one contact
+extern const ImpactLaw kJointLaw;         ///< 4.3, several contacts
+
+/// A contact without friction is one that slides with a coefficient of 0: a motion varies smoothly from the one to the
+/// other.
+inline ImpactMode branchOf(ImpactMode mode) { return mode == ImpactMode::frictionless ? ImpactMode::slide : mode; }
+
+/// The law that a problem falls under.
+inline const ImpactLaw& lawFor(const ImpactProblem& problem) {
+  if (problem.contacts() > 1) return kJointLaw;
+  return lawOf(problem.pair[0]) == Law::friction ? kFrictionLaw : kFrictionlessLaw;
+}
+
+}  // namespace carom

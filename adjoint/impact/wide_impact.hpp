@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/motion/motion.h"
+
+namespace carom {
+
+/// Whether doubles are too short for an impact: what an impulse gives its bodies, in speed and in spin at the contacts,
+/// differs by more than 1e3: a velocity may lose that many digits, a derivative twice as many. Numbers of 32 digits take
+/// over then, for the impact and all of its derivatives.
+bool needsWide(const Event& event, const std::vector<BodyModel>& models);
+
+/// The same of an event that was solved, or is to be.
+inline bool usesWide(const Event& event, const std::vector<BodyModel>& models) {
+  return event.wide || needsWide(event, models);
+}
+
+}  // namespace carom

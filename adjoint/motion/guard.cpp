@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/motion/guard.hpp"
+
+#include <algorithm>
+
+namespace carom {
+
+std::vector<double> guardWeights(const Event& event) {
+  std::vector<double> weights;
+  double total = 0;
+  for (const Contact& c : event.contacts) {
+    weights.push_back(std::max(0.0, c.impulse_normal.dot(c.impulse)));
+    total += weights.back();
+  }
+  for (double& w : weights) w = total > 0 ? w / total : 1.0 / static_cast<double>(weights.size());
+  return weights;
+}
+
+int participantOf(const Event& event, int body) {
+  const Participant* p = event.find(body);
+  return p ? static_cast<int>(p - event.participants.data()) : -1;
+}
+
+Pose poseBefore(const Motion& motion, const Event& event, int body) {
+  const BodyModel& model = (*motion.models)[static_cast<std::size_t>(body)];
+  const Participant* p = event.find(body);
+  const State& s = p ? p->before : motion.world_lines[static_cast<std::size_t>(body)].arcs[0].startState();
+  return {s.x, model.shapeToWorld(s.q.toRotationMatrix())};
+}
+
+}  // namespace carom

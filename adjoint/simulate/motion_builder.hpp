@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/motion/motion.h"
+
+namespace carom {
+
+/// Makes a motion, event by event: what `simulate`, which finds the events, and `replay`, which knows them, do alike.
+class MotionBuilder {
+ public:
+  /// Scene, models and duration of the motion; plan and geometry are still to be set.
+  MotionBuilder(const Scene& scene, double duration);
+
+  Motion motion;
+
+  /// The first arc of every body.
+  void start();
+  /// A flight of a body from a state on.
+  Arc flight(int body, double time, const State& state) const;
+
+  /// Fills in the contact at the features of `contact`, where its bodies are at `a` and `b`: geometry, the normal of the
+  /// impulse with its tilts, approach.
+  void place(Contact& contact, const Kinematics& a, const Kinematics& b) const;
+  /// The coefficients of two bodies.
+  PairCoefficients pairOf(int a, int b) const { return combine(*material_[index(a)], *material_[index(b)]); }
+  /// The first contact whose bodies go on into one another, as an impulse along a tilted normal may make them; null
+  /// where there is none.
+  const Contact* notParted(const Event& event, const std::vector<State>& after) const;
+
+  /// Adds an event, and the arcs of its participants from then on.
+  void add(Event&& event, std::vector<Arc>&& arcs);
+  /// The status and the message of a motion that ends where the flight of a body cannot be followed.
+  void endFlight(std::size_t body, const NotComputable& why);
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  std::vector<const Material*> material_;  // a body each
+};
+
+}  // namespace carom
