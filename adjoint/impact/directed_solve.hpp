@@ -24,14 +24,15 @@ struct LeastNorm<Dual<N, T>> {
   LeastNorm(const MatrixOf<S>& A, const VectorOf<S>& b) {
     const LeastNormSolveOf<T> now(valuesOf(A), valuesOf(b));
     inverse = now.inverse.template cast<S>();
+    y = now.y.template cast<S>();  // its rates from those of A and b: those of A^+ have lost digits
     rest = now.rest.template cast<S>();
     const MatrixOf<T> twice = now.inverse * now.inverse;
     for (std::size_t i = 0; i < N; ++i) {
       const MatrixOf<T> dA = ratesOf(A, i), across = now.rest * dA * now.inverse, up = now.rest * dA * twice;
       setRates(inverse, MatrixOf<T>(up + up.transpose() - now.inverse * dA * now.inverse), i);
       setRates(rest, MatrixOf<T>(-across - across.transpose()), i);
+      setRates(y, now.tangent(dA, ratesOf(b, i)), i);
     }
-    y = -(inverse * b);
     inverse_y = inverse * y;
   }
   void pullback(const VectorOf<S>& y_bar, MatrixOf<S>& A_bar, VectorOf<S>& b_bar) const {

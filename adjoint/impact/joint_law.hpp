@@ -191,16 +191,16 @@ struct Branch {
     return p.pair[static_cast<std::size_t>(k)].friction > 0;
   }
 
-  // Whole 3x3 blocks for contacts with friction, the normal (or its derivative) for those without.
+  // Whole 3x3 blocks for contacts with friction, the normal for those without.
   template <class Problem>
-  MatrixOf<S> stickColumns(const Problem& p, const std::vector<V3<S>>& normals, bool derivative = false) const {
+  MatrixOf<S> stickColumns(const Problem& p, const std::vector<V3<S>>& normals) const {
     Index columns = 0;
     for (int k : directions) columns += sticks(p, k) ? 3 : 1;
     MatrixOf<S> C = MatrixOf<S>::Zero(3 * static_cast<Index>(p.normal.size()), columns);
     Index at = 0;
     for (int k : directions) {
       if (sticks(p, k)) {
-        if (!derivative) C.template block<3, 3>(3 * k, at).setIdentity();
+        C.template block<3, 3>(3 * k, at).setIdentity();
         at += 3;
       } else {
         C.template block<3, 1>(3 * k, at++) = normals[static_cast<std::size_t>(k)];
