@@ -17,7 +17,7 @@
 
 #include "bench/drag_scenes.h"
 #include "bench/machine.h"
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom {

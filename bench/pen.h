@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 
 namespace carom {
 

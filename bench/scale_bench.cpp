@@ -14,8 +14,8 @@
 #include <functional>
 #include <string>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/machine.h"
 #include "bench/pen.h"
 #include "ode_bridge/ode_contacts.h"

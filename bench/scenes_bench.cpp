@@ -10,11 +10,11 @@
 #include <span>
 #include <string>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
-#include "editing/problem/jacobian.h"
-#include "formats/scene_json.h"
+#include "editing/problem/jacobian.hpp"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom {

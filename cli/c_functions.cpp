@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 
-// The C library's names for the functions of adjoint/elementary.h. A program that exports them (cli/CMakeLists.txt) is
+// The C library's names for the functions of adjoint/numeric/elementary.hpp. A program that exports them (cli/CMakeLists.txt) is
 // where the loader looks first: Ipopt, MUMPS, LAPACK, ODE and qhull, and our own reading and writing, then compute with
 // them, too, and an edit does not depend on what the C library thinks of the processor. docs/elementary.md tells more.
 // No header of the C library here: it would declare them with attributes that differ by version.

@@ -7,10 +7,10 @@
 #include <sstream>
 #include <utility>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
-#include "adjoint/so3.h"
-#include "editing/problem/rows/refined_times.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/simulate.h"
+#include "editing/problem/rows/refined_times.hpp"
 
 namespace carom::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "formats/check_json.h"
+#include "formats/answers/check_json.h"
 
 /// Differences, the only ones of the program: a test tool that the exact derivatives are held against.
 namespace carom::cli {

@@ -10,8 +10,8 @@
 #include "carom/version.h"
 #include "cli/command.h"
 #include "cli/pages/declared.h"
-#include "formats/format_error.h"
-#include "formats/status_json.h"
+#include "formats/answers/status_json.h"
+#include "formats/base/format_error.h"
 
 namespace carom::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "cli/table.h"
 #include "cli/units.h"
 #include "editing/edit.h"
-#include "formats/edit_json.h"
+#include "formats/answers/edit_json.h"
 
 namespace carom::cli {
 namespace {

@@ -13,9 +13,9 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
-#include "formats/export_motion.h"
-#include "formats/status_json.h"
-#include "formats/write_file.h"
+#include "formats/answers/status_json.h"
+#include "formats/base/write_file.hpp"
+#include "formats/export/export_motion.h"
 
 namespace carom::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "cli/progress.h"
 #include "cli/table.h"
 #include "cli/units.h"
-#include "formats/gradient_json.h"
+#include "formats/answers/gradient_json.h"
 
 namespace carom::cli {
 namespace {

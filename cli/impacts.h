@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "cli/output.h"
 
 /// The impacts of a motion for people.

@@ -10,8 +10,8 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
-#include "formats/import_gltf.h"
-#include "formats/status_json.h"
+#include "formats/answers/status_json.h"
+#include "formats/gltf/read/import_gltf.h"
 
 namespace carom::cli {
 namespace {

@@ -7,17 +7,17 @@
 #include <map>
 #include <memory>
 
-#include "adjoint/body_model.h"
+#include "adjoint/scene/body_model.h"
 #include "carom/version.h"
 #include "cli/build_facts.h"
 #include "cli/command.h"
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/table.h"
-#include "formats/export_motion.h"
-#include "formats/info_json.h"
-#include "formats/json_writer.h"
-#include "formats/status_json.h"
+#include "formats/answers/info_json.h"
+#include "formats/answers/status_json.h"
+#include "formats/export/export_motion.h"
+#include "formats/json/json_writer.hpp"
 
 namespace carom::cli {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
-#include "editing/problem/rows/refined_times.h"
-#include "formats/json_writer.h"
+#include "editing/problem/rows/refined_times.hpp"
+#include "formats/json/json_writer.hpp"
 
 namespace carom::cli {
 

@@ -5,9 +5,9 @@
 
 #include "cli/options.h"
 #include "cli/output.h"
-#include "editing/problem/jacobian.h"
-#include "formats/document.h"
-#include "formats/format_error.h"
+#include "editing/problem/jacobian.hpp"
+#include "formats/base/document.h"
+#include "formats/base/format_error.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::cli {

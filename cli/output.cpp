@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "cli/command.h"
 
 namespace carom::cli {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 #include "cli/interruption.h"
 #include "cli/terminal.h"
 

@@ -13,7 +13,7 @@
 #include "cli/units.h"
 #include "editing/session_replay.h"
 #include "editing/session_numbers.h"
-#include "formats/journal_json.h"
+#include "formats/documents/journal_json.h"
 
 namespace carom::cli {
 namespace {

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <memory>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "cli/command.h"
 #include "cli/impacts.h"
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/table.h"
-#include "formats/json_writer.h"
-#include "formats/result_json.h"
+#include "formats/answers/result_json.h"
+#include "formats/json/json_writer.hpp"
 
 namespace carom::cli {
 namespace {

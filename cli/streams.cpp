@@ -4,10 +4,10 @@
 #include <iostream>
 
 #include "cli/loading.h"
-#include "formats/mesh_file.h"
-#include "formats/read_file.h"
-#include "formats/scene_json.h"
-#include "formats/write_file.h"
+#include "formats/base/read_file.hpp"
+#include "formats/base/write_file.hpp"
+#include "formats/documents/scene_json.h"
+#include "formats/mesh/mesh_file.h"
 
 namespace carom::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "cli/output.h"
-#include "formats/document.h"
-#include "formats/import_gltf.h"
-#include "formats/journal_json.h"
+#include "formats/base/document.h"
+#include "formats/documents/journal_json.h"
+#include "formats/gltf/read/import_gltf.h"
 
 /// Files by name, and "-" for standard input or output. File names in a document of either are relative to the current
 /// folder; errors call them <stdin> and <stdout>.

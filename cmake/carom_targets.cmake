@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # carom_library(<name>): the static library carom_<name> (alias carom::<name>) from all .cpp files of the current folder
-# and its sub-folders. Include paths start at the project root: #include "adjoint/scene.h".
+# and its sub-folders. Include paths start at the project root: #include "adjoint/scene/scene.h".
 function(carom_library name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)

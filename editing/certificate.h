@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "adjoint/derivative_tape.h"
+#include "adjoint/derivative/derivative_tape.h"
 
 namespace carom {
 
@@ -27,7 +27,7 @@ struct Certificate {
 
   /// How deep bodies overlap at the most, m, by the exact geometry of their shapes: at every impact, and at
   /// kOverlapSamples instants of every flight that lie closer towards its ends, of each body with all others. Nothing
-  /// where the source of contacts does not know whole bodies (adjoint/body_geometry.h).
+  /// where the source of contacts does not know whole bodies (adjoint/motion/body_geometry.h).
   std::optional<double> deepest_penetration;
 
   Reliability reliability;  ///< of the derivatives of the constraints, worst row

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "adjoint/shape.h"
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
+#include "adjoint/scene/shape.h"
 
 namespace carom {
 
@@ -63,7 +63,7 @@ struct Constraint {
   std::string body;
   When at;
   std::vector<Target> targets;
-  /// Not empty: targets are seen from this body, in its shape's axes (see `seenFrom` in editing/problem/rows/relative.h).
+  /// Not empty: targets are seen from this body, in its shape's axes (see `seenFrom` in editing/problem/rows/relative.hpp).
   std::string relative_to = {};
   std::vector<Region> regions = {};  ///< whenever `at` is
   std::string notes = {};            ///< for people; kept in documents

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/report/alternatives.hpp"
 #include "editing/report/explain.hpp"

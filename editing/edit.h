@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/edit_options.h"
 #include "editing/edit_result.h"
 #include "editing/nail.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 namespace carom {
 

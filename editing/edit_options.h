@@ -22,7 +22,7 @@ struct EditProgress {
 
 /// Where Ipopt takes the second derivatives of the rows from.
 enum class SecondDerivatives {
-  exact,          ///< adjoint/second_order.h
+  exact,          ///< adjoint/second_order/second_order.h
   secant,         ///< learnt from the gradients, row by row: cheaper steps, more of them (docs/decisions.md)
   limited_memory  ///< Ipopt's own approximation
 };

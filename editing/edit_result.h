@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/derivative_tape.h"
-#include "adjoint/motion.h"
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/motion/motion.h"
 #include "editing/certificate.h"
 #include "editing/sequence_changes.h"
 #include "editing/why_not.h"

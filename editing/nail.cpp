@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/edit.h"
 
 namespace carom {

@@ -28,7 +28,7 @@ class Nail {
   Nail& point(const Vec3& body_point, Wanted x, Wanted y, Wanted z);
 
   /// All quantities are those of the body as seen from another one, in the axes of its shape (see `seenFrom` in
-  /// editing/problem/rows/relative.h). "" takes it back.
+  /// editing/problem/rows/relative.hpp). "" takes it back.
   Nail& relativeTo(const std::string& body);
 
   /// One more region that the body stays out of, or within, over the region's own time, whatever that of the nail.

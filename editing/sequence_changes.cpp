@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "adjoint/impact/law.h"
+#include "adjoint/impact/law.hpp"
 #include "editing/detail/messages.hpp"
 
 namespace carom {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 
 namespace carom {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session_numbers.h"

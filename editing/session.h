@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/edit.h"
@@ -133,7 +133,7 @@ class EditSession {
   const Constraint& constraintOf(NailId id) const;
   const SessionOptions& options() const;
 
-  /// All gestures that came to an end, for saving (formats/journal_json.h) and replay.
+  /// All gestures that came to an end, for saving (formats/documents/journal_json.h) and replay.
   const SessionJournal& journal() const;
 
  private:

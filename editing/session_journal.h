@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/edit_options.h"

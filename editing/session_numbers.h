@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "editing/control.h"
 
 namespace carom {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session_numbers.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "editing/edit.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "editing/session.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;

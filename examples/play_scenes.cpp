@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <string>
 
-#include "adjoint/simulate.h"
-#include "formats/scene_json.h"
+#include "adjoint/simulate/simulate.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;

@@ -2,7 +2,7 @@
 // Throws a spinning brick onto the floor and reads its motion: impacts, and the state at any time.
 #include <cstdio>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;

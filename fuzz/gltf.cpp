@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <optional>
 
-#include "formats/gltf_reader.h"
-#include "formats/import_gltf.h"
+#include "formats/gltf/read/import_gltf.h"
+#include "formats/mesh/gltf_reader.hpp"
 #include "fuzz/require.h"
 #include "fuzz/surfaces.h"
 #include "fuzz/targets.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/obj_reader.h"
+#include "formats/mesh/obj_reader.hpp"
 
 #include "fuzz/require.h"
 #include "fuzz/surfaces.h"

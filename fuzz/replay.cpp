@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/read_file.h"
+#include "formats/base/read_file.hpp"
 #include "fuzz/targets.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 
 namespace carom::fuzz {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "adjoint/body_model.h"
-#include "formats/scene_json.h"
+#include "adjoint/scene/body_model.h"
+#include "formats/documents/scene_json.h"
 #include "fuzz/require.h"
 #include "fuzz/targets.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "adjoint/surface.h"
+#include "adjoint/scene/surface.h"
 #include "fuzz/require.h"
 #include "ode_bridge/convex_hull.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "formats/mesh_file.h"
+#include "formats/mesh/mesh_file.h"
 
 namespace carom::fuzz {
 

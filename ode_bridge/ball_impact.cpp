@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/ball_impact.h"
+#include "ode_bridge/ball_impact.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "ode_bridge/rounding.h"
+#include "ode_bridge/rounding.hpp"
 
 namespace carom {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/body_geometry.h"
+#include "adjoint/motion/body_geometry.h"
 
-#include "adjoint/arguments.h"
-#include "ode_bridge/feature_limits.h"
-#include "ode_bridge/gaps.h"
-#include "ode_bridge/overlap.h"
+#include "adjoint/base/arguments.hpp"
+#include "ode_bridge/feature_limits.hpp"
+#include "ode_bridge/gaps.hpp"
+#include "ode_bridge/overlap.hpp"
 
 namespace carom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/box_grid.h"
+#include "ode_bridge/box_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

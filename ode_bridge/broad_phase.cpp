@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/broad_phase.h"
+#include "ode_bridge/broad_phase.hpp"
 
 #include <algorithm>
 
-#include "ode_bridge/library.h"
+#include "ode_bridge/library.hpp"
 
 #include <ode/ode.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/collision_classes.h"
+#include "ode_bridge/collision_classes.hpp"
 
 #include <algorithm>
 #include <map>

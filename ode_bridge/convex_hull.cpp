@@ -7,9 +7,9 @@
 #include <set>
 #include <sstream>
 
-#include "adjoint/refuse.h"
-#include "adjoint/weld.h"
-#include "ode_bridge/qhull_facets.h"
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/scene/weld.hpp"
+#include "ode_bridge/qhull_facets.hpp"
 
 namespace carom {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "adjoint/surface.h"
+#include "adjoint/scene/surface.h"
 
 namespace carom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/feature_limits.h"
+#include "ode_bridge/feature_limits.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/first_impact.h"
+#include "ode_bridge/first_impact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/errors.h"
-#include "ode_bridge/refine.h"
-#include "ode_bridge/touching.h"
+#include "adjoint/base/errors.h"
+#include "ode_bridge/refine.hpp"
+#include "ode_bridge/touching.hpp"
 
 namespace carom {
 namespace {

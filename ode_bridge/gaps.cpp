@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/gaps.h"
+#include "ode_bridge/gaps.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "adjoint/arguments.h"
+#include "adjoint/base/arguments.hpp"
 #include "ode_bridge/gaps/rows.hpp"
 
 namespace carom {

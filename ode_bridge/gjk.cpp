@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/gjk.h"
+#include "ode_bridge/gjk.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/library.h"
+#include "ode_bridge/library.hpp"
 
 #include <ode/ode.h>
 

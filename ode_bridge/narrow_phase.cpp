@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/narrow_phase.h"
+#include "ode_bridge/narrow_phase.hpp"
 
 #include <ode/ode.h>
 
-#include "ode_bridge/library.h"
+#include "ode_bridge/library.hpp"
 
 namespace carom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/near_features.h"
+#include "ode_bridge/near_features.hpp"
 
 #include <algorithm>
 #include <cmath>

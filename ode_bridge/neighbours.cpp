@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/neighbours.h"
+#include "ode_bridge/neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 
 namespace carom {
 namespace {

@@ -7,14 +7,14 @@
 #include <set>
 #include <string>
 
-#include "adjoint/arguments.h"
-#include "adjoint/errors.h"
-#include "ode_bridge/ball_impact.h"
-#include "ode_bridge/first_impact.h"
-#include "ode_bridge/neighbours.h"
-#include "ode_bridge/overlap.h"
-#include "ode_bridge/parting.h"
-#include "ode_bridge/touching.h"
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/base/errors.h"
+#include "ode_bridge/ball_impact.hpp"
+#include "ode_bridge/first_impact.hpp"
+#include "ode_bridge/neighbours.hpp"
+#include "ode_bridge/overlap.hpp"
+#include "ode_bridge/parting.hpp"
+#include "ode_bridge/touching.hpp"
 
 namespace carom {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "adjoint/contact_source.h"
+#include "adjoint/motion/contact_source.h"
 
 namespace carom {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/overlap.h"
+#include "ode_bridge/overlap.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "adjoint/elementary.h"
-#include "ode_bridge/leaf_pairs.h"
+#include "adjoint/numeric/elementary.hpp"
+#include "ode_bridge/leaf_pairs.hpp"
 
 namespace carom {
 namespace {

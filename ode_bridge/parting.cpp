@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/parting.h"
+#include "ode_bridge/parting.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "adjoint/errors.h"
-#include "ode_bridge/overlap.h"
-#include "ode_bridge/touching.h"
+#include "adjoint/base/errors.h"
+#include "ode_bridge/overlap.hpp"
+#include "ode_bridge/touching.hpp"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/qhull_facets.h"
+#include "ode_bridge/qhull_facets.hpp"
 
 #include <cfloat>
 #include <cmath>

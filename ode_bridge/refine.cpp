@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/refine.h"
+#include "ode_bridge/refine.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "ode_bridge/rounding.h"
+#include "ode_bridge/rounding.hpp"
 
 namespace carom {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "ode_bridge/separation.h"
+#include "ode_bridge/separation.hpp"
 
 // Along a direction n(t), from b to a, the separation at t + h is at least
 //   g(h) = c + c' h + min_A (n + m_A h).r - max_B (n + m_B h).r - 1/2 bend h^2,

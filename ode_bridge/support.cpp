@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/support.h"
+#include "ode_bridge/support.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/swept_bounds.h"
+#include "ode_bridge/swept_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>

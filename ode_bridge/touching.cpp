@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/touching.h"
+#include "ode_bridge/touching.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "ode_bridge/leaf_pairs.h"
-#include "ode_bridge/near_features.h"
-#include "ode_bridge/rounding.h"
+#include "ode_bridge/leaf_pairs.hpp"
+#include "ode_bridge/near_features.hpp"
+#include "ode_bridge/rounding.hpp"
 
 namespace carom {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "ode_bridge/gjk.h"
-#include "ode_bridge/near_features.h"
-#include "ode_bridge/separation.h"
+#include "ode_bridge/gjk.hpp"
+#include "ode_bridge/near_features.hpp"
+#include "ode_bridge/separation.hpp"
 
 // Any direction bounds the distance of two convex pieces from below; the best one equals it. Nearest points find that
 // direction while pieces are well apart. Where they nearly touch, nearest points say where but no longer say which way

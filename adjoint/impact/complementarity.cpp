@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/complementarity.h"
+#include "adjoint/impact/complementarity.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
-#include "adjoint/detail/wide.hpp"
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/wide.hpp"
 
 namespace carom {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/detail/single_laws.hpp"
-#include "adjoint/impact/law.h"
+#include "adjoint/impact/law.hpp"
+#include "adjoint/impact/single_laws.hpp"
 
 namespace carom {
 namespace {

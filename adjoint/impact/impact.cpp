@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/impact.h"
+#include "adjoint/impact/impact.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/errors.h"
-#include "adjoint/impact/wide_impact.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/impact/wide_impact.hpp"
 
 namespace carom {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "adjoint/detail/joint_law.hpp"
-#include "adjoint/impact/law.h"
+#include "adjoint/impact/joint_law.hpp"
+#include "adjoint/impact/law.hpp"
 
 // Equation 4.3: the law and its adjoint stand in joint_law.hpp, the tangent here.
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/tilt.h"
+#include "adjoint/impact/tilt.hpp"
 
 #include <algorithm>
 
-#include "adjoint/detail/tilt_frame.hpp"
+#include "adjoint/impact/tilt_frame.hpp"
 
 namespace carom {
 

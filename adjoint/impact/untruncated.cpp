@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/untruncated.h"
+#include "adjoint/impact/untruncated.hpp"
 
 #include <Eigen/Cholesky>
 

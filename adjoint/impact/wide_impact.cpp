@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/impact/wide_impact.h"
+#include "adjoint/impact/wide_impact.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/detail/impact_pass.hpp"
+#include "adjoint/impact/impact_pass.hpp"
 
 namespace carom {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 
 namespace carom::charts {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/engines/engine.h"
 #include "bench/charts/map.h"

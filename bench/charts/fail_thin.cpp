@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/engines/engine.h"
 #include "bench/charts/map.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "adjoint/flight_triaxial.h"
+#include "adjoint/flight/flight_triaxial.hpp"
 #include "bench/charts/chart.h"
 #include "bench/charts/spin_models.h"
 #include "tests/reference/replay.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 
 namespace carom::charts {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "adjoint/impact/impact.h"
+#include "adjoint/impact/impact.hpp"
 
 namespace carom::charts {
 namespace {

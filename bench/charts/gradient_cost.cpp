@@ -8,9 +8,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/tangent.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/charts/chart.h"
 #include "bench/pen.h"
 #include "ode_bridge/ode_contacts.h"

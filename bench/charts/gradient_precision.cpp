@@ -9,8 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/tangent.h"
 #include "bench/charts/chart.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/engines/engine.h"

@@ -8,9 +8,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/flight_symmetric.h"
-#include "adjoint/simulate.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/simulate/simulate.h"
 #include "bench/charts/chart.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/error.h"

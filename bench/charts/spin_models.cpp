@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "adjoint/flight_elliptic.h"
-#include "adjoint/flight_symmetric.h"
-#include "adjoint/flight_triaxial.h"
+#include "adjoint/flight/flight_elliptic.hpp"
+#include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/flight/flight_triaxial.hpp"
 #include "bench/charts/flight_models.h"
 
 namespace carom::charts {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/arc.h"
+#include "adjoint/flight/arc.h"
 
 namespace carom::charts {
 

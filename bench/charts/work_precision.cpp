@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "adjoint/replay.h"
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/replay.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/charts/chart.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/engines/engine.h"

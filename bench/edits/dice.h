@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 
 namespace carom::bench {
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "bench/edits/report.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 
 namespace carom::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 
 namespace carom::bench {
 namespace {

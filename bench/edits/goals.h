@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/wanted.h"
 #include "editing/constraint.h"

@@ -7,8 +7,8 @@
 #include <exception>
 #include <limits>
 
-#include "adjoint/simulate.h"
-#include "editing/problem/jacobian.h"
+#include "adjoint/simulate/simulate.h"
+#include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {

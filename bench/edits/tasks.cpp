@@ -7,13 +7,13 @@
 #include <optional>
 #include <string>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/goals.h"
 #include "bench/edits/throws.h"
 #include "bench/edits/varied.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "bench/edits/wanted.h"
 #include "editing/constraint.h"
 #include "editing/control.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/wanted.h"
 

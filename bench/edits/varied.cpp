@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 
 namespace carom::bench {
 namespace {

@@ -17,13 +17,13 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/edits/dice.h"
 #include "bench/machine.h"
 #include "editing/edit.h"
-#include "editing/problem/jacobian.h"
-#include "formats/scene_json.h"
+#include "editing/problem/jacobian.hpp"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {
@@ -212,7 +212,7 @@ std::vector<LongTask> allTasks() {
   return tasks;
 }
 
-// Counts the motions that are simulated; followed ones (adjoint/replay.h) are not among them.
+// Counts the motions that are simulated; followed ones (adjoint/simulate/replay.h) are not among them.
 class Counted final : public ContactSource {
  public:
   Counted(std::unique_ptr<ContactSource> inner, std::shared_ptr<std::atomic<int>> count)

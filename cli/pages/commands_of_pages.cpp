@@ -8,7 +8,7 @@
 #include "cli/options.h"
 #include "cli/pages/pages.h"
 #include "cli/streams.h"
-#include "formats/write_file.h"
+#include "formats/base/write_file.hpp"
 
 namespace carom::cli {
 namespace {

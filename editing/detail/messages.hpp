@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 
 /// Small helpers for messages. Internal to editing/.
 namespace carom::editing_detail {

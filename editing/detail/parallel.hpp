@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "adjoint/contact_source.h"
+#include "adjoint/motion/contact_source.h"
 
 /// Work on several cores, with answers that do not depend on how many. Internal to editing/.
 namespace carom::editing_detail {

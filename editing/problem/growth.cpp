@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/elementary.h"
-#include "adjoint/seed.h"
-#include "editing/problem/controls/natural_scales.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/seed.hpp"
+#include "adjoint/numeric/elementary.hpp"
+#include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editing/problem/hessian.hpp"
 
-#include "adjoint/second_order.h"
+#include "adjoint/second_order/second_order.h"
 
 // With v the control values, t the free times and z the unknowns, v = v(z) and t = t(z) each by each:
 //   d^2 f/dz^2 = diag(v') d^2 f/d(v, t)^2 diag(v') + diag(df/dv v'').

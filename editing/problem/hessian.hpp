@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 /// Second derivatives of an edit. Internal to editing/.
 namespace carom::editing_detail {
 
 /// Second derivatives of weights . (values of the rows, SI) by the unknowns of a problem, whose motion and rows were
-/// read at `unknowns`: exact, by differentiating the adjoint pass (adjoint/second_order.h). Rows without weight may be
+/// read at `unknowns`: exact, by differentiating the adjoint pass (adjoint/second_order/second_order.h). Rows without weight may be
 /// missing.
 Eigen::MatrixXd rowsHessian(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
                             const RowValues& rows, const Eigen::VectorXd& weights);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/errors.h"
-#include "adjoint/seed.h"
-#include "adjoint/tangent.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/seed.hpp"
+#include "adjoint/derivative/tangent.h"
 #include "editing/detail/messages.hpp"
 
 namespace carom {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "editing/detail/messages.hpp"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "editing/report/event_margins.hpp"
 #include "editing/report/motion_checks.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editing/certificate.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 namespace carom::editing_detail {
 

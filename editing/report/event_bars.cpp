@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editing/report/event_bars.hpp"
 
-#include "adjoint/adjoint.h"
-#include "adjoint/impact/tilt.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/impact/tilt.hpp"
 
 namespace carom {
 namespace {

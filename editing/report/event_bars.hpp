@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "adjoint/derivative_tape.h"
+#include "adjoint/derivative/derivative_tape.h"
 
 /// Gradients of numbers that are read at an impact. Internal to editing/.
 namespace carom {

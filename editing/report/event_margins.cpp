@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "adjoint/body_geometry.h"
-#include "adjoint/elementary.h"
-#include "adjoint/impact/untruncated.h"
+#include "adjoint/impact/untruncated.hpp"
+#include "adjoint/motion/body_geometry.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "editing/detail/messages.hpp"
 #include "editing/report/event_bars.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/derivative_tape.h"
+#include "adjoint/derivative/derivative_tape.h"
 
 /// How far the impacts of a motion are from being others. Internal to editing/.
 namespace carom::editing_detail {

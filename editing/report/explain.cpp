@@ -7,7 +7,7 @@
 
 #include <Eigen/QR>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 #include "editing/report/extended_controls.hpp"
 #include "editing/report/linear_model.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/adjoint.h"
 
 namespace carom::editing_detail {
 namespace {

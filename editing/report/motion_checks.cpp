@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/body_geometry.h"
+#include "adjoint/motion/body_geometry.h"
 
 namespace carom::editing_detail {
 namespace {

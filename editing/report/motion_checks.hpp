@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 
 /// Checks of a motion against physics. Internal to editing/; see Certificate for what each says.
 namespace carom::editing_detail {

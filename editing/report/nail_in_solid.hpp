@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "editing/why_not.h"
 
 /// Internal to editing/.

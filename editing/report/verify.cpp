@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/adjoint.h"
+#include "adjoint/derivative/adjoint.h"
 #include "editing/detail/messages.hpp"
 #include "editing/report/certify.hpp"
 

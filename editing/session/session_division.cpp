@@ -2,7 +2,7 @@
 // A gesture on part of the scene: the bodies that can matter, with what came of it verified by a simulation of all.
 #include <algorithm>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/session/session_solver.hpp"
 
 namespace carom::editing_detail {

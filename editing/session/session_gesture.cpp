@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/solve/minimise.hpp"
 #include "editing/strategy/edit_solution.hpp"
 

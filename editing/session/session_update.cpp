@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
-#include "adjoint/so3.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 
 namespace carom::editing_detail {
 namespace {

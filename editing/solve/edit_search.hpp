@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "editing/edit_options.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 
 /// Points, and how one is improved. Internal to editing/.
 namespace carom::editing_detail {
@@ -33,7 +33,7 @@ using EditPointPtr = std::shared_ptr<EditPoint>;
 /// How the motion of a point is made.
 struct MotionMaker {
   ContactSource* contacts = nullptr;  ///< null: that of the problem
-  EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/replay.h)
+  EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/simulate/replay.h)
   bool even_if_stopped = false;       ///< simulated to the end although a stop was requested
 };
 

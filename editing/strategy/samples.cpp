@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 
 namespace carom::editing_detail {
 namespace {

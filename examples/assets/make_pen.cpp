@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 
 namespace {
 
@@ -47,7 +47,7 @@ Body wall(const std::string& name, const Vec3& size, const Vec3& position) {
 Document pen(int count) {
   Document document;
   document.name = std::to_string(count) + " balls in a pen";
-  document.schema = "formats/scene.schema.json";  // from the repository's folder, where this is run
+  document.schema = "formats/documents/scene.schema.json";  // from the repository's folder, where this is run
   document.duration = 1;
   Scene& scene = document.scene;
   scene.materials.push_back({.name = "rubber", .elasticity = 0.98, .friction = 0.05});

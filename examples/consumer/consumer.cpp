@@ -5,9 +5,9 @@
 #include <exception>
 #include <vector>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
-#include "formats/scene_json.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/simulate/simulate.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 int main(int count, char** arguments) try {

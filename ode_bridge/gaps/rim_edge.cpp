@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/gaps/crossing.hpp"
 
 // The line of the edge is X(s) = C + q + s e, q its foot of the perpendicular from C. The distance of X from the rim,

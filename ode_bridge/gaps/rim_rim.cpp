@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/gaps/crossing.hpp"
 
 // With p and v = d x p in the plane of each rim, the points of the smaller one ("moving", radius r) are

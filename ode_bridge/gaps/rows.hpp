@@ -3,8 +3,8 @@
 
 #include <type_traits>
 
-#include "adjoint/detail/dual.hpp"
-#include "ode_bridge/gaps.h"
+#include "adjoint/numeric/dual.hpp"
+#include "ode_bridge/gaps.hpp"
 
 /// What the table of gaps is made of: for each kind that is not a swapped one its value and its derivative, in one
 /// file. The derivative is written for any number S and made for two: double, and duals, which give its rates.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/solids/parts.h"
+#include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "ode_bridge/solids/parts.h"
+#include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <string_view>
 
-#include "ode_bridge/solids/solid.h"
+#include "ode_bridge/solids/solid.hpp"
 
 namespace carom {
 namespace {

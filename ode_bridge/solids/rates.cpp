@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/solids/solid.h"
+#include "ode_bridge/solids/solid.hpp"
 
 namespace carom {
 

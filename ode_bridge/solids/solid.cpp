@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "ode_bridge/solids/solid.h"
+#include "ode_bridge/solids/solid.hpp"
 
-#include "adjoint/body_model.h"
-#include "ode_bridge/solids/parts.h"
+#include "adjoint/scene/body_model.h"
+#include "ode_bridge/solids/parts.hpp"
 
 namespace carom {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <numeric>
 
-#include "adjoint/elementary.h"
-#include "ode_bridge/solids/parts.h"
+#include "adjoint/numeric/elementary.hpp"
+#include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
 namespace {

@@ -7,12 +7,12 @@
 #include <functional>
 #include <limits>
 
-#include "adjoint/errors.h"
-#include "adjoint/flight_triaxial.h"
-#include "adjoint/replay.h"
-#include "adjoint/second_order.h"
-#include "adjoint/seed.h"
-#include "adjoint/surface.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/seed.hpp"
+#include "adjoint/flight/flight_triaxial.hpp"
+#include "adjoint/scene/surface.h"
+#include "adjoint/second_order/second_order.h"
+#include "adjoint/simulate/replay.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/scenes.h"
 

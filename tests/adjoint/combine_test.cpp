@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "adjoint/plan.h"
+#include "adjoint/motion/plan.h"
 
 namespace carom {
 namespace {

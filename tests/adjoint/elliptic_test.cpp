@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
-#include "adjoint/flight_elliptic.h"
-#include "adjoint/flight_triaxial.h"
+#include "adjoint/flight/flight_elliptic.hpp"
+#include "adjoint/flight/flight_triaxial.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 

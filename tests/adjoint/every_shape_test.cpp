@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "adjoint/so3.h"
+#include "adjoint/numeric/so3.hpp"
 #include "ode_bridge/convex_hull.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"

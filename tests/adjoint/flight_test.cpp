@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "adjoint/flight_symmetric.h"
-#include "adjoint/so3.h"
+#include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/numeric/so3.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 

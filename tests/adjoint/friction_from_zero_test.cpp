@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "adjoint/second_order.h"
+#include "adjoint/second_order/second_order.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/adjoint/tolerances.h"
 #include "tests/support/compare.h"

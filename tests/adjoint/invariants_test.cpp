@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "adjoint/event_linearization.h"
+#include "adjoint/derivative/event_linearization.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "adjoint/errors.h"
-#include "adjoint/impact/law.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/impact/law.hpp"
 #include "tests/support/scenes.h"
 
 namespace carom {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "adjoint/impact/law.h"
-#include "adjoint/impact/tilt.h"
+#include "adjoint/impact/law.hpp"
+#include "adjoint/impact/tilt.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "tests/adjoint/shapes.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/errors.h"
-#include "adjoint/flight_triaxial.h"
-#include "adjoint/impact/complementarity.h"
-#include "adjoint/impact/impact.h"
-#include "ode_bridge/gaps.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/flight/flight_triaxial.hpp"
+#include "adjoint/impact/complementarity.hpp"
+#include "adjoint/impact/impact.hpp"
+#include "ode_bridge/gaps.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

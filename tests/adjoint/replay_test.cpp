@@ -2,14 +2,14 @@
 // Motions along a given impact sequence: the same bits at the scene they were taken from, what `simulate` gives beside
 // it, derivatives beyond the edges of features, and a status for each way in which a sequence cannot be followed.
 
-#include "adjoint/replay.h"
+#include "adjoint/simulate/replay.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "adjoint/errors.h"
-#include "adjoint/replay_root.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/replay_root.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/dot_product_scenes.h"

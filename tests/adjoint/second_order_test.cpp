@@ -2,14 +2,14 @@
 // Second derivatives without a reference: their matrix over scene numbers and reading times is symmetric (but for
 // turns, which do not commute), the gradient found on the way is the gradient, and closed forms hold.
 
-#include "adjoint/second_order.h"
+#include "adjoint/second_order/second_order.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/seed.h"
+#include "adjoint/derivative/seed.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/dot_product_scenes.h"
 #include "tests/support/transposed.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 
 /// What tests of shapes share.
 namespace carom::test {

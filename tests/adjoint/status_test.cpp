@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

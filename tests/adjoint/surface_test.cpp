@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "tests/adjoint/shapes.h"
 #include "tests/support/compare.h"
 #include "tests/support/exact/vector.h"

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "adjoint/detail/tilt_frame.hpp"
-#include "adjoint/impact/tilt.h"
-#include "adjoint/so3.h"
+#include "adjoint/impact/tilt.hpp"
+#include "adjoint/impact/tilt_frame.hpp"
+#include "adjoint/numeric/so3.hpp"
 #include "tests/adjoint/tolerances.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Products of differences to twice the digits, against a hundred digits.
 
-#include "adjoint/two_part.h"
+#include "adjoint/numeric/two_part.hpp"
 
 #include <gtest/gtest.h>
 

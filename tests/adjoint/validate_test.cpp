@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "tests/adjoint/shapes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/solids.h"

@@ -6,12 +6,12 @@
 #include <array>
 #include <set>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "bench/edits/best_known.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/tasks.h"
 #include "bench/edits/varied.h"
-#include "editing/problem/jacobian.h"
+#include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/simulate.h"
-#include "editing/problem/jacobian.h"
-#include "editing/problem/rows/refined_times.h"
-#include "formats/scene_json.h"
+#include "adjoint/simulate/simulate.h"
+#include "editing/problem/jacobian.hpp"
+#include "editing/problem/rows/refined_times.hpp"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"
 

@@ -11,10 +11,10 @@
 #include <cstdlib>
 #include <map>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
-#include "editing/problem/jacobian.h"
-#include "formats/scene_json.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
+#include "editing/problem/jacobian.hpp"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"
 #include "tests/test_paths.h"

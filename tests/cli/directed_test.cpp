@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/simulate.h"
-#include "formats/scene_json.h"
+#include "adjoint/simulate/simulate.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"
 

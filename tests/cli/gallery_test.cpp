@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "adjoint/simulate.h"
-#include "formats/scene_json.h"
+#include "adjoint/simulate/simulate.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"
 

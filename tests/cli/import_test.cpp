@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "formats/import_gltf.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
+#include "formats/gltf/read/import_gltf.h"
 #include "tests/cli/run_command.h"
 #include "tests/test_paths.h"
 

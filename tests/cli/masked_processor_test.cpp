@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/journal_json.h"
-#include "formats/scene_json.h"
+#include "formats/documents/journal_json.h"
+#include "formats/documents/scene_json.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/short_session.h"
 #include "tests/support/scenes.h"

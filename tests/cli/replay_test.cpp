@@ -2,8 +2,8 @@
 // carom replay: exit codes, the answer, and what it says when a journal does not come to what it says.
 #include <gtest/gtest.h>
 
-#include "formats/journal_json.h"
-#include "formats/scene_json.h"
+#include "formats/documents/journal_json.h"
+#include "formats/documents/scene_json.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/short_session.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editing/session.h"
-#include "formats/journal_json.h"
+#include "formats/documents/journal_json.h"
 
 namespace carom::test {
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/short_session.h"
 #include "tests/test_paths.h"

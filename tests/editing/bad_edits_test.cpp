@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/edit.h"
 #include "editing/solve/bounded_least_squares.hpp"
 #include "editing/solve/edit_search.hpp"

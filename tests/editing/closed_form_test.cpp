@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "editing/problem/controls/natural_scales.h"
+#include "editing/problem/controls/natural_scales.hpp"
 #include "editing/session.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"

@@ -7,7 +7,7 @@
 
 #include "editing/edit.h"
 #include "editing/problem/rows/polynomial.hpp"
-#include "editing/problem/rows/relative.h"
+#include "editing/problem/rows/relative.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

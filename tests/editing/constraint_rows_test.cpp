@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows of constraints, and the Jacobian of all of them by every kind of control, by adjoint and by tangent.
 
-#include "editing/problem/rows/constraint_rows.h"
+#include "editing/problem/rows/constraint_rows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <functional>
 #include <limits>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
-#include "adjoint/so3.h"
-#include "editing/problem/jacobian.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/simulate.h"
+#include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every kind of control: set and get, gather and scatter, scales, bounds, and everything a person can get wrong.
 
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <limits>
 #include <random>
 
-#include "adjoint/body_model.h"
-#include "adjoint/errors.h"
-#include "adjoint/so3.h"
-#include "editing/problem/controls/natural_scales.h"
-#include "editing/problem/controls/validity_rows.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/scene/body_model.h"
+#include "editing/problem/controls/natural_scales.hpp"
+#include "editing/problem/controls/validity_rows.hpp"
 #include "tests/editing/scenes.h"
 
 namespace carom {

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <thread>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

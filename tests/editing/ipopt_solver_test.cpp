@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The solver adapter alone: small programs with known answers, and everything that can go wrong in one.
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 #include "editing/solve/ipopt_solver.hpp"
 
 #include <gtest/gtest.h>

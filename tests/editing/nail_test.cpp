@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/edit.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"

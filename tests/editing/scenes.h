@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "editing/edit.h"
 
 /// Scenes that several tests of editing/ use.

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "editing/strategy/samples.hpp"
 #include "ode_bridge/ode_contacts.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/session.h"
 #include "tests/editing/session_scenes.h"
 

@@ -2,7 +2,7 @@
 // Undo and redo, nails coming and going, bad input, and the same bits every time.
 #include <gtest/gtest.h>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/session_replay.h"
 #include "tests/editing/session_scenes.h"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/session.h"
 #include "editing/session/session_part.hpp"
 #include "editing/session/session_work.hpp"

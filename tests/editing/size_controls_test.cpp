@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "adjoint/errors.h"
-#include "adjoint/tangent.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/tangent.h"
 #include "editing/edit.h"
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 #include "tests/editing/scenes.h"
 #include "tests/support/solids.h"
 #include "tests/support/swept_points.h"

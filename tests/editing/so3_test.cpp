@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rotation vectors against 100-digit arithmetic and against their definitions.
 
-#include "adjoint/so3.h"
+#include "adjoint/numeric/so3.hpp"
 
 #include <gtest/gtest.h>
 

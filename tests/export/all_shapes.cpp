@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/export/all_shapes.h"
 
-#include "formats/mesh_file.h"
+#include "formats/mesh/mesh_file.h"
 #include "tests/test_paths.h"
 
 namespace carom::export_tests {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/document.h"
+#include "formats/base/document.h"
 
 namespace carom::export_tests {
 

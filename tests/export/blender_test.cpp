@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "formats/export_blender.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
+#include "formats/export/export_blender.h"
 #include "tests/export/hand_motion.h"
 #include "tests/export/players.h"
 #include "tests/test_paths.h"

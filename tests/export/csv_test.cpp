@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "adjoint/errors.h"
-#include "formats/export_csv.h"
+#include "adjoint/base/errors.h"
+#include "formats/export/export_csv.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {

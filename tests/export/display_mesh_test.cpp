@@ -6,7 +6,7 @@
 #include <cstring>
 #include <map>
 
-#include "formats/export_gltf.h"
+#include "formats/gltf/write/export_gltf.h"
 #include "tests/export/all_shapes.h"
 #include "tests/export/hand_motion.h"
 #include "tests/support/compare.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "adjoint/errors.h"
-#include "formats/export_gltf.h"
+#include "adjoint/base/errors.h"
+#include "formats/gltf/write/export_gltf.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {

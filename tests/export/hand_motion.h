@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
-#include "formats/document.h"
+#include "adjoint/motion/motion.h"
+#include "formats/base/document.h"
 
 namespace carom::export_tests {
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "adjoint/errors.h"
-#include "formats/export_motion.h"
+#include "adjoint/base/errors.h"
+#include "formats/export/export_motion.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {

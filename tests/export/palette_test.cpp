@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "formats/palette.h"
+#include "formats/drawing/palette.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 
 namespace carom::export_tests {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "formats/document.h"
-#include "adjoint/simulate.h"
+#include "formats/base/document.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/test_paths.h"
 

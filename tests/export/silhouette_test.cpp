@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "formats/export_svg.h"
+#include "formats/svg/export_svg.h"
 #include "tests/export/all_shapes.h"
 #include "tests/export/hand_motion.h"
 #include "tests/support/compare.h"

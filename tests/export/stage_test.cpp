@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "formats/export_gltf.h"
-#include "formats/motion_extent.h"
+#include "formats/drawing/motion_extent.hpp"
+#include "formats/gltf/write/export_gltf.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "formats/export_svg.h"
+#include "formats/svg/export_svg.h"
 #include "tests/export/hand_motion.h"
 #include "tests/export/svg_reader.h"
 

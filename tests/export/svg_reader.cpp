@@ -8,7 +8,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "formats/export_svg.h"
+#include "formats/svg/export_svg.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {

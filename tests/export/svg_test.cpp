@@ -3,7 +3,7 @@
 
 #include <regex>
 
-#include "formats/export_svg.h"
+#include "formats/svg/export_svg.h"
 #include "tests/export/hand_motion.h"
 #include "tests/export/svg_reader.h"
 

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "formats/export_gltf.h"
-#include "formats/json_writer.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
+#include "formats/gltf/write/export_gltf.h"
+#include "formats/json/json_writer.hpp"
 #include "tests/export/all_shapes.h"
 #include "tests/export/hand_motion.h"
 #include "tests/export/players.h"

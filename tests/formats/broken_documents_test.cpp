@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 #include "tests/formats/scene_documents.h"
 
 namespace carom {

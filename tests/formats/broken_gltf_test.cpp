@@ -4,7 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "formats/gltf_reader.h"
+#include "formats/mesh/gltf_reader.hpp"
 #include "tests/formats/gltf_json.h"
 
 namespace carom {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <random>
 
-#include "adjoint/simulate.h"
-#include "formats/export_gltf.h"
-#include "formats/import_gltf.h"
-#include "formats/journal_json.h"
-#include "formats/scene_json.h"
+#include "adjoint/simulate/simulate.h"
+#include "formats/documents/journal_json.h"
+#include "formats/documents/scene_json.h"
+#include "formats/gltf/read/import_gltf.h"
+#include "formats/gltf/write/export_gltf.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/formats/scene_documents.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "formats/gltf_reader.h"
+#include "formats/mesh/gltf_reader.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "adjoint/surface.h"
+#include "adjoint/scene/surface.h"
 #include "tests/formats/gltf_json.h"
 
 namespace carom {

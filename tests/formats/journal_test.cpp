@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Journals of sessions as documents: what is written is read back, plays to the same bits, and bad ones are refused.
-#include "formats/journal_json.h"
+#include "formats/documents/journal_json.h"
 
 #include <gtest/gtest.h>
 
 #include "editing/session_replay.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom {

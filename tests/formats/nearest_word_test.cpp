@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/nearest_word.h"
+#include "formats/base/nearest_word.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/obj_reader.h"
+#include "formats/mesh/obj_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <iostream>
 #include <random>
 
-#include "adjoint/errors.h"
-#include "adjoint/surface.h"
-#include "formats/json_writer.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/scene/surface.h"
+#include "formats/json/json_writer.hpp"
 #include "tests/formats/mesh_texts.h"
 
 namespace carom {

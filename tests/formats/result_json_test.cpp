@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/result_json.h"
+#include "formats/answers/result_json.h"
 
 #include <gtest/gtest.h>
 

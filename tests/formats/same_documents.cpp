@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <variant>
 
-#include "formats/json_writer.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
+#include "formats/json/json_writer.hpp"
 
 namespace carom::formats_test {
 namespace {

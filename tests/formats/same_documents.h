@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formats/document.h"
+#include "formats/base/document.h"
 
 namespace carom::formats_test {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/body_model.h"
-#include "adjoint/simulate.h"
-#include "formats/scene_json.h"
+#include "adjoint/scene/body_model.h"
+#include "adjoint/simulate/simulate.h"
+#include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/formats/scene_documents.h"
 

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <random>
 
-#include "adjoint/errors.h"
-#include "formats/scene_json.h"
+#include "adjoint/base/errors.h"
+#include "formats/documents/scene_json.h"
 #include "tests/formats/scene_documents.h"
 
 namespace carom {

@@ -10,9 +10,9 @@
 #include <random>
 #include <sstream>
 
-#include "formats/json_writer.h"
-#include "formats/read_file.h"
-#include "formats/scene_json.h"
+#include "formats/base/read_file.hpp"
+#include "formats/documents/scene_json.h"
+#include "formats/json/json_writer.hpp"
 #include "tests/formats/same_documents.h"
 #include "tests/formats/scene_documents.h"
 

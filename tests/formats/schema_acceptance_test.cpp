@@ -9,7 +9,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "formats/detail/schema_acceptance.hpp"
+#include "formats/json/schema_acceptance.hpp"
 #include "tests/formats/broken_documents.h"
 #include "tests/formats/scene_documents.h"
 #include "tests/test_paths.h"

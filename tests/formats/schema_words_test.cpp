@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "editing/problem/controls/control_kinds.h"
-#include "formats/scene_json.h"
+#include "editing/problem/controls/control_kinds.hpp"
+#include "formats/documents/scene_json.h"
 #include "tests/formats/scene_documents.h"
 #include "tests/test_paths.h"
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <random>
 
-#include "formats/mesh_file.h"
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
+#include "formats/mesh/mesh_file.h"
 #include "tests/formats/mesh_texts.h"
 #include "tests/formats/same_documents.h"
 #include "tests/formats/scene_documents.h"

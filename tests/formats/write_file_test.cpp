@@ -10,9 +10,9 @@
 #include <sstream>
 #include <thread>
 
-#include "adjoint/errors.h"
-#include "formats/scene_json.h"
-#include "formats/write_file.h"
+#include "adjoint/base/errors.h"
+#include "formats/base/write_file.hpp"
+#include "formats/documents/scene_json.h"
 
 namespace carom {
 namespace {

@@ -5,10 +5,10 @@
 #include <cctype>
 #include <filesystem>
 
-#include "adjoint/simulate.h"
-#include "editing/problem/jacobian.h"
-#include "formats/export_gltf.h"
-#include "formats/scene_json.h"
+#include "adjoint/simulate/simulate.h"
+#include "editing/problem/jacobian.hpp"
+#include "formats/documents/scene_json.h"
+#include "formats/gltf/write/export_gltf.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/import/gltf_files.h"
 #include "tests/import/same_scene.h"

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "adjoint/errors.h"
-#include "adjoint/motion.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/motion/motion.h"
 #include "tests/test_paths.h"
 
 namespace carom::import_tests {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/export_gltf.h"
-#include "formats/import_gltf.h"
+#include "formats/gltf/read/import_gltf.h"
+#include "formats/gltf/write/export_gltf.h"
 
 namespace carom::import_tests {
 

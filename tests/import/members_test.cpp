@@ -2,9 +2,9 @@
 // What every member means: samples of this folder and small changes of them, against values worked out by hand.
 #include <gtest/gtest.h>
 
-#include "adjoint/body_model.h"
-#include "adjoint/plan.h"
-#include "formats/scene_json.h"
+#include "adjoint/motion/plan.h"
+#include "adjoint/scene/body_model.h"
+#include "formats/documents/scene_json.h"
 #include "tests/import/gltf_files.h"
 #include "tests/support/compare.h"
 

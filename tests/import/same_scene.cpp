@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <variant>
 
-#include "adjoint/body_model.h"
-#include "formats/json_writer.h"
-#include "formats/scene_json.h"
+#include "adjoint/scene/body_model.h"
+#include "formats/documents/scene_json.h"
+#include "formats/json/json_writer.hpp"
 #include "tests/support/compare.h"
 
 namespace carom::import_tests {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "formats/document.h"
+#include "formats/base/document.h"
 
 namespace carom::import_tests {
 

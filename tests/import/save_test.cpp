@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "formats/scene_json.h"
+#include "formats/documents/scene_json.h"
 #include "tests/import/gltf_files.h"
 #include "tests/import/same_scene.h"
 #include "tests/import/scenes.h"

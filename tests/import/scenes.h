@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "formats/document.h"
+#include "formats/base/document.h"
 
 namespace carom::import_tests {
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <limits>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "ode_bridge/convex_hull.h"
-#include "ode_bridge/gaps.h"
+#include "ode_bridge/gaps.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/scenes.h"
 

@@ -2,7 +2,7 @@
 // Closed-form impacts of balls against the same roots in extended precision; and the cheap look ahead never says no
 // where they meet.
 
-#include "ode_bridge/ball_impact.h"
+#include "ode_bridge/ball_impact.hpp"
 
 #include <gtest/gtest.h>
 

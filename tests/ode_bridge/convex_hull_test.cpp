@@ -10,7 +10,7 @@
 #include <numbers>
 #include <thread>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 #include "tests/support/solids.h"

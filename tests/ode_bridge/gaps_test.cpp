@@ -5,8 +5,8 @@
 
 #include <stdexcept>
 
-#include "adjoint/so3.h"
-#include "ode_bridge/gaps.h"
+#include "adjoint/numeric/so3.hpp"
+#include "ode_bridge/gaps.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 

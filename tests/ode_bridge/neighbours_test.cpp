@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ode_bridge/neighbours.h"
+#include "ode_bridge/neighbours.hpp"
 #include "tests/support/scenes.h"
 
 namespace carom {

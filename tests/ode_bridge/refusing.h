@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::test {

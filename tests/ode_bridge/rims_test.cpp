@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "ode_bridge/gaps.h"
+#include "ode_bridge/gaps.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 

@@ -10,7 +10,7 @@
 
 #include "ode_bridge/convex_hull.h"
 #include "ode_bridge/ode_contacts.h"
-#include "ode_bridge/separation.h"
+#include "ode_bridge/separation.hpp"
 #include "tests/support/scenes.h"
 
 namespace carom {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-#include "ode_bridge/solids/solid.h"
+#include "ode_bridge/solids/solid.hpp"
 #include "tests/ode_bridge/solid_rows.h"
 #include "tests/support/compare.h"
 #include "tests/support/solids.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Features of the solids of every kind of shape and their rates, against formulas of their own.
 
-#include "ode_bridge/solids/solid.h"
+#include "ode_bridge/solids/solid.hpp"
 
 #include <gtest/gtest.h>
 

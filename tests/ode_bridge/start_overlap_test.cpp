@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/ode_bridge/refusing.h"
 #include "tests/support/scenes.h"

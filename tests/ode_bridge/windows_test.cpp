@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/errors.h"
-#include "adjoint/simulate.h"
-#include "ode_bridge/neighbours.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/simulate/simulate.h"
+#include "ode_bridge/neighbours.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "tests/pairs/encounter.h"
 
 namespace carom::pairs {

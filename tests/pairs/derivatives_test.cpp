@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <set>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/tangent.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/pairs/compare_impact.h"
 #include "tests/pairs/replay.h"

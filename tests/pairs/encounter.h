@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "tests/pairs/separation.h"
 #include "tests/support/brute/flight.h"
 

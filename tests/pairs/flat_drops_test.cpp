@@ -7,7 +7,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "ode_bridge/convex_hull.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/pairs/compare_impact.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "tests/pairs/encounter.h"
 #include "tests/reference/numbers.h"
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "tests/pairs/compare_impact.h"
 #include "tests/support/throws.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "adjoint/body_model.h"
+#include "adjoint/scene/body_model.h"
 #include "tests/random/solid.h"
 #include "tests/support/brute/flight.h"
 

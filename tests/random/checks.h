@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "tests/random/brute_force.h"
 
 namespace carom::brute {

@@ -8,9 +8,9 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-#include "adjoint/body_model.h"
-#include "adjoint/errors.h"
-#include "adjoint/impact/impact.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/impact/impact.hpp"
+#include "adjoint/scene/body_model.h"
 #include "tests/support/scenes.h"
 
 namespace carom {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "tests/random/solid.h"
 #include "tests/support/brute/flight.h"
 

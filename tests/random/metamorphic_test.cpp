@@ -17,8 +17,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "adjoint/body_model.h"
-#include "adjoint/simulate.h"
+#include "adjoint/scene/body_model.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/random/scene_changes.h"
 #include "tests/random/scenes.h"

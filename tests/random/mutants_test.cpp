@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/random/checks.h"
 #include "tests/random/scenes.h"

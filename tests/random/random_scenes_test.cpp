@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/random/checks.h"
 #include "tests/random/scenes.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "tests/support/scenes.h"
 
 /// Ways to write a scene that do not change its motion.

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "adjoint/shape.h"
+#include "adjoint/scene/shape.h"
 #include "tests/support/brute/numbers.h"
 
 namespace carom::brute {

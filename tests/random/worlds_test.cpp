@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/body_geometry.h"
+#include "adjoint/motion/body_geometry.h"
 #include "tests/support/scenes.h"
 #include "tests/support/transposed.h"
 

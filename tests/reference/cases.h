@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/motion.h"
-#include "adjoint/scene.h"
+#include "adjoint/motion/motion.h"
+#include "adjoint/scene/scene.h"
 
 namespace carom::reference {
 

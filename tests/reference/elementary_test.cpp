@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/elementary.h"
+#include "adjoint/numeric/elementary.hpp"
 
 #include <gtest/gtest.h>
 #include <mpfr.h>
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/elementary/constants.hpp"
+#include "adjoint/numeric/elementary/constants.hpp"
 
 // The elementary functions beside MPFR with 200 bits (3000 where constants are computed again).
 namespace carom {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "adjoint/motion.h"
+#include "adjoint/motion/motion.h"
 #include "tests/reference/numbers.h"
 
 namespace carom::reference {

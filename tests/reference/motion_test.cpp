@@ -6,9 +6,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/tangent.h"
+#include "adjoint/simulate/simulate.h"
 #include "tests/reference/cases.h"
 #include "tests/reference/replay.h"
 #include "tests/reference/replayed.h"

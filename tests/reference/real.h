@@ -4,7 +4,7 @@
 #include <array>
 #include <boost/multiprecision/mpfr.hpp>
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 
 namespace carom::reference {
 

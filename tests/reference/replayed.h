@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "adjoint/derivative_tape.h"
-#include "adjoint/simulate.h"
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/reference/cases.h"
 #include "tests/reference/replay.h"

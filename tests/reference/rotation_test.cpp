@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/arc.h"
-#include "adjoint/flight_triaxial.h"
+#include "adjoint/flight/arc.h"
+#include "adjoint/flight/flight_triaxial.hpp"
 #include "tests/reference/replay.h"
 #include "tests/reference/worst.h"
 

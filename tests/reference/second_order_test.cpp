@@ -3,7 +3,7 @@
 // orders of the bodies: the rate of every entry of the gradient of every row, along random directions of each kind of
 // knob, of all of them together, and of the reading time.
 
-#include "adjoint/second_order.h"
+#include "adjoint/second_order/second_order.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <iostream>
 #include <random>
 
-#include "adjoint/adjoint.h"
+#include "adjoint/derivative/adjoint.h"
 #include "tests/reference/replayed.h"
 #include "tests/reference/worst.h"
 

@@ -6,9 +6,9 @@
 
 #include <iostream>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/second_order.h"
-#include "adjoint/simulate.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/second_order/second_order.h"
+#include "adjoint/simulate/simulate.h"
 #include "tests/reference/worst.h"
 #include "tests/reference/written_replay.h"
 #include "tests/support/offset_scenes.h"

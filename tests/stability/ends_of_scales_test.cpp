@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "adjoint/adjoint.h"
+#include "adjoint/derivative/adjoint.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/tangent.h"
 #include "editing/edit.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"

@@ -84,7 +84,7 @@ const std::vector<Confined>& confinedLibraries() {
 }
 
 // Functions whose last digit is not the same on every machine: of the C library and the standard one, called with or
-// without std::, and Eigen's that call them. adjoint/elementary.h has others.
+// without std::, and Eigen's that call them. adjoint/numeric/elementary.hpp has others.
 const std::vector<std::regex>& inexactFunctions() {
   static const std::string names =
       "(a?(sin|cos|tan)h?|atan2|sincos|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?|[tl]gamma)";
@@ -114,7 +114,7 @@ std::vector<std::string> inexactCalls(const std::string& path, const std::string
   if (code.find("using elementary::") == std::string::npos) rules.push_back(unqualifiedCall());
   for (const std::regex& rule : rules) {
     for (std::sregex_iterator it(code.begin(), code.end(), rule), end; it != end; ++it)
-      found.push_back(path + " has " + it->str() + ", whose bits differ by machine; adjoint/elementary.h has its like");
+      found.push_back(path + " has " + it->str() + ", whose bits differ by machine; adjoint/numeric/elementary.hpp has its like");
   }
   return found;
 }

@@ -10,7 +10,7 @@ namespace {
 
 TEST(Structure, SourcesKeepTheLayering) {
   const Sources sources = readSources(CAROM_SOURCE_DIR);
-  ASSERT_TRUE(sources.contains("adjoint/scene.h")) << "no sources under " CAROM_SOURCE_DIR;
+  ASSERT_TRUE(sources.contains("adjoint/scene/scene.h")) << "no sources under " CAROM_SOURCE_DIR;
   for (const std::string& violation : violations(sources)) ADD_FAILURE() << violation;
 }
 
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
     Table, IncludeRule,
     testing::Values(
         Planted{"ode_bridge/world.cpp", "<ode/ode.h>", true}, Planted{"ode_bridge/world.h", "<ode/ode.h>", false},
-        Planted{"adjoint/simulate.cpp", "<ode/collision.h>", false}, Planted{"cli/main.cpp", "<ode/ode.h>", false},
+        Planted{"adjoint/simulate/simulate.cpp", "<ode/collision.h>", false}, Planted{"cli/main.cpp", "<ode/ode.h>", false},
         Planted{"ode_bridge/hull.cpp", "<libqhull_r/qhull_ra.h>", true},
         Planted{"ode_bridge/hull.h", "<libqhull_r/qhull_ra.h>", false},
         Planted{"adjoint/hull.cpp", "<libqhull_r/libqhull_r.h>", false},
@@ -67,22 +67,22 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"editing/edit.h", "<IpTNLP.hpp>", false}, Planted{"cli/main.cpp", "<coin/IpTNLP.hpp>", false},
         Planted{"formats/read.cpp", "<nlohmann/json.hpp>", true},
         Planted{"formats/read.h", "<nlohmann/json_fwd.hpp>", false},
-        Planted{"formats/detail/json.hpp", "<nlohmann/json.hpp>", true},
-        Planted{"formats/read.h", "\"formats/detail/json.hpp\"", false},
-        Planted{"cli/main.cpp", "\"formats/detail/json.hpp\"", false},
-        Planted{"formats/read.cpp", "\"formats/detail/json.hpp\"", true},
+        Planted{"formats/json/json.hpp", "<nlohmann/json.hpp>", true},
+        Planted{"formats/read.h", "\"formats/json/json.hpp\"", false},
+        Planted{"cli/main.cpp", "\"formats/json/json.hpp\"", false},
+        Planted{"formats/read.cpp", "\"formats/json/json.hpp\"", true},
         Planted{"cli/main.cpp", "<nlohmann/json.hpp>", false}, Planted{"studio/serve.cpp", "<nlohmann/json.hpp>", true},
         Planted{"formats/schema.cpp", "<valijson/validator.hpp>", true},
         Planted{"editing/edit.cpp", "<valijson/validator.hpp>", false},
         Planted{"formats/gltf.cpp", "<tiny_gltf.h>", true}, Planted{"cli/export.cpp", "\"tiny_gltf.h\"", false},
         Planted{"tests/reference/flight.cpp", "<boost/multiprecision/cpp_bin_float.hpp>", true},
         Planted{"adjoint/flight.cpp", "<boost/multiprecision/cpp_bin_float.hpp>", false},
-        Planted{"editing/edit.cpp", "<boost/beast.hpp>", false}, Planted{"adjoint/arc.cpp", "\"adjoint/arc.h\"", true},
-        Planted{"adjoint/arc.cpp", "\"ode_bridge/ode_contacts.h\"", false},
-        Planted{"adjoint/arc.cpp", "\"editing/edit.h\"", false},
-        Planted{"adjoint/arc.cpp", "\"formats/document.h\"", false},
-        Planted{"adjoint/impact/law.cpp", "\"../../formats/document.h\"", false},
-        Planted{"editing/edit.cpp", "\"adjoint/contact_source.h\"", true},
+        Planted{"editing/edit.cpp", "<boost/beast.hpp>", false}, Planted{"adjoint/flight/arc.cpp", "\"adjoint/flight/arc.h\"", true},
+        Planted{"adjoint/flight/arc.cpp", "\"ode_bridge/ode_contacts.h\"", false},
+        Planted{"adjoint/flight/arc.cpp", "\"editing/edit.h\"", false},
+        Planted{"adjoint/flight/arc.cpp", "\"formats/base/document.h\"", false},
+        Planted{"adjoint/impact/laws.cpp", "\"../../formats/document.h\"", false},
+        Planted{"editing/edit.cpp", "\"adjoint/motion/contact_source.h\"", true},
         Planted{"editing/edit.cpp", "\"editing/report/explain.hpp\"", true},
         Planted{"editing/session/session_solver.cpp", "\"editing/strategy/samples.hpp\"", true},
         Planted{"editing/report/explain.cpp", "\"editing/strategy/edit_solution.hpp\"", true},
@@ -91,17 +91,17 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"editing/solve/projection.cpp", "\"editing/strategy/samples.hpp\"", false},
         Planted{"editing/solve/projection.cpp", "\"../strategy/samples.hpp\"", false},
         Planted{"editing/problem/hessian.cpp", "\"editing/solve/projection.hpp\"", false},
-        Planted{"editing/edit_options.h", "\"editing/problem/jacobian.h\"", false},
+        Planted{"editing/edit_options.h", "\"editing/problem/jacobian.hpp\"", false},
         Planted{"editing/detail/messages.cpp", "\"editing/control.h\"", false},
         Planted{"editing/elsewhere/x.cpp", "\"editing/control.h\"", false},
         Planted{"editing/edit.h", "\"editing/detail/messages.hpp\"", false},
         Planted{"cli/main.cpp", "\"editing/detail/messages.hpp\"", false},
         Planted{"tests/a.cpp", "\"editing/detail/messages.hpp\"", true},
         Planted{"editing/edit.cpp", "\"ode_bridge/ode_contacts.h\"", false},
-        Planted{"editing/edit.cpp", "\"formats/document.h\"", false},
+        Planted{"editing/edit.cpp", "\"formats/base/document.h\"", false},
         Planted{"ode_bridge/world.cpp", "\"editing/edit.h\"", false},
-        Planted{"ode_bridge/world.cpp", "\"formats/document.h\"", false},
-        Planted{"formats/document.h", "\"editing/control.h\"", true},
+        Planted{"ode_bridge/world.cpp", "\"formats/base/document.h\"", false},
+        Planted{"formats/base/document.h", "\"editing/control.h\"", true},
         Planted{"formats/read.cpp", "\"cli/options.h\"", false},
         Planted{"cli/main.cpp", "\"ode_bridge/ode_contacts.h\"", true}));
 
@@ -129,8 +129,8 @@ TEST_P(InexactRule, JudgesOneLine) {
 INSTANTIATE_TEST_SUITE_P(
     Table, InexactRule,
     testing::Values(
-        PlantedCall{"adjoint/arc.cpp", "y = std::sin(x);", false},
-        PlantedCall{"adjoint/so3.h", "y = std::cos(x);", false},
+        PlantedCall{"adjoint/flight/arc.cpp", "y = std::sin(x);", false},
+        PlantedCall{"adjoint/numeric/so3.hpp", "y = std::cos(x);", false},
         PlantedCall{"ode_bridge/gaps/rim.cpp", "y = std::cbrt(x);", false},
         PlantedCall{"ode_bridge/gaps.cpp", "return std::hypot(x, y);", false},
         PlantedCall{"editing/edit.cpp", "y = std::pow(x, 2);", false},
@@ -139,14 +139,14 @@ INSTANTIATE_TEST_SUITE_P(
         PlantedCall{"editing/edit.cpp", "y = exp(x);", false},
         PlantedCall{"editing/edit.cpp", "return -sin(x);", false},
         PlantedCall{"editing/edit.cpp", "using elementary::sin; y = sin(x);", true},
-        PlantedCall{"adjoint/arc.cpp", "y = elementary::sin(x);", true},
-        PlantedCall{"adjoint/arc.cpp", "y = std::sqrt(x) + std::floor(x) + std::fma(x, x, x) + std::fmod(x, y);", true},
-        PlantedCall{"adjoint/arc.cpp", "double sine(double x);  // std::sin(x)", true},
-        PlantedCall{"adjoint/arc.cpp", "friend Dual sin(const Dual& a);", true},
-        PlantedCall{"adjoint/arc.cpp", "R = Eigen::AngleAxisd(a, axis);", false},
-        PlantedCall{"adjoint/arc.cpp", "q = p.slerp(t, r);", false},
-        PlantedCall{"adjoint/arc.cpp", "v = w.array().exp();", false},
-        PlantedCall{"adjoint/elementary/circular.cpp", "y = std::sin(x);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "y = elementary::sin(x);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "y = std::sqrt(x) + std::floor(x) + std::fma(x, x, x) + std::fmod(x, y);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "double sine(double x);  // std::sin(x)", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "friend Dual sin(const Dual& a);", true},
+        PlantedCall{"adjoint/flight/arc.cpp", "R = Eigen::AngleAxisd(a, axis);", false},
+        PlantedCall{"adjoint/flight/arc.cpp", "q = p.slerp(t, r);", false},
+        PlantedCall{"adjoint/flight/arc.cpp", "v = w.array().exp();", false},
+        PlantedCall{"adjoint/numeric/elementary/circular.cpp", "y = std::sin(x);", true},
         PlantedCall{"formats/svg.cpp", "y = std::sin(x);", true},
         PlantedCall{"tests/a.cpp", "y = std::sin(x);", true}));
 

@@ -4,8 +4,8 @@
 #include <ostream>
 #include <vector>
 
-#include "adjoint/plan.h"
-#include "adjoint/scene.h"
+#include "adjoint/motion/plan.h"
+#include "adjoint/scene/scene.h"
 
 namespace carom::test {
 

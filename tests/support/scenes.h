@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/adjoint.h"
-#include "adjoint/simulate.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/simulate/simulate.h"
 
 /// Scenes, directions and read-outs that the tests of adjoint/ and ode_bridge/ share.
 namespace carom::test {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "adjoint/surface.h"
+#include "adjoint/scene/surface.h"
 
 /// Triangles of solids whose mass properties are known.
 namespace carom::test {

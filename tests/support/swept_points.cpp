@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "adjoint/arc.h"
-#include "adjoint/body_model.h"
+#include "adjoint/flight/arc.h"
+#include "adjoint/scene/body_model.h"
 
 namespace carom::test {
 namespace {

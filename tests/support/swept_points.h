@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "adjoint/contact_source.h"
-#include "adjoint/scene.h"
+#include "adjoint/motion/contact_source.h"
+#include "adjoint/scene/scene.h"
 
 namespace carom::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/tangent.h"
+#include "adjoint/derivative/tangent.h"
 
 /// Equation 5.5: <J u, w> = <u, J^T w>.
 namespace carom::test {

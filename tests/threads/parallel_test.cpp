@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "adjoint/simulate.h"
+#include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/threads/scenes.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 
 namespace carom::threads {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "adjoint/body_model.h"
+#include "adjoint/scene/body_model.h"
 #include "bench/charts/engines/engine.h"
 
 // Bullet's sequential impulses, in double precision. As it comes it makes contacts before bodies touch and does not

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "adjoint/body_model.h"
+#include "adjoint/scene/body_model.h"
 #include "bench/charts/engines/engine.h"
 
 // MuJoCo has no restitution: contacts are damped springs. Their damping is chosen so that a lone impact has the

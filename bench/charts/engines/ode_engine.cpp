@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "adjoint/body_model.h"
+#include "adjoint/scene/body_model.h"
 #include "bench/charts/engines/engine.h"
 
 // ODE's own time stepping. Contacts bounce by the restitution of the scene, CFM is 0 (its default of 1e-10 is seen at

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 
 namespace carom::editing_detail {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 
 /// Resolving one control against a scene, with every check on what a person can write. Internal to editing/.
 namespace carom::editing_detail {

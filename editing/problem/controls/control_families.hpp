@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editing/problem/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.hpp"
 
 /// The rows of the table of controls, each defined in its family's file. Internal to editing/.
 namespace carom::editing_detail {

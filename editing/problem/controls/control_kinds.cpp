@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/controls/control_kinds.h"
+#include "editing/problem/controls/control_kinds.hpp"
 
 #include "editing/problem/controls/control_families.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/controls/control_set.h"
+#include "editing/problem/controls/control_set.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "adjoint/arguments.h"
-#include "adjoint/elementary.h"
-#include "adjoint/errors.h"
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/elementary.hpp"
 #include "editing/detail/messages.hpp"
 #include "editing/problem/controls/control_binding.hpp"
 

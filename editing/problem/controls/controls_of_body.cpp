@@ -8,7 +8,7 @@
 
 #include "editing/problem/controls/control_families.hpp"
 
-#include "adjoint/body_model.h"
+#include "adjoint/scene/body_model.h"
 
 namespace carom::editing_detail {
 namespace {

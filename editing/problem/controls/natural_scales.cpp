@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/controls/natural_scales.h"
+#include "editing/problem/controls/natural_scales.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/controls/validity_rows.h"
+#include "editing/problem/controls/validity_rows.hpp"
 
 #include "editing/problem/controls/control_families.hpp"
 

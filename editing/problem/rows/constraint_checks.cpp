@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 
 namespace carom::editing_detail {

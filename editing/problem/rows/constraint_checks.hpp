@@ -4,7 +4,7 @@
 #include <string>
 
 #include "editing/constraint.h"
-#include "editing/problem/rows/quantities.h"
+#include "editing/problem/rows/quantities.hpp"
 
 /// What is checked of constraints that a person wrote. All throw InputError starting at `where`. Internal to editing/.
 namespace carom::editing_detail {

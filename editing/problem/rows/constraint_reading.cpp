@@ -6,8 +6,8 @@
 
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
-#include "editing/problem/rows/constraint_rows.h"
-#include "editing/problem/rows/relative.h"
+#include "editing/problem/rows/constraint_rows.hpp"
+#include "editing/problem/rows/relative.hpp"
 
 namespace carom {
 using namespace editing_detail;

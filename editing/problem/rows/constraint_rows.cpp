@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/rows/constraint_rows.h"
+#include "editing/problem/rows/constraint_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "adjoint/body_model.h"
-#include "adjoint/errors.h"
+#include "adjoint/base/errors.h"
+#include "adjoint/scene/body_model.h"
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/rows/quantities.h"
+#include "editing/problem/rows/quantities.hpp"
 
-#include "adjoint/so3_rates.h"
+#include "adjoint/numeric/so3_rates.hpp"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/rows/refined_times.h"
+#include "editing/problem/rows/refined_times.hpp"
 
 #include <algorithm>
 #include <cmath>

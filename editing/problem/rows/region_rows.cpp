@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/rows/region_rows.h"
+#include "editing/problem/rows/region_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/rows/relative.h"
+#include "editing/problem/rows/relative.hpp"
 
 namespace carom {
 

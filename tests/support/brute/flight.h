@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "adjoint/scene.h"
+#include "adjoint/scene/scene.h"
 #include "tests/support/brute/numbers.h"
 
 namespace carom::brute {

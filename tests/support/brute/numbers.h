@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 #include "tests/support/exact/vector.h"
 
 namespace carom::brute {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "adjoint/shape.h"
+#include "adjoint/scene/shape.h"
 #include "tests/support/exact/vector.h"
 
 namespace carom::exact {

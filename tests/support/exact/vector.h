@@ -5,7 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "adjoint/types.h"
+#include "adjoint/base/types.h"
 
 namespace carom::exact {
 

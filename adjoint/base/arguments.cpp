@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/base/arguments.hpp"
+
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/derivative/derivative_tape.h"
+
+namespace carom {
+
+void refuseIndex(const char* where, const char* what, long long found, std::size_t count) {
+  if (count == 0) refuse(where, "found ", what, " ", found, ", expected none: there are none");
+  refuse(where, "found ", what, " ", found, ", expected one from 0 to ", count - 1);
+}
+
+void refuseNumber(const char* where, const char* what, double found, const char* expected) {
+  refuse(where, "found ", what, " ", found, ", expected ", expected);
+}
+
+void refuseCount(const char* where, const char* what, std::size_t found, std::size_t expected) {
+  refuse(where, "found ", found, " ", what, ", expected ", expected);
+}
+
+void checkDuration(const char* where, double duration) {
+  if (!(duration >= 0 && duration <= 1e9))
+    refuse(where, "found a duration of ", duration, " s, expected a finite number >= 0, at most 1e9");
+}
+
+void checkTime(const char* where, const Motion& motion, double t) {
+  if (t >= 0 && t <= motion.end) return;
+  refuse(where, "found the time ", t, ", expected one in [0, ", motion.end, "]",
+         motion.status == MotionStatus::complete ? "" : "; ", motion.status == MotionStatus::complete ? "" : motion.message);
+}
+
+void checkSeed(const char* where, const Motion& motion, const StateSeed& seed) {
+  checkedIndex(where, "body", seed.body, motion.world_lines.size());
+  if (seed.at.event != -1) {
+    checkedIndex(where, "event", seed.at.event, motion.events.size());
+  } else {
+    checkTime(where, motion, seed.at.time);
+  }
+  for (const Vec3* weights :
+       {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity, &seed.center_of_mass})
+    checkEntries(where, "a weight of", *weights);
+  checkedNumber(where, "a weight of", seed.time);
+}
+
+void checkDirection(const char* where, const Scene& scene, const SceneTangent& d) {
+  checkCount(where, "bodies", d.bodies.size(), scene.bodies.size());
+  checkCount(where, "materials", d.materials.size(), scene.materials.size());
+  checkCount(where, "tilts", d.tilts.size(), scene.tilts.size());
+  checkEntries(where, "a rate of gravity of", d.gravity);
+  for (const MaterialDerivative& m : d.materials)
+    for (double rate : {m.elasticity, m.friction, m.tangential_elasticity})
+      checkedNumber(where, "a rate of a material of", rate);
+  for (std::size_t i = 0; i < d.bodies.size(); ++i) {
+    const BodyDerivative& b = d.bodies[i];
+    const Shape& shape = scene.bodies[i].shape;
+    const Eigen::Index sizes = kindOf(shape).dimensions(shape).size();
+    checkCount(where, "rates of dimensions", static_cast<std::size_t>(b.size.size()), static_cast<std::size_t>(sizes));
+    for (const Vec3* rates : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia})
+      checkEntries(where, "a rate of a body of", *rates);
+    checkEntries(where, "a rate of a dimension of", b.size);
+    for (double rate : {b.mass, b.density}) checkedNumber(where, "a rate of a body of", rate);
+  }
+  for (const Vec2& tilt : d.tilts) checkEntries(where, "a rate of a tilt of", tilt);
+}
+
+}  // namespace carom

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/derivative/derivative_tape.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/event_linearization.hpp"
+#include "adjoint/impact/tilt.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double kReliableTilt = 1e-4;  // axes of a tilt turn by the inverse of this, as the normal does
+constexpr std::size_t kRemembered = 10'000;  // sensitivities, of 288 bytes: what is read densely is not kept for good
+
+double tiltMarginOf(const Event& event) {
+  double least = 1;
+  for (const Contact& c : event.contacts)
+    least = std::min(least, tiltMargin(c.at.normal, c.tilt_a >= 0, c.tilt_b >= 0));
+  return least;
+}
+
+std::string sentenceOf(const Motion& motion, int index) {
+  std::ostringstream text;
+  text << "the impact " << motion.describeEvent(index) << " at t = "
+       << motion.events[static_cast<std::size_t>(index)].time << " s ";
+  return text.str();
+}
+
+// Why the derivative through an event cannot be trusted; empty, and made of nothing, where it can.
+std::string doubtOf(const Event& event, double tilt) {
+  const auto with = [](const char* before, double margin, const char* after) {
+    std::ostringstream text;
+    text << before << margin << after;
+    return text.str();
+  };
+  if (event.mode == ImpactMode::joint) return "joins several contacts: the derivative is that of the joint law";
+  if (event.margins.grazing < kReliableMargin) return with("is nearly grazing (margin ", event.margins.grazing, ")");
+  if (event.margins.stick_slip < kReliableMargin)
+    return with("is at the boundary of stick and slide (margin ", event.margins.stick_slip, "): one-sided derivative");
+  if (tilt < kReliableTilt)
+    return with("has a normal near the one direction whose tilt has no axes (margin ", tilt, ")");
+  return {};
+}
+
+RotationSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
+  const auto b = static_cast<std::size_t>(body);
+  const BodyPlan& plan = motion.plan.bodies[b];
+  return motion.world_lines[b].arcs[static_cast<std::size_t>(k)].rotationSensitivity(t, plan.derivative_tier,
+                                                                                     plan.derivative_products);
+}
+
+}  // namespace
+
+DerivativeTape::DerivativeTape(const Motion& motion) : motion_(motion), events_(motion.events.size()) {
+  if (!motion.has_events)
+    throw InputError("found a motion whose events were not recorded, expected one with them: derivatives need them");
+  for (const WorldLine& line : motion.world_lines) arcs_.emplace_back(line.arcs.size());
+}
+
+DerivativeTape::~DerivativeTape() = default;
+
+const RotationSensitivity& DerivativeTape::arc(int body, int k) {
+  const std::size_t b = checkedIndex("DerivativeTape::arc", "body", body, arcs_.size());
+  const WorldLine& line = motion_.world_lines[b];
+  const std::size_t kk = checkedIndex("DerivativeTape::arc", "an arc that ends in an event,", k, line.events.size());
+  auto& slot = arcs_[b][kk];
+  if (!slot) {
+    slot = std::make_unique<RotationSensitivity>(
+        sensitivity(motion_, body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
+  }
+  return *slot;
+}
+
+RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
+  const std::size_t b = checkedIndex("DerivativeTape::arcUntil", "body", body, arcs_.size());
+  checkedIndex("DerivativeTape::arcUntil", "arc", k, arcs_[b].size());
+  checkTime("DerivativeTape::arcUntil", motion_, t);
+  const auto found = until_.find({body, k, t});
+  if (found != until_.end()) return found->second;
+  if (until_.size() == kRemembered) until_.clear();
+  return until_[{body, k, t}] = sensitivity(motion_, body, k, t);
+}
+
+const EventLinearization& DerivativeTape::event(int event) {
+  auto& slot = events_[checkedIndex("DerivativeTape::event", "event", event, events_.size())];
+  if (!slot) slot = std::make_unique<EventLinearization>(motion_, event);
+  return *slot;
+}
+
+void Reliability::pass(const Motion& motion, int index) {
+  const Event& event = motion.events[checkedIndex("Reliability::pass", "event", index, motion.events.size())];
+  ++events;
+  const double tilt = tiltMarginOf(event);
+  smallest_margin = std::min({smallest_margin, event.margins.smallest(), tilt});
+  if (!reliable) return;
+  const std::string doubt = doubtOf(event, tilt);
+  if (doubt.empty()) return;
+  reliable = false;
+  message = sentenceOf(motion, index) + doubt;
+}
+
+void Reliability::passFriction(const Motion& motion, int index, double margin) {
+  if (!(margin < kReliableMargin)) return;
+  const Event& event = motion.events[checkedIndex("Reliability::passFriction", "event", index, motion.events.size())];
+  const Scene& scene = *motion.scene;
+  for (const Contact& c : event.contacts) {
+    if (c.pair.friction != 0) continue;
+    MaterialDerivative by_a, by_b;
+    combinePullback(materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
+                    materialOf(scene, scene.bodies[static_cast<std::size_t>(c.b)]), {0, 1, 0}, by_a, by_b);
+    for (const auto& [body, by] : {std::pair(c.a, by_a), std::pair(c.b, by_b)}) {
+      const int material = materialIndexOf(scene, body);
+      if (material < 0 || by.friction == 0) continue;
+      if (std::find(frictions.begin(), frictions.end(), material) == frictions.end()) frictions.push_back(material);
+    }
+  }
+  if (frictions.empty() || !friction_message.empty()) return;
+  std::ostringstream text;
+  text << sentenceOf(motion, index);
+  if (event.contacts.size() > 1) {
+    text << "joins several contacts, some without friction: it has no derivative by their friction, and 0 stands for it";
+  } else {
+    text << "is without friction and does not slip (margin " << margin
+         << "): the derivative by its friction is one-sided, and another one next to it";
+  }
+  friction_message = text.str();
+}
+
+void Reliability::askFriction(int material) {
+  if (std::find(frictions.begin(), frictions.end(), material) == frictions.end()) return;
+  smallest_margin = 0;
+  if (!reliable) return;
+  reliable = false;
+  message = friction_message;
+}
+
+}  // namespace carom

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "adjoint/motion/motion.h"
+
+namespace carom {
+
+class EventLinearization;
+
+/// When a state is read: at a time, or just before an event (then the time itself moves with the causes). A body that
+/// takes no part in the event is read at the time of the event.
+struct Instant {
+  double time = 0;
+  int event = -1;
+
+  static Instant at(double time) { return {time, -1}; }
+  static Instant before(int event) { return {0, event}; }
+};
+
+/// One linear functional of the state of a body at an instant, in the terms of BodyState: the weights of position,
+/// orientation (world rotation vector), velocity and angular velocity, and of the time of the event; besides, of the
+/// centre of mass.
+struct StateSeed {
+  int body = -1;
+  Instant at;
+  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  Vec3 center_of_mass = Vec3::Zero();  ///< weights of the place of the centre of mass
+  double time = 0;
+};
+
+/// How far a derivative can be trusted: the smallest margins of the events that it passed through.
+struct Reliability {
+  bool reliable = true;
+  int events = 0;              ///< events that the quantity depends on
+  double smallest_margin = 1;  ///< see Margins
+  std::string message;         ///< a sentence when not reliable
+
+  /// Materials by whose friction, which is 0, the derivative cannot be trusted; and why, by the first such event.
+  std::vector<int> frictions;
+  std::string friction_message;
+
+  void pass(const Motion& motion, int event);
+  /// `margin`: EventLinearization::frictionFromZero.
+  void passFriction(const Motion& motion, int event, double margin);
+  /// The derivative by the friction of a material is asked for, too.
+  void askFriction(int material);
+};
+
+/// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.
+/// Not for use from two threads at once. Keeps a reference to the motion.
+class DerivativeTape {
+ public:
+  explicit DerivativeTape(const Motion& motion);
+  ~DerivativeTape();
+
+  const Motion& motion() const { return motion_; }
+  /// Sensitivity over the whole of arc k of a body, which ends in an event.
+  const RotationSensitivity& arc(int body, int k);
+  /// Sensitivity from the start of arc k to time t; remembered, because the rows of a Jacobian share their times.
+  RotationSensitivity arcUntil(int body, int k, double t);
+  const EventLinearization& event(int event);
+
+ private:
+  const Motion& motion_;
+  std::vector<std::vector<std::unique_ptr<RotationSensitivity>>> arcs_;
+  std::map<std::tuple<int, int, double>, RotationSensitivity> until_;  // by body, arc and time
+  std::vector<std::unique_ptr<EventLinearization>> events_;
+};
+
+}  // namespace carom

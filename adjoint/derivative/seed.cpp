@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/derivative/seed.hpp"
+
+#include "adjoint/base/arguments.hpp"
+
+namespace carom {
+
+StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
+                             BodyModelDerivative& model_bar) {
+  StateDerivative bar;
+  bar.x = seed.position + seed.center_of_mass;
+  bar.theta = seed.orientation;
+  bar.v = seed.velocity;
+  if (!model.moving) return bar;
+  const Mat3 R = state.q.toRotationMatrix(), R_WG = model.shapeToWorld(R);
+  bar.theta += seed.position.cross(R_WG * model.center);  // -p_bar.(theta x c_W)
+  model_bar.center -= R_WG.transpose() * seed.position;
+  if (seed.angular_velocity.isZero(0)) return bar;
+  const Vec3 &w_bar = seed.angular_velocity, A_w_bar = model.inverseInertiaWorld(R) * w_bar;
+  const Vec3 omega = R * model.inverse_inertia.cwiseProduct(R.transpose() * state.L);
+  bar.L = A_w_bar;
+  // w_bar.(theta x omega) - A w_bar.(theta x L)
+  bar.theta += omega.cross(w_bar) - state.L.cross(A_w_bar);
+  model_bar.addInertiaBar(-(R.transpose() * A_w_bar) * (R.transpose() * omega).transpose());
+  return bar;
+}
+
+Vec3 originTangent(const BodyModel& model, const State& state, const StateDerivative& ds,
+                   const BodyModelDerivative& dmodel) {
+  if (!model.moving) return ds.x;
+  const Mat3 R_WG = model.shapeToWorld(state.q.toRotationMatrix());
+  return ds.x - ds.theta.cross(R_WG * model.center) - R_WG * dmodel.center;
+}
+
+Vec3 angularVelocityTangent(const BodyModel& model, const State& state, const StateDerivative& ds,
+                            const BodyModelDerivative& dmodel) {
+  if (!model.moving) return Vec3::Zero();
+  const Mat3 R = state.q.toRotationMatrix(), A = model.inverseInertiaWorld(R);
+  const Vec3 omega = A * state.L;
+  const Vec3 dJ_omega = R * (dmodel.inertiaTensor() * (R.transpose() * omega));
+  return A * (ds.L - ds.theta.cross(state.L) - dJ_omega) + ds.theta.cross(omega);
+}
+
+ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
+  const std::size_t b = checkedIndex("an instant that is read", "body", body, motion.world_lines.size());
+  if (instant.event != -1) {
+    const Event& event =
+        motion.events[checkedIndex("an instant that is read", "event", instant.event, motion.events.size())];
+    const Participant* p = event.find(body);
+    return p ? ReadPlace{event.time, p->arc, p->before} : readPlace(motion, body, Instant::at(event.time));
+  }
+  checkTime("an instant that is read", motion, instant.time);
+  const int k = motion.arcAt(body, instant.time);
+  return {instant.time, k, motion.world_lines[b].arcs[static_cast<std::size_t>(k)].stateAt(instant.time)};
+}
+
+double timeDerivative(const Motion& motion, const StateSeed& seed) {
+  checkSeed("timeDerivative", motion, seed);
+  const auto b = static_cast<std::size_t>(seed.body);
+  const ReadPlace place = readPlace(motion, seed.body, seed.at);
+  const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state);
+  BodyModelDerivative unused;
+  return seedPullback((*motion.models)[b], place.state, seed, unused).dot(F) + (seed.at.event >= 0 ? seed.time : 0);
+}
+
+}  // namespace carom

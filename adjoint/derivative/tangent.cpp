@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/derivative/tangent.h"
+
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/derivative/event_linearization.hpp"
+#include "adjoint/derivative/reach.hpp"
+#include "adjoint/derivative/seed.hpp"
+
+namespace carom {
+
+double BodyStateRate::dot(const StateSeed& s) const {
+  return position.dot(s.position) + orientation.dot(s.orientation) + velocity.dot(s.velocity) +
+         angular_velocity.dot(s.angular_velocity) + center_of_mass.dot(s.center_of_mass) + time * s.time;
+}
+
+StateDerivative MotionTangent::stateTangent(int body, int k, double t) const {
+  const auto b = static_cast<std::size_t>(body), kk = static_cast<std::size_t>(k);
+  return flightTangent(tape_->motion().world_lines[b].arcs[kk], t, tape_->arcUntil(body, k, t), starts_[b][kk],
+                       dgravity_, dmodels_[b]);
+}
+
+BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
+  const Motion& motion = tape_->motion();
+  const auto b = static_cast<std::size_t>(body);
+  const ReadPlace place = readPlace(motion, body, instant);
+  BodyStateRate rate;
+  StateDerivative ds = stateTangent(body, place.arc, place.time);
+  if (instant.event >= 0) {  // the instant moves along
+    rate.time = eventTime(instant.event);
+    ds.addScaled(rate.time, motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state));
+  }
+  const BodyModel& model = (*motion.models)[b];
+  rate.position = originTangent(model, place.state, ds, dmodels_[b]);
+  rate.center_of_mass = ds.x;
+  rate.orientation = ds.theta;
+  rate.velocity = ds.v;
+  rate.angular_velocity = angularVelocityTangent(model, place.state, ds, dmodels_[b]);
+  return rate;
+}
+
+const StateDerivative& MotionTangent::start(int body, int arc) const {
+  const auto& of_body = starts_[checkedIndex("MotionTangent::start", "body", body, starts_.size())];
+  return of_body[checkedIndex("MotionTangent::start", "arc", arc, of_body.size())];
+}
+
+const BodyModelDerivative& MotionTangent::model(int body) const {
+  return dmodels_[checkedIndex("MotionTangent::model", "body", body, dmodels_.size())];
+}
+
+double MotionTangent::eventTime(int event) const {
+  return event_time_[checkedIndex("MotionTangent::eventTime", "event", event, event_time_.size())];
+}
+
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
+  checkDirection("tangent", *tape.motion().scene, direction);
+  return tangent(tape, direction, nullptr);
+}
+
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach) {
+  const Motion& motion = tape.motion();
+  MotionTangent t;
+  t.tape_ = &tape;
+  t.dgravity_ = direction.gravity;
+  t.starts_.resize(motion.world_lines.size());
+  for (std::size_t b = 0; b < motion.world_lines.size(); ++b) {
+    const Body& body = motion.scene->bodies[b];
+    t.dmodels_.push_back(modelTangent(body, (*motion.models)[b], direction.bodies[b]));
+    t.starts_[b].push_back(startTangent(body, (*motion.models)[b], direction.bodies[b], t.dmodels_[b]));
+  }
+  for (std::size_t e = 0; e < motion.events.size(); ++e) {
+    const Event& event = motion.events[e];
+    if (reach && !reach->event(static_cast<int>(e))) {
+      t.event_time_.push_back(0);
+      for (const Participant& p : event.participants) t.starts_[static_cast<std::size_t>(p.body)].emplace_back();
+      continue;
+    }
+    std::vector<StateDerivative> before;
+    for (const Participant& p : event.participants) {
+      const auto b = static_cast<std::size_t>(p.body), k = static_cast<std::size_t>(p.arc);
+      before.push_back(flightTangent(motion.world_lines[b].arcs[k], event.time, tape.arc(p.body, p.arc),
+                                     t.starts_[b][k], t.dgravity_, t.dmodels_[b]));
+    }
+    const EventLinearization::Tangent d = tape.event(static_cast<int>(e)).tangent(before, direction, t.dmodels_);
+    t.event_time_.push_back(d.time);
+    for (std::size_t i = 0; i < d.after.size(); ++i)
+      t.starts_[static_cast<std::size_t>(event.participants[i].body)].push_back(d.after[i]);
+  }
+  return t;
+}
+
+}  // namespace carom

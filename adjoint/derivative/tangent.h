@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "adjoint/derivative/derivative_tape.h"
+
+namespace carom {
+namespace detail {
+class Reach;
+}
+
+/// Rate of a BodyState as the scene varies: world rotation vector for the orientation. `time` is the rate of the
+/// instant itself (0 at a given time).
+struct BodyStateRate {
+  Vec3 position = Vec3::Zero(), orientation = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  Vec3 center_of_mass = Vec3::Zero();
+  double time = 0;
+
+  double dot(const StateSeed& seed) const;
+};
+
+/// Forward pass: how the whole motion changes when the scene changes along `direction`. Equations 5.1 and 5.2 of
+/// docs/equations.md. Bodies, arcs, events and instants that the motion does not have throw InputError.
+class MotionTangent {
+ public:
+  BodyStateRate at(int body, const Instant& instant) const;
+  /// Of the state at the start of an arc, at the fixed time at which it starts; and of the mass properties.
+  const StateDerivative& start(int body, int arc) const;
+  const BodyModelDerivative& model(int body) const;
+  /// d(time of event).
+  double eventTime(int event) const;
+
+ private:
+  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
+  DerivativeTape* tape_ = nullptr;
+  Vec3 dgravity_ = Vec3::Zero();
+  std::vector<BodyModelDerivative> dmodels_;
+  std::vector<std::vector<StateDerivative>> starts_;  // of every arc of every body, at fixed time
+  std::vector<double> event_time_;
+  StateDerivative stateTangent(int body, int arc, double t) const;
+};
+
+/// The tape must outlive the result. Throws InputError for a direction that has not the entries of the scene, or numbers
+/// that are not finite; NotComputable as `adjoint`.
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction);
+
+}  // namespace carom

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/flight/arc.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/flight/flight_symmetric.hpp"
+
+namespace carom {
+
+const char* nameOf(Tier tier) {
+  switch (tier) {
+    case Tier::none:
+      return "none";
+    case Tier::spherical:
+      return "spherical";
+    case Tier::symmetric:
+      return "symmetric";
+    case Tier::triaxial:
+      return "triaxial";
+  }
+  return "";
+}
+
+namespace {
+
+// Largest |omega| on the polhode: with y = omega_i^2 >= 0, sum I_i y_i and sum I_i^2 y_i are constant, so the greatest
+// sum y_i is found where one component vanishes.
+double largestSpin(const Vec3& I, const Vec3& M) {
+  const double twice_energy = M.cwiseAbs2().dot(I.cwiseInverse()), L2 = M.squaredNorm();
+  double best = M.cwiseQuotient(I).squaredNorm();
+  for (int i = 0; i < 3; ++i) {
+    const double a = I[(i + 1) % 3], b = I[(i + 2) % 3];
+    if (!(std::abs(a - b) > 1e-12 * std::max(a, b))) {  // a pair of equal moments: bound by the smallest one
+      best = std::max(best, L2 / (std::min(a, b) * std::min(a, b)));
+      continue;
+    }
+    const double ya = (L2 - b * twice_energy) / (a * (a - b)), yb = (L2 - a * twice_energy) / (b * (b - a));
+    if (ya >= 0 && yb >= 0) best = std::max(best, ya + yb);
+  }
+  return std::sqrt(best);
+}
+
+// Bound on |omega'|, omega'_i = (I_j - I_k)/I_i omega_j omega_k. The sums of I_i |I_i - I_k| omega_i^2, for the largest
+// and the smallest moment I_k, are constant in the flight and bound every other omega_i^2: a spin about one of these two
+// axes stays.
+double largestSpinRate(const Vec3& I, const Vec3& omega, double spin) {
+  Vec3 most = Vec3::Constant(spin * spin);
+  Eigen::Index low, high;
+  I.minCoeff(&low), I.maxCoeff(&high);
+  for (const Eigen::Index k : {low, high}) {
+    const Vec3 weight = I.cwiseProduct((I.array() - I[k]).abs().matrix());
+    const double kept = weight.dot(omega.cwiseAbs2());
+    for (int i = 0; i < 3; ++i)
+      if (weight[i] > 0) most[i] = std::min(most[i], kept / weight[i]);
+  }
+  double rate2 = 0, uneven = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double factor = std::abs(I[j] - I[k]) / I[i];
+    rate2 += factor * factor * most[j] * most[k];
+    uneven = std::max(uneven, factor);
+  }
+  // in any case the sum of (omega_j omega_k)^2 is at most |omega|^4 / 3
+  const double always = uneven * spin * spin / std::sqrt(3.0);
+  return std::min(always, std::sqrt(rate2) * (1 + 1e-12) + 1e-15 * always);
+}
+
+}  // namespace
+
+Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state)
+    : model_(&model), tier_(tier), start_(start), gravity_(model.moving ? Vec3(model.gravity_factor * gravity) : Vec3::Zero()), state_(state) {
+  if (!model.moving) return;
+  const Vec3& I = model.inertia;
+  if (tier == Tier::none || tier == Tier::spherical) {
+    spin_bound_ = state.L.norm() / I.minCoeff() * (1 + 1e-12);  // omega is constant
+    return;
+  }
+  const Vec3 M = state.q.toRotationMatrix().transpose() * state.L;
+  if (tier == Tier::symmetric) {
+    symmetry_axis_ = symmetryAxis(I);
+    spin_bound_ = M.cwiseQuotient(I).norm() * (1 + 1e-12);  // |omega| is constant
+  } else {
+    triaxial_ = std::make_unique<TriaxialRotation>();
+    triaxial_->begin(model.inverse_inertia, state.q, state.L);
+    spin_bound_ = largestSpin(I, M) * (1 + 1e-12);
+  }
+  spin_rate_bound_ = largestSpinRate(I, M.cwiseQuotient(I), spin_bound_);
+}
+
+std::optional<Vec3> Arc::steadyAxis() const {
+  if (tier_ == Tier::none || tier_ == Tier::spherical) return Vec3(Vec3::Zero());
+  if (tier_ != Tier::symmetric) return std::nullopt;
+  const Vec3 axis = Vec3::Unit(symmetry_axis_);
+  return model_->has_offset ? Vec3(model_->R_BG.transpose() * axis) : axis;
+}
+
+Arc::Arc(const Arc& o)
+    : model_(o.model_),
+      tier_(o.tier_),
+      symmetry_axis_(o.symmetry_axis_),
+      start_(o.start_),
+      spin_bound_(o.spin_bound_),
+      spin_rate_bound_(o.spin_rate_bound_),
+      triaxial_(o.triaxial_ ? std::make_unique<TriaxialRotation>(*o.triaxial_) : nullptr),
+      gravity_(o.gravity_),
+      state_(o.state_) {}
+
+Arc& Arc::operator=(const Arc& other) { return *this = Arc(other); }
+
+void Arc::extendTo(double t) {
+  if (triaxial_) triaxial_->extendTo(t - start_);
+}
+
+Quat Arc::rotationAt(double s) const {
+  if (!model_->moving || s == 0) return state_.q;
+  switch (tier_) {
+    case Tier::none:
+      return state_.q;
+    case Tier::spherical:
+      return sphericalOrientation(model_->inertia[0], state_.q, state_.L, s);
+    case Tier::symmetric:
+      return symmetricOrientation(model_->inertia, symmetry_axis_, state_.q, state_.L, s);
+    case Tier::triaxial:
+      return triaxial_->orientationAt(s);
+  }
+  return state_.q;
+}
+
+Vec3 Arc::positionAt(double t) const {
+  const double s = t - start_;
+  return state_.x + s * (state_.v + 0.5 * s * gravity_);
+}
+
+Vec3 Arc::velocityAt(double t) const { return state_.v + (t - start_) * gravity_; }
+
+State Arc::stateAt(double t) const { return {positionAt(t), rotationAt(t - start_), velocityAt(t), state_.L}; }
+
+Kinematics Arc::kinematicsOf(const State& s) const {
+  Kinematics k;
+  k.x = s.x;
+  k.v = s.v;
+  k.R = s.q.toRotationMatrix();
+  if (model_->moving) k.w = k.R * model_->inverse_inertia.cwiseProduct(k.R.transpose() * s.L);
+  k.R = model_->shapeToWorld(k.R);
+  return k;
+}
+
+StateDerivative Arc::rate(const State& s) const {
+  StateDerivative ds;
+  if (!model_->moving) return ds;
+  const Mat3 R = s.q.toRotationMatrix();
+  ds.x = s.v;
+  ds.theta = R * model_->inverse_inertia.cwiseProduct(R.transpose() * s.L);
+  ds.v = gravity_;
+  return ds;
+}
+
+RotationSensitivity Arc::rotationSensitivity(double t, Tier tier, bool products) const {
+  const double s = t - start_;
+  switch (tier) {
+    case Tier::none:
+      return {};
+    case Tier::spherical:
+      return sphericalSensitivity(model_->inertia[0], state_.L, s);
+    case Tier::symmetric:
+      return symmetricSensitivity(model_->inertia, symmetryAxis(model_->inertia), state_.q, state_.L, s);
+    case Tier::triaxial:
+      break;
+  }
+  if (triaxial_) return triaxial_->sensitivityAt(s, products);
+  TriaxialRotation general;  // the motion needed less than its derivative does
+  general.begin(model_->inverse_inertia, state_.q, state_.L);
+  general.extendTo(s);
+  return general.sensitivityAt(s, products);
+}
+
+StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& dstart,
+                              const Vec3& dgravity, const BodyModelDerivative& dmodel) {
+  if (!arc.moving()) return dstart;
+  const double s = t - arc.start();
+  const Vec3 dacceleration = arc.model().gravity_factor * dgravity;
+  StateDerivative d;
+  d.x = dstart.x + s * (dstart.v + 0.5 * s * dacceleration);
+  d.v = dstart.v + s * dacceleration;
+  d.theta = S.dtheta_dtheta * dstart.theta + S.dtheta_dL * dstart.L + S.dtheta_dI * dmodel.inertia +
+            S.dtheta_dproducts * dmodel.products;
+  d.L = dstart.L;
+  return d;
+}
+
+StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& end_bar,
+                               Vec3& gravity_bar, BodyModelDerivative& model_bar) {
+  if (!arc.moving()) return end_bar;
+  const double s = t - arc.start();
+  StateDerivative d;
+  d.x = end_bar.x;
+  d.v = end_bar.v + s * end_bar.x;
+  d.theta = S.dtheta_dtheta.transpose() * end_bar.theta;
+  d.L = end_bar.L + S.dtheta_dL.transpose() * end_bar.theta;
+  gravity_bar += arc.model().gravity_factor * (0.5 * s * s * end_bar.x + s * end_bar.v);
+  model_bar.inertia += S.dtheta_dI.transpose() * end_bar.theta;
+  model_bar.products += S.dtheta_dproducts.transpose() * end_bar.theta;
+  return d;
+}
+
+}  // namespace carom

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "adjoint/flight/flight_triaxial.hpp"
+#include "adjoint/scene/body_model.h"
+
+namespace carom {
+
+/// Kinds of arc in a world-line. Lasting contact will add kinds; the passes ask an arc, not its kind.
+enum class ArcKind { flight };
+
+/// How the rotation of a flight is carried; see docs/equations.md section 2.
+enum class Tier { none, spherical, symmetric, triaxial };
+const char* nameOf(Tier tier);
+
+/// Pose and velocity at one time: x and v of the centre of mass, R = R_WG (shape axes to world). With Tier::none R is
+/// the start's.
+struct Kinematics {
+  Vec3 x = Vec3::Zero();
+  Mat3 R = Mat3::Identity();
+  Vec3 v = Vec3::Zero();
+  Vec3 w = Vec3::Zero();
+};
+
+/// One stretch of a world-line: free flight of one body from `start()` on, known in closed form or as Taylor segments.
+/// A fixed body has one arc, which stays where it is.
+class Arc {
+ public:
+  /// A flight under the scene's gravity, or the model's share of it, from the given state.
+  Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
+  Arc(const Arc& other);
+  Arc& operator=(const Arc& other);
+  Arc(Arc&&) noexcept = default;
+  Arc& operator=(Arc&&) noexcept = default;
+  ~Arc() = default;
+
+  ArcKind kind() const { return ArcKind::flight; }
+  Tier tier() const { return tier_; }
+  double start() const { return start_; }
+  const State& startState() const { return state_; }
+  const BodyModel& model() const { return *model_; }
+  const Vec3& acceleration() const { return gravity_; }
+  bool moving() const { return model_->moving; }
+
+  /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do). Throws
+  /// InputError for a time that is not finite, NotComputable where the rotation cannot be followed that far.
+  void extendTo(double t);
+  /// Up to here the motion is available; infinite where all of it is.
+  double reach() const { return triaxial_ ? start_ + triaxial_->reach() : std::numeric_limits<double>::infinity(); }
+
+  /// Series that carry the rotation so far: the work that `extendTo` has done.
+  std::size_t series() const { return triaxial_ ? triaxial_->series() : 0; }
+
+  State stateAt(double t) const;
+  Kinematics kinematicsAt(double t) const { return kinematicsOf(stateAt(t)); }
+  /// Of a state of this body.
+  Kinematics kinematicsOf(const State& state) const;
+  Vec3 positionAt(double t) const;
+  Vec3 velocityAt(double t) const;
+  /// d(state)/dt of the flow: (v, omega, acceleration, 0).
+  StateDerivative rate(const State& state) const;
+
+  /// Bounds over the whole arc: |omega| <= spinBound(), |d omega/dt| <= spinRateBound().
+  double spinBound() const { return spin_bound_; }
+  double spinRateBound() const { return spin_rate_bound_; }
+
+  /// An axis of the body, in shape axes, that precesses about L at the constant rate precession() (rad/s): that of
+  /// symmetry; zero where every axis does, nothing for a triaxial body.
+  std::optional<Vec3> steadyAxis() const;
+  double precession() const { return state_.L.norm() * model_->inverse_inertia[(symmetry_axis_ + 1) % 3]; }
+
+  /// Sensitivity of the rotation from start() to t. `tier` is the one the derivative needs: Tier::triaxial gives
+  /// dtheta_dI for free, independent moments, and with `products` dtheta_dproducts; Tier::symmetric and
+  /// Tier::spherical give dtheta_dI for changes that keep the symmetry.
+  RotationSensitivity rotationSensitivity(double t, Tier tier, bool products = false) const;
+
+ private:
+  Quat rotationAt(double elapsed) const;
+
+  const BodyModel* model_;  // outlives the arc: held by the Motion
+  Tier tier_;
+  int symmetry_axis_ = 2;
+  double start_;
+  double spin_bound_ = 0, spin_rate_bound_ = 0;
+  std::unique_ptr<TriaxialRotation> triaxial_;  // apart, so that the arcs of the other tiers are small
+  Vec3 gravity_;
+  State state_;
+};
+
+/// Tangent of the flight from arc.start() to t at fixed times: ds(t) from ds(start), dg and the model's derivative.
+StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& dstart,
+                              const Vec3& dgravity, const BodyModelDerivative& dmodel);
+/// Its adjoint: from the adjoint at t to the adjoint at start; adds to those of gravity and the model.
+StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& end_bar,
+                               Vec3& gravity_bar, BodyModelDerivative& model_bar);
+
+}  // namespace carom

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/motion/motion.h"
+
+#include <algorithm>
+
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/base/errors.h"
+#include "adjoint/impact/law.hpp"
+
+namespace carom {
+
+const char* nameOf(ImpactMode mode) {
+  switch (mode) {
+    case ImpactMode::frictionless:
+      return "frictionless";
+    case ImpactMode::stick:
+      return "stick";
+    case ImpactMode::slide:
+      return "slide";
+    case ImpactMode::joint:
+      return "joint";
+  }
+  return "";
+}
+
+const char* nameOf(MotionStatus status) {
+  switch (status) {
+    case MotionStatus::complete:
+      return "complete";
+    case MotionStatus::impact_limit:
+      return "impact_limit";
+    case MotionStatus::cascade:
+      return "cascade";
+    case MotionStatus::unresolved_impact:
+      return "unresolved_impact";
+    case MotionStatus::not_computable:
+      return "not_computable";
+    case MotionStatus::step_limit:
+      return "step_limit";
+    case MotionStatus::stopped:
+      return "stopped";
+  }
+  return "";
+}
+
+const Participant* Event::find(int body) const {
+  for (const Participant& p : participants)
+    if (p.body == body) return &p;
+  return nullptr;
+}
+
+bool Event::touches(int body, int with) const {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [&](const Contact& c) { return (c.a == body && c.b == with) || (c.a == with && c.b == body); });
+}
+
+BodyState toBodyState(const BodyModel& model, const State& s) {
+  BodyState out;
+  out.position = s.x;
+  out.orientation = model.has_offset ? Quat(s.q * Quat(model.R_BG)).normalized() : s.q;
+  out.velocity = s.v;
+  if (model.moving) {
+    const Mat3 R = s.q.toRotationMatrix();
+    out.position -= model.shapeToWorld(R) * model.center;
+    out.angular_velocity = R * model.inverse_inertia.cwiseProduct(R.transpose() * s.L);
+  }
+  return out;
+}
+
+int Motion::arcAt(int body, double t) const {
+  const auto& arcs = world_lines[checkedIndex("arcAt", "body", body, world_lines.size())].arcs;
+  checkedNumber("arcAt", "the time", t);
+  const auto next = std::upper_bound(arcs.begin(), arcs.end(), t, [](double x, const Arc& a) { return x < a.start(); });
+  return std::max(0, static_cast<int>(next - arcs.begin()) - 1);
+}
+
+BodyState Motion::stateAt(const std::string& body, double t) const { return stateAt(bodyIndex(*scene, body), t); }
+
+BodyState Motion::stateAt(int body, double t) const {
+  const std::size_t b = checkedIndex("stateAt", "body", body, world_lines.size());
+  checkTime("stateAt", *this, t);
+  const Arc& arc = world_lines[b].arcs[static_cast<std::size_t>(arcAt(body, t))];
+  return toBodyState((*models)[b], arc.stateAt(t));
+}
+
+BodyState Motion::stateBefore(int event, int body) const {
+  const std::size_t b = checkedIndex("stateBefore", "body", body, world_lines.size());
+  const Event& e = events[checkedIndex("stateBefore", "event", event, events.size())];
+  const Participant* p = e.find(body);
+  if (!p) return stateAt(body, e.time);
+  return toBodyState((*models)[b], p->before);
+}
+
+std::optional<int> Motion::findImpact(int body, int n, int with) const {
+  if (!has_events) throw InputError("found a motion whose events were not recorded, expected one with them");
+  const std::size_t b = checkedIndex("findImpact", "body", body, world_lines.size());
+  if (with != -1) checkedIndex("findImpact", "the other body", with, world_lines.size());
+  if (n < 1) refuseNumber("findImpact", "impact", n, "1 (the first) or more");
+  int count = 0;
+  for (int e : world_lines[b].events) {
+    if (with >= 0 && !events[static_cast<std::size_t>(e)].touches(body, with)) continue;
+    if (++count == n) return e;
+  }
+  return std::nullopt;
+}
+
+std::string Motion::describeEvent(int index) const {
+  const Event& event = events[checkedIndex("describeEvent", "event", index, events.size())];
+  std::string text;
+  for (const Contact& c : event.contacts) {
+    if (!text.empty()) text += " + ";
+    text += scene->bodies[static_cast<std::size_t>(c.a)].name + "-" +
+            scene->bodies[static_cast<std::size_t>(c.b)].name + " (" + geometry->describe(c.a, c.b, c.features) + ")";
+  }
+  return text + " " + nameOf(event.mode);
+}
+
+std::string Motion::signature(std::size_t count) const {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(count, events.size()); ++i) {
+    const Event& event = events[i];
+    for (const Contact& c : event.contacts)
+      for (int part : {c.a, c.b, static_cast<int>(c.features.kind), static_cast<int>(c.features.a),
+                       static_cast<int>(c.features.b), static_cast<int>(c.features.sign)})
+        text += std::to_string(part) + ",";
+    text += nameOf(branchOf(event.mode));
+    text += ';';
+  }
+  return text;
+}
+
+}  // namespace carom

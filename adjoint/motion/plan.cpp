@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/motion/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/flight/flight_symmetric.hpp"
+
+namespace carom {
+namespace {
+
+struct Rule {
+  double value, by_a, by_b;
+};
+
+// The pair's coefficient and its derivatives by the two materials'. On a tie of minimum or maximum both materials hold
+// the value; the first one, by the order of the bodies, is taken to carry it half and half.
+Rule combined(Combine rule, double a, double b) {
+  switch (rule) {
+    case Combine::average:
+      return {0.5 * (a + b), 0.5, 0.5};
+    case Combine::multiply:
+      return {a * b, b, a};
+    case Combine::minimum:
+    case Combine::maximum:
+      break;
+  }
+  if (a == b) return {a, 0.5, 0.5};
+  const bool takes_a = (a < b) == (rule == Combine::minimum);
+  return takes_a ? Rule{a, 1, 0} : Rule{b, 0, 1};
+}
+
+struct PairRules {
+  Rule elasticity, friction, tangential;
+};
+
+PairRules rulesOf(const Material& a, const Material& b) {
+  // the enumerators stand in the order of precedence
+  return {combined(std::min(a.combine_elasticity, b.combine_elasticity), a.elasticity, b.elasticity),
+          combined(std::min(a.combine_friction, b.combine_friction), a.friction, b.friction),
+          combined(Combine::average, a.tangential_elasticity, b.tangential_elasticity)};
+}
+
+}  // namespace
+
+PairCoefficients combine(const Material& a, const Material& b) {
+  const PairRules r = rulesOf(a, b);
+  return {r.elasticity.value, r.friction.value, r.tangential.value};
+}
+
+PairCoefficients combineTangent(const Material& a, const Material& b, const MaterialDerivative& da,
+                                const MaterialDerivative& db) {
+  const PairRules r = rulesOf(a, b);
+  return {r.elasticity.by_a * da.elasticity + r.elasticity.by_b * db.elasticity,
+          r.friction.by_a * da.friction + r.friction.by_b * db.friction,
+          r.tangential.by_a * da.tangential_elasticity + r.tangential.by_b * db.tangential_elasticity};
+}
+
+void combinePullback(const Material& a, const Material& b, const PairCoefficients& pair_bar, MaterialDerivative& a_bar,
+                     MaterialDerivative& b_bar) {
+  const PairRules r = rulesOf(a, b);
+  a_bar.elasticity += r.elasticity.by_a * pair_bar.elasticity;
+  b_bar.elasticity += r.elasticity.by_b * pair_bar.elasticity;
+  a_bar.friction += r.friction.by_a * pair_bar.friction;
+  b_bar.friction += r.friction.by_b * pair_bar.friction;
+  a_bar.tangential_elasticity += r.tangential.by_a * pair_bar.tangential_elasticity;
+  b_bar.tangential_elasticity += r.tangential.by_b * pair_bar.tangential_elasticity;
+}
+
+Law lawOf(const PairCoefficients& pair) { return pair.friction > 0 ? Law::friction : Law::frictionless; }
+
+namespace {
+
+// How the inertia tensor can change, in principal axes, when the scene varies.
+struct InertiaChange {
+  bool keeps_symmetry = true;  // moments that are equal stay equal
+  bool keeps_axes = true;      // no products of inertia
+};
+
+// Written moments vary one by one. Derived ones follow mass and dimensions: a mass changes them in proportion, a
+// dimension as the rates of the shape say.
+InertiaChange inertiaChange(const Body& body, const BodyModel& model, int symmetry_axis) {
+  if (body.inertia.source != Inertia::Source::derived) return {false, true};
+  InertiaChange change;
+  for (const SolidRate& rate : kindOf(body.shape).properties(body.shape).rates) {
+    const Mat3 dJ = model.R_BG * rate.unit_inertia * model.R_BG.transpose();
+    const double rounding = 1e-12 * dJ.cwiseAbs().maxCoeff();
+    const auto differ = [&](int i, int j) { return std::abs(dJ(i, i) - dJ(j, j)) > rounding; };
+    if (std::max({std::abs(dJ(1, 2)), std::abs(dJ(0, 2)), std::abs(dJ(0, 1))}) > rounding)
+      change.keeps_symmetry = change.keeps_axes = false;
+    if (symmetry_axis == -1 && (differ(0, 1) || differ(1, 2))) change.keeps_symmetry = false;
+    if (symmetry_axis >= 0 && symmetry_axis < 3 && differ((symmetry_axis + 1) % 3, (symmetry_axis + 2) % 3))
+      change.keeps_symmetry = false;
+  }
+  return change;
+}
+
+BodyPlan planBody(const Body& body, const Asked& asked) {
+  if (body.fixed) return {Tier::none, Tier::none, false, "fixed: it does not move", "fixed: it does not move"};
+  if (body.kinematic) {
+    constexpr const char* kWhy = "kinematic: its angular velocity is constant";
+    return {Tier::spherical, Tier::spherical, false, kWhy, kWhy};
+  }
+  const BodyModel model = modelOf(body);
+  const int axis = symmetryAxis(model.inertia);
+  const InertiaChange change = asked.inertia ? inertiaChange(body, model, axis) : InertiaChange{};
+  const bool uniform_ball = std::holds_alternative<Sphere>(body.shape) && axis == -1 && model.center.isZero(0);
+  if (uniform_ball && change.keeps_symmetry && !asked.orientation)
+    return {Tier::none, Tier::none, false, "a uniform ball whose orientation is not asked for: nothing depends on it",
+            "a uniform ball whose orientation is not asked for: nothing depends on it"};
+  BodyPlan plan;
+  plan.derivative_products = !change.keeps_axes;
+  if (axis == -1) plan.tier = Tier::spherical, plan.why = "three equal moments: it spins about a fixed axis";
+  if (axis >= 0 && axis < 3) plan.tier = Tier::symmetric, plan.why = "two equal moments: it precesses steadily";
+  if (axis == 3) plan.tier = Tier::triaxial, plan.why = "three different moments";
+  plan.derivative_tier = change.keeps_symmetry ? plan.tier : Tier::triaxial;
+  if (!change.keeps_axes) {
+    plan.derivative_why = "its sizes turn its principal axes";
+  } else if (axis == 3) {
+    plan.derivative_why = plan.why;
+  } else if (change.keeps_symmetry) {
+    plan.derivative_why = "nothing asked for breaks the symmetry of its moments";
+  } else {
+    plan.derivative_why = "its moments vary one by one, which breaks their symmetry";
+  }
+  return plan;
+}
+
+}  // namespace
+
+Plan makePlan(const Scene& scene, const std::vector<Asked>& asked) {
+  Plan plan;
+  plan.bodies.reserve(scene.bodies.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    plan.bodies.push_back(planBody(scene.bodies[i], i < asked.size() ? asked[i] : Asked{}));
+  return plan;
+}
+
+}  // namespace carom

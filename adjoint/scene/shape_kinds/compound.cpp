@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/dual.hpp"
+#include "adjoint/scene/shapes/kinds.hpp"
+
+namespace carom::shapes {
+namespace {
+
+const std::vector<CompoundPart>& parts(const Shape& s) { return std::get<Compound>(s).parts; }
+
+// Names of part i's dimensions begin with "i."; a part may be a compound itself.
+std::vector<std::string> names(const Shape& s) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < parts(s).size(); ++i) {
+    const Shape& part = parts(s)[i].shape;
+    for (const std::string& name : kindOf(part).dimension_names(part)) all.push_back(std::to_string(i) + "." + name);
+  }
+  return all;
+}
+
+Eigen::VectorXd dimensions(const Shape& s) {
+  std::vector<double> all;
+  for (const CompoundPart& part : parts(s)) {
+    const Eigen::VectorXd d = kindOf(part.shape).dimensions(part.shape);
+    all.insert(all.end(), d.begin(), d.end());
+  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+void setDimensions(Shape& s, const Eigen::VectorXd& values) {
+  requireDimensions(values, dimensions(s).size());
+  Eigen::Index first = 0;
+  for (CompoundPart& part : std::get<Compound>(s).parts) {
+    const ShapeKind& kind = kindOf(part.shape);
+    const Eigen::Index count = kind.dimensions(part.shape).size();
+    kind.setDimensions(part.shape, values.segment(first, count));
+    first += count;
+  }
+}
+
+bool solid(const Shape& s) {
+  return !parts(s).empty() && std::all_of(parts(s).begin(), parts(s).end(),
+                                          [](const CompoundPart& p) { return kindOf(p.shape).solid(p.shape); });
+}
+
+template <class S>
+using Numbers3 = detail::V3<S>;
+template <class S>
+using Matrix3 = detail::M3<S>;
+
+// R I R^T. What is the same about every axis (a ball) or about the axis of the turn stays so exactly.
+template <class S>
+Matrix3<S> turned(const Mat3& R, const Matrix3<S>& I) {
+  if (R.isIdentity(0)) return I;
+  const Matrix3<S> same = I(0, 0) * Matrix3<S>::Identity();
+  const Matrix3<S> rest = R * (I - same) * R.transpose();
+  return same + 0.5 * (rest + rest.transpose());
+}
+
+// Parallel axes: |d|^2 1 - d d^T, and its rate by d along e.
+template <class S>
+Matrix3<S> shifted(const Numbers3<S>& d) {
+  return d.squaredNorm() * Matrix3<S>::Identity() - d * d.transpose();
+}
+template <class S>
+Matrix3<S> shiftedRate(const Numbers3<S>& d, const Numbers3<S>& e) {
+  return 2 * d.dot(e) * Matrix3<S>::Identity() - d * e.transpose() - e * d.transpose();
+}
+
+// SolidProperties of another kind of number.
+template <class S>
+struct RateOf {
+  S volume;
+  Numbers3<S> center;
+  Matrix3<S> unit_inertia;
+};
+template <class S>
+struct SolidOf {
+  S volume = 0;
+  Numbers3<S> center = Numbers3<S>::Zero();
+  Matrix3<S> unit_inertia = Matrix3<S>::Zero();
+  std::vector<RateOf<S>> rates;
+};
+
+// V = sum V_i, c = sum w_i c_i, I = sum w_i (R_i I_i R_i^T + S(c_i - c)), with shares w_i = V_i/V and S(d) = |d|^2 1 -
+// d d^T. By a dimension of part i (the parts' shares change and so does c, but sum w_j (c_j - c) = 0):
+//   dc = dV_i/V (c_i - c) + w_i R_i dc_i
+//   dI = dV_i/V (R_i I_i R_i^T + S(c_i - c) - I) + w_i (R_i dI_i R_i^T + dS(c_i - c; R_i dc_i))
+template <class S, class OfPart>
+SolidOf<S> combined(const Shape& s, const OfPart& of_part) {
+  struct Part {
+    SolidOf<S> solid;
+    Mat3 R;
+    Numbers3<S> center;
+    Matrix3<S> inertia;  // of the part about the compound's centre, per unit mass of the part
+  };
+  if (parts(s).empty())
+    throw InputError("found the mass properties of a compound without parts asked for, expected parts");
+  std::vector<Part> all;
+  SolidOf<S> p;
+  for (const CompoundPart& part : parts(s)) {
+    Part& a = all.emplace_back();
+    a.solid = of_part(part.shape);
+    a.R = part.orientation.normalized().toRotationMatrix();
+    a.center = part.position + a.R * a.solid.center;
+    p.volume += a.solid.volume;
+  }
+  for (const Part& a : all) p.center += a.solid.volume / p.volume * a.center;
+  for (Part& a : all) {
+    a.inertia = turned<S>(a.R, a.solid.unit_inertia) + shifted<S>(a.center - p.center);
+    p.unit_inertia += a.solid.volume / p.volume * a.inertia;
+  }
+  for (const Part& a : all) {
+    const S share = a.solid.volume / p.volume;
+    for (const RateOf<S>& rate : a.solid.rates) {
+      const S dshare = rate.volume / p.volume;
+      const Numbers3<S> d = a.center - p.center, dcenter = a.R * rate.center;
+      p.rates.push_back({rate.volume, dshare * d + share * dcenter,
+                         dshare * (a.inertia - p.unit_inertia) +
+                             share * (turned<S>(a.R, rate.unit_inertia) + shiftedRate<S>(d, dcenter))});
+    }
+  }
+  return p;
+}
+
+SolidProperties compoundProperties(const Shape& s) {
+  const SolidOf<double> sum = combined<double>(s, [](const Shape& part) {
+    const SolidProperties solid = kindOf(part).properties(part);
+    SolidOf<double> out{solid.volume, solid.center, solid.unit_inertia, {}};
+    for (const SolidRate& r : solid.rates) out.rates.push_back({r.volume, r.center, r.unit_inertia});
+    return out;
+  });
+  SolidProperties p{sum.volume, sum.center, sum.unit_inertia, {}};
+  for (const RateOf<double>& r : sum.rates) p.rates.push_back({r.volume, r.center, r.unit_inertia});
+  return p;
+}
+
+using Number = detail::Dual<1>;
+
+template <class To, class From>
+To withRates(const From& values, const From& rates) {
+  To out = values.template cast<Number>();
+  detail::setRates(out, rates, 0);
+  return out;
+}
+Number withRate(double value, double rate) {
+  Number n = value;
+  n.rate[0] = rate;
+  return n;
+}
+
+SolidProperties compoundPropertiesRate(const Shape& s, const Eigen::VectorXd& dimension_rates) {
+  requireDimensions(dimension_rates, dimensions(s).size());
+  Eigen::Index first = 0;
+  const SolidOf<Number> sum = combined<Number>(s, [&](const Shape& part) {
+    const SolidProperties a = kindOf(part).properties(part);
+    const Eigen::Index count = kindOf(part).dimensions(part).size();
+    const SolidProperties da = kindOf(part).propertiesRate(part, dimension_rates.segment(first, count));
+    first += count;
+    using V = Numbers3<Number>;
+    using M = Matrix3<Number>;
+    SolidOf<Number> out{withRate(a.volume, da.volume),
+                        withRates<V>(a.center, da.center),
+                        withRates<M>(a.unit_inertia, da.unit_inertia),
+                        {}};
+    for (std::size_t i = 0; i < a.rates.size(); ++i) {
+      const SolidRate &r = a.rates[i], &dr = da.rates[i];
+      out.rates.push_back({withRate(r.volume, dr.volume), withRates<V>(r.center, dr.center),
+                           withRates<M>(r.unit_inertia, dr.unit_inertia)});
+    }
+    return out;
+  });
+  const auto rate = [](const auto& m) { return detail::ratesOf(m, 0); };
+  SolidProperties p{sum.volume.rate[0], rate(sum.center), rate(sum.unit_inertia), {}};
+  for (const RateOf<Number>& r : sum.rates) p.rates.push_back({r.volume.rate[0], rate(r.center), rate(r.unit_inertia)});
+  return p;
+}
+
+double boundingRadius(const Shape& s) {
+  double largest = 0;
+  for (const CompoundPart& part : parts(s))
+    largest = std::max(largest, part.position.norm() + kindOf(part.shape).boundingRadius(part.shape));
+  return largest;
+}
+
+}  // namespace
+
+ShapeKind compoundKind() {
+  return {"compound", names, dimensions, setDimensions, solid, compoundProperties, compoundPropertiesRate, boundingRadius};
+}
+
+}  // namespace carom::shapes

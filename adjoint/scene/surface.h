@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "adjoint/base/types.h"
+
+namespace carom {
+
+/// Polygons that share corners: the boundary of a convex hull, or a mesh of triangles. Immutable once made; checked by
+/// the functions that make it.
+struct Surface {
+  /// A flat polygon: corners[first .. first + count), counter-clockwise seen from outside.
+  struct Face {
+    int first = 0, count = 0;
+    Vec3 normal = Vec3::UnitZ();  ///< unit, outward
+  };
+  /// An edge between two faces, or at the border of one (`right` is -1).
+  struct Edge {
+    int from = 0, to = 0;       ///< vertices; `left` runs along it in this direction
+    int left = -1, right = -1;  ///< faces
+    double bend = 0;            ///< signed sine of the angle between the normals: > 0 convex, 0 flat, < 0 reflex
+  };
+
+  std::vector<Vec3> vertices;  ///< m
+  std::vector<int> corners;
+  std::vector<Face> faces;
+  std::vector<Edge> edges;
+  bool closed = false;  ///< every edge has two faces
+
+  // Of a closed surface, by the divergence theorem, at uniform density.
+  double volume = 0;
+  Vec3 center = Vec3::Zero();
+  Mat3 unit_inertia = Mat3::Zero();  ///< about the centre, per unit mass, m^2
+};
+
+/// Least length of a side of a mesh and of the extent of a hull, m: the fifth powers in the integrals and the squares
+/// of areas then stay far within the range of a double.
+inline constexpr double kLeastLength = 1e-30;
+
+/// Mesh of triangles. Vertices at the same place are joined. Throws InputError naming the vertex, triangle or edge:
+/// nothing in it, numbers not finite or above 1e9, indices out of range, sides below kLeastLength, triangles without
+/// area, edges of more than two triangles or run through twice in one direction, a closed mesh inside out.
+std::shared_ptr<const Surface> meshSurface(const std::vector<Vec3>& vertices,
+                                           const std::vector<std::array<int, 3>>& triangles);
+
+/// Surface from polygons whose corners are already shared and counter-clockwise; fills in normals, edges and integrals.
+/// The normal of a polygon without area is zero, which is for the caller to check. Throws InputError for polygons of
+/// fewer than three corners and vertices that are not there.
+Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& polygons);
+
+}  // namespace carom

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/second_order/lanes.hpp"
+
+namespace carom::detail {
+namespace {
+
+std::vector<const SceneTangent*> scenesOf(std::span<const ReadingDirection> directions) {
+  std::vector<const SceneTangent*> out;
+  for (const ReadingDirection& d : directions) out.push_back(&d.scene);
+  return out;
+}
+
+}  // namespace
+
+Lanes::Lanes(DerivativeTape& tape, std::span<const ReadingDirection> directions)
+    : tape_(tape),
+      directions_(directions),
+      reach_(tape.motion(), scenesOf(directions)),
+      gravity_(constant(tape.motion().scene->gravity)) {
+  for (const BodyModel& model : *motion().models) models_.push_back(dualModel(model));
+  for (std::size_t lane = 0; lane < directions.size(); ++lane) {
+    tangents_.push_back(carom::tangent(tape, directions[lane].scene, &reach_));
+    setRates(gravity_, directions[lane].scene.gravity, lane);
+    for (std::size_t b = 0; b < models_.size(); ++b)
+      setRates(models_[b], tangents_.back().model(static_cast<int>(b)), lane);
+  }
+}
+
+std::vector<const BodyDerivative*> Lanes::ofBody(std::size_t body) const {
+  std::vector<const BodyDerivative*> out;
+  for (const ReadingDirection& d : directions_) out.push_back(&d.scene.bodies[body]);
+  return out;
+}
+
+Num Lanes::eventTime(int event) const {
+  Num t = motion().events[static_cast<std::size_t>(event)].time;
+  for (std::size_t lane = 0; lane < size(); ++lane) t.rate[lane] = tangents_[lane].eventTime(event);
+  return t;
+}
+
+Num Lanes::startTime(int body, int k) const {
+  if (k == 0) return arc(body, 0).start();
+  return eventTime(motion().world_lines[static_cast<std::size_t>(body)].events[static_cast<std::size_t>(k) - 1]);
+}
+
+DualState Lanes::startOf(int body, int k) const {
+  const State& now = arc(body, k).startState();
+  const StateDerivative flow = arc(body, k).rate(now);
+  const Num t = startTime(body, k);
+  DualState state = dualState(now);
+  for (std::size_t lane = 0; lane < size(); ++lane) {
+    StateDerivative d = tangents_[lane].start(body, k);
+    d.addScaled(t.rate[lane], flow);
+    setRates(state, d, lane);
+  }
+  return state;
+}
+
+DualState Lanes::stateAt(int body, int k, const Num& t, const State& now, const RotationSensitivity& S) const {
+  const StateDerivative flow = arc(body, k).rate(now);
+  DualState state = dualState(now);
+  for (std::size_t lane = 0; lane < size(); ++lane) {
+    StateDerivative d = flightTangent(arc(body, k), t.value, S, tangents_[lane].start(body, k),
+                                      directions_[lane].scene.gravity, tangents_[lane].model(body));
+    d.addScaled(t.rate[lane], flow);
+    setRates(state, d, lane);
+  }
+  return state;
+}
+
+StateBar Lanes::rate(int body, const DualState& state) const {
+  StateBar F;
+  const DualModel& m = model(body);
+  if (!m.moving) return F;
+  F.x = state.v;
+  F.theta = state.omega(m);
+  F.v = m.gravity_factor * gravity_;
+  return F;
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/derivative/reach.hpp"
+#include "adjoint/second_order/dual_state.hpp"
+#include "adjoint/second_order/second_order.h"
+
+namespace carom::detail {
+
+/// A motion with its tangents along up to kLanes directions: states as dual numbers.
+class Lanes {
+ public:
+  Lanes(DerivativeTape& tape, std::span<const ReadingDirection> directions);
+
+  std::size_t size() const { return directions_.size(); }
+  DerivativeTape& tape() const { return tape_; }
+  const Motion& motion() const { return tape_.motion(); }
+  const ReadingDirection& direction(std::size_t lane) const { return directions_[lane]; }
+  const MotionTangent& tangent(std::size_t lane) const { return tangents_[lane]; }
+  /// How far any of the directions comes.
+  const Reach& reach() const { return reach_; }
+  const DualModel& model(int body) const { return models_[static_cast<std::size_t>(body)]; }
+  std::vector<const BodyDerivative*> ofBody(std::size_t body) const;
+
+  Num eventTime(int event) const;
+  /// When arc k of a body starts.
+  Num startTime(int body, int k) const;
+  /// Just after the event that starts arc k; the time of the event has moved along.
+  DualState startOf(int body, int k) const;
+  /// State of a body on arc k at time t, which moves along; `now` is its value, `S` the sensitivity up to then.
+  DualState stateAt(int body, int k, const Num& t, const State& now, const RotationSensitivity& S) const;
+  /// d(state)/dt of the flow.
+  StateBar rate(int body, const DualState& state) const;
+
+ private:
+  const Arc& arc(int body, int k) const {
+    return motion().world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(k)];
+  }
+
+  DerivativeTape& tape_;
+  std::span<const ReadingDirection> directions_;
+  Reach reach_;
+  std::vector<MotionTangent> tangents_;
+  std::vector<DualModel> models_;
+  NVec gravity_;
+};
+
+}  // namespace carom::detail

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/second_order/second_order.h"
+
+#include <algorithm>
+#include <map>
+
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/derivative/seed.hpp"
+#include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/second_order/dual_event.hpp"
+#include "adjoint/second_order/dual_rotation.hpp"
+
+namespace carom {
+namespace {
+
+using namespace detail;
+
+// A seed with the rates of its weights.
+struct DualSeed {
+  NVec position, orientation, velocity, angular_velocity, center_of_mass;
+  Num time;
+};
+
+struct PendingBars {
+  std::vector<StateBar> after, before;
+  Num time;
+};
+
+// Responses of arcs, shared by all directions; by body, arc, time, directions of the response and products.
+using Responses = std::map<std::tuple<int, int, double, int, bool>, BodyResponse>;
+
+// What the second derivative of a flight of a body needs.
+struct RotationPlan {
+  Tier tier;
+  bool products;
+};
+
+bool hasRates(const Num& n) {
+  return std::any_of(n.rate.begin(), n.rate.end(), [](double r) { return r != 0; });
+}
+bool hasRates(const NVec& v) { return hasRates(v[0]) || hasRates(v[1]) || hasRates(v[2]); }
+bool hasRates(const StateBar& s) { return hasRates(s.x) || hasRates(s.theta) || hasRates(s.v) || hasRates(s.L); }
+bool hasRates(const DualSeed& s) {
+  return hasRates(s.position) || hasRates(s.orientation) || hasRates(s.velocity) || hasRates(s.angular_velocity) ||
+         hasRates(s.center_of_mass) || hasRates(s.time);
+}
+
+// The reverse pass of adjoint.cpp in dual numbers. It leaves out what is out of the directions' reach and has no
+// rates, as its sums have none either; a `whole` pass leaves out nothing, and the values of its sums are right too.
+class DualPass {
+ public:
+  DualPass(const Lanes& lanes, bool whole, Responses& responses, const std::vector<bool>& inertia_varies)
+      : lanes_(lanes),
+        whole_(whole),
+        motion_(lanes.motion()),
+        responses_(responses),
+        inertia_varies_(inertia_varies),
+        scene_bar_(*motion_.scene),
+        start_bar_(motion_.world_lines.size()),
+        model_bar_(motion_.world_lines.size()) {
+    for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) plans_.push_back(planOf(b));
+  }
+
+  // Adds the rates of the seed's time derivative to `time_rate`, where its time is given.
+  void plant(const StateSeed& seed, const DualSeed& weights, const Num& time, const ReadPlace& place,
+             std::array<double, kLanes>& time_rate) {
+    const bool reached = reaches(seed.body, place.arc) || (seed.at.event >= 0 && lanes_.reach().event(seed.at.event));
+    if (!reached && !hasRates(time) && !hasRates(weights)) return;
+    const auto b = static_cast<std::size_t>(seed.body);
+    const DualState state =
+        lanes_.stateAt(seed.body, place.arc, time, place.state, plainSensitivity(seed.body, place.arc, place.time));
+    const StateBar bar = seedBar(lanes_.model(seed.body), state, weights, model_bar_[b]);
+    const Num slope = bar.dot(lanes_.rate(seed.body, state));
+    if (seed.at.event < 0) time_rate = slope.rate;
+    if (seed.at.event >= 0) {
+      PendingBars& at = pendingAt(seed.at.event);
+      at.time += weights.time;
+      if (motion_.events[static_cast<std::size_t>(seed.at.event)].find(seed.body)) {
+        at.before[participantOf(seed.at.event, seed.body)] += bar;
+        return;
+      }
+      at.time += slope;
+    }
+    throughFlight(seed.body, place.arc, time, state, bar);
+  }
+
+  SceneBar run() {
+    while (!pending_.empty()) {
+      const auto latest = pending_.begin();
+      const int index = latest->first;
+      const PendingBars bars = std::move(latest->second);
+      pending_.erase(latest);
+      throughEvent(index, bars);
+    }
+    for (std::size_t b = 0; b < start_bar_.size(); ++b) {
+      const Body& body = motion_.scene->bodies[b];
+      const DualModel& model = lanes_.model(static_cast<int>(b));
+      const std::vector<const BodyDerivative*> of_body = lanes_.ofBody(b);
+      if (!start_bar_[b].isZero())
+        startPullback(body, model, of_body, start_bar_[b], scene_bar_.bodies[b], model_bar_[b]);
+      modelPullback(body, model, of_body, model_bar_[b], scene_bar_.bodies[b]);
+    }
+    return std::move(scene_bar_);
+  }
+
+ private:
+  static StateBar seedBar(const DualModel& model, const DualState& state, const DualSeed& seed, ModelBar& model_bar) {
+    StateBar bar;
+    bar.x = seed.position + seed.center_of_mass;
+    bar.theta = seed.orientation;
+    bar.v = seed.velocity;
+    if (!model.moving) return bar;
+    const NMat R_WG = state.R * model.R_BG;
+    bar.theta += seed.position.cross(R_WG * model.center);
+    model_bar.center -= R_WG.transpose() * seed.position;
+    if (isZero(seed.angular_velocity)) return bar;
+    const NMat A = state.R * model.A * state.R.transpose();
+    const NVec& w_bar = seed.angular_velocity;
+    const NVec A_w_bar = A * w_bar, omega = A * state.L;
+    bar.L = A_w_bar;
+    bar.theta += omega.cross(w_bar) - state.L.cross(A_w_bar);
+    model_bar.addInertiaBar(-(state.R.transpose() * A_w_bar) * (state.R.transpose() * omega).transpose());
+    return bar;
+  }
+
+  // A compound may keep its symmetry to first order and not to second; then all moments and products are carried.
+  RotationPlan planOf(std::size_t b) const {
+    const BodyPlan& plan = motion_.plan.bodies[b];
+    RotationPlan out{plan.derivative_tier, plan.derivative_products};
+    const Body& body = motion_.scene->bodies[b];
+    const bool derived = body.inertia.source == Inertia::Source::derived && !body.immovable();
+    if (out.tier == Tier::none || !derived || !std::holds_alternative<Compound>(body.shape)) return out;
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+      const Eigen::VectorXd& size = lanes_.direction(lane).scene.bodies[b].size;
+      if (size.isZero(0)) continue;
+      const SolidProperties change = kindOf(body.shape).propertiesRate(body.shape, size);
+      const Mat3& R = lanes_.model(static_cast<int>(b)).R_BG;
+      for (const SolidRate& rate : change.rates) {
+        const Mat3 d = R * rate.unit_inertia * R.transpose();
+        const double rounding = 1e-12 * d.cwiseAbs().maxCoeff();
+        const int axis = symmetryAxis((*motion_.models)[b].inertia);
+        const auto differ = [&](int i, int j) { return std::abs(d(i, i) - d(j, j)) > rounding; };
+        if (Vec3(d(1, 2), d(0, 2), d(0, 1)).cwiseAbs().maxCoeff() > rounding) out = {Tier::triaxial, true};
+        if ((axis == -1 && (differ(0, 1) || differ(1, 2))) ||
+            (axis >= 0 && axis < 3 && differ((axis + 1) % 3, (axis + 2) % 3)))
+          out.tier = Tier::triaxial;
+      }
+    }
+    return out;
+  }
+
+  DualSensitivity dualSensitivity(int body, int k, const Num& t, const DualState& start, const DualState& end) {
+    const auto b = static_cast<std::size_t>(body);
+    const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
+    const RotationPlan& plan = plans_[b];
+    const DualModel& model = lanes_.model(body);
+    const Stretch stretch{model, start, end.R, t - lanes_.startTime(body, k)};
+    if (plan.tier == Tier::none) return {};
+    if (plan.tier == Tier::spherical) return sphericalSensitivity(stretch);
+    if (plan.tier == Tier::symmetric) return symmetricSensitivity(stretch, symmetryAxis(arc.model().inertia));
+    ResponseWanted wanted{3, inertia_varies_[b], inertia_varies_[b] && plan.products};
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+      const Mat3 dJ = ratesOf(model.J, lane);
+      if (!dJ.isZero(0)) wanted.lanes = std::max(wanted.lanes, plan.products && !dJ.isDiagonal(0) ? 9 : 6);
+    }
+    const auto [at, made] = responses_.try_emplace({body, k, t.value, wanted.lanes, wanted.products});
+    if (made) at->second = bodyResponse(arc, t.value - arc.start(), wanted);
+    DualSensitivity S = generalSensitivity(stretch, at->second);
+    // both series agree to rounding; one of them is that of the gradient
+    const BodyPlan& first = motion_.plan.bodies[b];
+    if (plan.tier == first.derivative_tier && plan.products == first.derivative_products)
+      setValues(S, plainSensitivity(body, k, t.value));
+    return S;
+  }
+
+  const RotationSensitivity& plainSensitivity(int body, int k, double t) {
+    const WorldLine& line = motion_.world_lines[static_cast<std::size_t>(body)];
+    const auto kk = static_cast<std::size_t>(k);
+    const bool whole = kk < line.events.size() && motion_.events[static_cast<std::size_t>(line.events[kk])].time == t;
+    if (whole) return lanes_.tape().arc(body, k);
+    return until_ = lanes_.tape().arcUntil(body, k, t);
+  }
+
+  static void setValues(DualSensitivity& S, const RotationSensitivity& now) {
+    const auto set = [](NMat& m, const Mat3& values) {
+      for (Eigen::Index c = 0; c < 3; ++c)
+        for (Eigen::Index r = 0; r < 3; ++r) m(r, c).value = values(r, c);
+    };
+    set(S.dtheta_dtheta, now.dtheta_dtheta);
+    set(S.dtheta_dL, now.dtheta_dL);
+    set(S.dtheta_dI, now.dtheta_dI);
+    set(S.dtheta_dproducts, now.dtheta_dproducts);
+  }
+
+  void throughFlight(int body, int k, const Num& t, const DualState& end, const StateBar& bar) {
+    if (!reaches(body, k) && !hasRates(t) && !hasRates(bar)) return;
+    const auto b = static_cast<std::size_t>(body);
+    StateBar d = bar;
+    if (lanes_.model(body).moving) {
+      const Num s = t - lanes_.startTime(body, k);
+      d.v += s * bar.x;
+      scene_bar_.gravity += lanes_.model(body).gravity_factor * ((0.5 * s * s) * bar.x + s * bar.v);
+      if (!isZero(bar.theta)) {
+        const DualSensitivity S = dualSensitivity(body, k, t, lanes_.startOf(body, k), end);
+        d.theta = S.dtheta_dtheta.transpose() * bar.theta;
+        d.L += S.dtheta_dL.transpose() * bar.theta;
+        model_bar_[b].inertia += S.dtheta_dI.transpose() * bar.theta;
+        model_bar_[b].products += S.dtheta_dproducts.transpose() * bar.theta;
+      }
+    }
+    if (k == 0) {
+      start_bar_[b] += d;
+    } else {
+      const int event = motion_.world_lines[b].events[static_cast<std::size_t>(k) - 1];
+      pendingAt(event).after[participantOf(event, body)] += d;
+    }
+  }
+
+  void throughEvent(int index, const PendingBars& bars) {
+    const Event& event = motion_.events[static_cast<std::size_t>(index)];
+    const DualEvent dual(lanes_, index);
+    const std::vector<StateBar> before = dual.pullback(bars.after, bars.before, bars.time, scene_bar_, model_bar_);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const Participant& p = event.participants[i];
+      if (!before[i].isZero()) throughFlight(p.body, p.arc, lanes_.eventTime(index), dual.before(i), before[i]);
+    }
+  }
+
+  bool reaches(int body, int k) const { return whole_ || lanes_.reach().arc(body, k); }
+  std::size_t participantOf(int event, int body) const {
+    const Event& e = motion_.events[static_cast<std::size_t>(event)];
+    return static_cast<std::size_t>(e.find(body) - e.participants.data());
+  }
+  PendingBars& pendingAt(int event) {
+    PendingBars& p = pending_[event];
+    const std::size_t n = motion_.events[static_cast<std::size_t>(event)].participants.size();
+    p.after.resize(n);
+    p.before.resize(n);
+    return p;
+  }
+
+  const Lanes& lanes_;
+  bool whole_;
+  const Motion& motion_;
+  Responses& responses_;
+  const std::vector<bool>& inertia_varies_;
+  std::vector<RotationPlan> plans_;
+  SceneBar scene_bar_;
+  std::vector<StateBar> start_bar_;
+  std::vector<ModelBar> model_bar_;
+  std::map<int, PendingBars, std::greater<>> pending_;  // latest event first
+  RotationSensitivity until_;
+};
+
+// Adds what the reading changes by when its time moves by dt.
+void addFlow(const Motion& motion, int body, const Instant& at, double dt, BodyStateRate& rate) {
+  const auto b = static_cast<std::size_t>(body);
+  const ReadPlace place = readPlace(motion, body, at);
+  const BodyModel& model = (*motion.models)[b];
+  const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state);
+  rate.position += dt * originTangent(model, place.state, F, {});
+  rate.orientation += dt * F.theta;
+  rate.velocity += dt * F.v;
+  rate.angular_velocity += dt * angularVelocityTangent(model, place.state, F, {});
+  rate.center_of_mass += dt * F.x;
+  rate.time += dt;
+}
+
+// Weights of the seeds along the lanes.
+std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRates& seed_rates, const Lanes& lanes) {
+  std::vector<DualSeed> out;
+  for (const StateSeed& s : seeds)
+    out.push_back({constant(s.position), constant(s.orientation), constant(s.velocity), constant(s.angular_velocity),
+                   constant(s.center_of_mass), s.time});
+  if (!seed_rates) return out;
+  const Motion& motion = lanes.motion();
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+    std::vector<BodyStateRate> rates;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const double dtime =
+          lanes.direction(lane).time.size() > 0 ? lanes.direction(lane).time[static_cast<Eigen::Index>(i)] : 0;
+      rates.push_back(lanes.tangent(lane).at(seeds[i].body, seeds[i].at));
+      if (seeds[i].at.event < 0 && dtime != 0) addFlow(motion, seeds[i].body, seeds[i].at, dtime, rates.back());
+    }
+    const std::vector<StateSeed> weights = seed_rates(rates);
+    checkCount("secondOrder", "seeds of rates", weights.size(), seeds.size());
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      setRates(out[i].position, weights[i].position, lane);
+      setRates(out[i].orientation, weights[i].orientation, lane);
+      setRates(out[i].velocity, weights[i].velocity, lane);
+      setRates(out[i].angular_velocity, weights[i].angular_velocity, lane);
+      setRates(out[i].center_of_mass, weights[i].center_of_mass, lane);
+      out[i].time.rate[lane] = weights[i].time;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
+                        std::span<const ReadingDirection> directions, RatesWanted wanted) {
+  SecondOrder out;
+  Responses responses;
+  const Motion& motion = tape.motion();
+  for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
+  for (const ReadingDirection& d : directions) {
+    checkDirection("secondOrder", *motion.scene, d.scene);
+    if (d.time.size() > 0)
+      checkCount("secondOrder", "rates of times", static_cast<std::size_t>(d.time.size()), seeds.size());
+    checkEntries("secondOrder", "the rate of a time of", d.time);
+  }
+  std::vector<bool> inertia_varies(motion.world_lines.size(), wanted == RatesWanted::all);
+  for (const ReadingDirection& d : directions) {
+    for (std::size_t b = 0; b < inertia_varies.size(); ++b) {
+      const BodyDerivative& of = d.scene.bodies[b];
+      if (of.mass != 0 || of.density != 0 || !of.inertia.isZero(0) || !of.size.isZero(0)) inertia_varies[b] = true;
+    }
+  }
+  for (std::size_t first = 0; first < directions.size(); first += kLanes) {
+    const Lanes lanes(tape, directions.subspan(first, std::min(kLanes, directions.size() - first)));
+    const std::vector<DualSeed> weights = dualSeeds(seeds, seed_rates, lanes);
+    DualPass pass(lanes, first == 0, responses, inertia_varies);  // the first gives the gradient too
+    std::vector<Eigen::VectorXd> time_rates(lanes.size(),
+                                            Eigen::VectorXd::Zero(static_cast<Eigen::Index>(seeds.size())));
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const ReadPlace place = readPlace(motion, seeds[i].body, seeds[i].at);
+      Num time = seeds[i].at.event >= 0 ? lanes.eventTime(seeds[i].at.event) : Num(place.time);
+      for (std::size_t lane = 0; lane < lanes.size() && seeds[i].at.event < 0; ++lane)
+        if (lanes.direction(lane).time.size() > 0)
+          time.rate[lane] = lanes.direction(lane).time[static_cast<Eigen::Index>(i)];
+      std::array<double, kLanes> time_rate{};
+      pass.plant(seeds[i], weights[i], time, place, time_rate);
+      for (std::size_t lane = 0; lane < lanes.size(); ++lane)
+        time_rates[lane][static_cast<Eigen::Index>(i)] = time_rate[lane];
+    }
+    const SceneBar bar = pass.run();
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+      out.gradient_rates.push_back(bar.rates(*motion.scene, lane));
+      out.time_rates.push_back(std::move(time_rates[lane]));
+    }
+    if (first == 0) out.gradient = bar.values(*motion.scene);
+  }
+  return out;
+}
+
+}  // namespace carom

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/simulate/simulate.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/impact/impact.hpp"
+#include "adjoint/impact/tilt.hpp"
+#include "adjoint/simulate/simulator.hpp"
+
+namespace carom {
+namespace {
+
+// Eigen cuts products of large matrices into blocks by the caches that it finds, and so orders their sums. Everything
+// that is computed with begins with a motion; from then on the caches are these ones.
+void fixMatrixBlocks() {
+  static const bool fixed = [] {
+    Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
+    return true;
+  }();
+  static_cast<void>(fixed);
+}
+
+}  // namespace
+
+Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options) {
+  checkDuration("simulate", duration);
+  if (!options.asked.empty()) checkCount("simulate", "bodies asked for", options.asked.size(), scene.bodies.size());
+  validate(scene);
+  fixMatrixBlocks();
+  return Simulator(scene, contacts, duration, options).run();
+}
+
+Motion Simulator::run() {
+  try {
+    runToEnd();
+  } catch (const WorkEnded& ended) {
+    endWork(ended.stopped);
+  }
+  motion_.steps = work_.steps();
+  return std::move(motion_);
+}
+
+void Simulator::runToEnd() {
+  try {
+    if (!follow()) return;
+  } catch (const NotComputable& error) {
+    finish(MotionStatus::not_computable, now_, error.what());
+    return;
+  }
+  now_ = motion_.duration;
+  finish(MotionStatus::complete, motion_.duration, "complete");
+}
+
+// False where the motion has ended before its time.
+bool Simulator::follow() {
+  start();
+  for (Prediction next; takeNext(next);) {
+    work_.step();
+    if (motion_.impacts >= impact_limit_) {
+      finish(MotionStatus::impact_limit, next.time,
+             "stopped after " + std::to_string(impact_limit_) + " impacts, the limit that was set");
+      return false;
+    }
+    if (!isExplained(next)) return false;
+    resolve(next);
+    if (!separates()) return false;
+    const bool last = accumulates();
+    commit();
+    if (last) return false;
+  }
+  return true;
+}
+
+Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
+    : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit),
+      refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
+      queue_(scene.bodies.size()) {
+  contacts_.countIn(&work_);
+  const std::size_t n = scene.bodies.size();
+  motion_.scene = std::make_shared<const Scene>(scene);
+  auto models = std::make_shared<std::vector<BodyModel>>();
+  models->reserve(n);
+  for (const Body& body : scene.bodies) {
+    models->push_back(modelOf(body));
+    material_.push_back(&materialOf(scene, body));
+  }
+  motion_.models = std::move(models);
+  motion_.plan = makePlan(scene, options.asked);
+  motion_.duration = duration;
+  motion_.has_events = options.record_events;
+  motion_.world_lines.resize(n);
+  arc_.assign(n, nullptr);
+  version_.assign(n, 0);
+  impacts_.assign(n, 0);
+  in_draft_.assign(n, -1);
+  outlook_.resize(n);
+  for (std::size_t i = 0; i < scene.tilts.size(); ++i)
+    tilts_.push_back({bodyIndex(scene, scene.tilts[i].body), scene.tilts[i].impact, static_cast<int>(i)});
+  std::stable_sort(tilts_.begin(), tilts_.end(), [](const TiltOfImpact& a, const TiltOfImpact& b) {
+    return a.body != b.body ? a.body < b.body : a.impact < b.impact;
+  });
+}
+
+void Simulator::start() {
+  const int n = static_cast<int>(scene_.bodies.size());
+  for (int b = 0; b < n; ++b) {
+    const BodyModel& model = (*motion_.models)[index(b)];
+    arc_[index(b)] = &motion_.world_lines[index(b)].arcs.emplace_back(
+        model, motion_.plan.bodies[index(b)].tier, scene_.gravity, 0.0, startState(scene_.bodies[index(b)], model));
+  }
+  contacts_.begin(scene_);
+  motion_.geometry = contacts_.geometry();
+  startOverlaps();
+  for (int b = 0; b < n; ++b) {
+    requireFlight(b, arcOf(b));
+    contacts_.setPath(b, arcOf(b), 0, motion_.duration);
+  }
+  for (int b = 0; b < n; ++b)
+    if (arcOf(b).moving()) predictBody(b, 0);
+}
+
+// Contacts of one instant are solved together: those predicted for it, all features that touch in it, and those that
+// the solved impact itself brings about within it, on contacts that were not separating before; then it is solved
+// again.
+void Simulator::resolve(const Prediction& first) {
+  // the arcs of the two bodies were written long ago: both are fetched at once
+  for (int body : {first.a, first.b}) {
+    const char* arc = reinterpret_cast<const char*>(&arcOf(body));
+    for (std::size_t line = 0; line < sizeof(Arc); line += 64) __builtin_prefetch(arc + line);
+  }
+  draft_.event = {};
+  draft_.event.time = first.time;
+  snapshots_.clear();
+  contactsOfInstant(first);
+  do {
+    solveDraft();
+    predictDraft();
+  } while (joinInstant());
+}
+
+// The predictions that share the instant and, directly or through others, a body that impacts move.
+void Simulator::contactsOfInstant(const Prediction& first) {
+  const double limit = first.time + kInstant;
+  same_.clear();
+  queue_.visitUntil(limit, [&](int body) {
+    const Outlook& outlook = outlook_[index(body)];
+    if (outlook.first.a < 0) return;
+    if (holds(outlook.first) && outlook.first.explained()) same_.push_back(outlook.first);
+    for (const Prediction& p : outlook.of_instant)
+      if (p.time <= limit && holds(p) && p.explained()) same_.push_back(p);
+  });
+  std::sort(same_.begin(), same_.end());
+  addTouching(first.time, first.a, first.b, first.features);
+  bodies_ = {first.a, first.b};
+  const auto shares = [&](const Prediction& p) {
+    return std::any_of(bodies_.begin(), bodies_.end(),
+                       [&](int b) { return (b == p.a || b == p.b) && isMoved(b); });
+  };
+  for (auto next = std::find_if(same_.begin(), same_.end(), shares); next != same_.end();
+       next = std::find_if(same_.begin(), same_.end(), shares)) {
+    if (inDraft(next->a, next->b, next->features) || meetsThere(*next, first.time)) {
+      addTouching(first.time, next->a, next->b, next->features);
+      for (int b : {next->a, next->b})
+        if (std::find(bodies_.begin(), bodies_.end(), b) == bodies_.end()) bodies_.push_back(b);
+    }
+    same_.erase(next);
+  }
+}
+
+bool Simulator::inDraft(int a, int b, const FeaturePair& features) const {
+  return std::any_of(draft_.event.contacts.begin(), draft_.event.contacts.end(),
+                     [&](const Contact& c) { return c.a == a && c.b == b && c.features == features; });
+}
+
+// The contact at the given features, and whatever else of the pair touches within the instant and was not separating.
+void Simulator::addTouching(double time, int a, int b, const FeaturePair& features) {
+  std::vector<Contact>& contacts = draft_.event.contacts;
+  if (inDraft(a, b, features)) return;
+  contacts.push_back(makeContact(time, a, b, features));
+  const double reach = kInstant * std::abs(contacts.back().approach);
+  for (const FeaturePair& f : contacts_.touching(a, b, arcOf(a), arcOf(b), time, reach)) {
+    if (inDraft(a, b, f)) continue;
+    const Contact c = makeContact(time, a, b, f);
+    if (c.approach <= kLowestBounce) contacts.push_back(c);
+  }
+}
+
+// State of a body at the event, worked out once: its place in snapshots_.
+std::size_t Simulator::snapshot(int body, double time) {
+  for (std::size_t i = 0; i < snapshots_.size(); ++i)
+    if (snapshots_[i].body == body) return i;
+  Snapshot& s = snapshots_.emplace_back();
+  s.body = body;
+  s.state = arcOf(body).stateAt(time);
+  s.k = arcOf(body).kinematicsOf(s.state);
+  return snapshots_.size() - 1;
+}
+
+Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& features) {
+  const std::size_t place_a = snapshot(a, time), place_b = snapshot(b, time);
+  const Kinematics &ka = snapshots_[place_a].k, &kb = snapshots_[place_b].k;
+  Contact c;
+  c.a = a;
+  c.b = b;
+  c.features = features;
+  c.at = motion_.geometry->contact(a, b, features, {ka.x, ka.R}, {kb.x, kb.R});
+  if (!(std::isfinite(c.at.gap) && c.at.point.allFinite() && c.at.normal.allFinite()))
+    giveUp("contact", a, b, time,
+           NotComputable("its features (" + motion_.geometry->describe(a, b, features) +
+                         ") give it no point or no normal"));
+  c.pair = combine(*material_[index(a)], *material_[index(b)]);
+  const auto tilt = [&](int body) { return arcOf(body).moving() ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
+  c.tilt_a = tilt(a);
+  c.tilt_b = tilt(b);
+  const auto value = [&](int t) { return t < 0 ? Vec2(0, 0) : scene_.tilts[index(t)].value; };
+  c.impulse_normal =
+      c.tilt_a < 0 && c.tilt_b < 0 ? c.at.normal : tiltedNormal(c.at.normal, value(c.tilt_a), value(c.tilt_b));
+  c.approach = c.at.normal.dot(ka.v + ka.w.cross(c.at.point - ka.x) - kb.v - kb.w.cross(c.at.point - kb.x));
+  return c;
+}
+
+int Simulator::tiltOf(int body, int impact) const {
+  const auto at = std::lower_bound(tilts_.begin(), tilts_.end(), TiltOfImpact{body, impact, 0},
+                                   [](const TiltOfImpact& a, const TiltOfImpact& b) {
+                                     return a.body != b.body ? a.body < b.body : a.impact < b.impact;
+                                   });
+  return at != tilts_.end() && at->body == body && at->impact == impact ? at->tilt : -1;
+}
+
+// Participants, impulses and the arcs that follow.
+void Simulator::solveDraft() {
+  Event& event = draft_.event;
+  const std::size_t n = event.contacts.size();
+  work_.step(n + n * n * n / 10);  // what many contacts at once cost
+  for (const Participant& p : event.participants) in_draft_[index(p.body)] = -1;
+  event.participants.clear();
+  bodies_.clear();
+  for (const Contact& c : event.contacts)
+    for (int body : {c.a, c.b})
+      if (arcOf(body).moving()) bodies_.push_back(body);
+  std::sort(bodies_.begin(), bodies_.end());
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+  event.participants.reserve(bodies_.size());
+  for (int body : bodies_)
+    event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1,
+                                  impacts_[index(body)] + 1, snapshots_[snapshot(body, event.time)].state});
+  try {
+    solveImpact(event, *motion_.models, draft_.after);
+  } catch (const NotComputable& error) {
+    giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
+  }
+  draft_.arcs.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto b = index(bodies_[i]);
+    draft_.arcs.emplace_back((*motion_.models)[b], motion_.plan.bodies[b].tier, scene_.gravity, event.time,
+                             draft_.after[i]);
+    requireFlight(bodies_[i], draft_.arcs.back());
+    in_draft_[b] = static_cast<int>(i);
+  }
+}
+
+Pose Simulator::poseAt(int body, double time) {
+  const Kinematics k = pathOf(body).kinematicsAt(time);
+  return {k.x, k.R};
+}
+
+// Whether features meet at `time` where they are predicted to: the lowest point of a rim that lies nearly flat may be
+// elsewhere an instant later, and then it is another contact.
+bool Simulator::meetsThere(const Prediction& p, double time) {
+  const Pose a = poseAt(p.a, p.time), b = poseAt(p.b, p.time);
+  const Vec3 there = motion_.geometry->contact(p.a, p.b, p.features, a, b).point;
+  const Vec3 here = makeContact(time, p.a, p.b, p.features).at.point;
+  double arm = 0;
+  for (const auto& [body, x] : {std::pair{p.a, a.x}, std::pair{p.b, b.x}})
+    if (arcOf(body).moving()) arm = std::max(arm, (there - x).norm());
+  return (here - there).norm() <= kSamePlace * arm;
+}
+
+bool Simulator::joinInstant() {
+  const Event& event = draft_.event;
+  const Prediction* soonest = nullptr;
+  for (const Prediction& p : found_)
+    if (p.explained() && p.time <= event.time + kInstant && (!soonest || p < *soonest)) {
+      if (inDraft(p.a, p.b, p.features)) continue;
+      const auto joined = [&](int body) { return in_draft_[index(body)] >= 0 && isMoved(body); };
+      if (!joined(p.a) && !joined(p.b)) continue;
+      // a contact that was separating before is an impact of its own, after this one
+      if (makeContact(event.time, p.a, p.b, p.features).approach > kLowestBounce) continue;
+      if (!meetsThere(p, event.time)) continue;
+      soonest = &p;
+    }
+  if (!soonest) return false;
+  addTouching(event.time, soonest->a, soonest->b, soonest->features);
+  return true;
+}
+
+void Simulator::commit() {
+  Event& event = draft_.event;
+  const int number = static_cast<int>(motion_.impacts++);
+  for (const Contact& c : event.contacts)
+    if (StartOverlap* overlap = overlapOf(c.a, c.b); overlap && !overlap->parted) {
+      followOverlap(*overlap, event.time);
+      if (!overlap->parted) overlap->parted = event.time;
+    }
+  searches_ = 0;
+  for (std::size_t i = 0; i < draft_.arcs.size(); ++i) {
+    const int body = event.participants[i].body;
+    WorldLine& line = motion_.world_lines[index(body)];
+    line.arcs.push_back(std::move(draft_.arcs[i]));
+    arc_[index(body)] = &line.arcs.back();
+    if (motion_.has_events) line.events.push_back(number);
+    if (isMoved(body)) ++version_[index(body)];
+    ++impacts_[index(body)];
+    in_draft_[index(body)] = -1;
+    enter(body, draft_.outlooks[i]);
+  }
+  if (motion_.has_events) motion_.events.push_back(std::move(event));
+}
+
+void Simulator::finish(MotionStatus status, double end, std::string message) {
+  motion_.status = status;
+  motion_.end = end;
+  motion_.message = std::move(message);
+  extendAll();
+  endOverlaps(motion_.end);
+}
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <stop_token>
+
+#include "adjoint/motion/motion.h"
+
+namespace carom {
+
+struct SimulateOptions {
+  std::size_t impact_limit = 20000;  ///< events, after which the motion ends with MotionStatus::impact_limit
+  std::vector<Asked> asked;          ///< a body each; empty asks for everything
+  /// false: the arcs of the bodies alone are kept, in less than half of the memory. Such a motion has no events, so it
+  /// cannot be differentiated, and times cannot be given as the n-th impact.
+  bool record_events = true;
+  /// true: throws InputError where bodies overlap at the start, rather than leave them alone until they part.
+  bool refuse_overlaps = false;
+  /// Steps of work, after which the motion ends with MotionStatus::step_limit. A step is one of a search for an impact,
+  /// one pair of bodies that is looked at, one impact (of n contacts at once n + n^3 / 10) or one series of a rotation: a
+  /// microsecond or some each, but the same number on every machine. Motion::steps says how many were taken.
+  std::size_t step_limit = std::numeric_limits<std::size_t>::max();
+  /// Once a stop is requested, from any thread, the motion ends with MotionStatus::stopped.
+  std::stop_token stop = {};
+  /// Called every few thousand steps, in the thread of the call. The motion does not depend on it.
+  std::function<void(const SimulateProgress&)> progress = {};
+};
+
+/// Simulates a scene from impact to impact up to `duration` seconds.
+/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies); ends early, with a status and a sentence, where the motion cannot be
+/// continued. The same input gives the same motion to the last bit.
+Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
+
+}  // namespace carom

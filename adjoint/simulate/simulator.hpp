@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/simulate/event_queue.hpp"
+#include "adjoint/simulate/simulate.h"
+
+namespace carom {
+
+/// Contacts closer in time than this, in one contact graph, are one instant (docs/equations.md section 4).
+inline constexpr double kInstant = 1e-10;  // s
+// How far a contact may move within an instant and still be the same one, as a share of its arm.
+inline constexpr double kSamePlace = 1e-6;
+/// A bounce lower than this, onto the same features, is the tail of a cascade: positions of ordinary size resolve 1e-16
+/// m, so below it the height of a bounce has no digits left to speak of.
+inline constexpr double kLowestBounce = 1e-12;  // m
+/// Bounces that low on changing features (a rattling box) count as a cascade after so many in a row.
+inline constexpr int kRattles = 8;
+/// As many impacts of one body as this within kStall seconds are a cascade, whichever bodies it meets.
+inline constexpr std::size_t kStallEvents = 64;
+inline constexpr double kStall = 1e-9;  // s
+
+/// A body further away or faster than this (m, m/s) cannot be computed with: fourth powers of it would overflow.
+inline constexpr double kFurthest = 1e60;
+/// Bodies that ask for their neighbours as often as this without an impact fly too fast for how near they are.
+inline constexpr long kMostSearches = 5'000'000;
+/// An angle of which a sine has no digit left, rad.
+inline constexpr double kMostTurn = 1e15;
+/// Steps of work in which a motion that was ended may bring what it knows into order.
+inline constexpr std::size_t kStepsToEnd = 100'000;
+
+/// The event loop behind `simulate`. Every body has one entry in the queue: its first impact, as far as it has been
+/// searched for, or the horizon of that search. An impact touches the entries of its own bodies only; an entry whose
+/// partner has been struck in the meantime is found out when its time comes, and the search goes on from there.
+class Simulator {
+ public:
+  Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options);
+  ~Simulator() { contacts_.countIn(nullptr); }
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+  Motion run();
+
+ private:
+  // The first impact of a pair, found in a search of body `searched`.
+  struct Prediction {
+    double time = 0;
+    int searched = -1, a = -1, b = -1;
+    int partner_version = 0;  // of the arc of the other body that it was made for
+    FeaturePair features;
+    int partner() const { return searched == a ? b : a; }
+    bool explained() const { return features.kind >= 0; }
+    bool operator<(const Prediction& o) const {
+      if (time != o.time) return time < o.time;
+      return a != o.a ? a < o.a : b < o.b;
+    }
+  };
+  // What is known of a body's future on its present arc.
+  struct Outlook {
+    Prediction first;                    // first.a = -1: none up to the horizon
+    double horizon = 0;                  // without an impact: searched up to here
+    std::vector<Prediction> of_instant;  // further ones within an instant of the first
+  };
+  // An event that is worked out but not yet part of the motion. Its storage is used again and again.
+  struct Draft {
+    Event event;
+    std::vector<State> after;       // of the participants
+    std::vector<Arc> arcs;          // of the participants, from the event on
+    std::vector<Prediction> found;  // of the participants' pairs, on those arcs
+    std::vector<Outlook> outlooks;  // of the participants
+  };
+  // A body just before the event that is being worked out.
+  struct Snapshot {
+    int body = -1;
+    State state;
+    Kinematics k;
+  };
+  struct TiltOfImpact {
+    int body, impact, tilt;
+  };
+
+  void start();
+  void runToEnd();
+  bool follow();
+  bool takeNext(Prediction& next);
+  bool holds(const Prediction& p) const { return version_[index(p.partner())] == p.partner_version; }
+
+  // simulate.cpp: the event
+  void resolve(const Prediction& first);
+  void contactsOfInstant(const Prediction& first);
+  void addTouching(double time, int a, int b, const FeaturePair& features);
+  Contact makeContact(double time, int a, int b, const FeaturePair& features);
+  std::size_t snapshot(int body, double time);
+  void solveDraft();
+  bool joinInstant();
+  bool inDraft(int a, int b, const FeaturePair& features) const;
+  bool meetsThere(const Prediction& p, double time);
+  Pose poseAt(int body, double time);  ///< on its path, that of the draft where it is in it
+  void commit();
+  int tiltOf(int body, int impact) const;
+
+  // simulator_search.cpp: predictions
+  void predictDraft();
+  void predictBody(int body, double from);
+  void search(int body, double from, Outlook& outlook);
+  std::optional<PredictedImpact> firstImpact(int a, int b, double from, double until);
+  void enter(int body, Outlook& outlook);
+  Arc& pathOf(int body) {
+    const int i = in_draft_[index(body)];
+    return i < 0 ? arcOf(body) : draft_.arcs[index(i)];
+  }
+
+  // simulator_overlaps.cpp: pairs that overlap from the start
+  void startOverlaps();
+  StartOverlap* overlapOf(int a, int b);
+  void followOverlap(StartOverlap& overlap, double until);
+  std::optional<double> partingOf(StartOverlap& overlap, double from, double until);
+  void endOverlaps(double end);
+
+  // simulator_endings.cpp: outcomes that end a motion early
+  bool isExplained(const Prediction& next);
+  bool separates();
+  bool accumulates();
+  bool isLow(const Contact& c, const Prediction*& next);
+  bool stalls(int body) const;
+  void requireFlight(int body, const Arc& arc) const;
+  [[noreturn]] void giveUp(const char* what, int a, int b, double time, const NotComputable& why) const;
+  void endWork(bool stopped);
+  void extendAll();
+  void extend(Arc& arc, double until);
+  void endAtReach(const Arc& arc);
+  void forgetAfter(double end);
+  void finish(MotionStatus status, double end, std::string message);
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  Arc& arcOf(int body) { return *arc_[index(body)]; }
+  // Whether impacts move a body. They neither join through one that they do not move nor change its path.
+  bool isMoved(int body) const {
+    const BodyModel& model = (*motion_.models)[index(body)];
+    return model.moving && !model.kinematic;
+  }
+
+  const Scene& scene_;
+  ContactSource& contacts_;
+  std::size_t impact_limit_;
+  bool refuse_overlaps_;
+  WorkCount work_;
+  bool work_ended_ = false;
+  double now_ = 0;     // everything before it is known
+  long searches_ = 0;  // since the last impact
+  Motion motion_;
+  // a body each
+  std::vector<Arc*> arc_;  // the last one of its world-line
+  std::vector<int> version_, impacts_, in_draft_;
+  std::vector<const Material*> material_;
+  std::vector<Outlook> outlook_;
+  EventQueue queue_;
+
+  std::vector<double> overlaps_until_;  // of motion_.overlaps: known to overlap up to here
+  std::vector<TiltOfImpact> tilts_;                     // in order
+  std::unordered_map<std::uint64_t, int> low_bounces_;  // in a row, of a pair
+  Draft draft_;
+  std::vector<Snapshot> snapshots_;
+  std::vector<Prediction> same_, found_;
+  std::vector<int> bodies_, neighbours_;
+};
+
+}  // namespace carom

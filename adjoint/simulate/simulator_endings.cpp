@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "adjoint/simulate/simulator.hpp"
+
+// The outcomes that end a motion before its duration, each a status and a sentence.
+
+namespace carom {
+
+// Bodies may come to overlap where no features say how they meet.
+bool Simulator::isExplained(const Prediction& next) {
+  if (next.explained()) return true;
+  std::ostringstream text;
+  text << "'" << scene_.bodies[index(next.a)].name << "' and '" << scene_.bodies[index(next.b)].name
+       << "' meet at t = " << next.time << " s where no face, edge, rim or vertex of theirs gives the contact a normal";
+  finish(MotionStatus::unresolved_impact, next.time, text.str());
+  return false;
+}
+
+// An impulse along a tilted normal may fail to part the bodies: there is no motion after it.
+bool Simulator::separates() {
+  const Event& event = draft_.event;
+  for (const Contact& c : event.contacts) {
+    if (c.tilt_a < 0 && c.tilt_b < 0) continue;
+    Vec3 u = Vec3::Zero();
+    const auto add = [&](int body, double sign) {
+      if (in_draft_[index(body)] < 0) return;
+      const Kinematics k = pathOf(body).kinematicsAt(event.time);
+      u += sign * (k.v + k.w.cross(c.at.point - k.x));
+    };
+    add(c.a, 1);
+    add(c.b, -1);
+    if (c.at.normal.dot(u) >= 0 && c.impulse.dot(c.impulse_normal) > 0) continue;
+    std::ostringstream text;
+    text << "the tilted normal at the impact of '" << scene_.bodies[index(c.a)].name << "' and '"
+         << scene_.bodies[index(c.b)].name << "' at t = " << event.time << " s does not part the bodies";
+    finish(MotionStatus::unresolved_impact, event.time, text.str());
+    return false;
+  }
+  return true;
+}
+
+// Whether the next bounce of a contact, if it is known, is too low to count. The contact leaves at e times its approach
+// or faster; where that leaves it low, what counts is how far its features are apart halfway, which of a parabola is its
+// height. A body that turns may lift them without any speed to begin with.
+bool Simulator::isLow(const Contact& c, const Prediction*& next) {
+  next = nullptr;
+  for (const Prediction& p : found_)
+    if (p.a == c.a && p.b == c.b && p.explained()) {
+      next = &p;
+      break;
+    }
+  if (!next) return false;
+  const double start = draft_.event.time, slowest = std::abs(c.pair.elasticity * c.approach);
+  if (!(0.25 * slowest * (next->time - start) < kLowestBounce)) return false;
+  const double halfway = start + 0.5 * (next->time - start);
+  const ContactPoint then = motion_.geometry->contact(c.a, c.b, c.features, poseAt(c.a, halfway), poseAt(c.b, halfway));
+  return !(then.gap >= kLowestBounce);
+}
+
+// A body that is in infinitely many of the events that pile up has this many of them in no time.
+bool Simulator::stalls(int body) const {
+  const auto& arcs = motion_.world_lines[index(body)].arcs;
+  if (!(draft_.event.time - arcs.back().start() < kStall)) return false;  // far most often; the last arc is at hand
+  return arcs.size() > kStallEvents && draft_.event.time - arcs[arcs.size() - kStallEvents].start() < kStall;
+}
+
+// True when the impacts of a pair or of a body pile up in finite time; sets status and message.
+bool Simulator::accumulates() {
+  const Event& event = draft_.event;
+  for (const Contact& c : event.contacts) {
+    const std::uint64_t pair = static_cast<std::uint64_t>(c.a) << 32 | static_cast<std::uint32_t>(c.b);
+    const Prediction* next;
+    if (!isLow(c, next)) {
+      if (!low_bounces_.empty()) low_bounces_.erase(pair);
+      continue;
+    }
+    if (!(next->features == c.features) && ++low_bounces_[pair] < kRattles) continue;
+    // gaps shrink by e each, so the rest of the cascade takes gap / (1 - e)
+    const double gap = next->time - event.time, e = c.pair.elasticity;
+    std::ostringstream text;
+    text.precision(10);
+    text << "'" << scene_.bodies[index(c.a)].name << "' and '" << scene_.bodies[index(c.b)].name
+         << "' stay in contact from t = " << event.time + (e < 1 ? gap / (1 - e) : gap) << " s on, at ("
+         << c.at.point.x() << ", " << c.at.point.y() << ", " << c.at.point.z() << "), after " << motion_.impacts + 1
+         << " impacts; lasting contact is not modelled, so the motion ends there";
+    finish(MotionStatus::cascade, event.time, text.str());
+    return true;
+  }
+  for (const Participant& p : event.participants) {
+    if (!isMoved(p.body) || !stalls(p.body)) continue;
+    std::ostringstream text;
+    text << "impacts accumulate at t = " << event.time << " s, at (" << event.contacts[0].at.point.transpose()
+         << "): " << kStallEvents << " of '" << scene_.bodies[index(p.body)].name << "' within " << kStall
+         << " s; the motion ends there";
+    finish(MotionStatus::cascade, event.time, text.str());
+    return true;
+  }
+  return false;
+}
+
+// What a flight comes to must be numbers that can be computed with.
+void Simulator::requireFlight(int body, const Arc& arc) const {
+  if (!arc.moving()) return;
+  const double end = motion_.duration;
+  const State& s = arc.startState();
+  double furthest = 0;
+  for (const Vec3& v : {s.x, s.v, arc.positionAt(end), arc.velocityAt(end)})
+    furthest = std::max(furthest, v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+  const auto refuseFlight = [&](const std::string& what) {
+    std::ostringstream text;
+    text << "the flight of '" << scene_.bodies[index(body)].name << "' from t = " << arc.start()
+         << " s on cannot be computed: " << what;
+    throw NotComputable(text.str());
+  };
+  if (!(furthest <= kFurthest && s.q.coeffs().allFinite()))
+    refuseFlight("its place or its velocity is beyond the range of doubles");
+  if (arc.tier() == Tier::none) return;  // whose orientation is not asked for
+  if (!(arc.spinBound() * (end - arc.start()) <= kMostTurn && s.L.allFinite()))
+    refuseFlight("it spins so fast that no digit of its orientation is left");
+}
+
+void Simulator::giveUp(const char* what, int a, int b, double time, const NotComputable& why) const {
+  std::ostringstream text;
+  text << "the " << what << " of '" << scene_.bodies[index(std::min(a, b))].name << "' and '"
+       << scene_.bodies[index(std::max(a, b))].name << "' at t = " << time << " s cannot be computed: " << why.what();
+  throw NotComputable(text.str());
+}
+
+// Makes the last arcs available to the end of the motion, which comes sooner where one of them cannot be followed.
+void Simulator::extendAll() {
+  for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) {
+    if (motion_.world_lines[b].arcs.empty()) continue;  // given up before the start
+    Arc& arc = motion_.world_lines[b].arcs.back();
+    try {
+      extend(arc, motion_.end);
+    } catch (const NotComputable& error) {
+      motion_.status = MotionStatus::not_computable;
+      motion_.message = "the flight of '" + scene_.bodies[b].name + "' cannot be computed: " + error.what();
+      endAtReach(arc);
+    } catch (const WorkEnded&) {
+      if (!work_ended_) throw;
+      endAtReach(arc);
+    }
+  }
+}
+
+void Simulator::extend(Arc& arc, double until) {
+  if (!(arc.reach() < until)) return;
+  work_.step();
+  const std::size_t series = arc.series();
+  arc.extendTo(until);
+  work_.step(arc.series() - series);
+}
+
+void Simulator::endAtReach(const Arc& arc) {
+  motion_.end = std::min(motion_.end, arc.reach());
+  forgetAfter(motion_.end);
+}
+
+// The limit of work was reached, or somebody asked to stop: what is known by then is the motion.
+void Simulator::endWork(bool stopped) {
+  const std::size_t limit = work_.limit();
+  work_ended_ = true;
+  if (!motion_.geometry) motion_.geometry = contacts_.geometry();  // it never began
+  const std::string steps = std::to_string(stopped ? work_.steps() : limit) + " steps of work";
+  work_.allowMore(kStepsToEnd);
+  finish(stopped ? MotionStatus::stopped : MotionStatus::step_limit, now_, "");
+  if (motion_.status == MotionStatus::not_computable) return;
+  std::ostringstream text;
+  text.precision(10);
+  text << "stopped at t = " << motion_.end << " s after " << steps
+       << (stopped ? ", as was asked for" : ", the limit that was set");
+  motion_.message = text.str();
+}
+
+void Simulator::forgetAfter(double end) {
+  for (WorldLine& line : motion_.world_lines)
+    while (line.arcs.size() > 1 && line.arcs.back().start() > end) {
+      line.arcs.pop_back();
+      if (motion_.has_events) line.events.pop_back();
+    }
+  if (!motion_.has_events) return;
+  while (!motion_.events.empty() && motion_.events.back().time > end) motion_.events.pop_back();
+  motion_.impacts = motion_.events.size();
+}
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "adjoint/simulate/simulator.hpp"
+
+// Who will meet whom next: searches of one body's future against its neighbours.
+
+namespace carom {
+
+// First impacts of one body with whoever may be near, each searched no further than the earliest one found: nothing of
+// the body's arc beyond that will happen, unless the other body is struck before. In that case the search goes on when
+// that time is reached with the arc still in force. Adds everything found to found_.
+void Simulator::search(int body, double from, Outlook& outlook) {
+  double until = std::min(contacts_.window(body, from), motion_.duration);
+  contacts_.neighbours(body, neighbours_);
+  const std::size_t begin = found_.size();
+  for (int other : neighbours_) {
+    const bool is_first = body < other;
+    std::optional<PredictedImpact> impact;
+    try {
+      impact = firstImpact(std::min(body, other), std::max(body, other), from, until);
+    } catch (const NotComputable& error) {
+      giveUp("approach", body, other, from, error);
+    }
+    if (!impact) continue;
+    if (!std::isfinite(impact->time))
+      giveUp("approach", body, other, from, NotComputable("the time at which they meet is beyond the range of doubles"));
+    until = std::min(until, std::max(impact->time, from) + kInstant);
+    const int version = version_[index(other)] + (in_draft_[index(other)] >= 0 && isMoved(other) ? 1 : 0);
+    found_.push_back({impact->time, body, is_first ? body : other, is_first ? other : body, version, impact->features});
+  }
+  outlook.first = {};
+  outlook.of_instant.clear();
+  outlook.horizon = until;
+  if (found_.size() == begin) return;
+  const auto first = std::min_element(found_.begin() + static_cast<std::ptrdiff_t>(begin), found_.end());
+  outlook.first = *first;
+  for (std::size_t i = begin; i < found_.size(); ++i)
+    if (found_[i].time <= first->time + kInstant && &found_[i] != &*first) outlook.of_instant.push_back(found_[i]);
+}
+
+// Of bodies a < b; those that overlap from the start have to part first.
+std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from, double until) {
+  Arc &arc_a = pathOf(a), &arc_b = pathOf(b);
+  if (StartOverlap* overlap = overlapOf(a, b)) {
+    const std::optional<double> parted = partingOf(*overlap, from, until);
+    if (!parted) return std::nullopt;
+    from = std::max(from, *parted);
+  }
+  const std::size_t series = arc_a.series() + arc_b.series();
+  const std::optional<PredictedImpact> impact = contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
+  work_.step(1 + arc_a.series() + arc_b.series() - series);
+  return impact;
+}
+
+void Simulator::enter(int body, Outlook& outlook) {
+  const bool impact = outlook.first.a >= 0;
+  const bool over = !impact && !(outlook.horizon < motion_.duration);
+  queue_.set(body, impact ? outlook.first.time : over ? EventQueue::kNever : outlook.horizon, !impact);
+  std::swap(outlook_[index(body)], outlook);
+}
+
+void Simulator::predictBody(int body, double from) {
+  found_.clear();
+  draft_.outlooks.resize(1);
+  search(body, from, draft_.outlooks[0]);
+  enter(body, draft_.outlooks[0]);
+}
+
+// The same for the participants of the draft, on their arcs after the event.
+void Simulator::predictDraft() {
+  const Event& event = draft_.event;
+  for (std::size_t i = 0; i < draft_.arcs.size(); ++i)
+    contacts_.setPath(event.participants[i].body, draft_.arcs[i], event.time, motion_.duration);
+  found_.clear();
+  draft_.outlooks.resize(draft_.arcs.size());
+  for (std::size_t i = 0; i < draft_.arcs.size(); ++i)
+    search(event.participants[i].body, event.time, draft_.outlooks[i]);
+}
+
+// The earliest impact whose arcs are in force.
+bool Simulator::takeNext(Prediction& next) {
+  while (!queue_.empty()) {
+    const int body = queue_.body();
+    now_ = std::max(now_, queue_.time());
+    work_.reached(now_, motion_.impacts);
+    work_.step();
+    const Prediction& first = outlook_[index(body)].first;
+    if (first.a >= 0 && holds(first)) {
+      next = first;
+      return true;
+    }
+    if (++searches_ > kMostSearches) {
+      std::ostringstream text;
+      text << "'" << scene_.bodies[index(body)].name << "' flies so fast at t = " << now_
+           << " s that its neighbours cannot be kept: more than " << kMostSearches << " searches without an impact";
+      throw NotComputable(text.str());
+    }
+    predictBody(body, queue_.time());
+  }
+  return false;
+}
+
+}  // namespace carom

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <stop_token>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "adjoint/simulate/replay.h"
+#include "adjoint/simulate/simulate.h"
+#include "editing/problem/controls/control_set.hpp"
+#include "editing/problem/controls/validity_rows.hpp"
+#include "editing/problem/rows/constraint_rows.hpp"
+
+namespace carom {
+
+/// Controls and constraints bound to a scene: what is varied, what is held, and what has to be simulated for it.
+struct EditProblem {
+  /// Throws InputError for a scene, controls or constraints that make no sense. `contacts` is kept by reference.
+  EditProblem(const Scene& scene, ContactSource& contacts, double duration, const std::vector<Control>& controls,
+              const std::vector<Constraint>& constraints);
+
+  ContactSource* contacts;
+  ControlSet controls;
+  ConstraintSet constraints;
+  ValidityRows validity;
+  /// The unknowns of the edit: the changes of the controls, then the free times, t = from + y (scale).
+  int unknowns() const { return controls.size() + times(); }
+  int times() const { return static_cast<int>(constraints.freeTimes().size()); }
+  Eigen::VectorXd valuesOf(const Eigen::VectorXd& unknowns) const;  ///< of the controls
+  Eigen::VectorXd timesOf(const Eigen::VectorXd& unknowns) const;   ///< s
+  Eigen::VectorXd unknownTimes(const Eigen::VectorXd& times) const;
+  /// d(values, times)/d(unknowns), a diagonal.
+  Eigen::VectorXd rates(const Eigen::VectorXd& unknowns) const;
+  Eigen::VectorXd lower() const;
+  Eigen::VectorXd upper() const;
+  /// 1/2 |changes of the controls|^2: the free times cost nothing.
+  double objective(const Eigen::VectorXd& unknowns) const;
+
+  double duration;           ///< s, of the motion
+  double horizon;            ///< s; nothing after it counts for the constraints
+  std::vector<Asked> asked;  ///< as little as the rows and their derivatives need
+  /// Of every motion, see SimulateOptions.
+  std::size_t step_limit = std::numeric_limits<std::size_t>::max();
+  std::stop_token stop;  ///< of motions that are tried; one that an answer is read from is simulated in any case
+};
+
+/// All rows of a problem at one point, and their exact derivative by every control value (SI by SI).
+struct RowsAndJacobian {
+  Motion motion;
+  RowValues rows;
+  Eigen::MatrixXd jacobian;              ///< rows x controls; rows that are not available are NaN
+  std::vector<Reliability> reliability;  ///< of each row; by adjoint only
+};
+
+/// The motion of a scene of the problem, with everything that can be asked of it.
+Motion simulateScene(const EditProblem& problem, const Scene& scene, double until);
+
+/// Simulates up to a time, with no more detail than the problem asks for.
+/// By another source than the problem's, if one is given: the problem's is for one thread at a time. A requested stop
+/// ends it early, unless it is to be simulated in any case.
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until,
+                  ContactSource* contacts = nullptr, bool even_if_stopped = false);
+/// The same along the impact sequence of another motion of the problem, see adjoint/simulate/replay.h.
+Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
+                ContactSource* contacts = nullptr);
+
+/// Tells the reliability of a row which coefficients of friction vary.
+void askFrictions(const ControlSet& controls, Reliability& reliability);
+
+/// d(rows)/d(values) of a motion simulated at `values`: one reverse pass a row, whatever the number of controls.
+Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
+                                  const RowValues& rows, std::vector<Reliability>* reliability = nullptr);
+/// The same by one forward pass a control.
+Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
+                                  const RowValues& rows);
+
+/// d(rows)/d(free times): size() x times(), SI.
+Eigen::MatrixXd jacobianByTimes(const EditProblem& problem, const Motion& motion, const RowValues& rows);
+
+RowsAndJacobian evaluateByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values);
+RowsAndJacobian evaluateByTangent(const EditProblem& problem, const Eigen::VectorXd& values);
+
+}  // namespace carom

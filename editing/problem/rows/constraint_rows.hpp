@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/motion/motion.h"
+#include "editing/constraint.h"
+#include "editing/problem/rows/quantities.hpp"
+#include "editing/problem/rows/region_rows.hpp"
+
+namespace carom {
+
+/// One number that a constraint holds: equal to a target, or within a range.
+struct Row {
+  int constraint = -1;          ///< index of the Constraint
+  int target_index = 0;         ///< of its Target; -1: of a region
+  int region = -1;              ///< index of its Region; -1: of a target
+  int component = 0;            ///< of the quantity, or of the region
+  const QuantityKind* kind = nullptr;  ///< null: of a region
+  std::string name;             ///< "position.x", "time", "avoid"
+  double target = 0;            ///< SI; 0 for orientation rows; NaN for a range
+  double lower = 0, upper = 0;  ///< allowed values, SI; both `target` where that is a number
+  double scale = 1;             ///< residual / scale is dimensionless
+
+  bool isRange() const { return !(lower == upper); }
+};
+
+/// A time that a constraint `between` two times leaves to the edit: an unknown beside the controls.
+struct FreeTime {
+  int constraint = -1;
+  double from = 0, to = 0;  ///< s
+  double scale = 1;         ///< natural time of the body, s
+};
+
+/// Values of all rows for one motion, SI.
+struct RowValues {
+  bool available = true;      ///< false: some row does not exist in this motion
+  std::string message;        ///< which, and why
+  Eigen::VectorXd times;      ///< of the free times, at which rows were read, s
+  Eigen::VectorXd values;     ///< NaN where not available
+  Eigen::VectorXd residuals;  ///< value - target; of a range how far outside, negative below it
+  Eigen::VectorXd scaled;     ///< residual / scale
+  /// Derivative of each value by the states of bodies, a sum; empty where not available.
+  std::vector<std::vector<StateSeed>> seeds;
+};
+
+/// The constraints of an edit as rows. Which rows there are depends on the constraints alone, not on the motion.
+class ConstraintSet {
+ public:
+  /// Throws InputError naming "/constraints/<i>": unknown words and bodies, targets that are not numbers, nothing held,
+  /// `time` at a time, ... Sizes and speeds of `scene` give the scales; `duration` ends spans that are open.
+  ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints,
+                double duration = std::numeric_limits<double>::infinity());
+
+  const std::vector<Constraint>& constraints() const { return constraints_; }
+  const std::vector<Row>& rows() const { return rows_; }
+  const std::vector<FreeTime>& freeTimes() const { return free_times_; }
+  int size() const { return static_cast<int>(rows_.size()); }
+  /// Indices of the rows that hold a number, and of those that hold a range.
+  const std::vector<int>& equations() const { return equations_; }
+  const std::vector<int>& ranges() const { return ranges_; }
+
+  /// Reads all rows in a motion, with the free times given, or else at the nearest ones. Rows that the motion does not
+  /// have (the n-th impact does not come, or the time lies after its end) make the result unavailable, with a sentence;
+  /// they are not an error.
+  RowValues evaluate(const Motion& motion) const { return evaluate(motion, nearestTimes(motion)); }
+  RowValues evaluate(const Motion& motion, const Eigen::VectorXd& times) const;
+  /// For each free time one at which its constraint is most nearly met, among many.
+  Eigen::VectorXd nearestTimes(const Motion& motion) const;
+
+  /// How the weights of a row's seeds change when the states that they are read from change at `rates`, one a seed;
+  /// `times` as for evaluate.
+  std::vector<StateSeed> seedRates(const Motion& motion, const Eigen::VectorXd& times, int row,
+                                   std::span<const BodyStateRate> rates) const;
+  /// What the row of a region reads.
+  std::optional<Clearance> clearance(const Motion& motion, int row) const;
+
+  /// How far a value lies outside what a row allows, SI; negative below, 0 inside.
+  double residual(int row, double value) const;
+
+  /// Nothing after this time counts: the last time nailed, or `duration` when an impact is.
+  double horizon(double duration) const;
+  /// What of a motion counts for the constraints: its events up to the last of them, and the time of that. Without
+  /// free times their spans count whole.
+  struct Extent {
+    std::size_t events = 0;
+    double time = 0;
+  };
+  Extent extentIn(const Motion& motion, const Eigen::VectorXd& times = {}) const;
+  /// Bodies whose orientation some row depends on directly.
+  std::vector<bool> asksOrientation() const;
+
+  /// Puts other numbers in the place of one target, whose free components stay the same ones.
+  void setTarget(int constraint, int target, const std::vector<double>& value);
+
+  /// "position.x of 'hat' at 1.4 s", "time of 'mug' at its impact 3 with 'floor'".
+  std::string describeRow(int row) const;
+  /// "'hat' at 1.4 s"
+  std::string describeConstraint(int constraint) const;
+
+ private:
+  struct Bound {
+    int body = -1;
+    int with = -1;
+    int relative_to = -1;
+    int free_time = -1;                      ///< index into free_times_
+    std::vector<const QuantityKind*> kinds;  ///< of each target
+    std::vector<BoundRegion> regions;
+  };
+  struct Reading {
+    bool available = false;
+    std::string message;
+    Instant instant;
+    double time = 0;
+    BodyState own, other;  ///< of the body, and of the one it is seen from
+    BodyState seen;        ///< what targets are about
+  };
+  void bind(const Scene& scene, int index, double duration);
+  void addTargetRows(const Scene& scene, int index, int target);
+  void addRegionRows(const Scene& scene, int index, int region, double duration);
+  Reading read(const Motion& motion, int constraint, double free_time) const;
+  Reading readAt(const Motion& motion, int constraint, const Instant& instant, double time) const;
+  void readRow(int row, const Reading& reading, RowValues& out) const;
+  void readRegion(const Motion& motion, int row, RowValues& out) const;
+  double missAt(const Motion& motion, int constraint, double time) const;
+
+  int body_count_ = 0;
+  std::vector<Constraint> constraints_;
+  std::vector<Bound> bound_;
+  std::vector<Row> rows_;
+  std::vector<int> equations_, ranges_;
+  std::vector<FreeTime> free_times_;
+};
+
+}  // namespace carom

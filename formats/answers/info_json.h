@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjoint/motion/plan.h"
+#include "adjoint/motion/start_overlap.h"
+#include "adjoint/scene/scene.h"
+
+namespace carom {
+
+/// How a scene is computed, and why.
+struct ScenePlan {
+  /// A pair of bodies that can touch (see mayCollide).
+  struct Pair {
+    int a = -1, b = -1;
+    PairCoefficients coefficients;
+    Law law = Law::frictionless;
+    std::string why;                           ///< the law
+    std::string elasticity_why, friction_why;  ///< how the materials' coefficients were combined
+  };
+  std::string name, notes;  ///< of the document
+  double duration = 0;
+  std::string asked;  ///< what the tiers are chosen for: "edit" or "simulate"
+  Plan plan;
+  std::vector<Pair> pairs;
+  std::vector<StartOverlap> overlaps;  ///< at the start, without when they part
+  int controls = 0;  ///< numbers that may vary
+  int rows = 0;      ///< numbers that are held
+};
+
+/// The answer of `carom info S.json --json`: name and notes (null where the document has none), duration, asked, bodies
+/// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
+/// principal moments (kg m^2), of those that differ kinematic, gravity_factor and collision_filter, tier, why,
+/// derivative_tier, derivative_why}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
+std::string infoJson(const Scene& scene, const ScenePlan& plan);
+
+}  // namespace carom

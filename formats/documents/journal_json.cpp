@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "formats/documents/journal_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/base/read_file.hpp"
+#include "formats/base/write_file.hpp"
+#include "formats/documents/scene_json.h"
+#include "formats/documents/scene_reader.hpp"
+#include "formats/json/json.hpp"
+
+namespace carom {
+namespace {
+
+using detail::Json;
+using Kind = SessionGesture::Kind;
+using Ending = SessionGesture::Ending;
+
+constexpr std::size_t kMostJournalValues = 8'000'000;
+
+/// Runs a reader whose errors begin at `inner` of a part of the document, which stands at `outer`.
+template <class Read>
+auto readAt(const std::string& inner, const std::string& outer, Read read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    const bool within = error.where().starts_with(inner);
+    throw InputError(within ? outer + error.where().substr(inner.size()) : outer, error.message());
+  }
+}
+
+double stopOr(const Json& options, const char* member, double otherwise) {
+  const auto found = options.find(member);
+  if (found == options.end()) return otherwise;
+  return found->is_null() ? std::numeric_limits<double>::infinity() : found->get<double>();
+}
+
+SessionOptions readOptions(const Json& document) {
+  SessionOptions options;
+  const auto found = document.find("options");
+  if (found == document.end()) return options;
+  const Json& o = *found;
+  if (o.contains("measure_from"))
+    options.measure_from = o["measure_from"] == "start" ? MeasureFrom::start : MeasureFrom::grab;
+  if (o.contains("sequence"))
+    options.sequence = o["sequence"] == "stay" ? SequencePolicy::stay : SequencePolicy::prefer_start;
+  options.tolerance = o.value("tolerance", options.tolerance);
+  options.drag_simulations = o.value("drag_simulations", options.drag_simulations);
+  options.release_iterations = o.value("release_iterations", options.release_iterations);
+  options.drag_seconds = stopOr(o, "drag_seconds", options.drag_seconds);
+  options.release_seconds = stopOr(o, "release_seconds", options.release_seconds);
+  return options;
+}
+
+/// In the words of scene documents, so by their reader.
+Constraint readOneConstraint(const Json& value, const Document& scene, const std::string& where) {
+  Json alone;
+  alone["constraints"] = Json::array({value});
+  return readAt("/constraints/0", where,
+                [&] { return detail::readConstraints(alone, scene.scene, scene.duration).at(0); });
+}
+
+std::vector<Control> readControlList(const Json& value, const Document& scene, const std::string& where) {
+  Json alone;
+  alone["controls"] = value;
+  return readAt("/controls", where, [&] { return detail::readControls(alone, scene.scene); });
+}
+
+/// A grab is written as the constraint that it is: from that, how the body is held.
+void readGrab(SessionGesture& gesture, const std::string& where) {
+  const Constraint& held = *gesture.constraint;
+  if (held.at.span || !held.relative_to.empty() || !held.regions.empty())
+    detail::fail(where, "a grab with a span of time, relative to a body or with a region",
+                 "one at a time or an impact");
+  const bool place =
+      !held.targets.empty() && (held.targets[0].quantity == "position" || held.targets[0].quantity == "point");
+  const bool turn = held.targets.size() == 2 && held.targets[1].quantity == "orientation";
+  if (!place || held.targets.size() > 2 || (held.targets.size() == 2 && !turn))
+    detail::fail(where, "other targets", "\"position\" or \"point\", and \"orientation\" after it where that is held");
+  const Target& target = held.targets[0];
+  if (!target.min.empty() || !target.max.empty()) detail::fail(where, "a range", "numbers, or null for what is free");
+  gesture.body = held.body, gesture.at = held.at;
+  if (target.quantity == "point") gesture.grip.body_point = target.body_point;
+  gesture.grip.orientation = turn;
+  const char* const kNames[] = {"x", "y", "z"};
+  const bool all = std::none_of(target.value.begin(), target.value.end(), [](double v) { return std::isnan(v); });
+  for (std::size_t k = 0; k < 3 && !all; ++k)
+    if (!std::isnan(target.value[k])) gesture.grip.components.push_back(kNames[k]);
+}
+
+DragTarget readDragTarget(const Json& value, const SessionGesture& gesture, const std::string& where) {
+  DragTarget target;
+  target.milliseconds = value.value("milliseconds", 0.0);
+  target.place = detail::readVector(value["place"]);
+  if (value.contains("orientation")) {
+    if (!gesture.grip.orientation)
+      detail::fail(where + "/orientation", detail::describe(value["orientation"]), "none: the grab does not hold it");
+    target.orientation = detail::readQuaternion(value["orientation"], where + "/orientation");
+  }
+  if (value.contains("cut_after")) target.cut_after = value["cut_after"].get<int>();
+  return target;
+}
+
+SessionGesture readGesture(const Json& value, const Document& scene, const std::string& where) {
+  SessionGesture gesture;
+  gesture.milliseconds = value.value("milliseconds", 0.0);
+  gesture.nail = value.value("id", -1);
+  gesture.reached = value["reached"].get<bool>();
+  gesture.distance = value.value("distance", 0.0);
+  gesture.numbers = value["numbers"].get<std::vector<double>>();
+  if (value.contains("cut_after")) gesture.cut_after = value["cut_after"].get<int>();
+  if (value.contains("controls")) {
+    gesture.kind = Kind::controls;
+    gesture.controls = readControlList(value["controls"], scene, where + "/controls");
+  } else if (value.contains("nail")) {
+    gesture.kind = Kind::nail;
+    gesture.constraint = readOneConstraint(value["nail"], scene, where + "/nail");
+  } else if (value.contains("unnail")) {
+    gesture.kind = Kind::unnail;
+    gesture.nail = value["unnail"].get<int>();
+  } else if (value.contains("drag")) {
+    gesture.kind = Kind::drag;
+    gesture.constraint = readOneConstraint(value["drag"], scene, where + "/drag");
+    readGrab(gesture, where + "/drag");
+    const Json& targets = value["targets"];
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      gesture.targets.push_back(readDragTarget(targets[i], gesture, where + "/targets/" + std::to_string(i)));
+    const auto ending = value["ending"].get<std::string>();
+    gesture.ending = ending == "release"  ? Ending::release
+                     : ending == "cancel" ? Ending::cancel
+                                          : Ending::release_nailed;
+  } else {
+    gesture.kind = value.contains("undo") ? Kind::undo : Kind::redo;
+  }
+  return gesture;
+}
+
+}  // namespace
+
+JournalDocument parseJournal(std::string_view text, const std::string& name, const std::string& folder) try {
+  if (text.size() > kLargestJournal)
+    throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
+                     std::to_string(kLargestJournal) + " bytes");
+  const Json json = detail::parseJson(text, kMostJournalValues);
+  detail::requireVersion(json, "carom_journal");
+  detail::requireSchema(json, detail::DocumentKind::journal);
+  const Document scene = readAt("", "/scene", [&] { return detail::readDocument(json["scene"], folder); });
+  JournalDocument document;
+  document.folder = folder;
+  document.name = scene.name, document.notes = scene.notes;
+  document.schema = detail::textOr(json, "$schema");
+  document.journal = {scene.scene, scene.duration, scene.controls, scene.constraints, readOptions(json), {}};
+  const Json& gestures = json["gestures"];
+  for (std::size_t i = 0; i < gestures.size(); ++i)
+    document.journal.gestures.push_back(readGesture(gestures[i], scene, "/gestures/" + std::to_string(i)));
+  return document;
+} catch (const InputError& error) {
+  throw FormatError(name, error.where(), error.message());
+}
+
+JournalDocument readJournal(const std::string& path) {
+  return parseJournal(readFile(path, "a journal", kLargestJournal), path, detail::folderOf(path));
+}
+
+void saveJournal(const std::string& path, const JournalDocument& journal) try {
+  Document scene;
+  scene.scene = journal.journal.scene;
+  scene.folder = journal.folder;
+  detail::moveTo(detail::folderOf(path), scene);
+  JournalDocument moved = journal;
+  moved.journal.scene = scene.scene;
+  moved.folder = scene.folder;
+  moved.schema = detail::movedSchema(journal.schema, journal.folder, scene.folder);
+  const std::string text = writeJournal(moved);
+  parseJournal(text, path, moved.folder);
+  writeFile(path, text);
+} catch (const FormatError&) {
+  throw;
+} catch (const InputError& error) {
+  throw FormatError(path, error.where() == path ? "" : error.where(), error.message());
+}
+
+Document documentOf(const EditSession& session, const std::string& folder) {
+  Document document;
+  document.scene = session.scene();
+  document.duration = session.duration();
+  document.controls = session.controls();
+  document.constraints = session.constraints();
+  document.folder = folder;
+  return document;
+}
+
+}  // namespace carom

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <utility>
+
+#include "formats/documents/scene_reader.hpp"
+#include "formats/json/json.hpp"
+#include "formats/json/json_writer.hpp"
+
+namespace carom::detail {
+namespace {
+
+void requireWithin(double time, double duration, const std::string& where) {
+  if (!(time <= duration))
+    fail(where, numberText(time), "a time in [0, " + numberText(duration) + "], the duration of the scene");
+}
+
+std::pair<double, double> readSpan(const Json& value, double duration, const std::string& where) {
+  const auto from = value[0].get<double>(), to = value[1].get<double>();
+  requireWithin(from, duration, where + "/0");
+  if (!(to > from)) fail(where + "/1", numberText(to), "a time after " + numberText(from) + ", the start of the span");
+  requireWithin(to, duration, where + "/1");
+  return {from, to};
+}
+
+When readWhen(const Json& value, const Json& body, const Scene& scene, double duration, const std::string& where) {
+  if (value.is_number()) {
+    requireWithin(value.get<double>(), duration, where);
+    return When(value.get<double>());
+  }
+  if (value.contains("between")) {
+    const auto [from, to] = readSpan(value["between"], duration, where + "/between");
+    return between(from, to);
+  }
+  std::string with;
+  if (value.contains("with")) {
+    readBodyName(value["with"], where + "/with", scene);
+    with = value["with"].get<std::string>();
+    if (value["with"] == body) fail(where + "/with", quotedText(with), "another body than the constrained one");
+  }
+  return nthImpact(value["impact"].get<int>(), with);
+}
+
+/// Component `i` of a target within a range.
+void readRange(const Json& range, std::size_t i, Target& target, const std::string& where) {
+  const auto read = [&](const char* member, std::vector<double>& limits) {
+    const auto limit = range.find(member);
+    if (limit == range.end()) return;
+    limits.resize(target.value.size(), any);
+    limits[i] = limit->get<double>();
+  };
+  read("min", target.min);
+  read("max", target.max);
+  if (range.contains("min") && range.contains("max") && !(target.min[i] < target.max[i]))
+    fail(where + "/min", numberText(target.min[i]), "a number < max, which is " + numberText(target.max[i]));
+}
+
+void readNumbers(const Json& value, Target& target, const std::string& where) {
+  target.value.assign(value.size(), any);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (value[i].is_number()) target.value[i] = value[i].get<double>();
+    if (value[i].is_object()) readRange(value[i], i, target, pointerTo(where, i));
+  }
+  if (std::all_of(value.begin(), value.end(), [](const Json& item) { return item.is_null(); }))
+    fail(where, "only null", "a number or a range for at least one component");
+}
+
+void readTime(const Json& value, bool at_impact, double duration, Target& target, const std::string& where) {
+  if (!at_impact) fail(where, "a target \"time\" at a given time", "\"at\": {\"impact\": n} beside it");
+  target.value = {value.is_number() ? value.get<double>() : any};
+  if (value.is_number()) requireWithin(target.value[0], duration, where);
+  if (!value.is_object()) return;
+  readRange(value, 0, target, where);
+  for (const auto& limit : value.items())
+    requireWithin(limit.value().get<double>(), duration, pointerTo(where, limit.key()));
+}
+
+Target readTarget(const std::string& quantity, const Json& value, const When& at, double duration,
+                  const std::string& where) {
+  Target target;
+  target.quantity = quantity;
+  if (quantity == "orientation") {
+    const Quat q = readQuaternion(value, where);
+    target.value = {q.w(), q.x(), q.y(), q.z()};
+  } else if (quantity == "time") {
+    readTime(value, at.impact > 0, duration, target, where);
+  } else if (quantity == "point") {
+    readNumbers(value["world"], target, where + "/world");
+    target.body_point = readVector(value["body_point"]);
+  } else {
+    readNumbers(value, target, where);
+  }
+  return target;
+}
+
+Region readRegion(const Json& value, Region::Side side, double duration, const std::string& where) {
+  Region region;
+  region.side = side;
+  if (value.contains("sphere")) region.shape = Sphere{value["sphere"]["radius"].get<double>()};
+  if (value.contains("box")) region.shape = Box{readVector(value["box"]["size"])};
+  if (value.contains("position")) region.position = readVector(value["position"]);
+  if (value.contains("orientation")) region.orientation = readQuaternion(value["orientation"], where + "/orientation");
+  if (value.contains("during")) region.during = readSpan(value["during"], duration, where + "/during");
+  if (value.contains("margin")) region.margin = value["margin"].get<double>();
+  return region;
+}
+
+void readRegions(const Json& value, Region::Side side, double duration, const std::string& where,
+                 std::vector<Region>& regions) {
+  if (value.is_object()) regions.push_back(readRegion(value, side, duration, where));
+  if (!value.is_array()) return;
+  for (std::size_t i = 0; i < value.size(); ++i)
+    regions.push_back(readRegion(value[i], side, duration, pointerTo(where, i)));
+}
+
+std::string readRelativeTo(const Json& value, const Json& body, const Scene& scene, const std::string& where) {
+  readBodyName(value, where, scene);
+  if (value == body) fail(where, describe(value), "another body than the constrained one");
+  return value.get<std::string>();
+}
+
+/// Regions have times and places of their own: beside them alone, these members would mean nothing.
+void requireTargets(const Constraint& constraint, const Json& value, const std::string& where) {
+  if (!constraint.targets.empty()) return;
+  if (constraint.regions.empty())
+    fail(where, "a constraint without a target",
+         "one of position, orientation, velocity, angular_velocity, time, point, avoid, inside");
+  const std::string target = "a target beside it, such as position: a region ";
+  if (value.contains("at")) fail(where + "/at", describe(value["at"]), target + "has its time in \"during\"");
+  if (value.contains("relative_to"))
+    fail(where + "/relative_to", describe(value["relative_to"]), target + "stands still in the world");
+}
+
+Constraint readConstraint(const Json& value, const Scene& scene, double duration, const std::string& where) {
+  const int body = readBodyName(value["body"], where + "/body", scene);
+  const auto& name = scene.bodies[static_cast<std::size_t>(body)].name;
+  if (scene.bodies[static_cast<std::size_t>(body)].fixed)
+    fail(where + "/body", "the fixed body " + quotedText(name), "a moving body");
+  Constraint constraint{name, When(0), {}};
+  if (value.contains("at")) constraint.at = readWhen(value["at"], value["body"], scene, duration, where + "/at");
+  for (const auto& member : value.items()) {
+    const std::string& word = member.key();
+    const std::string place = pointerTo(where, word);
+    if (word == "body" || word == "at" || word == "notes") continue;
+    if (word == "relative_to") {
+      constraint.relative_to = readRelativeTo(member.value(), value["body"], scene, place);
+    } else if (word == "avoid" || word == "inside") {
+      const auto side = word == "avoid" ? Region::Side::avoid : Region::Side::inside;
+      readRegions(member.value(), side, duration, place, constraint.regions);
+    } else {
+      constraint.targets.push_back(readTarget(word, member.value(), constraint.at, duration, place));
+    }
+  }
+  requireTargets(constraint, value, where);
+  constraint.notes = textOr(value, "notes");
+  return constraint;
+}
+
+}  // namespace
+
+std::vector<Constraint> readConstraints(const Json& document, const Scene& scene, double duration) {
+  std::vector<Constraint> constraints;
+  const auto list = document.find("constraints");
+  for (std::size_t i = 0; list != document.end() && i < list->size(); ++i)
+    constraints.push_back(readConstraint((*list)[i], scene, duration, pointerTo("/constraints", i)));
+  return constraints;
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "adjoint/base/errors.h"
+#include "editing/constraint.h"
+#include "formats/documents/scene_writer.hpp"
+#include "formats/json/json_writer.hpp"
+
+namespace carom::detail {
+namespace {
+
+using Layout = JsonWriter::Layout;
+
+void writeSpan(JsonWriter& out, const char* member, const std::pair<double, double>& span) {
+  const double ends[] = {span.first, span.second};
+  out.key(member).numbers(ends);
+}
+
+void writeWhen(JsonWriter& out, const When& at) {
+  out.key("at");
+  if (at.span) {
+    out.beginObject();
+    writeSpan(out, "between", *at.span);
+    out.endObject();
+  } else if (at.impact == 0) {
+    out.number(at.time);
+  } else {
+    out.beginObject().key("impact").integer(at.impact);
+    if (!at.with.empty()) out.key("with").text(at.with);
+    out.endObject();
+  }
+}
+
+/// NaN where there is none.
+double limitAt(const std::vector<double>& limits, std::size_t i) { return limits.empty() ? any : limits[i]; }
+
+/// A number, a range, or null.
+void writeComponent(JsonWriter& out, const Target& target, std::size_t i) {
+  const double min = limitAt(target.min, i), max = limitAt(target.max, i);
+  if (std::isnan(min) && std::isnan(max)) {
+    out.number(target.value[i]);
+    return;
+  }
+  out.beginObject();
+  if (!std::isnan(min)) out.key("min").number(min);
+  if (!std::isnan(max)) out.key("max").number(max);
+  out.endObject();
+}
+
+void writeComponents(JsonWriter& out, const Target& target) {
+  out.beginArray(Layout::line);
+  for (std::size_t i = 0; i < target.value.size(); ++i) writeComponent(out, target, i);
+  out.endArray();
+}
+
+void writeTarget(JsonWriter& out, const Target& target) {
+  out.key(target.quantity);
+  if (target.quantity == "time") {
+    writeComponent(out, target, 0);
+  } else if (target.quantity == "point") {
+    out.beginObject().key("body_point").vector(target.body_point).key("world");
+    writeComponents(out, target);
+    out.endObject();
+  } else {
+    writeComponents(out, target);
+  }
+}
+
+void writeRegion(JsonWriter& out, const Region& region) {
+  out.beginObject();
+  if (const auto* sphere = std::get_if<Sphere>(&region.shape)) {
+    out.key("sphere").beginObject().key("radius").number(sphere->radius).endObject();
+  } else {
+    out.key("box").beginObject().key("size").vector(std::get<Box>(region.shape).size).endObject();
+  }
+  if (!region.position.isZero(0)) out.key("position").vector(region.position);
+  if (region.orientation.coeffs() != Quat::Identity().coeffs()) out.key("orientation").quaternion(region.orientation);
+  if (region.during) writeSpan(out, "during", *region.during);
+  if (region.margin) out.key("margin").number(*region.margin);
+  out.endObject();
+}
+
+void writeRegions(JsonWriter& out, const std::vector<Region>& regions, Region::Side side) {
+  std::vector<const Region*> chosen;
+  for (const Region& region : regions)
+    if (region.side == side) chosen.push_back(&region);
+  if (chosen.empty()) return;
+  out.key(side == Region::Side::avoid ? "avoid" : "inside");
+  if (chosen.size() > 1) out.beginArray();
+  for (const Region* region : chosen) writeRegion(out, *region);
+  if (chosen.size() > 1) out.endArray();
+}
+
+/// The regions of the side that comes first in the constraint come first.
+void writeBothSides(JsonWriter& out, const std::vector<Region>& regions) {
+  if (regions.empty()) return;
+  const bool avoids_first = regions.front().side == Region::Side::avoid;
+  writeRegions(out, regions, regions.front().side);
+  writeRegions(out, regions, avoids_first ? Region::Side::inside : Region::Side::avoid);
+}
+
+void requireTarget(const Target& target, const std::string& where) {
+  if (target.quantity == "time" && target.value.size() != 1)
+    throw InputError(where, "found " + std::to_string(target.value.size()) + " numbers, expected 1");
+  for (const std::vector<double>* numbers : {&target.value, &target.min, &target.max}) {
+    for (const double value : *numbers)
+      if (std::isinf(value)) requireFinite(where, value);
+    if (!numbers->empty() && numbers->size() != target.value.size())
+      throw InputError(where, "found " + std::to_string(numbers->size()) + " limits, expected " +
+                                  std::to_string(target.value.size()));
+  }
+  for (const double value : target.body_point) requireFinite(where + "/body_point", value);
+}
+
+void requireRegion(const Region& region, const std::string& where) {
+  const auto* sphere = std::get_if<Sphere>(&region.shape);
+  const Vec3 size = sphere != nullptr ? Vec3::Constant(sphere->radius) : std::get<Box>(region.shape).size;
+  for (const double value : size) requireFinite(where + (sphere != nullptr ? "/sphere" : "/box"), value);
+  for (const double value : region.position) requireFinite(where + "/position", value);
+  for (const double value : region.orientation.coeffs()) requireFinite(where + "/orientation", value);
+  if (region.margin) requireFinite(where + "/margin", *region.margin);
+  if (!region.during) return;
+  requireFinite(where + "/during/0", region.during->first);
+  requireFinite(where + "/during/1", region.during->second);
+}
+
+bool hasTwoOfOneKind(const Constraint& constraint) {
+  const std::vector<Target>& all = constraint.targets;
+  return std::any_of(all.begin(), all.end(), [&](const Target& one) {
+    return std::count_if(all.begin(), all.end(), [&](const Target& t) { return t.quantity == one.quantity; }) > 1;
+  });
+}
+
+}  // namespace
+
+void requireFinite(const std::string& where, double value) {
+  if (!std::isfinite(value)) throw InputError(where, "found a number that is not finite, expected a number");
+}
+
+void requireWritable(const Constraint& constraint, const std::string& where) {
+  requireFinite(where + "/at", constraint.at.time);
+  if (constraint.at.span) {
+    requireFinite(where + "/at/between/0", constraint.at.span->first);
+    requireFinite(where + "/at/between/1", constraint.at.span->second);
+    if (hasTwoOfOneKind(constraint))
+      throw InputError(where,
+                       "found two targets of one kind at one time of a span, expected one of each kind: in a "
+                       "document they would be two constraints, each with a time of its own");
+  }
+  for (const Target& target : constraint.targets) requireTarget(target, where + "/" + target.quantity);
+  for (const Region& region : constraint.regions)
+    requireRegion(region, where + (region.side == Region::Side::avoid ? "/avoid" : "/inside"));
+}
+
+/// Members of an object differ, so that targets of one kind need objects of their own.
+void writeConstraint(JsonWriter& out, const Constraint& constraint) {
+  std::vector<const Target*> left;
+  for (const Target& target : constraint.targets) left.push_back(&target);
+  bool first = true;
+  while (first || !left.empty()) {
+    out.beginObject(Layout::line);
+    out.key("body").text(constraint.body);
+    if (!left.empty()) writeWhen(out, constraint.at);
+    if (!left.empty() && !constraint.relative_to.empty()) out.key("relative_to").text(constraint.relative_to);
+    std::vector<const Target*> written, next;
+    for (const Target* target : left) {
+      const bool again =
+          std::any_of(written.begin(), written.end(), [&](auto* w) { return w->quantity == target->quantity; });
+      if (!again) writeTarget(out, *target);
+      (again ? next : written).push_back(target);
+    }
+    if (first) writeBothSides(out, constraint.regions);
+    if (first && !constraint.notes.empty()) out.key("notes").text(constraint.notes);
+    out.endObject();
+    left = std::move(next);
+    first = false;
+  }
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Private to formats/*.cpp.
+#pragma once
+
+#include <string>
+
+#include "adjoint/scene/shape.h"
+
+namespace carom {
+
+struct Constraint;
+struct Control;
+struct Document;
+class JsonWriter;
+
+namespace detail {
+
+/// Writes a whole document as an object. Throws InputError for what the format cannot hold.
+void writeDocument(JsonWriter& out, const Document& document);
+
+void writeControl(JsonWriter& out, const Control& control);
+
+/// Writes a shape as an object with its word: { "sphere": { "radius": 1 } }.
+void writeShape(JsonWriter& out, const Shape& shape);
+
+/// Writes a constraint as an object, or as several where it has two targets of one kind.
+void writeConstraint(JsonWriter& out, const Constraint& constraint);
+
+// Both throw InputError starting at `where`.
+void requireFinite(const std::string& where, double value);
+/// What a document cannot say. The components that are left free are the only numbers that may be NaN.
+void requireWritable(const Constraint& constraint, const std::string& where);
+
+/// Throws InputError for a mesh without a file: the document has no other form for it.
+void requireFiles(const Shape& shape, const std::string& where);
+
+}  // namespace detail
+}  // namespace carom

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/scene/shape.h"
+
+namespace carom {
+
+using Extent = Eigen::AlignedBox3d;
+
+/// Smallest axis-aligned box around a shape at a pose (origin x, shape axes to world q); empty for a plane.
+Extent shapeExtent(const Shape& shape, const Vec3& x, const Quat& q);
+
+/// Radius of the smallest ball about a point of the shape's axes that holds the shape; infinite for a plane.
+double radiusAbout(const Shape& shape, const Vec3& point);
+
+}  // namespace carom

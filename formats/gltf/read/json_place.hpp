@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Private to formats/*.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "adjoint/base/types.h"
+#include "formats/json/json.hpp"
+
+namespace carom::detail {
+
+/// A value in a JSON tree and the pointer to it, for members that may be missing. All functions throw InputError with
+/// the pointer for a value of another kind.
+struct JsonPlace {
+  const Json& value;
+  std::string pointer;
+
+  /// A member of an object.
+  std::optional<JsonPlace> find(const char* member) const;
+  JsonPlace require(const char* member) const;
+  /// Items of an array.
+  std::size_t size() const;
+  JsonPlace at(std::size_t index) const;
+
+  double number() const;
+  bool boolean() const;
+  const std::string& text() const;
+  Vec3 vector() const;
+  Quat quaternion() const;  ///< written x, y, z, w; a unit quaternion, as far as floats go
+  int index(std::size_t count, const char* what) const;
+
+  double numberOr(const char* member, double otherwise) const;
+  bool booleanOr(const char* member, bool otherwise) const;
+  std::string textOr(const char* member, const std::string& otherwise) const;
+  std::optional<double> findNumber(const char* member) const;
+  std::optional<Vec3> findVector(const char* member) const;
+};
+
+/// extensions/<name> of an object that may have neither.
+std::optional<JsonPlace> extensionOf(const JsonPlace& place, const char* name);
+/// extras/carom likewise, when it is an object; what other programs write there is none of ours.
+std::optional<JsonPlace> caromExtrasOf(const JsonPlace& place);
+
+}  // namespace carom::detail

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Private to formats/*.cpp: a .hpp is not installed, so that no public header shows a JSON type.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace carom::detail {
+
+using Json = nlohmann::ordered_json;  // members in the order of the document
+
+inline constexpr std::size_t kMostValues = 400'000;  ///< keeps the memory of a hostile document small
+
+/// Text -> tree, within limits of nesting and number of values. Throws InputError for text that is not JSON (where =
+/// line and column), numbers too large for a double, and members given twice (where = JSON pointer).
+Json parseJson(std::string_view text, std::size_t most_values = kMostValues);
+
+enum class DocumentKind { scene, journal };
+/// Throws InputError at the deepest place where the document breaks formats/documents/scene.schema.json or journal.schema.json.
+void requireSchema(const Json& document, DocumentKind kind = DocumentKind::scene);
+
+/// One step deeper, escaped as RFC 6901 asks, and control characters as in a JSON text; members of more than 400 bytes
+/// are cut, as pointers are for messages.
+std::string pointerTo(const std::string& parent, std::string_view member);
+std::string pointerTo(const std::string& parent, std::size_t index);
+
+/// A short text for messages: the value itself when it is small, what it is otherwise.
+std::string describe(const Json& value);
+
+/// The text with blanks in place of control characters: names from files stand in messages of one line.
+std::string oneLine(std::string text);
+
+/// "a, b, c"
+std::string listed(const std::vector<std::string>& words);
+/// What `word`, none of them, most likely should have been: "; did you mean \"b\"?", or nothing.
+std::string hintFor(std::string_view word, const std::vector<std::string>& known);
+/// Both: "a, b, c; did you mean \"b\"?"
+std::string expectedOf(std::string_view word, const std::vector<std::string>& known);
+
+[[noreturn]] void fail(const std::string& where, const std::string& found, const std::string& expected);
+
+/// The document begins with the member `name` with the value 1. To be asked first of all: a document of another version
+/// may break every other rule.
+void requireVersion(const Json& document, const std::string& name);
+
+}  // namespace carom::detail

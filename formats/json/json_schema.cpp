@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstring>
+#include <utility>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+#include <vector>
+
+#include "formats/json/json.hpp"
+#include "formats/json/schema_acceptance.hpp"
+
+namespace carom::detail {
+
+extern const char* const kSceneSchema;    // made from scene.schema.json
+extern const char* const kJournalSchema;  // made from journal.schema.json
+
+namespace {
+
+constexpr const char* kSceneFile = "scene.schema.json";
+
+/// Journals refer to the definitions of scene documents: they become their own, and the scene document one more.
+void pointInside(Json& node) {
+  if (node.is_array())
+    for (Json& item : node) pointInside(item);
+  if (!node.is_object()) return;
+  for (auto& member : node.items()) {
+    if (member.key() != "$ref") {
+      pointInside(member.value());
+      continue;
+    }
+    const auto target = member.value().get<std::string>();
+    if (target == kSceneFile) member.value() = "#/definitions/scene_document";
+    if (target.starts_with(std::string(kSceneFile) + "#")) member.value() = target.substr(std::strlen(kSceneFile));
+  }
+}
+
+Json withScene(Json journal) {
+  Json scene = Json::parse(kSceneSchema);
+  pointInside(journal);
+  for (const auto& definition : scene["definitions"].items())
+    journal["definitions"][definition.key()] = definition.value();
+  scene.erase("definitions");
+  scene.erase("$schema");
+  journal["definitions"]["scene_document"] = std::move(scene);
+  return journal;
+}
+
+const Json& schemaOf(DocumentKind kind) {
+  static const Json scene = Json::parse(kSceneSchema);
+  if (kind == DocumentKind::scene) return scene;
+  static const Json journal = withScene(Json::parse(kJournalSchema));
+  return journal;
+}
+
+/// What says where a document breaks a schema.
+struct Checker {
+  explicit Checker(const Json& tree) {
+    const nlohmann::json plain = tree;
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), compiled);
+  }
+  valijson::Schema compiled;
+};
+
+const valijson::Schema& checkerOf(DocumentKind kind) {
+  static const Checker scene(schemaOf(DocumentKind::scene));
+  if (kind == DocumentKind::scene) return scene.compiled;
+  static const Checker journal(schemaOf(DocumentKind::journal));
+  return journal.compiled;
+}
+
+const Json* memberOf(const Json* object, const char* name) {
+  if (object == nullptr || !object->is_object()) return nullptr;
+  const auto found = object->find(name);
+  return found == object->end() ? nullptr : &*found;
+}
+
+/// The definition that a node refers to.
+const Json* resolved(const Json* node, const Json& tree) {
+  while (const Json* reference = memberOf(node, "$ref"))
+    node = &tree.at(Json::json_pointer(reference->get<std::string>().substr(1)));
+  return node;
+}
+
+bool typeMatches(const Json* node, const Json& value) {
+  const Json* type = memberOf(node, "type");
+  return type == nullptr || (*type == "object" && value.is_object()) || (*type == "array" && value.is_array()) ||
+         (*type == "number" && value.is_number());
+}
+
+/// The definition that says what is inside `value`: of alternatives the one of its type.
+const Json* alternativeFor(const Json* node, const Json& value, const Json& tree) {
+  node = resolved(node, tree);
+  if (const Json* alternatives = memberOf(node, "anyOf"))
+    for (const Json& alternative : *alternatives)
+      if (const Json* candidate = resolved(&alternative, tree); typeMatches(candidate, value)) return candidate;
+  return node;
+}
+
+/// A place in the document, and what the schema says about it (null where it says nothing).
+struct TreePlace {
+  const Json* value;
+  const Json* node;
+  std::string pointer;
+  const Json* tree;  // the whole schema
+};
+
+/// One step of a path as valijson writes it: "[name]" or "[2]".
+bool step(TreePlace& place, const std::string& context) {
+  const std::string token = context.substr(1, context.size() - 2);
+  const Json* node = alternativeFor(place.node, *place.value, *place.tree);
+  if (place.value->is_object()) {
+    const auto member = place.value->find(token);
+    if (member == place.value->end()) return false;
+    const Json* known = memberOf(memberOf(node, "properties"), token.c_str());
+    place = {&*member, known != nullptr ? known : memberOf(node, "additionalProperties"),
+             pointerTo(place.pointer, token), place.tree};
+    return true;
+  }
+  if (!place.value->is_array()) return false;
+  const auto index = static_cast<std::size_t>(std::stoul(token));
+  if (index >= place.value->size()) return false;
+  place = {&(*place.value)[index], memberOf(node, "items"), pointerTo(place.pointer, index), place.tree};
+  return true;
+}
+
+std::vector<std::string> keysOf(const Json* object) {
+  std::vector<std::string> keys;
+  if (object != nullptr)
+    for (const auto& member : object->items()) keys.push_back(member.key());
+  return keys;
+}
+
+[[noreturn]] void failUnknown(const TreePlace& place, const std::string& member, const Json* node) {
+  const std::vector<std::string> known = keysOf(memberOf(node, "properties"));
+  fail(pointerTo(place.pointer, member), "an unknown member " + describe(Json(member)),
+       "one of " + expectedOf(member, known));
+}
+
+/// What `value` must be, in the words of the schema.
+std::string expected(const Json* node, const Json& value, const Json& tree) {
+  const Json* named = resolved(node, tree);
+  const Json* title = memberOf(named, "title");
+  if (title == nullptr) {
+    named = alternativeFor(node, value, tree);
+    title = memberOf(named, "title");
+  }
+  const std::string text = title != nullptr ? title->get<std::string>() : "what the schema says";
+  constexpr double kLargest = 1e9;  // of most numbers; smaller limits stand in the titles
+  const Json* maximum = memberOf(alternativeFor(node, value, tree), "maximum");
+  const double limit = std::max(kLargest, maximum != nullptr ? maximum->get<double>() : 0);
+  const bool large = value.is_number() && !(std::abs(value.get<double>()) <= limit);
+  return large ? text + " of magnitude at most 1e" + std::to_string(std::lround(std::log10(limit))) : text;
+}
+
+[[noreturn]] void failMissing(const TreePlace& place, const Json& name, const std::string& beside, const Json* properties) {
+  fail(place.pointer, "no member " + name.dump() + beside,
+       name.dump() + ": " +
+           expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json(), *place.tree));
+}
+
+/// Throws what is wrong at a place that the schema refuses.
+[[noreturn]] void explain(const TreePlace& place) {
+  const Json& value = *place.value;
+  const Json* node = alternativeFor(place.node, value, *place.tree);
+  if (value.is_object()) {
+    const Json* properties = memberOf(node, "properties");
+    const Json* others = memberOf(node, "additionalProperties");
+    if (others != nullptr && others->is_boolean())
+      for (const auto& member : value.items())
+        if (memberOf(properties, member.key().c_str()) == nullptr) failUnknown(place, member.key(), node);
+    if (const Json* required = memberOf(node, "required"))
+      for (const Json& name : *required)
+        if (!value.contains(name.get<std::string>())) failMissing(place, name, "", properties);
+    if (const Json* dependencies = memberOf(node, "dependencies"))
+      for (const auto& given : dependencies->items())
+        for (const Json& name : given.value())
+          if (value.contains(given.key()) && !value.contains(name.get<std::string>()))
+            failMissing(place, name, " beside \"" + given.key() + "\"", properties);
+  }
+  const Json* words = memberOf(node, "enum");
+  const bool misspelt = words != nullptr && value.is_string();
+  fail(place.pointer, describe(value),
+       expected(place.node, value, *place.tree) +
+           (misspelt ? hintFor(value.get_ref<const std::string&>(), *words) : ""));
+}
+
+}  // namespace
+
+void requireSchema(const Json& document, DocumentKind kind) {
+  const Json& schema = schemaOf(kind);
+  if (keepsSchema(document, schema)) return;
+  const nlohmann::json plain = document;
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  if (validator.validate(checkerOf(kind), valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
+
+  // Causes are reported before what follows from them, and outer alternatives before inner ones: so the first error
+  // counts, unless a later one lies deeper inside the same place.
+  std::vector<std::string> deepest;
+  bool first = true;
+  for (const valijson::ValidationResults::Error& error : results) {
+    const auto& path = error.context;
+    const bool inside = path.size() > deepest.size() && std::equal(deepest.begin(), deepest.end(), path.begin());
+    if (first || inside) deepest = path;
+    first = false;
+  }
+  TreePlace place{&document, &schema, "", &schema};
+  for (std::size_t i = 1; i < deepest.size(); ++i)  // the first is the document itself
+    if (!step(place, deepest[i])) break;
+  explain(place);
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "ode_bridge/narrow_phase.hpp"
+#include "ode_bridge/separation.hpp"
+
+namespace carom {
+
+/// The two bodies of a search, their solids and motions.
+struct PairMotion {
+  int a, b;
+  const FeatureGeometry& geometry;
+  const NarrowPhase& narrow_phase;
+  Arc& arc_a;
+  Arc& arc_b;
+  WorkCount* work = nullptr;  ///< where steps are counted
+};
+
+/// First impact of the pair in [from, until]: steps that provably cannot pass a contact, over balls that hold ever
+/// fewer pieces, then over pieces, up to contact within rounding; then Newton on the smooth gap of each touching
+/// feature pair. Separations of less than `touchTolerance` are contact. Throws NotComputable where numbers are not
+/// finite, or steps so small that a million of them do not suffice; WorkEnded where the count of work says so.
+std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until);
+
+}  // namespace carom

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ode_bridge/solids/solid.hpp"
+
+/// How a Solid is put together: one file a shape adds its features and pieces.
+namespace carom::solids {
+
+/// Where a part stands in the solid, and what it is called there.
+struct Placement {
+  Mat3 axes = Mat3::Identity();  ///< part's axes to the solid's
+  Vec3 origin = Vec3::Zero();    ///< m, solid's axes
+  int first_dimension = 0;
+  std::string name;
+
+  Vec3 point(const Vec3& p) const { return origin + axes * p; }
+  Vec3 direction(const Vec3& d) const { return axes * d; }
+};
+
+/// Adds one part to a solid. Points and directions are given in the part's axes, indices are those of the whole solid.
+/// References hold until the next feature of that family is added.
+class PartMaker {
+ public:
+  PartMaker(Solid& solid, const Placement& at, const char* kind);
+
+  /// The next dimension of the part (see Part::Stretch).
+  void dimension(const Vec3& stretch, double swept = 0, double rim = 0);
+
+  int vertex(const Vec3& p, double radius = 0);
+  SolidEdge& edge(const Vec3& middle, const Vec3& direction, double half_length);
+  SolidFace& face(const Vec3& p, const Vec3& normal);
+  void rim(const Vec3& center, const Vec3& normal, double radius);
+  /// Corner of the face added last.
+  void corner(int vertex);
+
+  /// A piece about `middle`, without features, core and reach.
+  Piece& piece(Piece::Core core, const Vec3& middle);
+  /// Gives the piece all features of the part, and its vertices as support points.
+  void takeAll(Piece& piece);
+  /// Indices that a piece refers to.
+  Piece::Range list(int first, int count);
+
+  /// First features of the part.
+  const Part& part() const { return solid_.parts.back(); }
+  Solid& solid() { return solid_; }
+  const Placement& at() const { return at_; }
+
+ private:
+  template <class F>
+  F& place(std::vector<F>& family, const Vec3& p, const Vec3& direction);
+
+  Solid& solid_;
+  const Placement& at_;
+};
+
+void addBall(PartMaker& part, const Sphere& s);
+void addBox(PartMaker& part, const Box& s);
+void addHalfSpace(PartMaker& part, const Plane& s);
+void addCapsule(PartMaker& part, const Capsule& s);
+void addCylinder(PartMaker& part, const Cylinder& s);
+void addHull(PartMaker& part, const Hull& s);
+void addMesh(PartMaker& part, const Mesh& s);
+/// Vertices, faces and edges of a surface, for hull and mesh.
+void addSurface(PartMaker& part, const Surface& surface, double scale);
+
+/// A shape of any kind; the parts of a compound one after another, depth first, as its dimensions are counted.
+void addShape(Solid& solid, const Shape& shape, const Placement& at);
+
+/// Radius about `center` that holds the core of a piece; never less than it is, for all rounding. m
+double coreReach(const Solid& solid, const Piece& piece, const Vec3& center);
+
+/// Solid::neighbours from the edges.
+void addNeighbours(Solid& solid);
+/// Solid::nodes from the pieces.
+void addTree(Solid& solid);
+
+}  // namespace carom::solids

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "ode_bridge/separation.hpp"
+
+namespace carom {
+
+/// Adds the feature pairs of two pieces that touch (gap of at most `tolerance`, within their extents, with the normal
+/// in the cones of both): more than one where an edge or a face lies on a face. Pairs that are the same contact as one
+/// that is there already (same point, same normal) are left out. `witness` is that of the instant.
+void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
+                 std::vector<FeaturePair>& found);
+
+/// The same of all pieces of two bodies.
+std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double tolerance);
+
+/// Length below which a separation cannot be told from contact, for bodies where these are, m.
+double touchTolerance(const Placed& a, const Placed& b);
+
+}  // namespace carom
