@@ -10,7 +10,7 @@
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 #include "editing/report/extended_controls.hpp"
-#include "editing/report/linear_reach.hpp"
+#include "editing/report/linear_model.hpp"
 #include "editing/report/nail_in_solid.hpp"
 #include "editing/solve/dependence.hpp"
 
@@ -33,21 +33,21 @@ struct Explanation {
   EditSearch& search;
   const EditProblem& problem;
   EditPoint& point;
-  LinearReach reach;
-  LinearReach::Nearest nearest;
+  LinearModel linear;
+  LinearModel::Nearest nearest;
   double met = 0;
   WhyNot why;
 
   Explanation(EditSearch& s, EditPoint& p)
-      : search(s), problem(s.problem()), point(p), reach(s, p), nearest(reach.nearest(reach.allRows())) {
+      : search(s), problem(s.problem()), point(p), linear(s, p), nearest(linear.nearest(linear.allRows())) {
     met = std::max(10 * search.options().tolerance, kReachable * point.rows.scaled.norm());
     why.rows = problem.constraints.size();
-    why.rank = rankOf(reach.J);
+    why.rank = rankOf(linear.J);
   }
   bool outOfReach() const { return nearest.off > met; }
 
   void findConflicts() {
-    for (std::vector<int>& rows : conflictsIn(reach, met, kMostConflicts)) {
+    for (std::vector<int>& rows : conflictsIn(linear, met, kMostConflicts)) {
       WhyNot::Conflict conflict;
       for (int row : rows) conflict.names.push_back(problem.constraints.describeRow(row));
       conflict.rows = std::move(rows);
@@ -63,9 +63,9 @@ struct Explanation {
         const double bound = upper ? search.upper()[j] : search.lower()[j];
         if (!std::isfinite(bound) || !(std::abs(y - bound) <= 1e-7 * (1 + std::abs(bound)))) continue;
         WhyNot::AtBound at{v.control, problem.controls.describeVariable(j), upper ? v.upper : v.lower, upper, 0, 0};
-        LinearReach freed = reach;
+        LinearModel freed = linear;
         (upper ? freed.upper : freed.lower)[j] = upper ? kLargestStep : -kLargestStep;
-        const LinearReach::Nearest now = freed.nearest(freed.allRows());
+        const LinearModel::Nearest now = freed.nearest(freed.allRows());
         at.removes = outOfReach() ? share(nearest.off, now.off) : 0;
         at.change = now.step[j] * problem.rates(point.changes)[j];
         why.at_bounds.push_back(std::move(at));
@@ -85,19 +85,19 @@ struct Explanation {
 
   void findHelp() {
     std::vector<Candidate> candidates = candidatesFor(problem, point);
-    LinearReach all = reach;
+    LinearModel all = linear;
     for (const Candidate& c : candidates) all.extend(c.columns, c.lower, c.upper);
     why.extended_rank = rankOf(all.J);
     keepSteepest(candidates);
     const std::vector<int> rows = conflictingRows();
-    const Eigen::MatrixXd J = reach.J(rows, Eigen::all);
+    const Eigen::MatrixXd J = linear.J(rows, Eigen::all);
     const int rank = rankOf(J);
-    const Eigen::Index n = reach.J.cols();
+    const Eigen::Index n = linear.J.cols();
     for (const Candidate& c : candidates) {
-      LinearReach extended = reach;
+      LinearModel extended = linear;
       const Eigen::VectorXd far = Eigen::VectorXd::Constant(c.lower.size(), kLargestStep);
       extended.extend(c.columns, c.lower.cwiseMax(-far).cwiseMin(0), c.upper.cwiseMin(far).cwiseMax(0));
-      const LinearReach::Nearest now = extended.nearest(extended.allRows());
+      const LinearModel::Nearest now = extended.nearest(extended.allRows());
       WhyNot::Help help{c.control, c.name, share(nearest.off, now.off), 0, false, false, false};
       if (help.removes < kSomeHelp) continue;
       help.change = now.step.tail(now.step.size() - n).norm();
@@ -141,7 +141,7 @@ struct Explanation {
 
   void keepSteepest(std::vector<Candidate>& candidates) const {
     if (candidates.size() <= kMostCandidates) return;
-    const Eigen::VectorXd off = point.rows.scaled + reach.J * nearest.step;
+    const Eigen::VectorXd off = point.rows.scaled + linear.J * nearest.step;
     std::stable_sort(candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
       return (a.columns.transpose() * off).norm() > (b.columns.transpose() * off).norm();
     });

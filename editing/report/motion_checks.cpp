@@ -59,8 +59,8 @@ class Overlaps {
       const Arc& its =
           motion_.world_lines[static_cast<std::size_t>(other)].arcs[static_cast<std::size_t>(motion_.arcAt(other, t))];
       // far apart, mostly; a half space has no bound
-      const double reach = bodies_.boundingRadius(body) + bodies_.boundingRadius(other);
-      if ((own.x - its.positionAt(t)).squaredNorm() > reach * reach) continue;
+      const double apart = bodies_.boundingRadius(body) + bodies_.boundingRadius(other);
+      if ((own.x - its.positionAt(t)).squaredNorm() > apart * apart) continue;
       deepest_ = std::max(deepest_, bodies_.overlap(body, other, own, poseOf(its, t)));
     }
   }

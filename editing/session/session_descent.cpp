@@ -24,8 +24,8 @@ constexpr double kNothing = 1e-8;
 /// Where rounding leaves no step.
 constexpr double kNoStep = 1e-15;
 /// Steps are not shortened below this, and begin no shorter than that in an update.
-constexpr double kShortestReach = 1e-4;
-constexpr double kLeastReach = 0.25;
+constexpr double kShortestStep = 1e-4;
+constexpr double kFirstStep = 0.25;
 /// Shares of the way towards the smallest change that a step may take.
 constexpr double kLeastEase = 1.0 / 16, kMostEase = 2;
 /// So much work is kept for coming onto the constraints, whatever the change.
@@ -49,7 +49,7 @@ StepProblem SessionSolver::stepProblem(EditPoint& point) const {
   const Eigen::Index n = point.changes.size();
   StepProblem step;
   step.at = point.changes, step.lower = lower_, step.upper = upper_, step.costless = problem_.times();
-  step.reach = reach_, step.ease = ease_;
+  step.longest = longest_, step.ease = ease_;
   for (LinearRows* rows : {&step.hard, &step.within, &step.soft}) rows->J.resize(0, n);
   const Eigen::MatrixXd& J = *point.row_jacobian;
   for (int i = 0; i < problem_.constraints.size(); ++i) {
@@ -146,7 +146,7 @@ std::optional<Surroundings> SessionSolver::surroundings(EditPoint& point) const 
 /// start of the gesture. What is found is another way to the same target; impact sequences that were not tried come
 /// first.
 void SessionSolver::lookElsewhere(Work& work) {
-  const double reach = reach_, ease = ease_;
+  const double longest = longest_, ease = ease_;
   std::vector<std::string> known{point_->signature};  // where steps began in this update
   for (int round = 0; !reached() && work.left() >= kBatch + kLanding; ++round) {
     EditPoint& centre = round % 2 ? *start_ : *point_;
@@ -165,11 +165,11 @@ void SessionSolver::lookElsewhere(Work& work) {
     }
     if (!best) continue;
     known.push_back(best->signature);
-    reach_ = kLeastReach, ease_ = 1;
+    longest_ = kFirstStep, ease_ = 1;
     const double before = merit(*point_);
     descend(best, work, kStepsElsewhere);
     if (!reached() && merit(*point_) < kNearer * before) descendFromBest(work);
-    reach_ = reach, ease_ = ease;
+    longest_ = longest, ease_ = ease;
   }
 }
 
@@ -177,7 +177,7 @@ void SessionSolver::lookElsewhere(Work& work) {
 void SessionSolver::descend(EditPointPtr at, Work& work, int most) {
   int stalls = 0, leaps = 0;
   bool lands = false, crosses = false;
-  reach_ = std::max(reach_, kLeastReach);
+  longest_ = std::max(longest_, kFirstStep);
   kinks_.clear();
   last_towards_.resize(0);
   while (stalls < kStalls) {
@@ -207,7 +207,7 @@ void SessionSolver::descend(EditPointPtr at, Work& work, int most) {
       const bool both = reached(*trial) && reached(*at);
       if (both && trial->objective >= at->objective) ++stalls;
       if (!reached(*trial) && merit(*trial) > kHardly * merit(*at)) ++stalls;
-      reach_ = std::max(reach_, 2 * length);
+      longest_ = std::max(longest_, 2 * length);
       keepIfBetter(trial);
       crosses = false;
       if (!lands) last_towards_ = step.towards_zero, last_signature_ = at->signature;
@@ -225,8 +225,8 @@ void SessionSolver::descend(EditPointPtr at, Work& work, int most) {
       crosses = false;
       at = trial;
     } else {
-      reach_ = length / 3;
-      if (reach_ < std::min(kShortestReach, kShortestReach * merit(*at))) return;
+      longest_ = length / 3;
+      if (longest_ < std::min(kShortestStep, kShortestStep * merit(*at))) return;
     }
   }
 }

@@ -82,7 +82,7 @@ class SessionSolver {
   double until_;
   EditPointPtr start_, point_;
   double nails_allowed_ = 0;  // nails that are not met may stay as far off as they are
-  double reach_ = 1, ease_ = 1;
+  double longest_ = 1, ease_ = 1;
   std::vector<Kink> kinks_;       // met in this update
   bool holds_jumps_ = false;      // steps are held before borders where the motion jumps, once
   EditPointPtr beyond_;           // a step from the best point, with other impacts

@@ -9,6 +9,8 @@
 #include <Eigen/SVD>
 
 #include "editing/solve/dependence.hpp"
+#include "editing/solve/projection.hpp"
+#include "editing/solve/step_bounds.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -21,31 +23,27 @@ constexpr double kSoftRank = 1e-9;
 constexpr int kActiveSetRounds = 12;
 /// A row within is crossed when it ends this far below 0.
 constexpr double kCrossed = 1e-12;
-/// Steps of a costless unknown count so much less than those of the others.
-constexpr double kCheap = 100;
-
-using Indices = std::vector<Eigen::Index>;
 
 void shorten(Eigen::VectorXd& v, double longest) {
   const double length = v.norm();
   if (length > longest) v *= longest / length;
 }
 
-/// z of least |C z + c|^2 with |z| <= reach, C = U S V^T: z = -V S/(S^2 + mu) U^T c with the least mu >= 0.
+/// z of least |C z + c|^2 with |z| <= longest, C = U S V^T: z = -V S/(S^2 + mu) U^T c with the least mu >= 0.
 Eigen::VectorXd nearestWithin(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd, Eigen::Index rank, const Eigen::VectorXd& c,
-                              double reach) {
+                              double longest) {
   const Eigen::VectorXd s = svd.singularValues().head(rank);
   const Eigen::VectorXd a = svd.matrixU().leftCols(rank).transpose() * c;
   const auto at = [&](double mu) -> Eigen::VectorXd {
     return -(s.array() * a.array() / (s.array().square() + mu)).matrix();
   };
   Eigen::VectorXd z = at(0);
-  if (z.norm() > reach) {
+  if (z.norm() > longest) {
     // |z| falls with mu, and is at most |s a| / mu
-    double low = 0, high = s.cwiseProduct(a).norm() / reach;
+    double low = 0, high = s.cwiseProduct(a).norm() / longest;
     for (int k = 0; k < 60 && high - low > 1e-6 * high; ++k) {
       const double mu = 0.5 * (low + high);
-      (at(mu).norm() > reach ? low : high) = mu;
+      (at(mu).norm() > longest ? low : high) = mu;
     }
     z = at(high);
   }
@@ -67,7 +65,7 @@ struct Solver {
       onto.setThreshold(kRank);
       onto.compute(hard.J);
       d0 = -onto.solve(hard.r);
-      shorten(d0, problem.reach);
+      shorten(d0, problem.longest);
       Z = nullSpace(hard.J, kRank);
     }
     Step step;
@@ -84,13 +82,13 @@ struct Solver {
       Eigen::Index rank = 0;
       while (rank < s.size() && s[rank] > least) ++rank;
       step.free_for_soft = rank > 0;
-      if (rank > 0) d += Z * nearestWithin(svd, rank, left + soft * d0, problem.reach);
+      if (rank > 0) d += Z * nearestWithin(svd, rank, left + soft * d0, problem.longest);
       moved = svd.matrixV().leftCols(rank);
     }
     if (Z.cols() > 0) {
       Eigen::VectorXd w = -(Z.transpose() * pull(free, d));
       if (moved.cols() > 0) w -= moved * (moved.transpose() * w);
-      shorten(w, problem.reach);
+      shorten(w, problem.longest);
       towards = Z * w;
       d += problem.ease * towards;
     }
@@ -144,22 +142,6 @@ struct Solver {
   }
 };
 
-/// Unknowns that a step takes over their bounds stop there. True when there is one.
-bool stopAtBounds(const StepProblem& problem, const Eigen::VectorXd& d, Indices& free, Eigen::VectorXd& fixed) {
-  Indices still_free;
-  for (const Eigen::Index j : free) {
-    const double to = problem.at[j] + d[j], inside = std::clamp(to, problem.lower[j], problem.upper[j]);
-    if (std::abs(to - inside) <= 1e-15 * (1 + std::abs(problem.at[j]))) {
-      still_free.push_back(j);
-    } else {
-      fixed[j] = inside - problem.at[j];
-    }
-  }
-  const bool stopped = still_free.size() < free.size();
-  free = std::move(still_free);
-  return stopped;
-}
-
 bool activate(const StepProblem& problem, const Eigen::VectorXd& d, Indices& active) {
   const std::size_t before = active.size();
   for (Eigen::Index i = 0; i < problem.within.size(); ++i) {
@@ -181,20 +163,19 @@ void LinearRows::add(const Eigen::RowVectorXd& row, double residual) {
 Step hierarchicalStep(const StepProblem& problem) {
   const Eigen::Index n = problem.at.size();
   Solver solver{problem, Eigen::VectorXd::Ones(n)};
-  solver.stretch.tail(problem.costless).setConstant(kCheap);
-  Indices free(static_cast<std::size_t>(n)), active;
-  for (Eigen::Index j = 0; j < n; ++j) free[static_cast<std::size_t>(j)] = j;
+  solver.stretch.tail(problem.costless).setConstant(kTimeIsCheap);
+  const StepBounds bounds{problem.at, problem.lower, problem.upper};
+  Indices free = allIndices(n), active;
   Eigen::VectorXd fixed = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < problem.within.size(); ++i)
     if (problem.within.r[i] < 0) active.push_back(i);
   Step step;
   for (int round = 0; round < kActiveSetRounds; ++round) {
     step = solver.solve(free, fixed, active);
-    const bool stopped = stopAtBounds(problem, step.d, free, fixed);
+    const bool stopped = !bounds.stop(step.d, free, fixed).empty();
     if (!activate(problem, step.d, active) && !stopped) break;
   }
-  for (Eigen::Index j = 0; j < n; ++j)
-    step.d[j] = std::clamp(problem.at[j] + step.d[j], problem.lower[j], problem.upper[j]) - problem.at[j];
+  for (Eigen::Index j = 0; j < n; ++j) step.d[j] = bounds.allowed(j, step.d);
   return step;
 }
 

@@ -21,7 +21,7 @@ struct StepProblem {
   Eigen::VectorXd at, lower, upper;
   Eigen::Index costless = 0;  ///< so many unknowns at the end are not drawn towards 0
   LinearRows hard, within, soft;
-  double reach = 1;  ///< longest part of a step for one purpose
+  double longest = 1;  ///< longest part of a step for one purpose
   double ease = 1;   ///< share of the way towards 0 that is taken
 };
 

@@ -11,8 +11,6 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Before the change is minimised, and after it.
-constexpr int kOntoSteps = 15;
 constexpr double kOptimality = 1e-8, kLeastTolerance = 1e-10;
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editing/solve/step_bounds.hpp"
+
 namespace carom::editing_detail {
 namespace {
 
@@ -15,8 +17,6 @@ constexpr double kActiveValidity = 1e-6;
 constexpr int kProjectionLeaps = 8;
 /// Where rounding leaves nothing to improve.
 constexpr double kExact = 1e-14;
-/// Steps of a free time count so much less than those of a control.
-constexpr double kTimeIsCheap = 100;
 /// A step that leaves a range by more than this, dimensionless, is taken again with the range held.
 constexpr double kLeavesRange = 1e-12;
 
@@ -70,28 +70,17 @@ Eigen::VectorXd smallestSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd
 
 /// Smallest step with J step = -r that stays within the bounds: numbers that would leave them stop there, and the
 /// others make up for it.
-Eigen::VectorXd boundedStep(const System& system, double damping, const Eigen::VectorXd& at,
-                            const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-  const Eigen::Index n = at.size();
+Eigen::VectorXd boundedStep(const System& system, double damping, const StepBounds& bounds) {
+  const Eigen::Index n = bounds.at.size();
   Eigen::VectorXd step = Eigen::VectorXd::Zero(n), r = system.r;
-  std::vector<Eigen::Index> free(static_cast<std::size_t>(n));
-  for (Eigen::Index j = 0; j < n; ++j) free[static_cast<std::size_t>(j)] = j;
+  Indices free = allIndices(n);
   while (!free.empty()) {
-    const Eigen::VectorXd wanted = -smallestSolution(system.J(Eigen::all, free), r, damping);
-    std::vector<Eigen::Index> still_free;
-    for (std::size_t k = 0; k < free.size(); ++k) {
-      const Eigen::Index j = free[k];
-      const double inside = std::clamp(at[j] + wanted[static_cast<Eigen::Index>(k)], lower[j], upper[j]) - at[j];
-      step[j] = inside;
-      if (inside == wanted[static_cast<Eigen::Index>(k)] ||
-          std::abs(inside - wanted[static_cast<Eigen::Index>(k)]) <= 1e-15 * (1 + std::abs(at[j]))) {
-        still_free.push_back(j);
-      } else {
-        r += system.J.col(j) * inside;
-      }
-    }
-    if (still_free.size() == free.size()) break;
-    free = std::move(still_free);
+    Eigen::VectorXd wanted = step;
+    wanted(free) = -smallestSolution(system.J(Eigen::all, free), r, damping);
+    const Indices stopped = bounds.stop(wanted, free, step);
+    for (const Eigen::Index j : free) step[j] = bounds.allowed(j, wanted);
+    if (stopped.empty()) break;
+    for (const Eigen::Index j : stopped) r += system.J.col(j) * step[j];
   }
   return step;
 }
@@ -120,13 +109,13 @@ Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, d
     v.tail(times) *= factor;
     return v;
   };
+  const Eigen::VectorXd at = stretched(point.changes, 1 / kTimeIsCheap);
+  const Eigen::VectorXd lower = stretched(search.lower(), 1 / kTimeIsCheap);
+  const Eigen::VectorXd upper = stretched(search.upper(), 1 / kTimeIsCheap);
   for (;;) {
     System system = systemAt(problem, point, active);
     system.J.rightCols(times) *= kTimeIsCheap;
-    Eigen::VectorXd step =
-        boundedStep(system, damping, stretched(point.changes, 1 / kTimeIsCheap),
-                    stretched(search.lower(), 1 / kTimeIsCheap), stretched(search.upper(), 1 / kTimeIsCheap));
-    step = stretched(std::move(step), kTimeIsCheap);
+    const Eigen::VectorXd step = stretched(boundedStep(system, damping, {at, lower, upper}), kTimeIsCheap);
     if (problem.constraints.ranges().empty()) return step;
     const Eigen::VectorXd after = residualsAfter(search, point, step);
     const std::size_t before = active.size();

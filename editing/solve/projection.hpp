@@ -8,6 +8,11 @@
 /// Straight onto the constraints, without minimising the change. Internal to editing/.
 namespace carom::editing_detail {
 
+/// Steps onto the constraints from a point near them, at most: before the change is minimised, and after it.
+inline constexpr int kOntoSteps = 15;
+/// Steps of a free time count so much less than those of a control.
+inline constexpr double kTimeIsCheap = 100;
+
 /// Gauss-Newton steps onto the constraints, each the smallest change that meets the linearised rows within the bounds;
 /// damped (Levenberg and Marquardt) where no way along such a step makes the violation smaller. Quadratic near a
 /// solution. With a signature, points of another impact sequence are refused. Returns the point with the smallest

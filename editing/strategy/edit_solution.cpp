@@ -15,7 +15,6 @@
 namespace carom::editing_detail {
 namespace {
 
-constexpr int kPolishSteps = 15;
 /// Rounds of the search across impact sequences.
 constexpr int kRounds = 6;
 /// More of them after the first solution, for smaller ones.
@@ -28,7 +27,7 @@ constexpr int kRoundsAgainstContradiction = 2;
 /// A point once more brought as near to the constraints as rounding allows, within its own impact sequence.
 EditPointPtr polished(EditSearch& search, const EditPointPtr& point) {
   if (search.halt() != Halt::none) return point;
-  return projectOntoConstraints(search, point, kPolishSteps, &point->signature);
+  return projectOntoConstraints(search, point, kOntoSteps, &point->signature);
 }
 
 /// "position.x of 'hat' at 1.4 s by 0.02 and ..."

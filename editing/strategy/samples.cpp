@@ -31,12 +31,12 @@ Eigen::VectorXd within(Eigen::VectorXd x, const Eigen::VectorXd& centre, const E
   return x;
 }
 
-/// In the box of half width `reach` around the centre, as far as the bounds let it; within bounds that leave no more
+/// In the box of half width `half_width` around the centre, as far as the bounds let it; within bounds that leave no more
 /// room than that, the box of the bounds.
-Eigen::VectorXd inBox(const EvenPoints& points, int k, const Eigen::VectorXd& centre, double reach,
+Eigen::VectorXd inBox(const EvenPoints& points, int k, const Eigen::VectorXd& centre, double half_width,
                       const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-  const Eigen::VectorXd from = (centre.array() - reach).matrix().cwiseMax(lower);
-  const Eigen::VectorXd to = (centre.array() + reach).matrix().cwiseMin(upper);
+  const Eigen::VectorXd from = (centre.array() - half_width).matrix().cwiseMax(lower);
+  const Eigen::VectorXd to = (centre.array() + half_width).matrix().cwiseMin(upper);
   return from + points.inCube(k).cwiseProduct(to - from);
 }
 
@@ -49,8 +49,8 @@ Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre) {
 
 Eigen::VectorXd along(int k, const Surroundings& s) {
   Eigen::VectorXd x = s.at + inTurn(kShares, k) * s.step;
-  const double reach = inTurn(kSampleRadii, k / 2) * (k < 2 ? 0 : 1);  // the step itself first
-  if (s.free.cols() > 0) x += reach * (s.free * EvenPoints(s.free.cols()).onSphere(k));
+  const double length = inTurn(kSampleRadii, k / 2) * (k < 2 ? 0 : 1);  // the step itself first
+  if (s.free.cols() > 0) x += length * (s.free * EvenPoints(s.free.cols()).onSphere(k));
   return x;
 }
 

@@ -38,8 +38,8 @@ Eigen::VectorXd refinedTimes(const ConstraintSet& constraints, const Motion& mot
       return miss;
     };
     missAt(best);
-    const double reach = kShareOfSpan * (free.to - free.from);
-    double lo = std::max(free.from, best - reach), hi = std::min({free.to, motion.end, best + reach});
+    const double half_width = kShareOfSpan * (free.to - free.from);
+    double lo = std::max(free.from, best - half_width), hi = std::min({free.to, motion.end, best + half_width});
     double a = hi - golden * (hi - lo), b = lo + golden * (hi - lo);
     double miss_a = hi > lo ? missAt(a) : 0, miss_b = hi > lo ? missAt(b) : 0;
     for (int step = 0; step < kSections && a < b; ++step) {

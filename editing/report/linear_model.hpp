@@ -12,13 +12,13 @@ namespace carom::editing_detail {
 inline constexpr double kLargestStep = 10;
 
 /// The rows of a point as linear functions of a step, within bounds. All dimensionless.
-struct LinearReach {
+struct LinearModel {
   Eigen::MatrixXd J;             ///< rows x unknowns
   Eigen::VectorXd value;         ///< of the rows at the point
   Eigen::VectorXd low, high;     ///< allowed values of the rows
   Eigen::VectorXd lower, upper;  ///< of the step
 
-  LinearReach(const EditSearch& search, EditPoint& point);
+  LinearModel(const EditSearch& search, EditPoint& point);
 
   /// The step that brings some rows nearest to what is allowed, and how far off they stay (Euclidean).
   struct Nearest {
@@ -34,6 +34,6 @@ struct LinearReach {
 
 /// Sets of rows that cannot be met together, each such that leaving out any one row leaves the others reachable (by
 /// deletion filtering); disjoint, at most `most`.
-std::vector<std::vector<int>> conflictsIn(const LinearReach& reach, double met, std::size_t most);
+std::vector<std::vector<int>> conflictsIn(const LinearModel& linear, double met, std::size_t most);
 
 }  // namespace carom::editing_detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/report/linear_reach.hpp"
+#include "editing/report/linear_model.hpp"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace carom::editing_detail {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-LinearReach::LinearReach(const EditSearch& search, EditPoint& point) {
+LinearModel::LinearModel(const EditSearch& search, EditPoint& point) {
   search.differentiate(point);
   const EditProblem& problem = search.problem();
   J = *point.row_jacobian;
@@ -24,19 +24,19 @@ LinearReach::LinearReach(const EditSearch& search, EditPoint& point) {
   lower = search.lower() - point.changes, upper = search.upper() - point.changes;
   for (Index j = 0; j < n && j < problem.controls.size(); ++j) {
     const Variable& v = problem.controls.variables()[static_cast<std::size_t>(j)];
-    const double reach = kLargestStep * problem.controls.controls()[static_cast<std::size_t>(v.control)].control.weight;
-    lower[j] = std::clamp(lower[j], -reach, 0.0), upper[j] = std::clamp(upper[j], 0.0, reach);
+    const double far = kLargestStep * problem.controls.controls()[static_cast<std::size_t>(v.control)].control.weight;
+    lower[j] = std::clamp(lower[j], -far, 0.0), upper[j] = std::clamp(upper[j], 0.0, far);
   }
 }
 
-std::vector<int> LinearReach::allRows() const {
+std::vector<int> LinearModel::allRows() const {
   std::vector<int> rows(static_cast<std::size_t>(J.rows()));
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<int>(i);
   return rows;
 }
 
 // A row in a range is J s + value = z with z in the range: z is another number.
-LinearReach::Nearest LinearReach::nearest(const std::vector<int>& rows) const {
+LinearModel::Nearest LinearModel::nearest(const std::vector<int>& rows) const {
   const Index n = J.cols(), m = static_cast<Index>(rows.size());
   Index ranges = 0;
   for (int i : rows) ranges += low[i] < high[i];
@@ -59,7 +59,7 @@ LinearReach::Nearest LinearReach::nearest(const std::vector<int>& rows) const {
   return {x.head(n), (A * x + b).norm()};
 }
 
-void LinearReach::extend(const Eigen::MatrixXd& columns, const VectorXd& least, const VectorXd& most) {
+void LinearModel::extend(const Eigen::MatrixXd& columns, const VectorXd& least, const VectorXd& most) {
   const Index n = J.cols(), k = columns.cols();
   J.conservativeResize(Eigen::NoChange, n + k);
   J.rightCols(k) = columns;
@@ -67,11 +67,11 @@ void LinearReach::extend(const Eigen::MatrixXd& columns, const VectorXd& least, 
   lower.tail(k) = least, upper.tail(k) = most;
 }
 
-std::vector<std::vector<int>> conflictsIn(const LinearReach& reach, double met, std::size_t most) {
+std::vector<std::vector<int>> conflictsIn(const LinearModel& linear, double met, std::size_t most) {
   std::vector<std::vector<int>> conflicts;
-  std::vector<int> rows = reach.allRows();
+  std::vector<int> rows = linear.allRows();
   while (conflicts.size() < most && !rows.empty()) {
-    const double off = reach.nearest(rows).off;
+    const double off = linear.nearest(rows).off;
     if (off <= met) break;
     // What the rest still misses by a good part of it is a contradiction without the row that was left out.
     const double limit = std::max(met, 0.1 * off);
@@ -79,7 +79,7 @@ std::vector<std::vector<int>> conflictsIn(const LinearReach& reach, double met, 
     for (std::size_t k = 0; k < kept.size();) {
       std::vector<int> without = kept;
       without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
-      if (reach.nearest(without).off > limit) {
+      if (linear.nearest(without).off > limit) {
         kept = std::move(without);
       } else {
         ++k;
