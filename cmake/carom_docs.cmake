@@ -26,3 +26,8 @@ set(DOXYGEN_QUIET YES)
 set(DOXYGEN_WARN_IF_UNDOCUMENTED YES)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
 doxygen_add_docs(docs ${carom_doc_inputs} USE_STAMP_FILE COMMENT "API reference in docs/api")
+
+if(CAROM_TESTS)
+  add_test(NAME docs.reference COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target docs)
+  set_tests_properties(docs.reference PROPERTIES LABELS docs)
+endif()
