@@ -32,8 +32,9 @@ int main() try {
   const SceneGradient gradient = adjoint(tape, {&x, 1}, &reliability);
   const BodyDerivative& by_brick = gradient.bodies[1];
   const MaterialDerivative& by_wood = gradient.materials[0];
+  const Vec2& by_tilt = gradient.tilts[0];
   std::printf("dx/d(velocity) %.9f, dx/d(elasticity) %.9f, dx/d(tilt) %.9f, through %d impacts, %s\n",
-              by_brick.velocity.x(), by_wood.elasticity, gradient.tilts[0].x(), reliability.events,
+              by_brick.velocity.x(), by_wood.elasticity, by_tilt.x(), reliability.events,
               reliability.reliable ? "reliable" : reliability.message.c_str());
 
   SceneTangent faster(scene);  // the direction: a faster throw
@@ -45,11 +46,14 @@ int main() try {
   const BodyModelDerivative& of_model = forward.model(1);
   std::printf("d(velocity) after it %.9f, d(mass) %.1f\n", at_arc.v.x(), of_model.mass);
   const RotationSensitivity& turn = tape.arc(1, 0);
-  std::printf("d(orientation)/d(its start) over the first flight, first entry %.9f\n", turn.dtheta_dtheta(0, 0));
+  const Mat3& by_start = turn.dtheta_dtheta;
+  std::printf("d(orientation)/d(its start) over the first flight, first entry %.9f\n", by_start(0, 0));
 
   const ReadingDirection along{faster, {}};
-  const SecondOrder second = secondOrder(tape, {&x, 1}, {}, {&along, 1}, RatesWanted::varied);
-  std::printf("d2x/d(velocity)2 %.9f\n", second.gradient_rates[0].bodies[1].velocity.x());
+  const SeedRates constant = nullptr;  // the weights of the functional do not depend on the state
+  const SecondOrder second = secondOrder(tape, {&x, 1}, constant, {&along, 1}, RatesWanted::varied);
+  const SceneDerivative& rates = second.gradient_rates[0];
+  std::printf("d2x/d(velocity)2 %.9f\n", rates.bodies[1].velocity.x());
 
   Scene changed = scene;
   changed.bodies[1].velocity.x() += 1e-3;

@@ -56,7 +56,7 @@ class FloorContacts final : public ContactSource {
   void setPath(int, const Arc&, double, double) override {}
   void neighbours(int body, std::vector<int>& out) override { out = {1 - body}; }
   std::optional<PredictedImpact> firstImpact(int, int, Arc& ball, Arc&, double from, double until) override {
-    if (WorkCount* counted = work()) counted->step();
+    if (WorkCount* counted = work()) counted->step();  // throws WorkEnded at the limit
     const Vec3 v = ball.velocityAt(from);
     const double height = ball.positionAt(from).z() - radius_, g = -ball.acceleration().z();
     const double fall = (v.z() + std::sqrt(std::max(0.0, v.z() * v.z() + 2 * g * height))) / g;

@@ -51,6 +51,7 @@ int main() {
 
   // What is not asked need not be followed: without its orientation the box would be a point that bounces.
   options.asked = {Asked{}, Asked{}, Asked{.orientation = false, .inertia = false}};
-  std::printf("ball  %s\n", nameOf(makePlan(scene, options.asked).bodies[2].tier));
+  const Tier tier = makePlan(scene, options.asked).bodies[2].tier;
+  std::printf("ball  %s\n", nameOf(tier));
   std::printf("box at 0.3 s: z = %.9f m\n", motion.stateAt("box", 0.3).position.z());
 }

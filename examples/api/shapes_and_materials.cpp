@@ -18,7 +18,7 @@ int main() {
   const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const std::shared_ptr<const Surface> tetrahedron = convexHull(corners);
   const std::shared_ptr<const Surface> same = meshSurface(corners, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
-  const Shape shapes[] = {Sphere{0.5}, Capsule{0.2, 1}, Hull{tetrahedron, 1, ""}, Mesh{same, 2, ""}};
+  const Shape shapes[] = {Sphere{0.5}, Capsule{0.2, 1}, Cone{0.3, 0.8}, Hull{tetrahedron, 1, ""}, Mesh{same, 2, ""}};
   for (const Shape& shape : shapes) {
     const ShapeKind& kind = kindOf(shape);
     const SolidProperties solid = kind.properties(shape);
@@ -32,7 +32,8 @@ int main() {
   wheel.shape = Cylinder{0.3, 0.1};
   wheel.mass = 4;
   wheel.inertia = Inertia::fromMoments({0.1, 0.1, 0.2});       // measured, not derived from the shape
-  wheel.collision_filter.not_collide_with = {"ghosts"};        // bodies of that system pass through it
+  CollisionFilter& filter = wheel.collision_filter;
+  filter.not_collide_with = {"ghosts"};                        // bodies of that system pass through it
   scene.bodies = {wheel};
   validate(scene);
   const BodyModel model = modelOf(wheel);

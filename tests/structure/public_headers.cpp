@@ -58,4 +58,20 @@ std::vector<std::string> typesDefinedTwice(const Sources& sources) {
   return found;
 }
 
+std::vector<std::string> typesWithoutExample(const Sources& sources) {
+  std::string examples;
+  for (const auto& [path, text] : sources)
+    if (path.starts_with("examples/")) examples += text;
+  std::vector<std::string> found;
+  for (const auto& [path, text] : sources) {
+    if (!inLibrary(path) || !path.ends_with(".h") || path.starts_with("formats/answers/")) continue;
+    for (const std::string& type : definedTypes(text)) {
+      const std::string name = type.substr(type.rfind(':') + 1);
+      if (name.ends_with("Of") || std::regex_search(examples, std::regex("\\b" + name + "\\b"))) continue;
+      found.push_back(type + " of " + path + " is in no example");
+    }
+  }
+  return found;
+}
+
 }  // namespace carom::structure

@@ -18,4 +18,8 @@ std::vector<std::string> definedTypes(const std::string& text);
 /// Types of the libraries that two headers define: one program cannot hold both.
 std::vector<std::string> typesDefinedTwice(const Sources& sources);
 
+/// Public types of the libraries that no program in examples/ uses. Not asked of the templates behind a type (PoseOf
+/// behind Pose) and of what only the answers of the command are made of.
+std::vector<std::string> typesWithoutExample(const Sources& sources);
+
 }  // namespace carom::structure

@@ -15,6 +15,13 @@ TEST(Structure, SourcesKeepTheLayering) {
   for (const std::string& violation : violations(sources)) ADD_FAILURE() << violation;
 }
 
+TEST(Structure, EveryPublicTypeIsInAnExample) {
+  for (const std::string& missing : typesWithoutExample(readSources(CAROM_SOURCE_DIR))) ADD_FAILURE() << missing;
+  const Sources planted = {{"adjoint/scene/a.h", "namespace carom {\nstruct Known {\n};\nstruct Lone {\n};\n"},
+                           {"examples/a.cpp", "Known k;\nstd::string Loner;\n"}};
+  EXPECT_EQ(typesWithoutExample(planted), (std::vector<std::string>{"carom::Lone of adjoint/scene/a.h is in no example"}));
+}
+
 // Planted circles are found, chains and pairs are not reported.
 TEST(Structure, CirclesAreFound) {
   const auto including = [](const std::string& header) { return "#include \"" + header + "\"\n"; };
