@@ -21,6 +21,9 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom {
+
+using namespace editing_detail;
+
 namespace {
 
 struct Arguments {

@@ -18,6 +18,10 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 struct Case {

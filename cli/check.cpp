@@ -13,6 +13,11 @@
 #include "cli/table.h"
 
 namespace carom::cli {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+using namespace formats_detail;
+
 namespace {
 
 struct CheckArguments {

@@ -13,6 +13,11 @@
 #include "editing/problem/rows/refined_times.hpp"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 constexpr double kSteps[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};  // of the natural scales

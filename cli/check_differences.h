@@ -9,6 +9,8 @@
 /// Differences, the only ones of the program: a test tool that the exact derivatives are held against.
 namespace carom::cli {
 
+using namespace formats_detail;
+
 /// Largest relative disagreement of differences, each column at its best step, and of adjoint and tangent.
 inline constexpr double kDifferencesTolerance = 1e-6;
 inline constexpr double kTangentTolerance = 1e-12;

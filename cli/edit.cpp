@@ -18,6 +18,10 @@
 #include "formats/answers/edit_json.h"
 
 namespace carom::cli {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 struct EditArguments {

@@ -18,6 +18,9 @@
 #include "formats/export/export_motion.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 struct ExportArguments {

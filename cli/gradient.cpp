@@ -14,6 +14,11 @@
 #include "formats/answers/gradient_json.hpp"
 
 namespace carom::cli {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+using namespace formats_detail;
+
 namespace {
 
 struct GradientArguments {

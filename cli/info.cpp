@@ -20,6 +20,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr std::size_t kMostPairs = 6;    // named in a line of text; --json has all

@@ -11,6 +11,10 @@
 
 namespace carom::cli {
 
+using namespace adjoint_detail;
+using namespace editing_detail;
+using namespace formats_detail;
+
 namespace {
 
 int impactsOf(const Motion& motion, int body, int with) {

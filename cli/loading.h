@@ -12,6 +12,8 @@
 
 namespace carom::cli {
 
+using namespace editing_detail;
+
 /// Runs a function and adds the file to the places that its errors name.
 template <class Function>
 auto inFile(const std::string& path, Function function) {

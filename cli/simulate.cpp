@@ -15,6 +15,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 struct SimulateArguments {

@@ -10,6 +10,9 @@
 #include "formats/mesh/mesh_file.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr const char* kInput = "<stdin>";

@@ -11,6 +11,10 @@
 #include "formats/answers/status_json.h"
 
 namespace carom::cli {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 /// Everything that other commands could refuse, up to constraints that the motion does not have.

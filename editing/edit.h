@@ -13,7 +13,9 @@
 
 namespace carom {
 
+namespace editing_detail {
 class EditProblem;
+}
 
 /// Finds the smallest weighted change of some numbers of a scene such that its motion meets constraints:
 ///   minimise 1/2 sum (w_i z_i)^2  subject to  rows = targets, physical validity and bounds,
@@ -46,7 +48,7 @@ class Edit {
   /// Throws InputError for bad input; everything else is a status and a message.
   EditResult solve(const EditOptions& options = {}) const;
   /// The same controls and constraints as rows and derivatives, at the start; for the command.
-  EditProblem problem() const;
+  editing_detail::EditProblem problem() const;
 
  private:
   friend class Nail;

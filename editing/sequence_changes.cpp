@@ -9,6 +9,8 @@
 #include "editing/detail/messages.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
 using namespace editing_detail;
 
 namespace {

@@ -17,7 +17,7 @@ const char* nameOf(SessionStage stage) {
   return kNames[static_cast<int>(stage)];
 }
 
-std::vector<Constraint> SessionMoment::constraints() const {
+std::vector<Constraint> editing_detail::SessionMoment::constraints() const {
   std::vector<Constraint> all;
   for (const SessionNail& nail : nails) all.push_back(nail.constraint);
   return all;

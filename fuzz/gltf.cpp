@@ -8,6 +8,9 @@
 #include "fuzz/targets.h"
 
 namespace carom::fuzz {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr const char* kFolder = "/nonexistent";  // of buffers in other files

@@ -7,6 +7,8 @@
 
 namespace carom::fuzz {
 
+using namespace formats_detail;
+
 void readObj(std::string_view bytes) {
   TriangleSoup soup;
   try {

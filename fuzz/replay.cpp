@@ -37,7 +37,7 @@ int main(int argc, char** argv) try {
     for (const std::string& file : filesOf(argv[i])) {
       std::fprintf(stderr, "%s\n", file.c_str());  // the last line names the file that ends the process
       constexpr std::size_t kLimit = 1 << 24;      // bytes
-      target->run(carom::readFile(file, "a file of a corpus", kLimit));
+      target->run(carom::formats_detail::readFile(file, "a file of a corpus", kLimit));
       ++count;
     }
   std::printf("%s: %zu files\n", target->name, count);

@@ -7,7 +7,7 @@
 
 #include "ode_bridge/rounding.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 struct GapAndRate {
@@ -99,4 +99,4 @@ BallImpact ballPlaneImpact(const FlightPath& ball, const Vec3& g, const Vec3& no
   return {BallImpact::Found::impact, time};
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -6,7 +6,7 @@
 
 #include "ode_bridge/swept_bounds.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// First impact of balls, in closed form.
 struct BallImpact {
@@ -62,4 +62,4 @@ BallImpact ballBallImpact(const FlightPath& a, const FlightPath& b, const Vec3& 
 BallImpact ballPlaneImpact(const FlightPath& ball, const Vec3& g, const Vec3& normal, double offset, double from,
                            double until);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -8,6 +8,9 @@
 
 namespace carom {
 
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 double FeatureGeometry::boundingRadius(int body) const {
   return solids_[checkedIndex("boundingRadius", "body", body, solids_.size())].bound();
 }

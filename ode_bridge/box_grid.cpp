@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 constexpr int kMostCells = 1024;  // along an axis
@@ -145,4 +145,4 @@ void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>&
   });
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

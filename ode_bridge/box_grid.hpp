@@ -6,7 +6,7 @@
 
 #include "ode_bridge/swept_bounds.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Which boxes of many meet a given one, in a time that does not depend on how many there are: the collision library's
 /// spaces answer for one body by walking through all. Every box is filed once, in the cell of its middle, and found
@@ -46,4 +46,4 @@ class BoxGrid {
   std::vector<int> large_;
 };
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -7,7 +7,7 @@
 
 #include <ode/ode.h>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 struct BroadPhase::Space {
   dSpaceID space = nullptr;
@@ -87,4 +87,4 @@ void BroadPhase::pairs(std::vector<std::pair<int, int>>& out) const {
     if (a > b) std::swap(a, b);
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

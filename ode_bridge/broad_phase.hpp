@@ -7,7 +7,7 @@
 
 #include "ode_bridge/swept_bounds.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Pairs of bodies whose bounds meet, by the collision library's sweep-and-prune space. Half spaces are known to it as
 /// such. Fixed bodies are not paired with each other.
@@ -32,4 +32,4 @@ class BroadPhase {
   std::unique_ptr<Space> space_;
 };
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 CollisionClasses::CollisionClasses(const Scene& scene) {
   const bool plain = std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
@@ -28,4 +28,4 @@ CollisionClasses::CollisionClasses(const Scene& scene) {
     for (const Body* b : first) table_.push_back(mayCollide(*a, *b));
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

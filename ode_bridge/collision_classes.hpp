@@ -5,7 +5,7 @@
 
 #include "adjoint/scene/scene.h"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Who may collide with whom (see mayCollide), answered in constant time: bodies of equal filters that are equally
 /// movable are one class, and a table has an entry for every two classes.
@@ -27,4 +27,4 @@ class CollisionClasses {
   std::vector<bool> table_;
 };
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -12,6 +12,10 @@
 #include "ode_bridge/qhull_facets.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 namespace {
 
 using Polygons = std::vector<std::vector<int>>;

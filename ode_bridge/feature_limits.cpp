@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 struct Limits {
@@ -115,4 +115,4 @@ void addFeatureLimits(const Solid& solid, Family family, int index, const Vec3& 
   if (family == Family::rim) ofRim(limits, index, point);
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -4,7 +4,7 @@
 #include "adjoint/motion/body_geometry.h"
 #include "ode_bridge/solids/solid.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Adds the conditions under which a contact stays with one feature of a solid (see FeatureLimit). `point` is the
 /// contact point in the solid's axes; `sign` is 1 where the normal of the contact points out of this solid (it is body
@@ -12,4 +12,4 @@ namespace carom {
 void addFeatureLimits(const Solid& solid, Family family, int index, const Vec3& point, double sign, int body,
                       std::vector<FeatureLimit>& limits);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -12,7 +12,7 @@
 #include "ode_bridge/refine.hpp"
 #include "ode_bridge/touching.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 // Bodies that glide along each other without approaching are followed in steps that the tolerance of contact allows.
@@ -208,4 +208,4 @@ std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double fr
   return Search(pair, from, until).run();
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

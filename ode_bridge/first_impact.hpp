@@ -6,7 +6,7 @@
 #include "ode_bridge/narrow_phase.hpp"
 #include "ode_bridge/separation.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// The two bodies of a search, their solids and motions.
 struct PairMotion {
@@ -24,4 +24,4 @@ struct PairMotion {
 /// finite, or steps so small that a million of them do not suffice; WorkEnded where the count of work says so.
 std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -7,7 +7,10 @@
 #include "adjoint/base/arguments.hpp"
 #include "ode_bridge/gaps/rows.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using namespace gaps;
@@ -139,14 +142,14 @@ PlacedRates place(const Solid& solid, const Feature& f, const Pose& pose, const 
       if (turned.apex_rates.size() > 0) out.feature.apex.rate[i] = turned.apex_rates.dot(size);
     }
     const Vec3 ddirection = theta.cross(turned.direction);
-    detail::setRates(out.feature.point, Vec3(dx + darm), i);
-    detail::setRates(out.feature.direction, ddirection, i);
-    detail::setRates(out.turned.arm, darm, i);
-    detail::setRates(out.turned.direction, ddirection, i);
+    setRates(out.feature.point, Vec3(dx + darm), i);
+    setRates(out.feature.direction, ddirection, i);
+    setRates(out.turned.arm, darm, i);
+    setRates(out.turned.direction, ddirection, i);
     Eigen::Matrix3Xd rates = skew(theta) * turned.point_rates;
     const Eigen::Matrix3Xd uneven = pointRatesRate(solid, size);
     if (uneven.cols() > 0) rates += pose.R * uneven;
-    detail::setRates(out.turned.point_rates, rates, i);
+    setRates(out.turned.point_rates, rates, i);
   }
   return out;
 }
@@ -208,7 +211,7 @@ std::vector<ContactJacobian> FeatureGeometry::jacobianRates(int a, int b, const 
     fold<Rate4>(J, row.swapped ? kP2 : kP1, pa.turned, pose.leftCols<6>(), size_a);
     fold<Rate4>(J, row.swapped ? kP1 : kP2, pb.turned, pose.rightCols<6>(), size_b);
     for (std::size_t i = 0; i < lanes.size(); ++i)
-      out[first + i] = {detail::ratesOf(pose, i), detail::ratesOf(size_a, i), detail::ratesOf(size_b, i)};
+      out[first + i] = {ratesOf(pose, i), ratesOf(size_a, i), ratesOf(size_b, i)};
   }
   return out;
 }
@@ -218,4 +221,4 @@ std::string FeatureGeometry::describe(int a, int b, const FeaturePair& f) const 
   return nameOf(pair.of_a, pair.row.a, f.a) + " on " + nameOf(pair.of_b, pair.row.b, f.b);
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

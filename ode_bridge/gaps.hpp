@@ -4,7 +4,7 @@
 #include "adjoint/motion/body_geometry.h"
 #include "ode_bridge/solids/solid.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Rows of the table of gaps. The first feature of a pair is body a's. A vertex, an edge, a face and a rim are called
 /// point, edge, plane and rim; "swapped" rows are the same gap seen from b.
@@ -101,4 +101,4 @@ class FeatureGeometry final : public ContactGeometry, public BodyGeometry {
   std::vector<Solid> solids_;
 };
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

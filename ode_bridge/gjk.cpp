@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 constexpr int kMostSimplexRounds = 80;
@@ -153,4 +153,4 @@ CoreDistance coreDistance(const PlacedPiece& a, const PlacedPiece& b, const Vec3
   return result;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -5,7 +5,7 @@
 
 #include "ode_bridge/support.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Nearest points of two cores, as far as an iteration of support points finds them.
 struct CoreDistance {
@@ -24,4 +24,4 @@ struct CoreDistance {
 /// 1e-8 of `upper` for cylinders. Neither piece may be a half space. `guess` is a direction from b to a to start with.
 CoreDistance coreDistance(const PlacedPiece& a, const PlacedPiece& b, const Vec3& guess);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

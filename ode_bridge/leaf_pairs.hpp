@@ -6,7 +6,7 @@
 
 #include "ode_bridge/separation.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Visits the pairs of pieces of two bodies whose balls are at most `reach` apart: visit(PlacedPiece, PlacedPiece).
 template <class Visit>
@@ -31,4 +31,4 @@ void eachLeafPair(const Placed& a, const Placed& b, double reach, const Visit& v
   }
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 // The library's own errors would end the process.
@@ -39,4 +39,4 @@ void prepareOdeThread() {
   (void)ready;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

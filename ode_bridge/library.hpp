@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Initialises the collision library once in the process and gives the lock that guards creation and destruction of its
 /// objects, which share state between threads.
@@ -12,4 +12,4 @@ std::unique_lock<std::mutex> lockOde();
 /// Sets up the collision library's data of the calling thread, once a thread.
 void prepareOdeThread();
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -5,7 +5,7 @@
 
 #include "ode_bridge/library.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 struct NarrowPhase::Geoms {
   std::vector<dGeomID> geoms;  // boxes only: the other pairs have one candidate each
@@ -59,4 +59,4 @@ std::optional<Vec3> NarrowPhase::candidateNormal(int a, int b, const Placed& pla
   return n.normalized();
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -7,7 +7,7 @@
 
 #include "ode_bridge/support.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Candidate contacts from the collision library's dCollide, on geometries a little larger than the solids. Its depth,
 /// normal and position are seeds and never the truth: the exact geometry decides what they are worth, and goes its own
@@ -31,4 +31,4 @@ class NarrowPhase {
   std::unique_ptr<Geoms> geoms_;
 };
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

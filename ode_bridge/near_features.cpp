@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 template <class Visit>
@@ -91,4 +91,4 @@ NearFeatures featuresNear(const Solid& solid, const Piece& piece, const Vec3& p,
   return near;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

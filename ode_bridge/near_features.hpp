@@ -5,7 +5,7 @@
 
 #include "ode_bridge/support.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// The few features of a piece that pass near a point.
 struct NearFeatures {
@@ -30,4 +30,4 @@ NearFeatures featuresNear(const Solid& solid, const Piece& piece, const Vec3& p,
 /// How far p, taken to lie in the plane of a face, is outside of it, m: negative inside.
 double outsideFace(const Solid& solid, const SolidFace& face, const Vec3& p);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

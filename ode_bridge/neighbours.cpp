@@ -7,7 +7,7 @@
 
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -238,4 +238,4 @@ void Neighbours::chooseReach(double t) {
   reach_ = std::max(factor * (reach_ + radius) - radius, 0.1 * radius);
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -8,7 +8,7 @@
 #include "ode_bridge/broad_phase.hpp"
 #include "ode_bridge/collision_classes.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// What the neighbour lists know of a body: a ball that moves, something fixed in a box, or a fixed half space.
 struct BodyExtent {
@@ -90,4 +90,4 @@ class Neighbours {
   std::vector<std::pair<int, bool>> changes_;  // of lists: whose, and whether it joins
 };
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -17,6 +17,10 @@
 #include "ode_bridge/touching.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 namespace {
 
 // Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).

@@ -8,7 +8,7 @@
 #include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/leaf_pairs.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 // What the distance of two pieces that overlap costs.
@@ -73,4 +73,4 @@ std::optional<double> overlapOf(const Placed& a, const Placed& b, double toleran
   return insideMesh(b, a);
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -9,7 +9,7 @@
 #include "ode_bridge/overlap.hpp"
 #include "ode_bridge/touching.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 // Steps are as long as it takes to part by this share of the smaller body's size at the least.
@@ -77,4 +77,4 @@ std::optional<double> partingTime(const Solid& a, const Solid& b, Arc& arc_a, Ar
                       " steps to see whether they part");
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

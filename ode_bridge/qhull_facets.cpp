@@ -15,7 +15,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 // What the library takes for its own rounding at a size of 1; it merges facets within a few times that.
@@ -125,4 +125,4 @@ QhullFacets qhullFacets(const std::vector<Vec3>& points, double rounding, int at
   return facets;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

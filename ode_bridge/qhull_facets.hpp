@@ -6,7 +6,7 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// What the hull library makes of points: for each facet the numbers of its corners, in order around it, either way.
 struct QhullFacets {
@@ -20,4 +20,4 @@ struct QhullFacets {
 constexpr int kQhullAttempts = 5;
 QhullFacets qhullFacets(const std::vector<Vec3>& points, double rounding, int attempt);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

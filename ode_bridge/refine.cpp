@@ -7,7 +7,7 @@
 
 #include "ode_bridge/rounding.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 // An approach along n slower than this cannot be told from none. What a body spins by about n moves nothing along n, but
@@ -53,4 +53,4 @@ Root refineRoot(const PairMotion& pair, const FeaturePair& features, double from
   return {t, true};
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -3,7 +3,7 @@
 
 #include "ode_bridge/first_impact.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 struct Root {
   double time = 0;
@@ -15,4 +15,4 @@ struct Root {
 Root refineRoot(const PairMotion& pair, const FeaturePair& features, double from, double t, const Placed& a,
                 const Placed& b);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -4,7 +4,7 @@
 #include <limits>
 
 /// What rounding leaves of gaps and speeds, for the general search and that of balls alike. Internal to ode_bridge/.
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 
@@ -15,4 +15,4 @@ inline constexpr double kStill = 1e-12;
 /// 1e-16, and a separation is a sum of some ten of them.
 inline constexpr double kTouch = 1e-13;
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -12,7 +12,8 @@
 // the second derivatives over the step. Each of the three parts is concave in h (a least of linear functions, less a
 // greatest, less a parabola), so where g starts positive it stays positive up to its first root.
 
-namespace carom {
+namespace carom::ode_bridge_detail {
+
 namespace {
 
 // g(h), and the parabola through the points that decide it at h, which lies above g.
@@ -312,4 +313,4 @@ double safeStep(const PlacedNode& a, const PlacedNode& b, double separation, dou
   return stepInWorld(ma, mb, between / between.norm(), -a.node->radius - b.node->radius, limit);
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -4,7 +4,7 @@
 #include "ode_bridge/gaps.hpp"
 #include "ode_bridge/support.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// A direction along which two convex pieces, or two balls that hold more, can be seen to be apart.
 struct Witness {
@@ -55,4 +55,4 @@ double safeStep(const PlacedPiece& a, const PlacedPiece& b, const Witness& witne
 /// The same for balls that are apart by `separation`.
 double safeStep(const PlacedNode& a, const PlacedNode& b, double separation, double limit);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 Placed::Placed(const Solid& s, const Arc& flight, double t)
     : solid(&s),
@@ -72,4 +72,4 @@ double separationAlong(const PlacedPiece& a, const PlacedPiece& b, const Vec3& n
   return apart - extentAlong(a, -n) - extentAlong(b, n) - radii;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -4,7 +4,7 @@
 #include "adjoint/flight/arc.h"
 #include "ode_bridge/solids/solid.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// A solid in motion at one instant, with bounds on how its rotation can go on.
 struct Placed {
@@ -50,4 +50,4 @@ double extentAlong(const PlacedPiece& p, const Vec3& direction);
 /// apart. Swept radii count.
 double separationAlong(const PlacedPiece& a, const PlacedPiece& b, const Vec3& n);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

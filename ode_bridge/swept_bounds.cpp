@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 Bounds sweptCentre(const FlightPath& path, const Vec3& g, double from, double until) {
   const Vec3 p = path.positionAt(from, g), q = path.positionAt(until, g), v = path.velocityAt(from, g);
@@ -50,4 +50,4 @@ double leavingTime(const FlightPath& path, const Vec3& g, double from, const Bou
   return from + s;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

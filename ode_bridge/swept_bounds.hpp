@@ -3,7 +3,7 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Axis-aligned box in the world.
 struct Bounds {
@@ -43,4 +43,4 @@ double roundingRoom(const Bounds& bounds);
 /// outside.
 double leavingTime(const FlightPath& path, const Vec3& g, double from, const Bounds& bounds);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -9,7 +9,7 @@
 #include "ode_bridge/near_features.hpp"
 #include "ode_bridge/rounding.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 namespace {
 
 // Two contacts this near, with normals this alike, are one; a normal may leave the cone of a feature by as much.
@@ -278,4 +278,4 @@ std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, doub
   return found;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

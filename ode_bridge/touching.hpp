@@ -5,7 +5,7 @@
 
 #include "ode_bridge/separation.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 /// Adds the feature pairs of two pieces that touch (gap of at most `tolerance`, within their extents, with the normal
 /// in the cones of both): more than one where an edge or a face lies on a face. Pairs that are the same contact as one
@@ -19,4 +19,4 @@ std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, doub
 /// Length below which a separation cannot be told from contact, for bodies where these are, m.
 double touchTolerance(const Placed& a, const Placed& b);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -12,7 +12,8 @@
 // (the vector between them is all rounding), and the features that meet there give the direction instead: each is
 // tried, and the slab along it decides.
 
-namespace carom {
+namespace carom::ode_bridge_detail {
+
 namespace {
 
 // Cores nearer than this share of their size are looked at feature by feature.
@@ -261,4 +262,4 @@ Witness findWitness(const PlacedPiece& a, const PlacedPiece& b, const Vec3& gues
   return WitnessSearch(a, b, guess).run();
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

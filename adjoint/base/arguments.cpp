@@ -3,7 +3,7 @@
 
 #include "adjoint/base/refuse.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 void refuseIndex(const char* where, const char* what, long long found, std::size_t count) {
   if (count == 0) refuse(where, "found ", what, " ", found, ", expected none: there are none");
@@ -23,4 +23,4 @@ void checkDuration(const char* where, double duration) {
     refuse(where, "found a duration of ", duration, " s, expected a finite number >= 0, at most 1e9");
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -8,7 +8,7 @@
 
 /// Checks of what public functions are given, in every build. Each throws InputError, `where` being the function or the
 /// member; what is right costs a comparison. Internal to carom.
-namespace carom {
+namespace carom::adjoint_detail {
 
 [[noreturn]] void refuseIndex(const char* where, const char* what, long long found, std::size_t count);
 [[noreturn]] void refuseNumber(const char* where, const char* what, double found, const char* expected);
@@ -38,4 +38,4 @@ inline void checkCount(const char* where, const char* what, std::size_t found, s
 /// A duration of a motion: 0 to 1e9 s.
 void checkDuration(const char* where, double duration);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

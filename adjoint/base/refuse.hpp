@@ -6,7 +6,7 @@
 
 #include "adjoint/base/errors.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Throws InputError at `where` with the parts put together, numbers to all their digits.
 template <class... Parts>
@@ -17,4 +17,4 @@ template <class... Parts>
   throw InputError(where, out.str());
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

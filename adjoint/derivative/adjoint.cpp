@@ -8,6 +8,9 @@
 #include "adjoint/derivative/waiting_bars.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 class ReversePass {
@@ -29,7 +32,7 @@ class ReversePass {
   }
 
  private:
-  using Bars = detail::WaitingBars<double>;
+  using Bars = WaitingBars<double>;
 
   void plant(const StateSeed& seed) {
     const auto b = static_cast<std::size_t>(seed.body);

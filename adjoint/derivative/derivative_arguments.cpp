@@ -4,7 +4,7 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 void checkSeed(const char* where, const Motion& motion, const StateSeed& seed) {
   checkedIndex(where, "body", seed.body, motion.world_lines.size());
@@ -40,4 +40,4 @@ void checkDirection(const char* where, const Scene& scene, const SceneTangent& d
   for (const Vec2& tilt : d.tilts) checkEntries(where, "a rate of a tilt of", tilt);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -12,6 +12,9 @@
 #include "adjoint/motion/time_argument.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 constexpr double kReliableTilt = 1e-4;  // axes of a tilt turn by the inverse of this, as the normal does

@@ -11,7 +11,9 @@
 
 namespace carom {
 
+namespace adjoint_detail {
 class EventLinearization;
+}
 
 /// When a state is read: at a time, or just before an event (then the time itself moves with the causes). A body that
 /// takes no part in the event is read at the time of the event.
@@ -72,13 +74,13 @@ class DerivativeTape {
   /// Sensitivity from the start of arc k to time t; remembered, because the rows of a Jacobian share their times.
   RotationSensitivity arcUntil(int body, int k, double t);
   /// Linearisation of an event.
-  const EventLinearization& event(int event);
+  const adjoint_detail::EventLinearization& event(int event);
 
  private:
   const Motion& motion_;
   std::vector<std::vector<std::unique_ptr<RotationSensitivity>>> arcs_;
   std::map<std::tuple<int, int, double>, RotationSensitivity> until_;  // by body, arc and time
-  std::vector<std::unique_ptr<EventLinearization>> events_;
+  std::vector<std::unique_ptr<adjoint_detail::EventLinearization>> events_;
 };
 
 }  // namespace carom

@@ -9,10 +9,10 @@
 #include "adjoint/impact/wide_impact.hpp"
 #include "adjoint/motion/guard.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
-using Pass = detail::EventPass<double>;
+using Pass = EventPass<double>;
 using Part = Pass::Part;
 using Vec7 = Pass::Vec7;
 
@@ -31,7 +31,7 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
     part.tilt = tiltedNormalJacobian(c.at.normal, tiltOf(*motion.scene, c.tilt_a), tiltOf(*motion.scene, c.tilt_b));
   part.material_a = materialIndexOf(*motion.scene, c.a);
   part.material_b = materialIndexOf(*motion.scene, c.b);
-  part.rules = detail::rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
+  part.rules = rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
                                materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.b)]));
   return part;
 }
@@ -136,4 +136,4 @@ std::vector<StateDerivative> EventLinearization::pullback(const std::vector<Stat
   return pass_->pullback(after_bar, read_bar, time_bar, scene_bar, model_bar);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

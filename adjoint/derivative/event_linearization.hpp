@@ -6,11 +6,10 @@
 
 #include "adjoint/motion/motion.h"
 
-namespace carom {
-namespace detail {
+namespace carom::adjoint_detail {
+
 template <class S>
 class EventPass;
-}  // namespace detail
 
 /// One event, linearised: impact law, contact geometry and guard (equations 5.1 to 5.3 of docs/equations.md).
 /// The guard of a joint event is the mean gap of its contacts, weighted by their normal impulses.
@@ -42,12 +41,12 @@ class EventLinearization {
   /// D = d(guard)/dt < 0, m/s.
   double guardRate() const;
   /// The numbers of the linearisation.
-  const detail::EventPass<double>& pass() const { return *pass_; }
+  const EventPass<double>& pass() const { return *pass_; }
 
  private:
   const Motion& motion_;
   const Event& event_;
-  std::unique_ptr<const detail::EventPass<double>> pass_;
+  std::unique_ptr<const EventPass<double>> pass_;
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 namespace {
 
 bool isZero(const BodyDerivative& d) {
@@ -57,4 +57,4 @@ Reach::Reach(const Motion& motion, const std::vector<const SceneTangent*>& direc
   }
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -5,8 +5,7 @@
 
 #include "adjoint/derivative/tangent.h"
 
-namespace carom {
-namespace detail {
+namespace carom::adjoint_detail {
 
 /// How far a change of the scene along some directions comes: a body that one of them changes carries it from its
 /// start, and an event of such bodies, or of such surfaces, hands it on to all that take part. What it does not reach
@@ -23,10 +22,12 @@ class Reach {
   std::vector<bool> events_;
 };
 
-}  // namespace detail
+}  // namespace carom::adjoint_detail
+
+namespace carom {
 
 /// tangent(tape, direction) where it is known how far the direction reaches: events beyond are passed over. Null: not
 /// known.
-MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const adjoint_detail::Reach* reach);
 
 }  // namespace carom

@@ -6,11 +6,11 @@
 #include "adjoint/derivative/seed_pass.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
                              BodyModelDerivative& model_bar) {
-  return detail::seedPullbackOf<double>(model, state.q.toRotationMatrix(), state.L, seed, model_bar);
+  return seedPullbackOf<double>(model, state.q.toRotationMatrix(), state.L, seed, model_bar);
 }
 
 Vec3 originTangent(const BodyModel& model, const State& state, const StateDerivative& ds,
@@ -51,4 +51,4 @@ double timeDerivative(const Motion& motion, const StateSeed& seed) {
   return seedPullback((*motion.models)[b], place.state, seed, unused).dot(F) + (seed.at.event >= 0 ? seed.time : 0);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

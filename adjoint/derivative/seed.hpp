@@ -3,7 +3,7 @@
 
 #include "adjoint/derivative/derivative_tape.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// The terms of BodyState as functions of the integrator's state:
 ///   position p = x - c_W, c_W = R_WG c:  dp = dx - theta x c_W - R_WG dc;
@@ -30,4 +30,4 @@ struct ReadPlace {
 };
 ReadPlace readPlace(const Motion& motion, int body, const Instant& instant);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -3,7 +3,7 @@
 
 #include "adjoint/scene/body_pass.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// What is read of a state, in any kind of number S, see seed.hpp; R and L are of the state, a `Seed` has the weights of a StateSeed.
 template <class S, class Model, class Seed>
@@ -27,4 +27,4 @@ StateDerivativeOf<S> seedPullbackOf(const Model& model, const M3<S>& R, const V3
   return bar;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

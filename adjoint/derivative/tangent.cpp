@@ -9,6 +9,8 @@
 
 namespace carom {
 
+using namespace adjoint_detail;
+
 double BodyStateRate::dot(const StateSeed& s) const {
   return position.dot(s.position) + orientation.dot(s.orientation) + velocity.dot(s.velocity) +
          angular_velocity.dot(s.angular_velocity) + center_of_mass.dot(s.center_of_mass) + time * s.time;
@@ -57,7 +59,7 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
   return tangent(tape, direction, nullptr);
 }
 
-MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach) {
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const Reach* reach) {
   const Motion& motion = tape.motion();
   MotionTangent t;
   t.tape_ = &tape;

@@ -7,7 +7,7 @@
 #include "adjoint/derivative/derivative_tape.h"
 
 namespace carom {
-namespace detail {
+namespace adjoint_detail {
 class Reach;
 }
 
@@ -39,7 +39,7 @@ class MotionTangent {
   double eventTime(int event) const;
 
  private:
-  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const detail::Reach* reach);
+  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const adjoint_detail::Reach* reach);
   DerivativeTape* tape_ = nullptr;
   Vec3 dgravity_ = Vec3::Zero();
   std::vector<BodyModelDerivative> dmodels_;

@@ -7,7 +7,7 @@
 
 #include "adjoint/derivative/derivative_tape.h"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// The adjoints of a reverse pass in numbers S, on their way back through a motion: those that wait at events, the
 /// latest of which comes first, and what they come to in the end.
@@ -81,4 +81,4 @@ class WaitingBars {
   std::map<int, AtEvent, std::greater<>> pending_;
 };
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -11,6 +11,8 @@
 
 namespace carom {
 
+using namespace adjoint_detail;
+
 const char* nameOf(Tier tier) {
   switch (tier) {
     case Tier::none:
@@ -203,7 +205,7 @@ StateDerivative flightTangent(const Arc& arc, double t, const RotationSensitivit
 StateDerivative flightPullback(const Arc& arc, double t, const RotationSensitivity& S, const StateDerivative& end_bar,
                                Vec3& gravity_bar, BodyModelDerivative& model_bar) {
   if (!arc.moving()) return end_bar;
-  return detail::flightPullbackOf(arc.model().gravity_factor, t - arc.start(), S, end_bar, gravity_bar, model_bar);
+  return flightPullbackOf(arc.model().gravity_factor, t - arc.start(), S, end_bar, gravity_bar, model_bar);
 }
 
 }  // namespace carom

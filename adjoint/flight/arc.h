@@ -10,7 +10,9 @@
 
 namespace carom {
 
+namespace adjoint_detail {
 class TriaxialRotation;
+}
 
 /// How the rotation of a flight is carried; see docs/equations.md section 2.
 enum class Tier { none, spherical, symmetric, triaxial };
@@ -88,7 +90,7 @@ class Arc {
   int symmetry_axis_ = 2;
   double start_;
   double spin_bound_ = 0, spin_rate_bound_ = 0;
-  std::unique_ptr<TriaxialRotation> triaxial_;  // apart, so that the arcs of the other tiers are small
+  std::unique_ptr<adjoint_detail::TriaxialRotation> triaxial_;  // apart, so that the arcs of the other tiers are small
   Vec3 gravity_;
   State state_;
 };

@@ -6,7 +6,7 @@
 
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
 // L^2 - 2 E I_j as a sum of terms in which the moments have been subtracted first.
@@ -138,4 +138,4 @@ Quat EllipticRotation::relative(double t) const {
   return (spin * swing).normalized() * axes_;
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

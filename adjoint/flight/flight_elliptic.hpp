@@ -7,7 +7,7 @@
 #include "adjoint/base/types.h"
 #include "adjoint/numeric/elliptic_functions.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Torque-free rotation with three different moments in closed form (Jacobi; van Zon and Schofield, Journal of
 /// Computational Physics 225, 2007), at a cost that does not depend on the time that has passed. With the axes in the
@@ -45,4 +45,4 @@ class EllipticRotation {
   std::array<double, kTerms> re_{}, im_{};
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

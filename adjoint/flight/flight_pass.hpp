@@ -5,7 +5,7 @@
 #include "adjoint/numeric/dual.hpp"
 #include "adjoint/scene/body_model.h"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// Reverse pass of a flight in any kind of number S, see flightPullback; `gravity_factor`: the body's share of gravity.
 template <class S>
@@ -23,4 +23,4 @@ StateDerivativeOf<S> flightPullbackOf(double gravity_factor, const S& elapsed, c
   return d;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

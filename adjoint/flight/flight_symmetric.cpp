@@ -7,7 +7,7 @@
 
 #include "adjoint/numeric/so3.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 Quat sphericalOrientation(double inertia, const Quat& q0, const Vec3& L, double t) {
   return (expSO3(L * (t / inertia)) * q0).normalized();
@@ -57,4 +57,4 @@ int symmetryAxis(const Vec3& I) {
   return 3;
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

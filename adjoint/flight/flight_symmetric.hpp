@@ -3,7 +3,7 @@
 
 #include "adjoint/flight/rotation_sensitivity.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Free rotation with equal moments I: R(t) = exp([L t / I]x) R0. dtheta_dI is right for changes that keep the three
 /// moments equal.
@@ -19,4 +19,4 @@ RotationSensitivity symmetricSensitivity(const Vec3& inertia, int axis, const Qu
 /// The axis whose moment differs from the other two, which are equal to rounding; -1: all equal; 3: all differ.
 int symmetryAxis(const Vec3& inertia);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

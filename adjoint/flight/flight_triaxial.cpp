@@ -10,7 +10,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
 constexpr std::size_t K = TriaxialRotation::kOrder;
@@ -155,4 +155,4 @@ Quat TriaxialRotation::orientationAt(double elapsed) const {
   return orientationIn(s, elapsed - s.start);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -9,7 +9,7 @@
 #include "adjoint/flight/flight_elliptic.hpp"
 #include "adjoint/flight/rotation_sensitivity.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Torque-free rotation with three different moments: Taylor segments at first, which are the cheapest to read, and the
 /// closed form (flight_elliptic.h) after them, where more segments would cost more than it does. With l = |L| the
@@ -63,4 +63,4 @@ class TriaxialRotation {
   std::optional<EllipticRotation> closed_form_;  // once a time after the segments is asked for
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -8,7 +8,8 @@
 #include "adjoint/flight/periodic_sensitivity.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
+
 namespace {
 
 constexpr std::size_t kOrder = TriaxialRotation::kOrder;
@@ -258,4 +259,4 @@ RotationSensitivity TriaxialRotation::sensitivityAt(double elapsed, bool product
   return periodic.over(count, turn, turned(sensitivityOver(rest, products), turn), omega(orientationAt(elapsed)));
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -3,7 +3,7 @@
 
 #include "adjoint/flight/rotation_sensitivity.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// A period of torque-free rotation: R(T) = Q R(0), where Q turns about L, and R^T L is what it was at the start.
 /// A change of the start moves T by dT and the angle of Q by dphi, so a time s after n periods of the unchanged motion
@@ -27,4 +27,4 @@ class PeriodicSensitivity {
   Row dangle_, dT_;                          // dphi - dT omega.axis, and dT
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -6,6 +6,8 @@
 
 namespace carom {
 
+using namespace adjoint_detail;
+
 RotationSensitivity chained(const RotationSensitivity& first, const RotationSensitivity& second) {
   RotationSensitivity S;
   S.dtheta_dtheta = second.dtheta_dtheta * first.dtheta_dtheta;

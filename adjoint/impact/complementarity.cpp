@@ -8,7 +8,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/numeric/wide.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 using Eigen::Index;
 
@@ -27,14 +27,14 @@ struct Precision<double> {
 };
 // Normals and points are doubles: what they make of redundant contacts is of size 1e-32.
 template <>
-struct Precision<detail::Wide> {
+struct Precision<Wide> {
   static constexpr double kNull = 1e-28, kRounding = 1e-28;
 };
 
 // An eigen-decomposition of numbers that are not finite ends nowhere.
 template <class T>
 void requireComputable(const Matrix<T>& A, const Vector<T>& b) {
-  const auto number = [](const T& x) { return detail::rounded(x); };
+  const auto number = [](const T& x) { return rounded(x); };
   if (!A.unaryExpr(number).allFinite() || !b.unaryExpr(number).allFinite())
     throw NotComputable("the effective masses of its contacts are beyond the range of doubles");
 }
@@ -43,7 +43,7 @@ void requireComputable(const Matrix<T>& A, const Vector<T>& b) {
 // entry of A; contacts of bodies of like masses keep 1.
 template <class T>
 Vector<T> scaleOf(const Matrix<T>& A) {
-  const auto size = [](const T& x) { return std::ilogb(detail::rounded(x)); };
+  const auto size = [](const T& x) { return std::ilogb(rounded(x)); };
   const T largest = A.diagonal().maxCoeff();
   Vector<T> D = Vector<T>::Ones(A.rows());
   for (Index i = 0; i < A.rows(); ++i)
@@ -111,7 +111,7 @@ void LeastNormSolveOf<T>::pullback(const Vector& y_bar, Matrix& A_bar, Vector& b
 }
 
 template struct LeastNormSolveOf<double>;
-template struct LeastNormSolveOf<detail::Wide>;
+template struct LeastNormSolveOf<Wide>;
 
 namespace {
 
@@ -209,6 +209,6 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
 }
 
 template std::vector<int> activeContactsOf(const Matrix<double>&, const Vector<double>&, bool);
-template std::vector<int> activeContactsOf(const Matrix<detail::Wide>&, const Vector<detail::Wide>&, bool);
+template std::vector<int> activeContactsOf(const Matrix<Wide>&, const Vector<Wide>&, bool);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// y = -A^+ b for symmetric positive semidefinite A with b in its range, and its derivatives at constant rank:
 /// dy = -A^+ (db + dA y) + (1 - A A^+) dA A^+ y. Throws NotComputable for numbers that are not finite; of no size it is
-/// empty. T is double or detail::Wide. The rank is that of D A D, where D makes the diagonal alike: contacts of bodies
+/// empty. T is double or Wide. The rank is that of D A D, where D makes the diagonal alike: contacts of bodies
 /// of unlike masses are not taken for redundant.
 template <class T>
 struct LeastNormSolveOf {
@@ -34,4 +34,4 @@ inline std::vector<int> activeContacts(const Eigen::MatrixXd& A, const Eigen::Ve
   return activeContactsOf<double>(A, b, in_range);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

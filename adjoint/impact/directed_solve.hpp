@@ -5,7 +5,7 @@
 #include "adjoint/numeric/dual.hpp"
 
 /// Solves of least norm for any number, with their adjoints.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 using Eigen::Index;
 
@@ -71,4 +71,4 @@ struct DirectedSolve {
   }
 };
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -7,7 +7,7 @@
 #include "adjoint/motion/motion.h"
 #include "adjoint/motion/pair_rules.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// A contact of an event, linearised.
 template <class S>
@@ -162,4 +162,4 @@ class EventPass {
   S guard_rate_ = 0;
 };
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

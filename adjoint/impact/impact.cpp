@@ -9,12 +9,12 @@
 #include "adjoint/impact/wide_impact.hpp"
 #include "adjoint/motion/guard.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
-using Rate = detail::Dual<1>;
+using Rate = Dual<1>;
 
-detail::ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyModel>& models) {
-  detail::ImpactInputs<double> in;
+ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyModel>& models) {
+  ImpactInputs<double> in;
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
     in.bodies.push_back({model.kinematic, model.kinematic ? 0 : model.inverse_mass, p.before.q.toRotationMatrix(),
@@ -40,11 +40,11 @@ Rate along(double value, double rate) {
   return both;
 }
 
-detail::ImpactInputs<Rate> along(const detail::ImpactInputs<double>& in, const std::vector<StateDerivative>& dbefore,
+ImpactInputs<Rate> along(const ImpactInputs<double>& in, const std::vector<StateDerivative>& dbefore,
                                  const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
                                  const std::vector<PairCoefficients>& dpair,
                                  const std::vector<BodyModelDerivative>& dmodel) {
-  detail::ImpactInputs<Rate> both;
+  ImpactInputs<Rate> both;
   for (std::size_t i = 0; i < in.bodies.size(); ++i) {
     const auto& b = in.bodies[i];
     const StateDerivative& d = dbefore[i];
@@ -65,23 +65,23 @@ detail::ImpactInputs<Rate> along(const detail::ImpactInputs<double>& in, const s
 
 }  // namespace
 
-std::vector<StateDerivative> impactTangent(const detail::ImpactInputs<double>& inputs, bool wide,
+std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, bool wide,
                                            const std::vector<StateDerivative>& dbefore,
                                            const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
                                            const std::vector<PairCoefficients>& dpair,
                                            const std::vector<BodyModelDerivative>& dmodel) {
-  detail::ImpactInputs<Rate> both = along(inputs, dbefore, dcontact, dpair, dmodel);
-  std::vector<detail::Velocities<Rate>> after;
+  ImpactInputs<Rate> both = along(inputs, dbefore, dcontact, dpair, dmodel);
+  std::vector<Velocities<Rate>> after;
   if (wide) {
-    after = detail::wideImpact(both).after;
+    after = wideImpact(both).after;
   } else {
-    const detail::ImpactPass<Rate> pass(std::move(both));
+    const ImpactPass<Rate> pass(std::move(both));
     after = pass.after(pass.solve().P);
   }
   std::vector<StateDerivative> dafter = dbefore;
   for (std::size_t i = 0; i < after.size(); ++i) {
-    dafter[i].v = detail::ratesOf(after[i].v, 0);
-    dafter[i].L = detail::ratesOf(after[i].L, 0);
+    dafter[i].v = ratesOf(after[i].v, 0);
+    dafter[i].L = ratesOf(after[i].L, 0);
   }
   return dafter;
 }
@@ -167,7 +167,7 @@ void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector
 }
 
 // The states after, in doubles, of what a pass has found.
-void take(const detail::ImpactOutcome<double>& outcome, Event& event, std::vector<State>& after) {
+void take(const ImpactOutcome<double>& outcome, Event& event, std::vector<State>& after) {
   event.mode = outcome.solution.mode;
   for (std::size_t i = 0; i < outcome.after.size(); ++i) {
     State& s = after.emplace_back(event.participants[i].before);
@@ -177,7 +177,7 @@ void take(const detail::ImpactOutcome<double>& outcome, Event& event, std::vecto
 }
 
 void solveJoint(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
-  const detail::ImpactPass<double> pass(impactInputs(event, models));
+  const ImpactPass<double> pass(impactInputs(event, models));
   const ImpactSolution solution = pass.solve();
   const Eigen::VectorXd& u = pass.problem().u;
   for (std::size_t k = 0; k < event.contacts.size(); ++k) {
@@ -189,7 +189,7 @@ void solveJoint(Event& event, const std::vector<BodyModel>& models, std::vector<
 }
 
 void solveWide(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
-  const detail::ImpactOutcome<double> outcome = detail::wideImpact(impactInputs(event, models));
+  const ImpactOutcome<double> outcome = wideImpact(impactInputs(event, models));
   for (std::size_t k = event.contacts.size(); k-- > 0;) {
     Contact& c = event.contacts[k];
     const Vec3 u = contactVelocity(event, models, c, nullptr).u;
@@ -222,4 +222,4 @@ void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector
   requireParting(event, models, after);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

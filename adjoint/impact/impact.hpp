@@ -6,19 +6,18 @@
 #include "adjoint/impact/law.hpp"
 #include "adjoint/motion/motion.h"
 
-namespace carom {
-namespace detail {
+namespace carom::adjoint_detail {
+
 template <class S>
 struct ImpactInputs;
-}  // namespace detail
 
 /// What the impulse of an event depends on: its contacts, and its participants with their states before.
-detail::ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyModel>& models);
+ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyModel>& models);
 
 /// Tangent of (states before, contacts, coefficients, models) -> states after: the impact itself in numbers that carry
 /// their rates. `dcontact[k]` holds d(gap, normal of the impulse, point) of contact k; all others are of participants.
 /// `wide`: with 32 digits, see wide_impact.h.
-std::vector<StateDerivative> impactTangent(const detail::ImpactInputs<double>& inputs, bool wide,
+std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, bool wide,
                                            const std::vector<StateDerivative>& dbefore,
                                            const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
                                            const std::vector<PairCoefficients>& dpair,
@@ -28,4 +27,4 @@ std::vector<StateDerivative> impactTangent(const detail::ImpactInputs<double>& i
 /// NotComputable where these are not finite numbers, and where a contact does not part as fast as its elasticity says.
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -4,7 +4,7 @@
 #include "adjoint/impact/law.hpp"
 #include "adjoint/numeric/dual.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// What an impact depends on.
 template <class S>
@@ -214,4 +214,4 @@ class ImpactPass {
   Problem problem_;
 };
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -24,7 +24,7 @@
 // Written for any number: doubles, numbers of 32 digits, and duals of either, which take the branch of the values. A
 // `Problem` has the fields of ImpactProblem, a `Bar` those of ImpactProblemDerivative.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// |v|; at 0, where it has no derivative and nothing asks for one, without rates.
 template <class S>
@@ -302,4 +302,4 @@ void jointPullback(const Problem& p, const VectorOf<S>& P_bar, Bar& bar) {
     bar.pair[static_cast<std::size_t>(b.normal_active[c])].elasticity += share_bar[static_cast<Index>(c)];
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -6,7 +6,7 @@
 #include "adjoint/base/types.h"
 #include "adjoint/motion/motion.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// What an impact law sees: contacts k with unit normals n_k (b to a), relative velocities u_k before the impact and
 /// the matrix K of 3x3 blocks with u+ = u + K P for impulses P (on a). All in world axes, in any kind of number.
@@ -92,4 +92,4 @@ inline const ImpactLaw& lawFor(const ImpactProblem& problem) {
   return lawOf(problem.pair[0]) == Law::friction ? kFrictionLaw : kFrictionlessLaw;
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -4,11 +4,10 @@
 #include "adjoint/impact/impact_pass.hpp"
 #include "adjoint/impact/law.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
-using detail::FrictionTerms;
-using Rate = detail::Dual<1>;
+using Rate = Dual<1>;
 
 ImpactProblemOf<Rate> along(const ImpactProblem& p, const ImpactProblemDerivative& d) {
   ImpactProblemOf<Rate> both{p.K.cast<Rate>(), p.u.cast<Rate>(), {}, {}, p.driven};
@@ -28,7 +27,7 @@ ImpactProblemOf<Rate> along(const ImpactProblem& p, const ImpactProblemDerivativ
 
 template <class Law>
 Eigen::VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
-  return detail::ratesOf(Law::solve(along(p, d)).P, 0);
+  return ratesOf(Law::solve(along(p, d)).P, 0);
 }
 
 template <class Law>
@@ -38,13 +37,13 @@ constexpr ImpactLaw rowOf(const char* name) {
 
 }  // namespace
 
-const ImpactLaw kFrictionlessLaw = rowOf<detail::FrictionlessLaw>("frictionless");
-const ImpactLaw kFrictionLaw = rowOf<detail::FrictionLaw>("friction");
-const ImpactLaw kJointLaw = rowOf<detail::JointLaw>("joint");
+const ImpactLaw kFrictionlessLaw = rowOf<FrictionlessLaw>("frictionless");
+const ImpactLaw kFrictionLaw = rowOf<FrictionLaw>("friction");
+const ImpactLaw kJointLaw = rowOf<JointLaw>("joint");
 
 ContactSolution solveContact(const ContactProblem& problem) {
   if (lawOf(problem.pair) == Law::frictionless)
-    return {detail::FrictionlessTerms<double>(problem).impulse(), ImpactMode::frictionless, 1};
+    return {FrictionlessTerms<double>(problem).impulse(), ImpactMode::frictionless, 1};
   const FrictionTerms<double> t(problem);
   return {t.impulse(), t.slides ? ImpactMode::slide : ImpactMode::stick, t.margin};
 }
@@ -54,8 +53,9 @@ double frictionFromZeroMargin(const ContactProblem& problem) {
   return t.slides ? t.margin : 0;
 }
 
-template ImpactSolutionOf<double> detail::solveLaw(const ImpactProblemOf<double>&);
-template ImpactProblemDerivativeOf<double> detail::lawPullback(const ImpactProblemOf<double>&, const VectorOf<double>&);
-template ImpactSolutionOf<Rate> detail::solveLaw(const ImpactProblemOf<Rate>&);
+template ImpactSolutionOf<double> adjoint_detail::solveLaw(const ImpactProblemOf<double>&);
+template ImpactProblemDerivativeOf<double> adjoint_detail::lawPullback(const ImpactProblemOf<double>&,
+                                                                       const VectorOf<double>&);
+template ImpactSolutionOf<Rate> adjoint_detail::solveLaw(const ImpactProblemOf<Rate>&);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -7,7 +7,7 @@
 
 /// The impact laws of law.h for any number. Derivatives along directions are the law itself in dual numbers; adjoints
 /// are written by hand, and the dot-product tests hold one against the other.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 template <class S>
 inline constexpr bool has_rates = !std::is_same_v<S, Value<S>>;
@@ -78,4 +78,4 @@ ImpactProblemDerivativeOf<S> lawPullback(const ImpactProblemOf<S>& p, const Vect
   return bar;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

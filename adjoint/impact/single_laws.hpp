@@ -9,7 +9,7 @@
 
 /// The laws of one contact and their adjoints, for any number: doubles, and duals for second derivatives. A `Problem`
 /// has the fields of ContactProblem, a `Bar` those of ImpactProblemDerivative.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// K^-1 b.
 template <class S>
@@ -162,4 +162,4 @@ V3<S> rateByFrictionFromZero(const FrictionTerms<S>& t) {
   return (t.e1 * t.n.dot(t.P_I) / t.s) * t.d;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -5,9 +5,9 @@
 
 #include "adjoint/impact/tilt_frame.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
-using Frame = detail::TiltFrame<double>;
+using Frame = TiltFrame<double>;
 
 Vec3 tiltedNormal(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b) {
   Vec3 m = n;
@@ -21,13 +21,13 @@ Vec2 tiltOf(const Scene& scene, int entry) {
 }
 
 double tiltMargin(const Vec3& n, bool a, bool b) {
-  const double of_a = a ? 0.5 * (n + detail::tiltCentre()).norm() : 1;
-  const double of_b = b ? 0.5 * (detail::tiltCentre() - n).norm() : 1;
+  const double of_a = a ? 0.5 * (n + tiltCentre()).norm() : 1;
+  const double of_b = b ? 0.5 * (tiltCentre() - n).norm() : 1;
   return std::min(of_a, of_b);
 }
 
 Eigen::Matrix<double, 3, 7> tiltedNormalJacobian(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b) {
-  return detail::tiltJacobian<double>(n, tilt_a, tilt_b);
+  return tiltJacobian<double>(n, tilt_a, tilt_b);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -3,7 +3,7 @@
 
 #include "adjoint/scene/scene.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Normal that the impulse uses, n' = m/|m| with m = n + offset(n, tilt_a) - offset(-n, tilt_b), where for
 /// tilt = (alpha, beta): offset(n) = alpha t1 + beta t2, t1 = a - 2 (a.s)/(s.s) s with s = n + m, t2 = n x t1; m and a
@@ -22,4 +22,4 @@ double tiltMargin(const Vec3& n, bool a, bool b);
 /// d n' by (n, tilt_a, tilt_b): 3 x 7.
 Eigen::Matrix<double, 3, 7> tiltedNormalJacobian(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

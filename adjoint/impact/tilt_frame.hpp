@@ -5,7 +5,7 @@
 #include "adjoint/numeric/dual.hpp"
 
 /// The tilted normal of tilt.h for any number.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// m of tilt.h: the frame is smooth but at -m, which is 27 degrees or more from all axes and diagonals of the world, and
 /// 16 from the planes of the axes.
@@ -57,4 +57,4 @@ Eigen::Matrix<S, 3, 7> tiltJacobian(const V3<S>& n, const V2<S>& tilt_a, const V
   return (M3<S>::Identity() - unit * unit.transpose()) * dm / length;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

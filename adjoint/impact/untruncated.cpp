@@ -5,7 +5,7 @@
 
 // P_I = -(u_n/a) n, a = n.K n, P_II = -K^-1 u.
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
 struct UntruncatedTerms {
@@ -42,4 +42,4 @@ ContactProblemBar untruncatedImpulsePullback(const ContactProblem& problem, cons
   return bar;
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

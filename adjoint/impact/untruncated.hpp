@@ -3,7 +3,7 @@
 
 #include "adjoint/impact/law.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// The impulse of equation 4.2 before the friction cone cuts it back, P = (1+e) P_I + (1+e_t)(P_II - P_I): the contact
 /// sticks where it lies in the cone.
@@ -17,4 +17,4 @@ struct ContactProblemBar {
 };
 ContactProblemBar untruncatedImpulsePullback(const ContactProblem& problem, const Vec3& P_bar);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -6,7 +6,7 @@
 
 #include "adjoint/impact/wide_pass.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
 constexpr double kDoublesSpan = 1e3;
@@ -32,8 +32,8 @@ bool needsWide(const Event& event, const std::vector<BodyModel>& models) {
   return most > kDoublesSpan * (single ? lightest : least);
 }
 
-template detail::ImpactOutcome<double> detail::wideImpact(const ImpactInputs<double>&);
-template detail::ImpactBars<double> detail::wideImpactPullback(const ImpactInputs<double>&,
+template adjoint_detail::ImpactOutcome<double> adjoint_detail::wideImpact(const ImpactInputs<double>&);
+template adjoint_detail::ImpactBars<double> adjoint_detail::wideImpactPullback(const ImpactInputs<double>&,
                                                                const std::vector<StateDerivative>&);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -5,7 +5,7 @@
 
 #include "adjoint/motion/motion.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Whether doubles are too short for an impact: what an impulse gives its bodies, in speed and in spin at the contacts,
 /// differs by more than 1e3: a velocity may lose that many digits, a derivative twice as many. Numbers of 32 digits take
@@ -17,4 +17,4 @@ inline bool usesWide(const Event& event, const std::vector<BodyModel>& models) {
   return event.wide || needsWide(event, models);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

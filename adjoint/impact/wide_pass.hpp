@@ -6,7 +6,7 @@
 
 /// wideImpact and wideImpactPullback of impact_pass.hpp. Each kind of number takes a minute of compilation, and so has
 /// a file of its own.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 inline Wide widened(double x) { return x; }
 template <int N>
@@ -76,4 +76,4 @@ ImpactBars<S> wideImpactPullback(const ImpactInputs<S>& inputs, const std::vecto
   return out;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -3,8 +3,8 @@
 
 // Impacts of 32 digits with their rates along one direction.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 template ImpactOutcome<Dual<1>> wideImpact(const ImpactInputs<Dual<1>>&);
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 std::vector<double> guardWeights(const Event& event) {
   std::vector<double> weights;
@@ -28,4 +28,4 @@ Pose poseBefore(const Motion& motion, const Event& event, int body) {
   return {s.x, model.shapeToWorld(s.q.toRotationMatrix())};
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -5,7 +5,7 @@
 
 #include "adjoint/motion/motion.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// The guard of an event is the mean gap of its contacts, weighted by their normal impulses: one weight a contact.
 std::vector<double> guardWeights(const Event& event);
@@ -16,4 +16,4 @@ int participantOf(const Event& event, int body);
 /// Pose of the shape of a body just before an event; of a body that takes no part in it, at the start.
 Pose poseBefore(const Motion& motion, const Event& event, int body);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -9,6 +9,8 @@
 
 namespace carom {
 
+using namespace adjoint_detail;
+
 const char* nameOf(ImpactMode mode) {
   switch (mode) {
     case ImpactMode::frictionless:

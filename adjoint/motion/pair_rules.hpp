@@ -6,7 +6,7 @@
 #include "adjoint/motion/plan.h"
 
 /// How two materials make the coefficients of a pair, for any number.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 template <class S>
 struct Rule {
@@ -55,4 +55,4 @@ inline PairRules<double> rulesOf(const Material& a, const Material& b) {
   return {a, b, coefficientsOf(a), coefficientsOf(b)};
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -8,11 +8,14 @@
 #include "adjoint/motion/pair_rules.hpp"
 
 namespace carom {
-PairCoefficients combine(const Material& a, const Material& b) { return detail::rulesOf(a, b).values(); }
+
+using namespace adjoint_detail;
+
+PairCoefficients combine(const Material& a, const Material& b) { return rulesOf(a, b).values(); }
 
 PairCoefficients combineTangent(const Material& a, const Material& b, const MaterialDerivative& da,
                                 const MaterialDerivative& db) {
-  const detail::PairRules<double> r = detail::rulesOf(a, b);
+  const PairRules<double> r = rulesOf(a, b);
   return {r.elasticity.by_a * da.elasticity + r.elasticity.by_b * db.elasticity,
           r.friction.by_a * da.friction + r.friction.by_b * db.friction,
           r.tangential.by_a * da.tangential_elasticity + r.tangential.by_b * db.tangential_elasticity};
@@ -20,7 +23,7 @@ PairCoefficients combineTangent(const Material& a, const Material& b, const Mate
 
 void combinePullback(const Material& a, const Material& b, const PairCoefficients& pair_bar, MaterialDerivative& a_bar,
                      MaterialDerivative& b_bar) {
-  detail::rulesOf(a, b).pullback(pair_bar, a_bar, b_bar);
+  rulesOf(a, b).pullback(pair_bar, a_bar, b_bar);
 }
 
 Law lawOf(const PairCoefficients& pair) { return pair.friction > 0 ? Law::friction : Law::frictionless; }

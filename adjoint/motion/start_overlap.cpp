@@ -7,6 +7,9 @@
 #include "adjoint/base/errors.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 const std::string& nameAt(const Scene& scene, int body) {

@@ -3,7 +3,7 @@
 
 #include "adjoint/base/refuse.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 void checkTime(const char* where, const Motion& motion, double t) {
   if (t >= 0 && t <= motion.end) return;
@@ -11,4 +11,4 @@ void checkTime(const char* where, const Motion& motion, double t) {
          motion.status == MotionStatus::complete ? "" : "; ", motion.status == MotionStatus::complete ? "" : motion.message);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

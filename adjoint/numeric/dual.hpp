@@ -10,7 +10,7 @@
 
 // Internal to the libraries: not installed, and no public header includes it.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// A number with its rates along N directions. Arithmetic carries the rates along exactly; comparisons see the value
 /// alone, so that a computation with duals takes the branches that the same computation with doubles takes. T is what
@@ -165,12 +165,12 @@ using MatrixOf = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 template <class S>
 using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail
 
 namespace Eigen {
 template <int N, class T>
-struct NumTraits<carom::detail::Dual<N, T>> : GenericNumTraits<double> {
-  using Real = carom::detail::Dual<N, T>;
+struct NumTraits<carom::adjoint_detail::Dual<N, T>> : GenericNumTraits<double> {
+  using Real = carom::adjoint_detail::Dual<N, T>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;
@@ -185,11 +185,11 @@ struct NumTraits<carom::detail::Dual<N, T>> : GenericNumTraits<double> {
   };
 };
 template <int N, class T, class Op>
-struct ScalarBinaryOpTraits<carom::detail::Dual<N, T>, double, Op> {
-  using ReturnType = carom::detail::Dual<N, T>;
+struct ScalarBinaryOpTraits<carom::adjoint_detail::Dual<N, T>, double, Op> {
+  using ReturnType = carom::adjoint_detail::Dual<N, T>;
 };
 template <int N, class T, class Op>
-struct ScalarBinaryOpTraits<double, carom::detail::Dual<N, T>, Op> {
-  using ReturnType = carom::detail::Dual<N, T>;
+struct ScalarBinaryOpTraits<double, carom::adjoint_detail::Dual<N, T>, Op> {
+  using ReturnType = carom::adjoint_detail::Dual<N, T>;
 };
 }  // namespace Eigen

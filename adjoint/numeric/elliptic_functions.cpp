@@ -5,7 +5,7 @@
 
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 // Every step takes k to (1 - k')/(1 + k'), until k^2 is below the rounding and the functions are circular.
 EllipticModulus::EllipticModulus(double m1) {
@@ -49,4 +49,4 @@ EllipticModulus::Functions EllipticModulus::at(double u) const {
   return {sn, cn, dn};
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Jacobi's elliptic functions and Legendre's integral of the first kind for one modulus k, 0 <= k < 1, by descending
 /// Landen transformations (NIST Digital Library of Mathematical Functions, 22.7(i) and 19.8(ii)). Made from the
@@ -34,4 +34,4 @@ class EllipticModulus {
   double K_ = 0;
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

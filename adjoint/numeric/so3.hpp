@@ -6,7 +6,7 @@
 #include "adjoint/base/types.h"
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Rotation vectors: theta = angle * axis, world axes, R = exp([theta]x). Below kSmallRotation power series are used,
 /// whose first neglected term is under 1e-17.
@@ -59,4 +59,4 @@ inline Mat3 leftJacobianInverse(const Vec3& u) {
   return Mat3::Identity() - 0.5 * U + c * U * U;
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -4,7 +4,7 @@
 #include "adjoint/numeric/elementary.hpp"
 #include "adjoint/numeric/so3.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Rate of leftJacobian(u) = 1 + c_2 U + c_3 U^2 as u changes at du, U = [u]x, x = |u|^2:
 ///   dJ = dc_2 U + c_2 dU + dc_3 U^2 + c_3 (U dU + dU U),  dc_k = c_k' 2 u.du,
@@ -32,4 +32,4 @@ inline Mat3 leftJacobianRate(const Vec3& u, const Vec3& du) {
   return db * U + c[2] * dU + dc * U * U + c[3] * (U * dU + dU * U);
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

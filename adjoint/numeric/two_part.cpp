@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
 using Parts = std::array<TwoPart, 3>;
@@ -50,4 +50,4 @@ double tripleProduct(const Vec3& o, const Vec3& a, const Vec3& b, const Vec3& c)
   return (u[0] * w[0] + u[1] * w[1] + u[2] * w[2]).value();
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

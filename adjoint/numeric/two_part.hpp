@@ -3,7 +3,7 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// A number as the sum of two doubles, `low` at most about a rounding of `high`: 32 digits instead of 16. Differences
 /// of doubles have no error in it, products only below 1e-290, where their low part underflows (T. J. Dekker, "A
@@ -27,4 +27,4 @@ Vec3 crossProduct(const Vec3& o, const Vec3& a, const Vec3& b);
 /// 1e-30 |a - o| |b - o| |c - o|, so that of a needle as of a plate the sign is that of the exact value.
 double tripleProduct(const Vec3& o, const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

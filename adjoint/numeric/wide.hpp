@@ -9,7 +9,7 @@
 
 // Internal to the libraries: not installed, and no public header includes it.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// A number of 32 digits, the sum of two doubles, for impacts of bodies whose masses differ too much for 16. Sums,
 /// products, quotients and roots have errors of about 1e-31 of their operands (Y. Hida, X. S. Li, D. H. Bailey,
@@ -69,20 +69,20 @@ inline Wide valueOf(const Wide& x) { return x; }
 inline double rounded(double x) { return x; }
 inline double rounded(const Wide& x) { return x.high; }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail
 
 namespace std {
 template <>
-struct numeric_limits<carom::detail::Wide> : numeric_limits<double> {
-  static carom::detail::Wide epsilon() { return 0x1p-102; }
+struct numeric_limits<carom::adjoint_detail::Wide> : numeric_limits<double> {
+  static carom::adjoint_detail::Wide epsilon() { return 0x1p-102; }
   static constexpr int digits10 = 30;
 };
 }  // namespace std
 
 namespace Eigen {
 template <>
-struct NumTraits<carom::detail::Wide> : GenericNumTraits<carom::detail::Wide> {
-  using Real = carom::detail::Wide;
+struct NumTraits<carom::adjoint_detail::Wide> : GenericNumTraits<carom::adjoint_detail::Wide> {
+  using Real = carom::adjoint_detail::Wide;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;
@@ -92,11 +92,11 @@ struct NumTraits<carom::detail::Wide> : GenericNumTraits<carom::detail::Wide> {
   enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 2, AddCost = 20, MulCost = 24 };
 };
 template <class Op>
-struct ScalarBinaryOpTraits<carom::detail::Wide, double, Op> {
-  using ReturnType = carom::detail::Wide;
+struct ScalarBinaryOpTraits<carom::adjoint_detail::Wide, double, Op> {
+  using ReturnType = carom::adjoint_detail::Wide;
 };
 template <class Op>
-struct ScalarBinaryOpTraits<double, carom::detail::Wide, Op> {
-  using ReturnType = carom::detail::Wide;
+struct ScalarBinaryOpTraits<double, carom::adjoint_detail::Wide, Op> {
+  using ReturnType = carom::adjoint_detail::Wide;
 };
 }  // namespace Eigen

@@ -7,6 +7,9 @@
 #include "adjoint/scene/body_pass.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // Products of inertia below this share of the largest moment are rounding: the shape's axes are principal.
@@ -134,7 +137,7 @@ void modelPullback(const Body& body, const BodyModel& model, const BodyModelDeri
                    BodyDerivative& body_bar) {
   if (body.fixed) return;
   const bool by_size = !body.center_of_mass || (!body.kinematic && (body.density || isDerived(body)));
-  detail::modelPullbackOf(body, model, body.density.value_or(0), by_size ? propertiesOf(body) : SolidProperties{},
+  modelPullbackOf(body, model, body.density.value_or(0), by_size ? propertiesOf(body) : SolidProperties{},
                           model_bar, body_bar);
 }
 
@@ -177,7 +180,7 @@ StateDerivative startTangent(const Body& body, const BodyModel& model, const Bod
 
 void startPullback(const Body& body, const BodyModel& model, const StateDerivative& state_bar, BodyDerivative& body_bar,
                    BodyModelDerivative& model_bar) {
-  detail::startPullbackOf<double>(model, body.orientation.normalized().toRotationMatrix(), body.angular_velocity,
+  startPullbackOf<double>(model, body.orientation.normalized().toRotationMatrix(), body.angular_velocity,
                                   state_bar, body_bar, model_bar);
 }
 

@@ -6,7 +6,7 @@
 
 /// Reverse passes of one body, in any kind of number S: its start as written and its mass properties. A `Model` is a
 /// BodyModel or a DualModel.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// What the functions below ask of a BodyModel; of a DualModel see dual_state.hpp.
 inline Vec3 spinOf(const BodyModel& m, const Mat3& R, const Vec3& L) {
@@ -60,4 +60,4 @@ void modelPullbackOf(const Body& body, const Model& model, const S& density, con
   (body.density ? body_bar.density : body_bar.mass) += body.density ? S(mass_bar * solid.volume) : mass_bar;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -11,6 +11,9 @@
 #include "adjoint/scene/weld.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using Triangle = std::array<int, 3>;

@@ -10,6 +10,8 @@
 
 namespace carom {
 
+using namespace adjoint_detail;
+
 Inertia Inertia::fromMoments(const Vec3& moments) {
   Inertia inertia;
   inertia.source = Source::moments;

@@ -8,6 +8,9 @@
 #include "adjoint/numeric/two_part.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // Twice the vector area of a polygon.

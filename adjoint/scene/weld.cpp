@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 std::vector<int> firstOfEqual(const std::vector<Vec3>& points) {
   const auto at = [&](int i) -> const Vec3& { return points[static_cast<std::size_t>(i)]; };
@@ -22,4 +22,4 @@ std::vector<int> firstOfEqual(const std::vector<Vec3>& points) {
   return first;
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

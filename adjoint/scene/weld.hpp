@@ -5,9 +5,9 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// For each point the number of the first one at the same place: equal coordinates, -0 being 0.
 std::vector<int> firstOfEqual(const std::vector<Vec3>& points);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

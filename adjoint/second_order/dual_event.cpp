@@ -9,7 +9,7 @@
 // another text here, for a first derivative is asked for far more often, and needs neither the full inertia tensor nor
 // rotations as matrices of duals.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 namespace {
 
 std::vector<DualState> statesBefore(const Lanes& lanes, int index) {
@@ -149,4 +149,4 @@ std::vector<StateBar> DualEvent::pullback(const std::vector<StateBar>& after_bar
   return pass_.pullback(after_bar, read_bar, time_bar, scene_bar, model_bar);
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

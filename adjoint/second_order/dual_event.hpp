@@ -4,7 +4,7 @@
 #include "adjoint/impact/event_pass.hpp"
 #include "adjoint/second_order/lanes.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// One event, linearised, in dual numbers: what EventLinearization holds with the rates of all of it.
 class DualEvent {
@@ -34,4 +34,4 @@ class DualEvent {
   Pass pass_;
 };
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

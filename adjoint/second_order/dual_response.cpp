@@ -14,7 +14,7 @@
 // dM and M.eta as Taylor series; then eta = ((dM - lambda) x M + (M.eta) M)/|M|^2, or its own series for small turns.
 // The columns are dM(0) along the three axes, the moments, the products. Values of orientations are those of the arc.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 namespace {
 
 constexpr std::size_t kOrder = 20;
@@ -283,4 +283,4 @@ BodyResponse bodyResponse(const Arc& arc, double elapsed, const ResponseWanted& 
   return respond<3>(arc, elapsed, wanted);
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -5,7 +5,7 @@
 
 #include "adjoint/numeric/elementary.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 namespace {
 
 // c_k(x) = sum over j of (-x)^j/(k + 2j)!, k = 0 to 5: with x = a^2 they are cos a, sin a / a, (1 - cos a)/a^2,
@@ -122,4 +122,4 @@ DualSensitivity generalSensitivity(const Stretch& s, const BodyResponse& r) {
   return S;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

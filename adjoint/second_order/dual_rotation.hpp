@@ -5,7 +5,7 @@
 
 #include "adjoint/second_order/dual_state.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 using DualSensitivity = RotationSensitivityOf<Num>;
 
@@ -39,4 +39,4 @@ DualSensitivity sphericalSensitivity(const Stretch& stretch);
 DualSensitivity symmetricSensitivity(const Stretch& stretch, int axis);
 DualSensitivity generalSensitivity(const Stretch& stretch, const BodyResponse& response);
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/second_order/dual_state.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 namespace {
 
@@ -121,4 +121,4 @@ void modelPullback(const Body& body, const DualModel& model, std::span<const Bod
   modelPullbackOf(body, model, density, by_size ? dualSolid(body.shape, lanes) : DualSolid{}, bar, body_bar);
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -8,7 +8,7 @@
 
 /// States, models and their adjoints in dual numbers, whose rates go along up to kLanes directions of the inputs at
 /// once.
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 inline constexpr std::size_t kLanes = 4;
 using Num = Dual<static_cast<int>(kLanes)>;
@@ -62,4 +62,4 @@ void startPullback(const Body& body, const DualModel& model, std::span<const Bod
 void modelPullback(const Body& body, const DualModel& model, std::span<const BodyDerivative* const> lanes,
                    const ModelBar& bar, BodyBar& body_bar);
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

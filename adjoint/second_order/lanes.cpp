@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/second_order/lanes.hpp"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 namespace {
 
 std::vector<const SceneTangent*> scenesOf(std::span<const ReadingDirection> directions) {
@@ -78,4 +78,4 @@ StateBar Lanes::rate(int body, const DualState& state) const {
   return F;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

@@ -6,7 +6,7 @@
 #include "adjoint/second_order/dual_state.hpp"
 #include "adjoint/second_order/reading_direction.h"
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 /// A motion with its tangents along up to kLanes directions: states as dual numbers.
 class Lanes {
@@ -46,4 +46,4 @@ class Lanes {
   NVec gravity_;
 };
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

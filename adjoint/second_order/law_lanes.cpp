@@ -5,9 +5,9 @@
 
 // The impact laws with the rates of second derivatives.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 template ImpactSolutionOf<Num> solveLaw(const ImpactProblemOf<Num>&);
 template ImpactProblemDerivativeOf<Num> lawPullback(const ImpactProblemOf<Num>&, const VectorOf<Num>&);
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

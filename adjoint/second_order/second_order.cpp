@@ -15,9 +15,11 @@
 #include "adjoint/second_order/dual_rotation.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
-using namespace detail;
 
 // A seed with the rates of its weights.
 struct DualSeed {

@@ -4,8 +4,8 @@
 
 // The reverse pass of impacts of 32 digits with the rates of second derivatives.
 
-namespace carom::detail {
+namespace carom::adjoint_detail {
 
 template ImpactBars<Num> wideImpactPullback(const ImpactInputs<Num>&, const std::vector<StateBar>&);
 
-}  // namespace carom::detail
+}  // namespace carom::adjoint_detail

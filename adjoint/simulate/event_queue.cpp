@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/simulate/event_queue.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 void EventQueue::set(int body, double time, bool is_horizon) {
   const auto b = static_cast<std::uint32_t>(body);
@@ -14,4 +14,4 @@ void EventQueue::set(int body, double time, bool is_horizon) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// When each body has to be looked at next, earliest first: one entry a body, which can be changed. A tournament: every
 /// inner place of a binary tree holds the earlier of the two entries below it, so a change climbs from its leaf to the
@@ -58,4 +58,4 @@ class EventQueue {
   std::vector<Entry> tree_;  // the root is 1, below i are 2 i and 2 i + 1; leaf of body b: leaves_ + b
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

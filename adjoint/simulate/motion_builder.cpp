@@ -5,7 +5,7 @@
 
 #include "adjoint/impact/tilt.hpp"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 MotionBuilder::MotionBuilder(const Scene& scene, double duration) {
   motion.scene = std::make_shared<const Scene>(scene);
@@ -68,4 +68,4 @@ void MotionBuilder::endFlight(std::size_t body, const NotComputable& why) {
   motion.message = "the flight of '" + motion.scene->bodies[body].name + "' cannot be computed: " + why.what();
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

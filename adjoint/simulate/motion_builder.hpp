@@ -6,7 +6,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/motion/motion.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Makes a motion, event by event: what `simulate`, which finds the events, and `replay`, which knows them, do alike.
 class MotionBuilder {
@@ -41,4 +41,4 @@ class MotionBuilder {
   std::vector<const Material*> material_;  // a body each
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -16,6 +16,9 @@
 #include "adjoint/simulate/simulator.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }

@@ -7,7 +7,7 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -95,4 +95,4 @@ GuardRoot descendingRoot(const RootSearch& search, const std::function<GuardValu
   return {Outcome::unresolved, t};
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

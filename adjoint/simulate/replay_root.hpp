@@ -4,7 +4,7 @@
 #include <functional>
 
 /// The time of an impact whose features are known. Internal to adjoint/.
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// The gap of an impact at some time, and what rounding leaves of it.
 struct GuardValue {
@@ -39,4 +39,4 @@ struct GuardRoot {
 /// guess is zero to rounding already, it is the guess.
 GuardRoot descendingRoot(const RootSearch& search, const std::function<GuardValue(double)>& gapAt);
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -10,6 +10,9 @@
 #include "adjoint/simulate/simulator.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // Eigen cuts products of large matrices into blocks by the caches that it finds, and so orders their sums. Everything

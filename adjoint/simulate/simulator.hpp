@@ -10,7 +10,7 @@
 #include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/simulate.h"
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 /// Contacts closer in time than this, in one contact graph, are one instant (docs/equations.md section 4).
 inline constexpr double kInstant = 1e-10;  // s
@@ -169,4 +169,4 @@ class Simulator {
   std::vector<int> bodies_, neighbours_;
 };
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

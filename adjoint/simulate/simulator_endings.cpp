@@ -7,7 +7,7 @@
 
 // The outcomes that end a motion before its duration, each a status and a sentence.
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 // Bodies may come to overlap where no features say how they meet.
 bool Simulator::isExplained(const Prediction& next) {
@@ -174,4 +174,4 @@ void Simulator::forgetAfter(double end) {
   motion_.impacts = motion_.events.size();
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

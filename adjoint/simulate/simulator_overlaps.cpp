@@ -6,7 +6,7 @@
 
 // Pairs that overlap from the start do not meet until they have parted.
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 void Simulator::startOverlaps() {
   motion_.overlaps = contacts_.overlaps();
@@ -60,4 +60,4 @@ void Simulator::endOverlaps(double end) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -7,7 +7,7 @@
 
 // Who will meet whom next: searches of one body's future against its neighbours.
 
-namespace carom {
+namespace carom::adjoint_detail {
 
 // First impacts of one body with whoever may be near, each searched no further than the earliest one found: nothing of
 // the body's arc beyond that will happen, unless the other body is struck before. In that case the search goes on when
@@ -103,4 +103,4 @@ bool Simulator::takeNext(Prediction& next) {
   return false;
 }
 
-}  // namespace carom
+}  // namespace carom::adjoint_detail

@@ -12,6 +12,9 @@
 #include "tests/reference/replay.h"
 
 namespace carom::charts {
+
+using namespace adjoint_detail;
+
 namespace {
 
 struct Top {

@@ -6,6 +6,9 @@
 #include "adjoint/impact/impact.hpp"
 
 namespace carom::charts {
+
+using namespace adjoint_detail;
+
 namespace {
 
 struct Flight {

@@ -16,6 +16,9 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::charts {
+
+using namespace adjoint_detail;
+
 namespace {
 
 constexpr double kLongest = 1000;  // s of motion; the impacts end it

@@ -19,6 +19,9 @@
 #include "tests/reference/replayed.h"
 
 namespace carom::charts {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using reference::Knob;

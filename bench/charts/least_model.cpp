@@ -17,6 +17,9 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::charts {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // Apart by this, moments count as different (symmetryAxis): it forces the next tier, and changes the motion no more

@@ -13,6 +13,9 @@
 #include "bench/charts/flight_models.h"
 
 namespace carom::charts {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using Vec7 = Eigen::Matrix<double, 7, 1>;  // q as (x, y, z, w), then M

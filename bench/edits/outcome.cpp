@@ -12,6 +12,10 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 // Bounds may be met with rounding.

@@ -17,6 +17,9 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {
+
+using namespace editing_detail;
+
 namespace {
 
 constexpr int kMostAttempts = 20000;

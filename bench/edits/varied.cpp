@@ -7,6 +7,9 @@
 #include "editing/problem/controls/control_set.hpp"
 
 namespace carom::bench {
+
+using namespace editing_detail;
+
 namespace {
 
 bool isBall(const Body& body) { return std::holds_alternative<Sphere>(body.shape); }

@@ -27,6 +27,10 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 constexpr double kTolerance = 1e-6;  // of the natural scales; rounding alone grows to 1e-8 of them in the longest

@@ -11,6 +11,9 @@
 #include "formats/base/write_file.hpp"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 struct PageArguments {

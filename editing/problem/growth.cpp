@@ -10,6 +10,9 @@
 #include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
+
+using namespace adjoint_detail;
+
 namespace {
 
 /// |weights| of a functional of states, in natural scales.

@@ -11,8 +11,9 @@
 #include "adjoint/derivative/tangent.h"
 #include "editing/detail/messages.hpp"
 
-namespace carom {
-using namespace editing_detail;
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 namespace {
 
@@ -196,4 +197,4 @@ RowsAndJacobian evaluateByTangent(const EditProblem& problem, const Eigen::Vecto
   return out;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

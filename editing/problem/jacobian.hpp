@@ -14,7 +14,7 @@
 #include "editing/problem/controls/validity_rows.hpp"
 #include "editing/problem/rows/constraint_rows.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// Controls and constraints bound to a scene: what is varied, what is held, and what has to be simulated for it.
 struct EditProblem {
@@ -83,4 +83,4 @@ Eigen::MatrixXd jacobianByTimes(const EditProblem& problem, const Motion& motion
 RowsAndJacobian evaluateByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values);
 RowsAndJacobian evaluateByTangent(const EditProblem& problem, const Eigen::VectorXd& values);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

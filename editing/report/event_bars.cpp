@@ -5,7 +5,9 @@
 #include "adjoint/impact/event_pass.hpp"
 #include "adjoint/motion/guard.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 EventBars::EventBars(const Motion& motion, int event)
     : motion_(motion),
@@ -63,7 +65,7 @@ void EventBars::addLaw(int contact, const Mat3& K_bar, const Vec3& impulse_norma
 }
 
 SceneGradient EventBars::gradient(DerivativeTape& tape) const {
-  const detail::EventPass<double>& pass = linearization_.pass();
+  const EventPass<double>& pass = linearization_.pass();
   auto bars = pass.impact().noBars();
   auto between = pass.impact().nothingBetween();
   pass.impact().problemPullback(problem_, between, bars);
@@ -104,4 +106,4 @@ SceneGradient EventBars::gradient(DerivativeTape& tape) const {
   return g;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -8,7 +8,9 @@
 #include "adjoint/impact/law.hpp"
 
 /// Gradients of numbers that are read at an impact. Internal to editing/.
-namespace carom {
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 /// d of a number by what is known just before an event: poses, velocities and spins of its bodies, contact geometry,
 /// mass properties and coefficients. `gradient` turns it into the derivative by every number of the scene.
@@ -47,4 +49,4 @@ class EventBars {
   SceneGradient direct_;
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -12,6 +12,9 @@
 #include "editing/report/event_bars.hpp"
 
 namespace carom::editing_detail {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using Way = EventMargin::Way;

@@ -10,10 +10,7 @@
 #include "editing/session/session_solver.hpp"
 
 /// What an EditSession keeps. Internal to editing/.
-namespace carom {
-
-using editing_detail::SessionSolver;
-using editing_detail::Work;
+namespace carom::editing_detail {
 
 struct SessionNail {
   NailId id;
@@ -41,6 +38,17 @@ struct SessionDrag {
   Vec3 place = Vec3::Zero();
   std::optional<Quat> orientation;
 };
+
+/// Why a motion ends before its duration: a sentence; empty for one that does not.
+std::string earlyEnd(const Motion& motion);
+/// A body at a moment of a motion. Throws InputError naming `where` when the motion does not have it.
+BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where);
+
+}  // namespace carom::editing_detail
+
+namespace carom {
+
+using namespace editing_detail;
 
 struct EditSession::State {
   State(ContactSource& source, double length, const SessionOptions& chosen);
@@ -88,10 +96,5 @@ struct EditSession::State {
   void describe(SessionSolver& solver, SessionUpdate& update) const;
   void takeOver(const SessionSolver& solver, const SessionUpdate& update);
 };
-
-/// Why a motion ends before its duration: a sentence; empty for one that does not.
-std::string earlyEnd(const Motion& motion);
-/// A body at a moment of a motion. Throws InputError naming `where` when the motion does not have it.
-BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where);
 
 }  // namespace carom

@@ -10,9 +10,11 @@
 #include "editing/session/session_state.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
 using namespace editing_detail;
 
-std::string earlyEnd(const Motion& motion) {
+std::string editing_detail::earlyEnd(const Motion& motion) {
   if (motion.status == MotionStatus::complete) return "";
   return "The motion ends at " + number(motion.end) + " s: " + motion.message + ".";
 }
@@ -23,7 +25,8 @@ std::string behind(const std::string& sentence) { return sentence.empty() ? "" :
 
 }  // namespace
 
-BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where) {
+BodyState editing_detail::stateAtMoment(const Motion& motion, const std::string& body, const When& at,
+                                        const std::string& where) {
   const auto find = [&](const std::string& name) {
     return findAt(where, [&] { return bodyIndex(*motion.scene, name); });
   };

@@ -4,7 +4,10 @@
 #include "formats/answers/gradient_json.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
+using namespace editing_detail;
+
 namespace {
 
 using Layout = JsonWriter::Layout;
@@ -74,4 +77,4 @@ std::string checkJson(const EditProblem& problem, const DerivativeCheck& check) 
   return out.take();
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

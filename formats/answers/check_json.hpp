@@ -6,7 +6,9 @@
 
 #include "editing/problem/jacobian.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
+using namespace editing_detail;
 
 /// One column of a Jacobian by differences with one step.
 struct DifferenceColumn {
@@ -50,4 +52,4 @@ struct DerivativeCheck {
 /// The answer of `carom check --json`.
 std::string checkJson(const EditProblem& problem, const DerivativeCheck& check);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -3,7 +3,11 @@
 
 #include "formats/json/json_writer.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 using Layout = JsonWriter::Layout;
@@ -78,4 +82,4 @@ std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& valu
   return out.take();
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -5,7 +5,9 @@
 
 #include "editing/problem/jacobian.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
+using namespace editing_detail;
 
 /// "velocity.x", "size.radius", "elasticity": a control's number in the words of the scene document.
 std::string columnName(const ControlSet& controls, int variable);
@@ -18,4 +20,4 @@ std::string columnName(const ControlSet& controls, int variable);
 std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& values, const RowsAndJacobian& result,
                          bool reliable, const std::string& message);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -5,6 +5,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 void writeShapeOf(JsonWriter& out, const Body& body) {

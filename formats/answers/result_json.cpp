@@ -4,6 +4,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 using Layout = JsonWriter::Layout;

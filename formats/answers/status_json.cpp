@@ -5,6 +5,8 @@
 
 namespace carom {
 
+using namespace formats_detail;
+
 using Layout = JsonWriter::Layout;
 
 std::string errorJson(const std::string& message, const std::string& file, const std::string& pointer) {

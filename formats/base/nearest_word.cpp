@@ -5,7 +5,7 @@
 #include <cctype>
 #include <vector>
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr std::size_t kLongestWord = 60;  // what is longer is no slip of the pen
@@ -56,4 +56,4 @@ std::optional<std::string> nearestWord(std::string_view word, std::span<const st
   return nearest;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -7,7 +7,7 @@
 
 #include "formats/base/format_error.h"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 [[noreturn]] void failTooLarge(const std::string& path, const std::string& found, std::size_t limit) {
@@ -48,4 +48,4 @@ std::string readStream(std::istream& in, const std::string& name, std::size_t li
   return readAll(in, name, 0, limit);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

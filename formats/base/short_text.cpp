@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace carom {
+namespace carom::formats_detail {
 
 std::string shortNumber(double value) {
   char text[32];
@@ -22,4 +22,4 @@ std::string ellipsized(std::string_view words, std::size_t most) {
   return std::string(words);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

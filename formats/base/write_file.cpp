@@ -13,7 +13,7 @@
 
 #include "adjoint/base/errors.h"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ void writeFile(const std::string& path, std::string_view content) {
     writeInPlace(path, target.path, content);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

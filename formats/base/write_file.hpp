@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Writes `content` to the file `path`. A file is replaced as a whole: a reader sees the old one or the new one, which
 /// has the mode of the old one, and its owner where that is permitted. A symbolic link stays, and what it points to is
@@ -15,4 +15,4 @@ void writeFile(const std::string& path, std::string_view content);
 /// Throws InputError where `writeFile` could not write, as far as that can be told before: to ask before long work.
 void requireWritable(const std::string& path);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

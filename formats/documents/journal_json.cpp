@@ -11,9 +11,11 @@
 #include "formats/json/json.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
-using detail::Json;
 using Kind = SessionGesture::Kind;
 using Ending = SessionGesture::Ending;
 
@@ -58,28 +60,28 @@ Constraint readOneConstraint(const Json& value, const Document& scene, const std
   Json alone;
   alone["constraints"] = Json::array({value});
   return readAt("/constraints/0", where,
-                [&] { return detail::readConstraints(alone, scene.scene, scene.duration).at(0); });
+                [&] { return readConstraints(alone, scene.scene, scene.duration).at(0); });
 }
 
 std::vector<Control> readControlList(const Json& value, const Document& scene, const std::string& where) {
   Json alone;
   alone["controls"] = value;
-  return readAt("/controls", where, [&] { return detail::readControls(alone, scene.scene); });
+  return readAt("/controls", where, [&] { return readControls(alone, scene.scene); });
 }
 
 /// A grab is written as the constraint that it is: from that, how the body is held.
 void readGrab(SessionGesture& gesture, const std::string& where) {
   const Constraint& held = *gesture.constraint;
   if (held.at.span || !held.relative_to.empty() || !held.regions.empty())
-    detail::fail(where, "a grab with a span of time, relative to a body or with a region",
+    fail(where, "a grab with a span of time, relative to a body or with a region",
                  "one at a time or an impact");
   const bool place =
       !held.targets.empty() && (held.targets[0].quantity == "position" || held.targets[0].quantity == "point");
   const bool turn = held.targets.size() == 2 && held.targets[1].quantity == "orientation";
   if (!place || held.targets.size() > 2 || (held.targets.size() == 2 && !turn))
-    detail::fail(where, "other targets", "\"position\" or \"point\", and \"orientation\" after it where that is held");
+    fail(where, "other targets", "\"position\" or \"point\", and \"orientation\" after it where that is held");
   const Target& target = held.targets[0];
-  if (!target.min.empty() || !target.max.empty()) detail::fail(where, "a range", "numbers, or null for what is free");
+  if (!target.min.empty() || !target.max.empty()) fail(where, "a range", "numbers, or null for what is free");
   gesture.body = held.body, gesture.at = held.at;
   if (target.quantity == "point") gesture.grip.body_point = target.body_point;
   gesture.grip.orientation = turn;
@@ -92,11 +94,11 @@ void readGrab(SessionGesture& gesture, const std::string& where) {
 DragTarget readDragTarget(const Json& value, const SessionGesture& gesture, const std::string& where) {
   DragTarget target;
   target.milliseconds = value.value("milliseconds", 0.0);
-  target.place = detail::readVector(value["place"]);
+  target.place = readVector(value["place"]);
   if (value.contains("orientation")) {
     if (!gesture.grip.orientation)
-      detail::fail(where + "/orientation", detail::describe(value["orientation"]), "none: the grab does not hold it");
-    target.orientation = detail::readQuaternion(value["orientation"], where + "/orientation");
+      fail(where + "/orientation", describe(value["orientation"]), "none: the grab does not hold it");
+    target.orientation = readQuaternion(value["orientation"], where + "/orientation");
   }
   if (value.contains("cut_after")) target.cut_after = value["cut_after"].get<int>();
   return target;
@@ -142,14 +144,14 @@ JournalDocument parseJournal(std::string_view text, const std::string& name, con
   if (text.size() > kLargestJournal)
     throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
                      std::to_string(kLargestJournal) + " bytes");
-  const Json json = detail::parseJson(text, kMostJournalValues);
-  detail::requireVersion(json, "carom_journal");
-  detail::requireSchema(json, detail::DocumentKind::journal);
-  const Document scene = readAt("", "/scene", [&] { return detail::readDocument(json["scene"], folder); });
+  const Json json = parseJson(text, kMostJournalValues);
+  requireVersion(json, "carom_journal");
+  requireSchema(json, DocumentKind::journal);
+  const Document scene = readAt("", "/scene", [&] { return readDocument(json["scene"], folder); });
   JournalDocument document;
   document.folder = folder;
   document.name = scene.name, document.notes = scene.notes;
-  document.schema = detail::textOr(json, "$schema");
+  document.schema = textOr(json, "$schema");
   document.journal = {scene.scene, scene.duration, scene.controls, scene.constraints, readOptions(json), {}};
   const Json& gestures = json["gestures"];
   for (std::size_t i = 0; i < gestures.size(); ++i)
@@ -160,18 +162,18 @@ JournalDocument parseJournal(std::string_view text, const std::string& name, con
 }
 
 JournalDocument readJournal(const std::string& path) {
-  return parseJournal(readFile(path, "a journal", kLargestJournal), path, detail::folderOf(path));
+  return parseJournal(readFile(path, "a journal", kLargestJournal), path, folderOf(path));
 }
 
 void saveJournal(const std::string& path, const JournalDocument& journal) try {
   Document scene;
   scene.scene = journal.journal.scene;
   scene.folder = journal.folder;
-  detail::moveTo(detail::folderOf(path), scene);
+  moveTo(folderOf(path), scene);
   JournalDocument moved = journal;
   moved.journal.scene = scene.scene;
   moved.folder = scene.folder;
-  moved.schema = detail::movedSchema(journal.schema, journal.folder, scene.folder);
+  moved.schema = movedSchema(journal.schema, journal.folder, scene.folder);
   const std::string text = writeJournal(moved);
   parseJournal(text, path, moved.folder);
   writeFile(path, text);

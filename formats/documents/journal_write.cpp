@@ -7,6 +7,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 using Layout = JsonWriter::Layout;
@@ -31,13 +34,13 @@ void writeOptions(JsonWriter& out, const SessionOptions& options) {
 
 /// One constraint has to stay one: what would become several objects is refused.
 void writeOne(JsonWriter& out, const char* member, const Constraint& constraint, const std::string& where) {
-  detail::requireWritable(constraint, where + "/" + member);
+  requireWritable(constraint, where + "/" + member);
   for (std::size_t i = 0; i < constraint.targets.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (constraint.targets[i].quantity == constraint.targets[k].quantity)
         throw InputError(where + "/" + member, "found two targets \"" + constraint.targets[i].quantity +
                                                    "\", expected one of a kind: a second nail can hold the other");
-  detail::writeConstraint(out.key(member), constraint);
+  writeConstraint(out.key(member), constraint);
 }
 
 void writeTarget(JsonWriter& out, const DragTarget& target) {
@@ -55,7 +58,7 @@ void writeGesture(JsonWriter& out, const SessionGesture& gesture, const std::str
   switch (gesture.kind) {
     case Kind::controls:
       out.key("controls").beginArray();
-      for (const Control& control : gesture.controls) detail::writeControl(out, control);
+      for (const Control& control : gesture.controls) writeControl(out, control);
       out.endArray();
       break;
     case Kind::nail:
@@ -96,7 +99,7 @@ std::string writeJournal(const JournalDocument& document) {
   out.beginObject();
   if (!document.schema.empty()) out.key("$schema").text(document.schema);
   out.key("carom_journal").integer(1);
-  detail::writeDocument(out.key("scene"), {journal.scene, journal.duration, journal.controls, journal.nails,
+  writeDocument(out.key("scene"), {journal.scene, journal.duration, journal.controls, journal.nails,
                                            document.folder, document.name, document.notes, ""});
   writeOptions(out, journal.options);
   out.key("gestures").beginArray();

@@ -13,6 +13,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,7 +89,7 @@ class MeshFiles {
 
  private:
   std::string nameOf(const std::string& file, const Surface& surface, const std::string& body) {
-    return file.empty() ? fileOf(surface, body) : detail::rebased(file, from_, folder_.string());
+    return file.empty() ? fileOf(surface, body) : rebased(file, from_, folder_.string());
   }
 
   std::string fileOf(const Surface& surface, const std::string& body) {

@@ -11,38 +11,40 @@
 #include "formats/json/json.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
-using detail::Json;
 
 void rebaseFiles(Shape& shape, const std::string& from, const std::string& to) {
   if (auto* hull = std::get_if<Hull>(&shape); hull != nullptr && !hull->file.empty())
-    hull->file = detail::rebased(hull->file, from, to);
+    hull->file = rebased(hull->file, from, to);
   if (auto* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && !mesh->file.empty())
-    mesh->file = detail::rebased(mesh->file, from, to);
+    mesh->file = rebased(mesh->file, from, to);
   if (auto* compound = std::get_if<Compound>(&shape))
     for (CompoundPart& part : compound->parts) rebaseFiles(part.shape, from, to);
 }
 
 }  // namespace
 
-std::string detail::folderOf(const std::string& path) {
+std::string formats_detail::folderOf(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
 }
 
-std::string detail::movedSchema(const std::string& schema, const std::string& from, const std::string& to) {
+std::string formats_detail::movedSchema(const std::string& schema, const std::string& from, const std::string& to) {
   const bool address = schema.find(':') != std::string::npos;  // https://..., file:///..., urn:...
   return schema.empty() || address ? schema : rebased(schema, from, to);
 }
 
-void detail::moveTo(const std::string& folder, Document& document) {
+void formats_detail::moveTo(const std::string& folder, Document& document) {
   document.schema = movedSchema(document.schema, document.folder, folder);
   for (Body& body : document.scene.bodies) rebaseFiles(body.shape, document.folder, folder);
   document.folder = folder;
 }
 
-Document detail::readDocument(const Json& json, const std::string& folder) {
+Document formats_detail::readDocument(const Json& json, const std::string& folder) {
   Document document;
   document.folder = folder;
   document.schema = textOr(json, "$schema");
@@ -61,21 +63,21 @@ Document parseDocument(std::string_view text, const std::string& name, const std
   if (text.size() > kLargestDocument)
     throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
                      std::to_string(kLargestDocument) + " bytes");
-  const Json json = detail::parseJson(text);
-  detail::requireVersion(json, "carom");
-  detail::requireSchema(json);
-  return detail::readDocument(json, folder);
+  const Json json = parseJson(text);
+  requireVersion(json, "carom");
+  requireSchema(json);
+  return formats_detail::readDocument(json, folder);
 } catch (const InputError& error) {
   throw FormatError(name, error.where(), error.message());
 }
 
 Document readDocument(const std::string& path) {
-  return parseDocument(readFile(path, "a scene document", kLargestDocument), path, detail::folderOf(path));
+  return parseDocument(readFile(path, "a scene document", kLargestDocument), path, folderOf(path));
 }
 
 std::string writeDocumentIn(const std::string& folder, const Document& document) {
   Document moved = document;
-  detail::moveTo(folder, moved);
+  moveTo(folder, moved);
   std::string text = writeDocument(moved);
   try {
     parseDocument(text, "", moved.folder);
@@ -86,7 +88,7 @@ std::string writeDocumentIn(const std::string& folder, const Document& document)
 }
 
 void saveDocument(const std::string& path, const Document& document) try {
-  writeFile(path, writeDocumentIn(detail::folderOf(path), document));
+  writeFile(path, writeDocumentIn(folderOf(path), document));
 } catch (const FormatError&) {
   throw;
 } catch (const InputError& error) {

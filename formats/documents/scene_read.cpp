@@ -9,7 +9,7 @@
 #include "formats/json/json.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 template <class Items>
@@ -175,4 +175,4 @@ Scene readScene(const Json& document, SurfaceFiles& files) {
   return scene;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -6,7 +6,7 @@
 #include "formats/json/json.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 void requireWithin(double time, double duration, const std::string& where) {
@@ -165,4 +165,4 @@ std::vector<Constraint> readConstraints(const Json& document, const Scene& scene
   return constraints;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

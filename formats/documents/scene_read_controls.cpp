@@ -6,7 +6,10 @@
 #include "formats/json/json.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
+
+using namespace editing_detail;
+
 namespace {
 
 /// Which members beside vary, components, min, max and weight a control of this owner has.
@@ -128,4 +131,4 @@ std::vector<Control> readControls(const Json& document, const Scene& scene) {
   return controls;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

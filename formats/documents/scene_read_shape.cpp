@@ -3,7 +3,7 @@
 #include "formats/json/json.hpp"
 #include "formats/shapes/rows.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 Shape readShape(const Json& value, const std::string& where, SurfaceFiles& files) {
   const shapes::FormatKind* kind = nullptr;
@@ -19,4 +19,4 @@ Shape readShape(const Json& value, const std::string& where, SurfaceFiles& files
   return kind->read(value[word], pointerTo(where, word), files);
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

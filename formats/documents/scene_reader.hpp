@@ -5,7 +5,7 @@
 #include "formats/base/document.h"
 #include "formats/json/json.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 class SurfaceFiles;
 
@@ -40,4 +40,4 @@ int readBodyName(const Json& value, const std::string& where, const Scene& scene
 /// Words of the format for the rules of combination, in the order of Combine.
 const std::vector<std::string>& combineWords();
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

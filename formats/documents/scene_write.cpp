@@ -13,11 +13,15 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
+
+using namespace editing_detail;
+using namespace formats_detail;
+
 namespace {
 
 using Layout = JsonWriter::Layout;
 
-const std::string& wordOf(Combine rule) { return detail::combineWords()[static_cast<std::size_t>(rule)]; }
+const std::string& wordOf(Combine rule) { return combineWords()[static_cast<std::size_t>(rule)]; }
 
 void writeText(JsonWriter& out, const char* member, const std::string& text) {
   if (!text.empty()) out.key(member).text(text);
@@ -100,7 +104,7 @@ void writeBody(JsonWriter& out, const Body& body) {
   if (body.mass) out.key("mass").number(*body.mass);
   if (body.density) out.key("density").number(*body.density);
   writeInertia(out, body.inertia);
-  detail::writeShape(out.key("shape"), body.shape);
+  writeShape(out.key("shape"), body.shape);
   if (body.center_of_mass) out.key("center_of_mass").vector(*body.center_of_mass);
   // A floor need not say that it lies at the origin.
   if (!body.fixed || !body.position.isZero(0)) out.key("position").vector(body.position);
@@ -131,7 +135,7 @@ void writeBound(JsonWriter& out, const char* member, const std::vector<double>& 
   }
 }
 
-void writeControl(JsonWriter& out, const Control& control) {
+void writeControlObject(JsonWriter& out, const Control& control) {
   const ControlKind* kind = findControlKind(control.vary);
   out.beginObject(Layout::line);
   out.key("vary").text(control.vary);
@@ -158,24 +162,24 @@ void writeList(JsonWriter& out, const char* member, const Items& items, Write wr
 void requireWritableDocument(const Document& document) {
   validate(document.scene);
   for (std::size_t i = 0; i < document.scene.bodies.size(); ++i)
-    detail::requireFiles(document.scene.bodies[i].shape, "/bodies/" + std::to_string(i) + "/shape");
-  detail::requireFinite("/duration", document.duration);
+    requireFiles(document.scene.bodies[i].shape, "/bodies/" + std::to_string(i) + "/shape");
+  requireFinite("/duration", document.duration);
   for (std::size_t i = 0; i < document.controls.size(); ++i) {
     const Control& control = document.controls[i];
     const std::string where = "/controls/" + std::to_string(i);
-    for (const double bound : control.min) detail::requireFinite(where + "/min", bound);
-    for (const double bound : control.max) detail::requireFinite(where + "/max", bound);
-    detail::requireFinite(where + "/weight", control.weight);
+    for (const double bound : control.min) requireFinite(where + "/min", bound);
+    for (const double bound : control.max) requireFinite(where + "/max", bound);
+    requireFinite(where + "/weight", control.weight);
   }
   for (std::size_t i = 0; i < document.constraints.size(); ++i)
-    detail::requireWritable(document.constraints[i], "/constraints/" + std::to_string(i));
+    requireWritable(document.constraints[i], "/constraints/" + std::to_string(i));
 }
 
 }  // namespace
 
-void detail::writeControl(JsonWriter& out, const Control& control) { carom::writeControl(out, control); }
+void formats_detail::writeControl(JsonWriter& out, const Control& control) { writeControlObject(out, control); }
 
-void detail::writeDocument(JsonWriter& out, const Document& document) {
+void formats_detail::writeDocument(JsonWriter& out, const Document& document) {
   requireWritableDocument(document);
   out.beginObject();
   writeText(out, "$schema", document.schema);
@@ -191,14 +195,14 @@ void detail::writeDocument(JsonWriter& out, const Document& document) {
   }
   writeList(out, "bodies", document.scene.bodies, writeBody);
   writeList(out, "tilts", document.scene.tilts, writeTilt);
-  writeList(out, "controls", document.controls, writeControl);
-  writeList(out, "constraints", document.constraints, detail::writeConstraint);
+  writeList(out, "controls", document.controls, writeControlObject);
+  writeList(out, "constraints", document.constraints, writeConstraint);
   out.endObject();
 }
 
 std::string writeDocument(const Document& document) {
   JsonWriter out;
-  detail::writeDocument(out, document);
+  writeDocument(out, document);
   return out.take();
 }
 

@@ -9,7 +9,7 @@
 #include "formats/documents/scene_writer.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 using Layout = JsonWriter::Layout;
@@ -180,4 +180,4 @@ void writeConstraint(JsonWriter& out, const Constraint& constraint) {
   }
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -6,7 +6,7 @@
 #include "formats/json/json_writer.hpp"
 #include "formats/shapes/rows.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 // A shape of a few numbers stands on one line.
 void beginShape(JsonWriter& out, const Shape& shape) {
@@ -32,4 +32,4 @@ void requireFiles(const Shape& shape, const std::string& where) {
       requireFiles(compound->parts[i].shape, place + "/" + std::to_string(i));
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -7,13 +7,14 @@
 #include "adjoint/scene/shape.h"
 
 namespace carom {
-
 struct Constraint;
 struct Control;
 struct Document;
-class JsonWriter;
+}
 
-namespace detail {
+namespace carom::formats_detail {
+
+class JsonWriter;
 
 /// Writes a whole document as an object. Throws InputError for what the format cannot hold.
 void writeDocument(JsonWriter& out, const Document& document);
@@ -36,5 +37,4 @@ void requireWritable(const Constraint& constraint, const std::string& where);
 /// Throws InputError for a mesh without a file: the document has no other form for it.
 void requireFiles(const Shape& shape, const std::string& where);
 
-}  // namespace detail
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -8,7 +8,7 @@
 #include "formats/mesh/mesh_file.h"
 #include "ode_bridge/convex_hull.h"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ std::string rebased(const std::string& file, const std::string& from, const std:
   return (relative.empty() ? place : relative).generic_string();
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

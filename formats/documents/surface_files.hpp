@@ -9,7 +9,7 @@
 
 #include "adjoint/scene/surface.h"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 /// The surfaces of the mesh files that one document names: each file is read once, and bodies share its surface.
 class SurfaceFiles {
@@ -35,4 +35,4 @@ class SurfaceFiles {
 /// stays as it was where the folders are the same or it is absolute.
 std::string rebased(const std::string& file, const std::string& from, const std::string& to);
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -3,7 +3,9 @@
 
 #include "adjoint/base/arguments.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
+using namespace adjoint_detail;
 
 double arcEnd(const Motion& motion, int body, int k) {
   const auto& arcs = motion.world_lines[checkedIndex("arcEnd", "body", body, motion.world_lines.size())].arcs;
@@ -45,4 +47,4 @@ Extent motionExtent(const Motion& motion) {
   return all.isEmpty() ? Extent(Vec3::Constant(-0.5), Vec3::Constant(0.5)) : all;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

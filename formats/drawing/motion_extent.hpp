@@ -4,7 +4,7 @@
 #include "adjoint/motion/motion.h"
 #include "formats/drawing/shape_extent.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// The time at which arc k of a body ends: the start of the next one, or the end of the motion.
 double arcEnd(const Motion& motion, int body, int k);
@@ -18,4 +18,4 @@ Extent pathExtent(const Motion& motion, int body);
 /// Box around everything that moves, shapes included; a unit box at the origin when nothing does.
 Extent motionExtent(const Motion& motion);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

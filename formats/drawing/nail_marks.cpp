@@ -8,7 +8,10 @@
 #include "editing/problem/rows/refined_times.hpp"
 #include "formats/base/short_text.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
+using namespace editing_detail;
+
 namespace {
 
 /// When a nail holds: just before an event, or at a time.
@@ -161,4 +164,4 @@ std::vector<RegionMark> regionsOf(const Document& document) {
   return marks;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -8,7 +8,7 @@
 #include "adjoint/motion/motion.h"
 #include "formats/base/document.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Where a nailed place may lie: in its axes between two corners, which are equal in components with a target and
 /// infinite where nothing is asked.
@@ -44,4 +44,4 @@ struct RegionMark {
 };
 std::vector<RegionMark> regionsOf(const Document& document);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -7,7 +7,10 @@
 
 #include "adjoint/base/arguments.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
+using namespace adjoint_detail;
+
 namespace {
 
 constexpr Colour rgb(int code) { return {(code >> 16 & 255) / 255.0, (code >> 8 & 255) / 255.0, (code & 255) / 255.0}; }
@@ -43,4 +46,4 @@ Colour bodyColour(const Scene& scene, int body) {
   return fixed ? kFixed[rank % kFixed.size()] : kMoving[rank % kMoving.size()];
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

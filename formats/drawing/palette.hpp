@@ -7,7 +7,7 @@
 
 #include "adjoint/scene/scene.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// An sRGB colour, components in [0, 1].
 struct Colour {
@@ -25,4 +25,4 @@ std::vector<Colour> bodyColours();
 /// The colour of a body in 3-D exports: moving bodies take distinct colours in their order, fixed ones take greys.
 Colour bodyColour(const Scene& scene, int body);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

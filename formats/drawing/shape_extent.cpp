@@ -3,7 +3,7 @@
 
 #include "formats/shapes/rows.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 Extent shapeExtent(const Shape& shape, const Vec3& x, const Quat& q) {
   return shapes::formatOf(shape).extent(shape, {x, q});
@@ -11,4 +11,4 @@ Extent shapeExtent(const Shape& shape, const Vec3& x, const Quat& q) {
 
 double radiusAbout(const Shape& shape, const Vec3& point) { return shapes::formatOf(shape).radius_about(shape, point); }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -6,7 +6,7 @@
 
 #include "formats/shapes/rows.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr int kMeridians = 32;  // multiples of 4 and 2: the accent changes at each quarter and at the equator
@@ -80,4 +80,4 @@ TriangleMesh meshOf(const Shape& shape, double plane_half_width) {
   return shapes::formatOf(shape).mesh(shape, plane_half_width);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -6,7 +6,7 @@
 
 #include "adjoint/scene/scene.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Triangles of one surface, counter-clockwise seen from outside; `accent` triangles take a second shade, so that the
 /// turning of a round body can be seen.
@@ -42,4 +42,4 @@ void append(TriangleMesh& whole, const TriangleMesh& part, const Vec3& x, const 
 /// Adds the faces of a hull or mesh, coordinates times `scale`.
 void addSurface(TriangleMesh& mesh, const Surface& surface, double scale);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "formats/drawing/triangle_mesh.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 // Faces that meet at a smaller angle than 25 degrees are shaded as one bent surface.
@@ -59,4 +60,4 @@ void addSurface(TriangleMesh& mesh, const Surface& surface, double scale) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -8,6 +8,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr const char* kHead = R"(# A motion for Blender, written by carom: blender --python <this file>

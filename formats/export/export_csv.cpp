@@ -10,6 +10,9 @@
 #include "formats/base/write_file.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr const char* kColumns =

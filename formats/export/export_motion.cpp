@@ -12,6 +12,9 @@
 #include "formats/svg/export_svg.h"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 struct Exported {

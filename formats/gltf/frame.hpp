@@ -7,6 +7,8 @@
 
 namespace carom::gltf {
 
+using namespace formats_detail;
+
 /// What a chain of nodes does to a point: p_outer = translation + rotation * (stretch p). The stretch is a multiple of
 /// the identity or diagonal wherever the chain allows it.
 ///

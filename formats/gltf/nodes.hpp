@@ -16,6 +16,8 @@
 
 namespace carom::gltf {
 
+using namespace formats_detail;
+
 /// A capsule or cylinder along z. Heights of capsules are between the centres of their ends.
 struct Tapered {
   bool capsule = false;
@@ -87,7 +89,7 @@ struct PhysicsFile {
 
 /// Reads the default scene of a document that has passed checkGltf. What is there but not supported is listed in the
 /// report by name. Throws InputError with the JSON pointer for values of the wrong kind and indices out of range.
-PhysicsFile readPhysics(const detail::Json& document, ImportReport& report);
+PhysicsFile readPhysics(const Json& document, ImportReport& report);
 
 /// Values below are the same when they differ by no more than this, relative to the length of their vector.
 inline constexpr double kSame = 1e-12;

@@ -5,7 +5,7 @@
 #include "formats/gltf/axes.hpp"
 #include "formats/shapes/rows.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 using gltf::PhysicsNode;
@@ -81,4 +81,4 @@ std::vector<const Surface*> surfacesOf(const Shape& shape) {
   return all;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

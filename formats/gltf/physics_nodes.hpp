@@ -8,7 +8,7 @@
 #include "adjoint/motion/motion.h"
 #include "formats/gltf/nodes.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Where the surfaces of a scene are in a file: indices of meshes.
 using SurfaceMeshes = std::map<const Surface*, int>;
@@ -38,4 +38,4 @@ gltf::PhysicsNode physicsNodeOf(const Scene& scene, int body, const BodyModel& m
 /// All surfaces of hulls and meshes in a shape, parts of compounds too.
 std::vector<const Surface*> surfacesOf(const Shape& shape);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -5,6 +5,9 @@
 #include "formats/gltf/nodes.hpp"
 
 namespace carom::gltf {
+
+using namespace formats_detail;
+
 namespace {
 
 /// What a node says about physics, as words and numbers; each number with the size that its rounding goes by.

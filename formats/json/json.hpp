@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 using Json = nlohmann::ordered_json;  // members in the order of the document
 
@@ -44,4 +44,4 @@ std::string expectedOf(std::string_view word, const std::vector<std::string>& kn
 /// may break every other rule.
 void requireVersion(const Json& document, const std::string& name);
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -7,7 +7,7 @@
 #include "formats/json/json.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 constexpr std::size_t kLongestExcerpt = 60;
@@ -115,4 +115,4 @@ void requireVersion(const Json& document, const std::string& name) {
   if (*version != 1) fail('/' + name, describe(*version), "1, the version of the format that this program reads");
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

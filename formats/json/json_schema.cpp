@@ -12,7 +12,7 @@
 #include "formats/json/json.hpp"
 #include "formats/json/schema_acceptance.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 extern const char* const kSceneSchema;    // made from scene.schema.json
 extern const char* const kJournalSchema;  // made from journal.schema.json
@@ -229,4 +229,4 @@ void requireSchema(const Json& document, DocumentKind kind) {
   explain(place);
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -10,7 +10,7 @@
 #include "formats/json/json.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 constexpr std::size_t kMaxDepth = 48;                 // a scene with 16 compounds in one another needs 40
@@ -173,4 +173,4 @@ Json parseJson(std::string_view text, std::size_t most_values) {
   return builder.take();
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

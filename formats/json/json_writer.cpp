@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 /// Length of the UTF-8 sequence that starts at text[i], or 0 if there is no valid one.
@@ -148,4 +148,4 @@ std::string JsonWriter::take() {
   return std::exchange(out_, {});
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

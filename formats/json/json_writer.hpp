@@ -8,7 +8,7 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// The shortest decimal text that reads back as exactly this double (at most 17 significant digits).
 /// "null" for a number that is not finite: JSON has no such numbers.
@@ -59,4 +59,4 @@ class JsonWriter {
   bool after_key_ = false;
 };
 
-}  // namespace carom
+}  // namespace carom::formats_detail

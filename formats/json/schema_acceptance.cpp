@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 using Object = Json::object_t;
@@ -175,4 +175,4 @@ bool keepsSchema(const Json& document, const Json& schema) {
   return walk.keeps(document, schema) && walk.certain();
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

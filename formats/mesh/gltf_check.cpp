@@ -11,7 +11,7 @@
 #include "formats/json/json_writer.hpp"
 #include "formats/mesh/triangle_soup.h"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 namespace {
 
 /// A value and where it stands.
@@ -313,4 +313,4 @@ class GltfCheck {
 
 void checkGltf(const Json& document) { GltfCheck(document).run(); }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -13,11 +13,8 @@
 #include "formats/json/json.hpp"
 #include "formats/mesh/gltf_reader.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
-
-using detail::fail;
-using detail::pointerTo;
 
 static_assert(std::endian::native == std::endian::little, "glTF's numbers are little-endian");
 
@@ -307,4 +304,4 @@ TriangleSoup parseGltfMesh(std::string_view bytes, const std::string& folder) {
   return soup;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

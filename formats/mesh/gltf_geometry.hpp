@@ -16,7 +16,7 @@ class Model;
 class Node;
 }  // namespace tinygltf
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// glTF's axes (y up) to ours (z up): (x, y, z) -> (x, -z, y).
 Mat3 zUpFromYUp();
@@ -32,7 +32,7 @@ tinygltf::Model loadGltf(const std::string& path);
 tinygltf::Model parseGltf(std::string_view bytes, const std::string& folder);
 
 /// The document of a .gltf or .glb file as it is written, unchecked.
-detail::Json gltfJson(std::string_view bytes);
+Json gltfJson(std::string_view bytes);
 
 /// Transform of a node relative to its parent. Throws InputError, at `where`, for a matrix or numbers that no rigid
 /// body can have: singular, not affine, a rotation that is no unit quaternion.
@@ -51,4 +51,4 @@ void appendMeshTriangles(const tinygltf::Model& model, int mesh, const Eigen::Af
 void appendSceneTriangles(const tinygltf::Model& model, std::vector<Vec3>& vertices,
                           std::vector<std::array<int, 3>>& triangles);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -18,11 +18,9 @@
 #include "formats/mesh/gltf_geometry.hpp"
 #include "formats/mesh/triangle_soup.h"
 
-namespace carom {
-namespace {
+namespace carom::formats_detail {
 
-using detail::fail;
-using detail::Json;
+namespace {
 
 constexpr std::size_t kMaxValues = 4'000'000;
 
@@ -153,7 +151,7 @@ std::vector<tinygltf::Buffer> readBuffers(const Json& document, const Container&
   std::vector<tinygltf::Buffer> buffers;
   const auto list = document.find("buffers");
   for (std::size_t i = 0; list != document.end() && i < list->size(); ++i) {
-    const std::string where = detail::pointerTo("/buffers", i);
+    const std::string where = pointerTo("/buffers", i);
     const Json& buffer = (*list)[i];
     const auto length = buffer["byteLength"].get<std::size_t>();
     const std::string bytes = bufferBytes(buffer, container, i == 0, folder, where);
@@ -190,19 +188,19 @@ void strip(Json& document) {
 
 std::string shortLine(std::string text) {
   constexpr std::size_t kMost = 300;
-  text = detail::oneLine(std::move(text));
+  text = oneLine(std::move(text));
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text.substr(0, kMost);
 }
 
 }  // namespace
 
-detail::Json gltfJson(std::string_view bytes) { return detail::parseJson(unpacked(bytes).json, kMaxValues); }
+Json gltfJson(std::string_view bytes) { return parseJson(unpacked(bytes).json, kMaxValues); }
 
 tinygltf::Model parseGltf(std::string_view bytes, const std::string& folder) {
   const Container container = unpacked(bytes);
-  Json document = detail::parseJson(container.json, kMaxValues);
-  detail::checkGltf(document);
+  Json document = parseJson(container.json, kMaxValues);
+  checkGltf(document);
   std::vector<tinygltf::Buffer> buffers = readBuffers(document, container, folder);
   const std::size_t meshes = document.contains("meshes") ? document["meshes"].size() : 0;
   strip(document);
@@ -232,4 +230,4 @@ tinygltf::Model loadGltf(const std::string& path) try {
   throw FormatError(path, error.where(), error.message());
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

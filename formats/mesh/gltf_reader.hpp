@@ -6,7 +6,7 @@
 
 #include "formats/mesh/triangle_soup.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// The triangles (lists, strips and fans) of all meshes of the default scene of a glTF 2.0 document, text or binary,
 /// with the transforms of their nodes, and y up turned to z up: (x, y, z) -> (x, -z, y). Vertices that no triangle uses
@@ -15,4 +15,4 @@ namespace carom {
 /// Throws InputError whose place is the JSON pointer.
 TriangleSoup parseGltfMesh(std::string_view bytes, const std::string& folder);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

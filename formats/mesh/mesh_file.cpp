@@ -12,6 +12,9 @@
 #include "formats/mesh/obj_reader.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 TriangleSoup readObj(const std::string& path) try {

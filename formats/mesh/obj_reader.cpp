@@ -10,7 +10,7 @@
 #include "adjoint/base/errors.h"
 #include "formats/json/json_writer.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr std::size_t kMostCorners = 10'000;  // of one polygon
@@ -239,4 +239,4 @@ class ObjParser {
 
 TriangleSoup parseObj(std::string_view text) { return ObjParser(text).parse(); }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

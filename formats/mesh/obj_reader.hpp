@@ -5,7 +5,7 @@
 
 #include "formats/mesh/triangle_soup.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Reads Wavefront OBJ: vertices `v x y z` (a weight or colours behind them are ignored) and faces `f` of three corners
 /// or more, as v, v/vt, v//vn or v/vt/vn (what stands behind a slash may be missing), counted from 1 or, if negative,
@@ -16,4 +16,4 @@ namespace carom {
 /// is "line 12".
 TriangleSoup parseObj(std::string_view text);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

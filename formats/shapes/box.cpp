@@ -8,6 +8,9 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
 // Each edge of a box runs along one axis, between the faces of the two others.
@@ -51,8 +54,8 @@ TriangleMesh boxMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Box>) {
   return {
-      .read = [](const detail::Json& value, const std::string&,
-                 detail::SurfaceFiles&) -> Shape { return Box{detail::readVector(value["size"])}; },
+      .read = [](const Json& value, const std::string&,
+                 SurfaceFiles&) -> Shape { return Box{readVector(value["size"])}; },
       .write = [](JsonWriter& out,
                   const Shape& s) { out.beginObject().key("size").vector(std::get<Box>(s).size).endObject(); },
       .on_one_line = onOneLine,

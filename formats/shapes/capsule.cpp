@@ -10,6 +10,9 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
 TriangleMesh capsuleMesh(const Shape& s, double) {
@@ -27,7 +30,7 @@ TriangleMesh capsuleMesh(const Shape& s, double) {
 FormatKind formatRow(KindOf<Capsule>) {
   return {
       .read =
-          [](const detail::Json& value, const std::string&, detail::SurfaceFiles&) -> Shape {
+          [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
             return Capsule{numberOf(value, "radius"), numberOf(value, "height")};
           },
       .write = [](JsonWriter& out,

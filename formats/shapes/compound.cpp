@@ -12,18 +12,21 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
 const std::vector<CompoundPart>& partsOf(const Shape& s) { return std::get<Compound>(s).parts; }
 
-Shape readCompound(const detail::Json& value, const std::string& where, detail::SurfaceFiles& files) {
+Shape readCompound(const Json& value, const std::string& where, SurfaceFiles& files) {
   Compound compound;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    const std::string place = detail::pointerTo(where, i);
-    CompoundPart part{detail::readShape(value[i], place, files)};
-    if (value[i].contains("position")) part.position = detail::readVector(value[i]["position"]);
+    const std::string place = pointerTo(where, i);
+    CompoundPart part{readShape(value[i], place, files)};
+    if (value[i].contains("position")) part.position = readVector(value[i]["position"]);
     if (value[i].contains("orientation"))
-      part.orientation = detail::readQuaternion(value[i]["orientation"], place + "/orientation");
+      part.orientation = readQuaternion(value[i]["orientation"], place + "/orientation");
     compound.parts.push_back(std::move(part));
   }
   return compound;
@@ -32,7 +35,7 @@ Shape readCompound(const detail::Json& value, const std::string& where, detail::
 void writeCompound(JsonWriter& out, const Shape& s) {
   out.beginArray();
   for (const CompoundPart& part : partsOf(s)) {
-    detail::beginShape(out, part.shape);
+    beginShape(out, part.shape);
     if (!part.position.isZero(0)) out.key("position").vector(part.position);
     if (part.orientation.coeffs() != Quat::Identity().coeffs()) out.key("orientation").quaternion(part.orientation);
     out.endObject();

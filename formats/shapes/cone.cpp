@@ -11,6 +11,9 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr int kConePoints = 48;  // of the outline of its base
@@ -56,7 +59,7 @@ TriangleMesh coneMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Cone>) {
   return {
-      .read = [](const detail::Json& value, const std::string&, detail::SurfaceFiles&) -> Shape {
+      .read = [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
         return Cone{numberOf(value, "radius"), numberOf(value, "height")};
       },
       .write = [](JsonWriter& out, const Shape& s) { writeRound(out, std::get<Cone>(s).radius, std::get<Cone>(s).height); },

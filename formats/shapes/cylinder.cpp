@@ -10,6 +10,9 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
 void cylinderContours(Contours& out, const Shape& s, const ShapePose& at, const Vec3& viewer) {
@@ -45,7 +48,7 @@ TriangleMesh cylinderMesh(const Shape& s, double) {
 FormatKind formatRow(KindOf<Cylinder>) {
   return {
       .read =
-          [](const detail::Json& value, const std::string&, detail::SurfaceFiles&) -> Shape {
+          [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
             return Cylinder{numberOf(value, "radius"), numberOf(value, "height")};
           },
       .write = [](JsonWriter& out,

@@ -11,11 +11,14 @@
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
-std::shared_ptr<const Surface> hullOfPoints(const detail::Json& value, const std::string& where) {
+std::shared_ptr<const Surface> hullOfPoints(const Json& value, const std::string& where) {
   std::vector<Vec3> points;
-  for (const detail::Json& point : value) points.push_back(detail::readVector(point));
+  for (const Json& point : value) points.push_back(readVector(point));
   try {
     return convexHull(points);
   } catch (const InputError& error) {
@@ -23,10 +26,10 @@ std::shared_ptr<const Surface> hullOfPoints(const detail::Json& value, const std
   }
 }
 
-Shape readHull(const detail::Json& value, const std::string& where, detail::SurfaceFiles& files) {
+Shape readHull(const Json& value, const std::string& where, SurfaceFiles& files) {
   const auto points = value.find("points"), file = value.find("file");
   if ((points == value.end()) == (file == value.end()))
-    detail::fail(where, points == value.end() ? detail::describe(value) : "both \"points\" and \"file\"",
+    fail(where, points == value.end() ? describe(value) : "both \"points\" and \"file\"",
          "one of \"points\" and \"file\"");
   Hull hull;
   hull.scale = scaleOf(value);

@@ -9,9 +9,12 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
-Shape readMesh(const detail::Json& value, const std::string& where, detail::SurfaceFiles& files) {
+Shape readMesh(const Json& value, const std::string& where, SurfaceFiles& files) {
   Mesh mesh;
   mesh.scale = scaleOf(value);
   mesh.file = value["file"].get<std::string>();

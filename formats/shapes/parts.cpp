@@ -8,6 +8,8 @@
 
 namespace carom::shapes {
 
+using namespace formats_detail;
+
 Extent surfaceExtent(const Surface& surface, double scale, const ShapePose& at) {
   Extent extent;
   for (const Vec3& p : surface.vertices) extent.extend(at.x + at.q * (scale * p));
@@ -20,13 +22,13 @@ double surfaceRadius(const Surface& surface, double scale, const Vec3& point) {
   return most;
 }
 
-double numberOf(const detail::Json& value, const char* member) { return value[member].get<double>(); }
+double numberOf(const Json& value, const char* member) { return value[member].get<double>(); }
 
 void writeRound(JsonWriter& out, double radius, double height) {
   out.beginObject().key("radius").number(radius).key("height").number(height).endObject();
 }
 
-double scaleOf(const detail::Json& value) { return value.contains("scale") ? numberOf(value, "scale") : 1; }
+double scaleOf(const Json& value) { return value.contains("scale") ? numberOf(value, "scale") : 1; }
 
 void writeScale(JsonWriter& out, double scale) {
   if (scale != 1) out.key("scale").number(scale);

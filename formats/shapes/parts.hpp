@@ -6,12 +6,16 @@
 #include "formats/base/extent.hpp"
 #include "formats/json/json.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 struct ColliderAdder;
 class JsonWriter;
 
-namespace shapes {
+}  // namespace carom::formats_detail
+
+namespace carom::shapes {
+
+using namespace formats_detail;
 
 struct ShapePose;
 
@@ -26,10 +30,9 @@ Extent surfaceExtent(const Surface& surface, double scale, const ShapePose& at);
 double surfaceRadius(const Surface& surface, double scale, const Vec3& point);
 
 // The members "radius" and "height", and "scale", which is left out where it is 1.
-double numberOf(const detail::Json& value, const char* member);
+double numberOf(const Json& value, const char* member);
 void writeRound(JsonWriter& out, double radius, double height);
-double scaleOf(const detail::Json& value);
+double scaleOf(const Json& value);
 void writeScale(JsonWriter& out, double scale);
 
-}  // namespace shapes
-}  // namespace carom
+}  // namespace carom::shapes

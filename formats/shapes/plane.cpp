@@ -11,13 +11,16 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
-Shape readPlane(const detail::Json& value, const std::string& where, detail::SurfaceFiles&) {
-  Vec3 normal = detail::readVector(value["normal"]);
+Shape readPlane(const Json& value, const std::string& where, SurfaceFiles&) {
+  Vec3 normal = readVector(value["normal"]);
   const double length = normal.stableNorm();
-  if (!(length > 0)) detail::fail(where + "/normal", detail::describe(value["normal"]), "a vector that is not 0");
-  if (std::abs(normal.squaredNorm() - 1) > detail::kUnitRounding) normal = (normal / length).normalized();
+  if (!(length > 0)) fail(where + "/normal", describe(value["normal"]), "a vector that is not 0");
+  if (std::abs(normal.squaredNorm() - 1) > kUnitRounding) normal = (normal / length).normalized();
   const auto offset = value.find("offset");
   return Plane{normal, offset == value.end() ? 0 : offset->get<double>()};
 }

@@ -5,6 +5,8 @@
 
 namespace carom::shapes {
 
+using namespace formats_detail;
+
 const std::array<FormatKind, std::variant_size_v<Shape>>& formatKinds() {
   static const auto kinds = tableOf([](auto kind) {
     static_assert(requires { formatRow(kind); }, "a shape without a row: see formats/shapes/rows.hpp");

@@ -9,20 +9,23 @@
 #include "formats/base/extent.hpp"
 #include "formats/json/json.hpp"
 
-namespace carom {
+namespace carom::gltf {
+struct Tapered;
+}
+
+namespace carom::formats_detail {
 
 struct Contours;
 struct TriangleMesh;
 class JsonWriter;
 struct ColliderAdder;
-namespace detail {
 class SurfaceFiles;
-}
-namespace gltf {
-struct Tapered;
-}
 
-namespace shapes {
+}  // namespace carom::formats_detail
+
+namespace carom::shapes {
+
+using namespace formats_detail;
 
 /// A pose, shape axes to world.
 struct ShapePose {
@@ -34,7 +37,7 @@ struct ShapePose {
 /// scene.schema.json. Like those of ShapeKind, rows and the table are complete or do not compile.
 struct FormatKind {
   /// From the value of its word in a document that follows the schema; `where` is the value's place.
-  Required<Shape(const detail::Json& value, const std::string& where, detail::SurfaceFiles& files)> read;
+  Required<Shape(const Json& value, const std::string& where, SurfaceFiles& files)> read;
   /// The value of its word.
   Required<void(JsonWriter& out, const Shape&)> write;
   Required<bool(const Shape&)> on_one_line;  ///< whether it is written on one
@@ -71,5 +74,4 @@ FormatKind formatRow(KindOf<Compound>);
 const std::array<FormatKind, std::variant_size_v<Shape>>& formatKinds();
 const FormatKind& formatOf(const Shape& shape);
 
-}  // namespace shapes
-}  // namespace carom
+}  // namespace carom::shapes

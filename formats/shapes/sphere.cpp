@@ -8,6 +8,9 @@
 #include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
+
+using namespace formats_detail;
+
 namespace {
 
 TriangleMesh sphereMesh(const Shape& s, double) {
@@ -22,8 +25,8 @@ TriangleMesh sphereMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Sphere>) {
   return {
-      .read = [](const detail::Json& value, const std::string&,
-                 detail::SurfaceFiles&) -> Shape { return Sphere{numberOf(value, "radius")}; },
+      .read = [](const Json& value, const std::string&,
+                 SurfaceFiles&) -> Shape { return Sphere{numberOf(value, "radius")}; },
       .write = [](JsonWriter& out,
                   const Shape& s) { out.beginObject().key("radius").number(std::get<Sphere>(s).radius).endObject(); },
       .on_one_line = onOneLine,

@@ -8,7 +8,8 @@
 
 #include "formats/svg/layers.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 constexpr double kTickSpacing = 64;  // pixels, at least
@@ -127,4 +128,4 @@ void drawAxes(SvgCanvas& canvas, const View& view) {
   canvas.close();
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

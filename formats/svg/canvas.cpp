@@ -8,7 +8,7 @@
 
 #include "adjoint/base/errors.h"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 // Advance widths of Helvetica in thousandths of the font size, from the space on to the tilde (its published metrics).
@@ -114,4 +114,4 @@ std::string SvgCanvas::finish() {
   return std::move(out_);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

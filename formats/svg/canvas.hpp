@@ -8,7 +8,7 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Pixels: a corner and a size, y downwards.
 struct PixelBox {
@@ -56,4 +56,4 @@ class SvgCanvas {
   std::vector<std::string> open_;
 };
 
-}  // namespace carom
+}  // namespace carom::formats_detail

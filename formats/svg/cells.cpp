@@ -6,7 +6,7 @@
 
 #include "formats/svg/path.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 CellGrid::CellGrid(const PixelBox& panel, double cell)
     : panel_(panel),
@@ -60,4 +60,4 @@ std::vector<int> countClasses(int most) {
   return ends;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

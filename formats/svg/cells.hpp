@@ -6,7 +6,7 @@
 
 #include "formats/svg/canvas.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// A panel cut into square cells, with a sum in each.
 class CellGrid {
@@ -33,4 +33,4 @@ class CellGrid {
 /// Upper ends of at most five classes for counts from 1 to `most`, each about as many times the last one.
 std::vector<int> countClasses(int most);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

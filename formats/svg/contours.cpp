@@ -7,7 +7,7 @@
 
 #include "formats/shapes/rows.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr int kHalfTurn = 24;            // points of half a circle
@@ -100,4 +100,4 @@ void addContours(Contours& contours, const Shape& shape, const Vec3& x, const Qu
   shapes::formatOf(shape).contours(contours, shape, {x, q}, viewer);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -6,7 +6,7 @@
 
 #include "adjoint/scene/shape.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// The lines that draw a shape, in world coordinates, for a viewer far away.
 struct Contours {
@@ -40,4 +40,4 @@ Vec3 acrossSight(const Vec3& axis, const Vec3& viewer);
 /// Adds a shape at a pose, seen from the direction of the unit vector `viewer`; not a plane.
 void addContours(Contours& contours, const Shape& shape, const Vec3& x, const Quat& q, const Vec3& viewer);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -9,6 +9,9 @@
 #include "formats/svg/layout.hpp"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr double kWidth = 800;
@@ -114,7 +117,7 @@ std::vector<int> nailedBodies(const Picture& picture) {
 
 }  // namespace
 
-std::string countedWords(std::size_t count, const std::string& word, const std::string& plural) {
+std::string formats_detail::countedWords(std::size_t count, const std::string& word, const std::string& plural) {
   return std::to_string(count) + " " + (count == 1 ? word : plural.empty() ? word + "s" : plural);
 }
 

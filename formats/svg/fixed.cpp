@@ -7,7 +7,8 @@
 #include "formats/svg/layers.hpp"
 #include "formats/svg/shapes.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 constexpr std::size_t kLongestList = 48;  // letters of names in the legend
@@ -66,4 +67,4 @@ void drawFixedBodies(const LayerPage& page) {
   page.canvas.close();
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

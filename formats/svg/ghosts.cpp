@@ -6,7 +6,8 @@
 #include "formats/svg/layers.hpp"
 #include "formats/svg/shapes.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 constexpr const char* kGhostColour = "#6d7580";
@@ -102,4 +103,4 @@ void drawGhosts(const LayerPage& page) {
   page.legend.add({Mark::ghost, words, kGhostColour});
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -4,7 +4,8 @@
 #include "formats/svg/layers.hpp"
 #include "formats/svg/shapes.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 // The free component runs through the whole panel: the nail is a line there.
@@ -81,4 +82,4 @@ void drawNails(const LayerPage& page) {
   page.canvas.close();
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr std::size_t kMostNumbered = 60, kMostMarks = 300;
@@ -83,4 +83,4 @@ ImpactPlan planImpacts(const Motion& motion, const std::vector<View>& views) {
   return plan;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -7,7 +7,7 @@
 #include "formats/svg/cells.hpp"
 #include "formats/svg/view.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Impacts that are seen in one place: where the first of them is.
 struct ImpactMark {
@@ -34,4 +34,4 @@ ImpactPlan planImpacts(const Motion& motion, const std::vector<View>& views);
 inline constexpr double kImpactsApart = 5;  // px
 inline constexpr double kImpactCell = 9;    // px
 
-}  // namespace carom
+}  // namespace carom::formats_detail

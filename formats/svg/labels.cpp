@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr double kSquare = 32;      // px, of taken boxes
@@ -145,4 +145,4 @@ std::optional<PlacedLabel> LabelPlacer::place(const std::vector<Vec2>& anchors, 
   return best;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

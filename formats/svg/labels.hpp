@@ -9,7 +9,7 @@
 
 #include "formats/svg/canvas.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Where a label is: never on another one, on a mark or on a leader line, and within its panel.
 struct PlacedLabel {
@@ -48,4 +48,4 @@ class LabelPlacer {
   std::vector<char> ink_;  // whether something is drawn in each small square
 };
 
-}  // namespace carom
+}  // namespace carom::formats_detail

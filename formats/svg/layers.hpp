@@ -11,7 +11,7 @@
 #include "formats/svg/shade.hpp"
 #include "formats/svg/view.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// What a picture shows.
 struct Picture {
@@ -85,4 +85,4 @@ double niceStep(double least);
 /// "1 word" or "2 words".
 std::string countedWords(std::size_t count, const std::string& word, const std::string& plural = "");
 
-}  // namespace carom
+}  // namespace carom::formats_detail

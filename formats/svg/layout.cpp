@@ -7,7 +7,7 @@
 
 #include "formats/drawing/motion_extent.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr double kLeft = 66, kRight = 16, kBetween = 8;
@@ -117,4 +117,4 @@ std::vector<View> layOutViews(const Picture& picture, double width, double top) 
   return {side, above};
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -6,7 +6,7 @@
 
 #include "formats/svg/layers.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr double kLegendFont = 13;
@@ -228,4 +228,4 @@ void Legend::draw(SvgCanvas& canvas, const Vec2& corner, double width) const {
   canvas.close();
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

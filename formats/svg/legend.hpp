@@ -7,7 +7,7 @@
 
 #include "formats/svg/canvas.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Kinds of things that are drawn, in the order of the legend. Each is a class of its elements (classOf).
 enum class Mark {
@@ -67,4 +67,4 @@ class Legend {
   std::map<std::string, int> left_out_;
 };
 
-}  // namespace carom
+}  // namespace carom::formats_detail

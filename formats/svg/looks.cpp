@@ -8,7 +8,7 @@
 
 #include "formats/drawing/motion_extent.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr int kMostLines = 24;      // each has its own colour and dash
@@ -194,4 +194,4 @@ PathPlan planPaths(const Motion& motion, const std::vector<View>& views, const s
   return plan;  // never reached: no lines fit any size
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -8,7 +8,7 @@
 #include "formats/drawing/palette.hpp"
 #include "formats/svg/view.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// How the path of a body is drawn.
 struct BodyLook {
@@ -37,4 +37,4 @@ struct PathPlan {
 PathPlan planPaths(const Motion& motion, const std::vector<View>& views, const std::vector<int>& first,
                    std::size_t most);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

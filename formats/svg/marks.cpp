@@ -6,7 +6,8 @@
 #include "formats/svg/layers.hpp"
 #include "formats/svg/path.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 constexpr std::array kDotSizes = {2.4, 3.9, 5.3, 6.8, 8.4};  // px, diameters for the classes of the cells' sums
@@ -62,4 +63,4 @@ void drawImpactCells(const LayerPage& page) {
   page.legend.add(entry);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -7,7 +7,7 @@
 
 #include "formats/svg/canvas.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr std::size_t kBlock = 128;  // points that are simplified together
@@ -133,4 +133,4 @@ std::vector<Vec2> convexOutline(std::vector<Vec2> points) {
   return lower;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

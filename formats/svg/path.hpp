@@ -7,7 +7,7 @@
 
 #include "adjoint/base/types.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// SVG path data in tenths of a pixel, step by step: pictures of many bodies are mostly these numbers. Each point is off
 /// by at most kPathRounding; roundings do not add up.
@@ -41,4 +41,4 @@ double distanceToLine(const Vec2& p, const Vec2& a, const Vec2& b);
 /// Corners of the convex hull of some points, in order.
 std::vector<Vec2> convexOutline(std::vector<Vec2> points);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -8,7 +8,8 @@
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/svg/layers.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 constexpr std::size_t kLongestLegendName = 24;
@@ -147,4 +148,4 @@ void drawPaths(const LayerPage& page) {
   drawDots(page, false);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

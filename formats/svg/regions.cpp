@@ -6,7 +6,8 @@
 #include "formats/svg/path.hpp"
 #include "formats/svg/silhouette.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 /// An end of a range as a number that lies outside the panel where there is no end.
@@ -86,4 +87,4 @@ void drawRegions(const LayerPage& page) {
   page.canvas.close();
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

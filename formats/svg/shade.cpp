@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr double kShadeSamples = 3e6;  // places of all paths
@@ -45,4 +45,4 @@ ShadePlan planShade(const Motion& motion, const std::vector<View>& views, const 
   return plan;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

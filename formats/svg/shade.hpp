@@ -8,7 +8,7 @@
 #include "formats/svg/cells.hpp"
 #include "formats/svg/looks.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Opacities of the shades of a crowd; each stands for twice as many bodies as the one before.
 inline constexpr std::array kShades = {0.10, 0.19, 0.30, 0.43, 0.58};
@@ -23,4 +23,4 @@ struct ShadePlan {
 /// Its squares are larger where small ones would take more than `most` bytes.
 ShadePlan planShade(const Motion& motion, const std::vector<View>& views, const PathPlan& paths, std::size_t most);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -7,7 +7,7 @@
 #include "formats/base/short_text.hpp"
 #include "formats/svg/silhouette.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr double kHatchDepth = 16;        // pixels
@@ -112,4 +112,4 @@ bool drawShape(SvgCanvas& canvas, const View& view, const Body& body, const Vec3
   return std::visit(ShapePainter{canvas, view, ellipsized(body.name, kLongestBodyName), x, q, look, detail}, body.shape);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -7,7 +7,7 @@
 #include "formats/svg/canvas.hpp"
 #include "formats/svg/view.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 struct ShapeLook {
   std::string fill, stroke;
@@ -22,4 +22,4 @@ enum class ShapeDetail { edges, area, hull };
 bool drawShape(SvgCanvas& canvas, const View& view, const Body& body, const Vec3& x, const Quat& q,
                const ShapeLook& look, ShapeDetail detail = ShapeDetail::edges);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

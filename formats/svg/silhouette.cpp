@@ -9,7 +9,7 @@
 #include "formats/svg/contours.hpp"
 #include "formats/svg/path.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr double kFlat = 0.12;    // pixels that the line of an outline may be off
@@ -187,4 +187,4 @@ std::string silhouetteHull(const Shape& shape, const Vec3& x, const Quat& q, con
   return out;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -5,7 +5,7 @@
 
 #include "formats/svg/view.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// SVG path data of a shape in a view; empty where there is nothing to draw.
 struct Silhouette {
@@ -21,4 +21,4 @@ std::string silhouetteArea(const Shape& shape, const Vec3& x, const Quat& q, con
 /// The convex hull of the area, which takes few characters whatever the shape.
 std::string silhouetteHull(const Shape& shape, const Vec3& x, const Quat& q, const View& view, double tolerance);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

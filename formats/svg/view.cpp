@@ -7,7 +7,7 @@
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/svg/path.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 /// How far an arc that ends at a time is from the line between its ends, in pixels, at most.
@@ -83,4 +83,4 @@ double lengthOfPath(const Motion& motion, int body, const View& view) {
   return length;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

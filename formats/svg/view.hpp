@@ -7,7 +7,7 @@
 #include "adjoint/motion/motion.h"
 #include "formats/svg/canvas.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// An orthographic view of the world in a panel of the picture, to scale. The viewer looks along -(right x up).
 struct View {
@@ -53,4 +53,4 @@ std::vector<PathSample> samplesOfPath(const Motion& motion, int body, const View
 /// The length of a path in pixels; of curved arcs rather too long.
 double lengthOfPath(const Motion& motion, int body, const View& view);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

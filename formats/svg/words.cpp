@@ -7,7 +7,8 @@
 #include "formats/svg/labels.hpp"
 #include "formats/svg/layers.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 constexpr double kLabelFont = 13;
@@ -183,4 +184,4 @@ class Labeller {
 
 void drawLabels(const LayerPage& page) { Labeller(page).draw(); }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -7,6 +7,9 @@
 /// What rim-edge and rim-rim share.
 namespace carom::gaps {
 
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 /// A point of a rim or of the line of an edge.
 template <class S>
 struct CurvePoint {

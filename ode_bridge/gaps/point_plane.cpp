@@ -4,6 +4,9 @@
 // phi = N.(P - Q) - r, n = N, p = P - r n; N = -direction of the face for sign < 0, which is the back of a sheet.
 namespace carom::gaps {
 
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 ContactPoint pointPlane(const WorldFeature& f, const WorldFeature& g, int sign) {
   const Vec3 N = sign < 0 ? Vec3(-g.direction) : g.direction;
   return {N.dot(f.point - g.point) - f.radius, N, f.point - f.radius * N};

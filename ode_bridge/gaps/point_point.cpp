@@ -4,6 +4,9 @@
 // phi = |w| - r_1 - r_2, w = P - Q, n = w/|w|, p = Q + r_2 n.
 namespace carom::gaps {
 
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 ContactPoint pointPoint(const WorldFeature& f, const WorldFeature& g, int) {
   const Vec3 w = f.point - g.point;
   const double l = w.norm();

@@ -4,6 +4,10 @@
 // phi = N.(C - Q) - rho |d x N|, n = N, p = C + rho u, u = -(N - d d.N)/|N - d d.N|; N = -direction of the face for
 // sign < 0. phi = N.(p - Q) where u turns so that N.t = 0, t = d x u.
 namespace carom::gaps {
+
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 namespace {
 
 /// From the centre of the rim to its point deepest along N. NaN where the rim lies flat.

@@ -3,6 +3,10 @@
 
 // u = (1 - d d^T)(P - C)/|..|, p = C + rho u, w = p - P, phi = |w| - r, n = w/|w|.
 namespace carom::gaps {
+
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 namespace {
 
 template <class S>

@@ -10,11 +10,11 @@
 /// file. The derivative is written for any number S and made for two: double, and duals, which give its rates.
 namespace carom::gaps {
 
-using detail::M3;
-using detail::V3;
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
 
 /// Numbers of second derivatives, four directions at a time.
-using Rate4 = detail::Dual<4>;
+using Rate4 = Dual<4>;
 
 /// WorldFeature of another number.
 template <class S>
@@ -27,7 +27,7 @@ using FeatureOf = std::conditional_t<std::is_same_v<S, double>, WorldFeature, Fe
 
 inline const WorldFeature& valueOf(const WorldFeature& f) { return f; }
 inline WorldFeature valueOf(const FeatureIn<Rate4>& f) {
-  return {detail::valuesOf(f.point), detail::valuesOf(f.direction), f.radius.value, f.rim.value, f.apex.value};
+  return {valuesOf(f.point), valuesOf(f.direction), f.radius.value, f.rim.value, f.apex.value};
 }
 
 /// A root found with values alone, followed as its equation G(s) = 0 changes: `G` at the root with rates, and dG/ds.

@@ -7,6 +7,9 @@
 /// have n.d = tau, the sine of half the opening angle. An even edge is the case tau = 0, with any point of it for A.
 namespace carom::gaps {
 
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 template <class S>
 struct Taper {
   V3<S> tip, axis;

@@ -14,6 +14,9 @@
 /// most, bracketed by samples of G and G' and refined by Newton's method inside the bracket.
 namespace carom::gaps {
 
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 /// An angle around a rim.
 template <class S>
 struct Turn {

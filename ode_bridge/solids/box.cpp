@@ -2,6 +2,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 // Vertex v has coordinate +half on axis k where bit k of v is set; faces are -x, +x, -y, +y, -z, +z; edges 4 k + s run

@@ -2,6 +2,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 // Two vertices and the edge between them, swept.

@@ -2,6 +2,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 // Marks of the rim and the apex, the side as a tapered edge, the base and its rim.

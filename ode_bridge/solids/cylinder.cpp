@@ -2,6 +2,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 // The side is an edge swept by the radius; then come two discs and their rims, first the lower ones.

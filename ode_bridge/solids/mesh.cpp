@@ -5,6 +5,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 constexpr double kFlat = 1e-9;  // sine of the bend up to which an edge is not one: its faces touch whatever it touches

@@ -2,6 +2,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 int firstOf(const Part& part, Family family) {
@@ -30,7 +33,7 @@ std::string solids::numberedName(Family family, int index) {
   return kWords[static_cast<std::size_t>(family)] + std::to_string(index);
 }
 
-std::string nameOf(const Solid& solid, Family family, int index) {
+std::string ode_bridge_detail::nameOf(const Solid& solid, Family family, int index) {
   const Part& part = solid.parts[static_cast<std::size_t>(solid.feature(family, index).part)];
   return part.name + part.row->name(family, index - firstOf(part, family));
 }

@@ -7,6 +7,8 @@
 /// How a Solid is put together: one file a shape adds its features and pieces.
 namespace carom::solids {
 
+using namespace ode_bridge_detail;
+
 using shapes::KindOf;
 
 /// Where a part stands in the solid, and what it is called there.

@@ -2,6 +2,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 const Vec3& vertexOf(const Surface& s, int v) { return s.vertices[static_cast<std::size_t>(v)]; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ode_bridge/solids/solid.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 // By dimension c the point moves with the part, axes * (stretch o local), and all of it against the centre of mass.
 FeatureRates ratesOf(const Solid& solid, const Feature& feature) {
@@ -33,4 +33,4 @@ Eigen::Matrix3Xd pointRatesRate(const Solid& solid, const Eigen::VectorXd& dimen
   return rates;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

@@ -4,7 +4,7 @@
 #include "adjoint/scene/body_model.h"
 #include "ode_bridge/solids/parts.hpp"
 
-namespace carom {
+namespace carom::ode_bridge_detail {
 
 const Feature& Solid::feature(Family family, int index) const {
   const auto i = static_cast<std::size_t>(index);
@@ -38,4 +38,4 @@ Solid solidOf(const Body& body) {
   return solid;
 }
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

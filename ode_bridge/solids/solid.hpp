@@ -8,11 +8,11 @@
 
 #include "adjoint/scene/scene.h"
 
-namespace carom {
-
-namespace solids {
+namespace carom::solids {
 struct SolidKind;  // ode_bridge/solids/parts.hpp
 }
+
+namespace carom::ode_bridge_detail {
 
 enum class Family : std::uint8_t { vertex, edge, face, rim };
 
@@ -149,4 +149,4 @@ Eigen::Matrix3Xd pointRatesRate(const Solid& solid, const Eigen::VectorXd& dimen
 /// Such as "vertex +x-y+z", "edge 12", "face +z of part 2", "side", "rim +z"; "ball" and "plane" for the whole.
 std::string nameOf(const Solid& solid, Family family, int index);
 
-}  // namespace carom
+}  // namespace carom::ode_bridge_detail

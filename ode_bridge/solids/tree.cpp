@@ -8,6 +8,9 @@
 #include "ode_bridge/solids/parts.hpp"
 
 namespace carom::solids {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 constexpr double kUp = 1 + 4 * std::numeric_limits<double>::epsilon();  // outweighs the rounding of a distance

@@ -17,6 +17,9 @@
 #include "tests/support/transposed.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using namespace test;

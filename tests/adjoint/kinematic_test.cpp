@@ -11,6 +11,9 @@
 #include "tests/support/scenes.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using namespace test;

@@ -16,6 +16,10 @@
 #include "tests/support/scenes.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
+
 namespace {
 
 using namespace test;

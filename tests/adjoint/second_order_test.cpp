@@ -15,6 +15,9 @@
 #include "tests/support/transposed.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using namespace test;

@@ -14,10 +14,13 @@
 #include "tests/support/scenes.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using namespace test;
-using Frame = detail::TiltFrame<double>;
+using Frame = adjoint_detail::TiltFrame<double>;
 
 TEST(TiltAxes, AreOrthonormalEverywhere) {
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {

@@ -15,6 +15,9 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {
+
+using namespace editing_detail;
+
 namespace {
 
 constexpr std::uint64_t kSeed = 1;

@@ -13,6 +13,9 @@
 #include "tests/cli/run_command.h"
 
 namespace carom::test {
+
+using namespace editing_detail;
+
 namespace {
 
 using nlohmann::json;

@@ -20,6 +20,9 @@
 #include "tests/test_paths.h"
 
 namespace carom::test {
+
+using namespace editing_detail;
+
 namespace {
 
 using nlohmann::json;

@@ -11,6 +11,9 @@
 #include "tests/editing/scenes.h"
 
 namespace carom {
+
+using namespace editing_detail;
+
 namespace {
 
 using namespace testing_scenes;

@@ -18,6 +18,10 @@
 #include "tests/editing/scenes.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 using namespace testing_scenes;

@@ -103,7 +103,7 @@ TEST(Edit, TheChangeIsTheSmallest) {
   const EditResult r = edit.solve();
   ASSERT_TRUE(r.solved()) << r.message;
   EXPECT_GT(r.objective, 1e-3);
-  const EditProblem problem = edit.problem();
+  const auto problem = edit.problem();
   Eigen::VectorXd values(problem.controls.size()), changes(values.size());
   for (int i = 0; i < values.size(); ++i) {
     const Variable& v = problem.controls.variables()[i];

@@ -14,6 +14,8 @@
 #include "tests/editing/scenes.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
 using namespace editing_detail;
 
 namespace {

@@ -12,6 +12,8 @@
 #include "tests/editing/session_scenes.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
 using namespace editing_detail;
 
 namespace {

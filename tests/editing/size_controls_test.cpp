@@ -14,6 +14,10 @@
 #include "tests/support/swept_points.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
+using namespace editing_detail;
+
 namespace {
 
 using namespace testing_scenes;

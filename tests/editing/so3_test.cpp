@@ -11,6 +11,9 @@
 #include <vector>
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 using Real = boost::multiprecision::cpp_bin_float_50;

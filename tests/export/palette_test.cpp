@@ -8,6 +8,9 @@
 #include "adjoint/base/types.h"
 
 namespace carom::export_tests {
+
+using namespace formats_detail;
+
 namespace {
 
 // Linear light as people see it who lack one kind of cone (Machado, Oliveira and Fernandes 2009, severity 1).

@@ -12,6 +12,9 @@
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {
+
+using namespace formats_detail;
+
 namespace {
 
 tinygltf::Model staged(const Document& document, const Motion& motion, const GltfOptions& options) {

@@ -17,6 +17,9 @@
 #include "tests/test_paths.h"
 
 namespace carom::export_tests {
+
+using namespace formats_detail;
+
 namespace {
 
 using nlohmann::json;

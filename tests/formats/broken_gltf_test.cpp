@@ -8,6 +8,9 @@
 #include "tests/formats/gltf_json.h"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 using Json = nlohmann::json;

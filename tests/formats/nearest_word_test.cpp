@@ -6,6 +6,9 @@
 #include <vector>
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 const std::vector<std::string> kWords{"position", "orientation", "velocity", "angular_velocity", "mass", "max", "min"};

@@ -14,6 +14,9 @@
 #include "tests/formats/mesh_texts.h"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;

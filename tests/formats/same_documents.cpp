@@ -12,6 +12,9 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom::formats_test {
+
+using namespace formats_detail;
+
 namespace {
 
 template <class A, class B>

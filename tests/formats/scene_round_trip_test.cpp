@@ -17,6 +17,9 @@
 #include "tests/formats/scene_documents.h"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 using formats_test::documentWithEverything;

@@ -15,10 +15,10 @@
 #include "tests/test_paths.h"
 
 namespace carom {
-namespace {
 
-using detail::Json;
-using detail::keepsSchema;
+using namespace formats_detail;
+
+namespace {
 
 class Judge {
  public:

@@ -15,6 +15,9 @@
 #include "tests/test_paths.h"
 
 namespace carom {
+
+using namespace editing_detail;
+
 namespace {
 
 using Json = nlohmann::ordered_json;

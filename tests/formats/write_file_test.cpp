@@ -15,6 +15,9 @@
 #include "formats/documents/scene_json.h"
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -16,6 +16,9 @@
 #include "tests/support/compare.h"
 
 namespace carom::import_tests {
+
+using namespace editing_detail;
+
 namespace {
 
 class EveryFile : public testing::TestWithParam<std::string> {

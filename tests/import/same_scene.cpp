@@ -14,6 +14,9 @@
 #include "tests/support/compare.h"
 
 namespace carom::import_tests {
+
+using namespace formats_detail;
+
 namespace {
 
 using test::expectEntries;

@@ -13,6 +13,9 @@
 #include "tests/support/scenes.h"
 
 namespace carom {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 using namespace test;

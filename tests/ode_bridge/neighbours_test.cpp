@@ -11,6 +11,9 @@
 #include "tests/support/scenes.h"
 
 namespace carom {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 using test::Random;

@@ -14,6 +14,9 @@
 #include "tests/support/compare.h"
 
 namespace carom {
+
+using namespace ode_bridge_detail;
+
 namespace {
 
 using namespace test;

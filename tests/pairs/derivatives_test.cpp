@@ -19,6 +19,9 @@
 // features as meet in the first throws.
 
 namespace carom::pairs {
+
+using namespace adjoint_detail;
+
 namespace {
 
 constexpr double kTolerance = 1e-9;       // of the column's scale

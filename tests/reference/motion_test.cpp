@@ -15,6 +15,9 @@
 #include "tests/reference/worst.h"
 
 namespace carom::reference {
+
+using namespace adjoint_detail;
+
 namespace {
 
 Vec3 turnBetween(const Quat& from, const Quat& to) {

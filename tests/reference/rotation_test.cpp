@@ -15,6 +15,9 @@
 #include "tests/reference/worst.h"
 
 namespace carom::reference {
+
+using namespace adjoint_detail;
+
 namespace {
 
 constexpr unsigned kSeed = 20240611;

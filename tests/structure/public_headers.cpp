@@ -45,6 +45,15 @@ std::vector<std::string> definedTypes(const std::string& text) {
   return found;
 }
 
+std::vector<std::string> privateNamesInCarom(const std::string& path, const std::string& text) {
+  static const std::regex directly("carom::\\w+");
+  std::vector<std::string> found;
+  if (!inLibrary(path) || !path.ends_with(".hpp")) return found;
+  for (const std::string& type : definedTypes(text))
+    if (std::regex_match(type, directly)) found.push_back(path + " defines " + type + " beside the public names");
+  return found;
+}
+
 std::vector<std::string> typesDefinedTwice(const Sources& sources) {
   std::map<std::string, std::string> first;
   std::vector<std::string> found;

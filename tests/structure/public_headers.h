@@ -15,6 +15,9 @@ std::vector<std::string> privateIncludes(const std::string& path, const std::str
 /// The types and aliases that a header defines at the scope of a namespace, as carom::gltf::Frame.
 std::vector<std::string> definedTypes(const std::string& text);
 
+/// Types that a private header defines in namespace carom itself, where the names are those of users.
+std::vector<std::string> privateNamesInCarom(const std::string& path, const std::string& text);
+
 /// Types of the libraries that two headers define: one program cannot hold both.
 std::vector<std::string> typesDefinedTwice(const Sources& sources);
 

@@ -155,7 +155,7 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
     }
   }
   for (const auto& more : {inexactCalls(path, text), layerViolations(path, text), privateIncludes(path, text),
-                           lengthViolations(path, text)})
+                           privateNamesInCarom(path, text), lengthViolations(path, text)})
     found.insert(found.end(), more.begin(), more.end());
   return found;
 }

@@ -191,9 +191,18 @@ TEST(Structure, TypesDefinedTwiceAreFound) {
   EXPECT_EQ(definedTypes(one), (std::vector<std::string>{"carom::Node"}));
   EXPECT_EQ(definedTypes("namespace carom::gltf {\nclass A final : public B {\n};\nusing C = int;\n"),
             (std::vector<std::string>{"carom::gltf::A", "carom::gltf::C"}));
-  EXPECT_EQ(typesDefinedTwice({{"formats/a.h", one}, {"ode_bridge/b.hpp", one}}).size(), 1u);
+  EXPECT_EQ(typesDefinedTwice({{"formats/a.h", one}, {"ode_bridge/b.h", one}}).size(), 1u);
   const std::string declared = "namespace carom {\nstruct Node;\n}  // namespace carom\n";
   EXPECT_TRUE(typesDefinedTwice({{"formats/a.h", one}, {"ode_bridge/b.hpp", declared}}).empty());
+}
+
+TEST(Structure, PrivateNamesHaveANamespaceOfTheirOwn) {
+  const auto in = [](const std::string& space) {
+    return "namespace " + space + " {\nclass A {\n};\n}  // namespace " + space + "\n";
+  };
+  EXPECT_EQ(privateNamesInCarom("formats/a.hpp", in("carom")).size(), 1u);
+  EXPECT_TRUE(privateNamesInCarom("formats/a.hpp", in("carom::formats_detail")).empty());
+  EXPECT_TRUE(privateNamesInCarom("formats/a.h", in("carom")).empty());
 }
 
 TEST(Structure, IpoptMustBeInExactlyOneFile) {

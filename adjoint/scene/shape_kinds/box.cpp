@@ -3,6 +3,9 @@
 #include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
+
+using namespace adjoint_detail;
+
 namespace {
 
 const Vec3& size(const Shape& s) { return std::get<Box>(s).size; }

@@ -6,6 +6,9 @@
 #include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // A cylinder and two half balls. With w = h + 4r/3:
@@ -48,7 +51,7 @@ SolidProperties capsuleProperties(const Shape& s) {
 
 SolidProperties capsulePropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
   requireDimensions(d, 2);
-  using Number = detail::Dual<1>;
+  using Number = Dual<1>;
   Number r = as<Capsule>(s).radius, h = as<Capsule>(s).height;
   r.rate[0] = d[0], h.rate[0] = d[1];
   return solidOf(Numbers<Number>(r, h), [](const Number& x) { return x.rate[0]; });

@@ -7,6 +7,9 @@
 #include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
+
+using namespace adjoint_detail;
+
 namespace {
 
 const std::vector<CompoundPart>& parts(const Shape& s) { return std::get<Compound>(s).parts; }
@@ -47,9 +50,9 @@ bool solid(const Shape& s) {
 }
 
 template <class S>
-using Numbers3 = detail::V3<S>;
+using Numbers3 = V3<S>;
 template <class S>
-using Matrix3 = detail::M3<S>;
+using Matrix3 = M3<S>;
 
 // R I R^T. What is the same about every axis (a ball) or about the axis of the turn stays so exactly.
 template <class S>
@@ -138,12 +141,12 @@ SolidProperties compoundProperties(const Shape& s) {
   return p;
 }
 
-using Number = detail::Dual<1>;
+using Number = Dual<1>;
 
 template <class To, class From>
 To withRates(const From& values, const From& rates) {
   To out = values.template cast<Number>();
-  detail::setRates(out, rates, 0);
+  setRates(out, rates, 0);
   return out;
 }
 Number withRate(double value, double rate) {
@@ -173,7 +176,7 @@ SolidProperties compoundPropertiesRate(const Shape& s, const Eigen::VectorXd& di
     }
     return out;
   });
-  const auto rate = [](const auto& m) { return detail::ratesOf(m, 0); };
+  const auto rate = [](const auto& m) { return ratesOf(m, 0); };
   SolidProperties p{sum.volume.rate[0], rate(sum.center), rate(sum.unit_inertia), {}};
   for (const RateOf<Number>& r : sum.rates) p.rates.push_back({r.volume.rate[0], rate(r.center), rate(r.unit_inertia)});
   return p;

@@ -6,6 +6,9 @@
 #include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // V = pi r^2 h/3, c = -h/4 along z, and about c: I_x = I_y = 3 (4 r^2 + h^2)/80, I_z = 3 r^2/10

@@ -8,6 +8,9 @@
 #include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // V = pi r^2 h, I_x = I_y = r^2/4 + h^2/12, I_z = r^2/2

@@ -4,6 +4,9 @@
 #include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
+
+using namespace adjoint_detail;
+
 namespace {
 
 void checkHull(const Shape& shape, const validation::ShapeCheck& at) {

@@ -6,6 +6,8 @@
 
 namespace carom::shapes {
 
+using namespace adjoint_detail;
+
 // The table of shapes: a row each, which stands with its formulas in the file of that name.
 ShapeKind kindRow(KindOf<Sphere>);
 ShapeKind kindRow(KindOf<Box>);

@@ -8,6 +8,8 @@
 
 namespace carom::shapes {
 
+using namespace adjoint_detail;
+
 namespace {
 
 void checkPlane(const Shape& s, const validation::ShapeCheck& at) {

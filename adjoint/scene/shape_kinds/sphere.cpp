@@ -5,6 +5,9 @@
 #include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
+
+using namespace adjoint_detail;
+
 namespace {
 
 // V = 4/3 pi r^3, I = 2/5 r^2 about every axis

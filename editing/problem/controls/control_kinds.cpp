@@ -3,8 +3,7 @@
 
 #include "editing/problem/controls/control_families.hpp"
 
-namespace carom {
-using namespace editing_detail;
+namespace carom::editing_detail {
 
 namespace {
 
@@ -34,4 +33,4 @@ const ControlKind* findControlKind(const std::string& word) {
   return nullptr;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -8,7 +8,7 @@
 
 #include "adjoint/scene/scene.h"
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// Whose numbers a kind of control varies; a free body is one that impacts move.
 enum class OwnerKind { body, moving_body, free_body, material, impact, scene };
@@ -57,4 +57,4 @@ std::span<const ControlKind* const> controlKinds();
 /// The kind of a word; nullptr when there is none.
 const ControlKind* findControlKind(const std::string& word);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

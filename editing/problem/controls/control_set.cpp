@@ -11,8 +11,9 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/controls/control_binding.hpp"
 
-namespace carom {
-using namespace editing_detail;
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 namespace {
 
@@ -71,7 +72,7 @@ void ControlSet::addVariables(int index) {
     const int slot = varying[k];
     for (const Variable& other : variables_) {
       if (other.slot == slot && sameOwner(controls_[other.control], bound)) {
-        throw InputError(where, names[slot] + " of the " + carom::describe(bound.control) + " varies already in " +
+        throw InputError(where, names[slot] + " of the " + describe(bound.control) + " varies already in " +
                                     pointerOf(other.control) + ", expected once");
       }
     }
@@ -83,7 +84,7 @@ void ControlSet::addVariables(int index) {
     v.lower = bounds.lower, v.upper = bounds.upper;
     v.logarithmic = kind.logarithmic;
     v.scale = (kind.logarithmic ? 1 : scale[slot]) / bound.control.weight;
-    const std::string name = "The " + carom::describe(bound.control) + (count > 1 ? ", " + v.component + "," : "");
+    const std::string name = "The " + describe(bound.control) + (count > 1 ? ", " + v.component + "," : "");
     if (v.start != v.before) {
       start_moved_ = true;
       notes_.push_back(name + " was " + number(v.before) + ", outside its bounds, and starts at " + number(v.start) +
@@ -228,9 +229,9 @@ Eigen::VectorXd ControlSet::upperChanges() const {
 std::string ControlSet::describeVariable(int variable) const {
   const Variable& v = variables_[checkedIndex("describeVariable", "variable", variable, variables_.size())];
   const Control& control = controls_[v.control].control;
-  if (v.component == "value") return carom::describe(control);
-  std::string text = carom::describe(control);
+  if (v.component == "value") return describe(control);
+  std::string text = describe(control);
   return text.insert(control.vary.size(), "." + v.component);
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

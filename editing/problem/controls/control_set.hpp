@@ -7,7 +7,7 @@
 #include "editing/control.h"
 #include "editing/problem/controls/control_kinds.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// Radius of the cone that a tilt stays in when the person gives none.
 inline constexpr double kDefaultTiltCone = 0.3;
@@ -102,4 +102,4 @@ class ControlSet {
 /// "velocity of 'hat'", "tilt of 'hat' at impact 1", "gravity".
 std::string describe(const Control& control);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -9,6 +9,9 @@
 #include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
+
+using namespace adjoint_detail;
+
 namespace {
 
 template <Vec3 Body::*kField, Vec3 BodyDerivative::*kRate>

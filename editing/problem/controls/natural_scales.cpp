@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 constexpr double kStandardGravity = 9.81;
@@ -45,4 +45,4 @@ double gravityScale(const Scene& scene) {
   return g > 0 ? g : kStandardGravity;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

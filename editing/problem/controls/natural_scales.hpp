@@ -3,7 +3,7 @@
 
 #include "adjoint/scene/scene.h"
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// What counts as "much" for one body: the units in which changes and residuals are weighed against each other
 /// (docs/equations.md section 6). All are positive and finite.
@@ -20,4 +20,4 @@ NaturalScales naturalScales(const Scene& scene, int body);
 /// |g|, or 9.81 m/s^2 without gravity.
 double gravityScale(const Scene& scene);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

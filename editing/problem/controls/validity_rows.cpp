@@ -3,8 +3,7 @@
 
 #include "editing/problem/controls/control_families.hpp"
 
-namespace carom {
-using namespace editing_detail;
+namespace carom::editing_detail {
 
 ValidityRows::ValidityRows(const ControlSet& controls) {
   const Eigen::VectorXd start = controls.startValues();
@@ -55,4 +54,4 @@ Eigen::MatrixXd ValidityRows::hessian(const ControlSet& controls, const Eigen::V
   return H;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

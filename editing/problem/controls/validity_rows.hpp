@@ -8,7 +8,7 @@
 
 #include "editing/problem/controls/control_set.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// Validity is kept this far from its limit, so that what a solver's tolerance lets through is still valid.
 inline constexpr double kValidityMargin = 1e-7;
@@ -41,4 +41,4 @@ class ValidityRows {
   std::vector<Row> rows_;
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

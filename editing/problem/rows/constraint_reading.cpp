@@ -9,8 +9,9 @@
 #include "editing/problem/rows/constraint_rows.hpp"
 #include "editing/problem/rows/relative.hpp"
 
-namespace carom {
-using namespace editing_detail;
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 namespace {
 
@@ -187,4 +188,4 @@ Eigen::VectorXd ConstraintSet::nearestTimes(const Motion& motion) const {
   return times;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

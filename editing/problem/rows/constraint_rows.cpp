@@ -10,8 +10,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 
-namespace carom {
-using namespace editing_detail;
+namespace carom::editing_detail {
 
 namespace {
 
@@ -189,4 +188,4 @@ std::string ConstraintSet::describeRow(int row) const {
          number(region.to) + " s";
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

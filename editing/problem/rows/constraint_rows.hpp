@@ -14,7 +14,9 @@
 #include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 /// One number that a constraint holds: equal to a target, or within a range.
 struct Row {
@@ -138,4 +140,4 @@ class ConstraintSet {
   std::vector<FreeTime> free_times_;
 };
 
-}  // namespace carom
+}  // namespace carom::editing_detail

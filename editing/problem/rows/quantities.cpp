@@ -3,7 +3,10 @@
 
 #include "adjoint/numeric/so3_rates.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
+
 namespace {
 
 Vec3 threeNumbers(const Target& target) { return {target.value[0], target.value[1], target.value[2]}; }
@@ -151,4 +154,4 @@ const QuantityKind* findQuantityKind(const std::string& word) {
   return nullptr;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

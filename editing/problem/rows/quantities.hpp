@@ -8,7 +8,7 @@
 #include "editing/constraint.h"
 #include "editing/problem/controls/natural_scales.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
 
 /// One row of the table of quantities that a constraint can hold: what the editor asks of a kind. A quantity has up to
 /// three numbers, each one row of the problem: value - target = 0. A new kind adds a row to quantities.cpp.
@@ -37,4 +37,4 @@ std::span<const QuantityKind* const> quantityKinds();
 /// nullptr when there is none of that word.
 const QuantityKind* findQuantityKind(const std::string& word);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

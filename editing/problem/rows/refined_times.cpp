@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace carom {
+namespace carom::editing_detail {
 namespace {
 
 /// Each is 0.618 of the one before: together they take a span to below its rounding.
@@ -56,4 +56,4 @@ Eigen::VectorXd refinedTimes(const ConstraintSet& constraints, const Motion& mot
   return times;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

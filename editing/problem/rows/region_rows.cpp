@@ -7,8 +7,7 @@
 
 #include "editing/problem/rows/polynomial.hpp"
 
-namespace carom {
-using namespace editing_detail;
+namespace carom::editing_detail {
 
 namespace {
 
@@ -196,4 +195,4 @@ std::optional<Clearance> leastClearance(const Motion& motion, int body, const Bo
   return clearance;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

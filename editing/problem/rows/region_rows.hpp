@@ -9,7 +9,7 @@
 #include "editing/constraint.h"
 
 /// How far a body stays on the right side of a region.
-namespace carom {
+namespace carom::editing_detail {
 
 /// A Region whose defaults are filled in.
 struct BoundRegion {
@@ -47,4 +47,4 @@ struct Clearance {
 /// Null where the motion ends before the span does.
 std::optional<Clearance> leastClearance(const Motion& motion, int body, const BoundRegion& region, int component);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

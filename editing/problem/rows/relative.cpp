@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editing/problem/rows/relative.hpp"
 
-namespace carom {
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 BodyState seenFrom(const BodyState& a, const BodyState& b) {
   const Quat to_b = b.orientation.conjugate();
@@ -63,4 +65,4 @@ SeedPair seenFromPullbackRate(const BodyState& a, const BodyState& b, const Body
   return pair;
 }
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -4,7 +4,9 @@
 #include "adjoint/derivative/tangent.h"
 #include "adjoint/motion/motion.h"
 
-namespace carom {
+namespace carom::editing_detail {
+
+using namespace adjoint_detail;
 
 /// The state of body a as seen from body b, in the axes of b's shape, with d = p_a - p_b:
 ///   position R_b^T d,  orientation R_b^T R_a,  velocity R_b^T (v_a - v_b),  angular velocity R_b^T (w_a - w_b).
@@ -23,4 +25,4 @@ BodyStateRate seenFromRate(const BodyState& a, const BodyState& b, const BodySta
 SeedPair seenFromPullbackRate(const BodyState& a, const BodyState& b, const BodyStateRate& da, const BodyStateRate& db,
                               const StateSeed& seed, const StateSeed& dseed);
 
-}  // namespace carom
+}  // namespace carom::editing_detail

@@ -12,9 +12,11 @@
 
 namespace carom {
 
+using namespace formats_detail;
+
 Imported parseGltfScene(std::string_view bytes, const std::string& folder) {
   const tinygltf::Model model = parseGltf(bytes, folder);
-  const detail::Json json = gltfJson(bytes);
+  const Json json = gltfJson(bytes);
   Imported out;
   const gltf::PhysicsFile file = gltf::readPhysics(json, out.report);
   gltf::ShapeMaker shapes(model, json, out.report);
@@ -26,11 +28,11 @@ Imported parseGltfScene(std::string_view bytes, const std::string& folder) {
   if (bodies.empty())
     throw InputError(
         "found no body, expected nodes with a collider (extension KHR_physics_rigid_bodies) in the default scene" +
-        std::string(out.report.warnings.empty() ? "" : "; " + detail::oneLine(out.report.warnings.front())));
+        std::string(out.report.warnings.empty() ? "" : "; " + oneLine(out.report.warnings.front())));
   out.document.scene = left.sceneOf(std::move(bodies), file);
   validate(out.document.scene);
   left.addEdit(out.document);
-  for (std::string& warning : out.report.warnings) warning = detail::oneLine(std::move(warning));  // names of nodes
+  for (std::string& warning : out.report.warnings) warning = oneLine(std::move(warning));  // names of nodes
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include "formats/gltf/axes.hpp"
 
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 std::optional<JsonPlace> JsonPlace::find(const char* member) const {
   if (!value.is_object()) fail(pointer, describe(value), "an object");
@@ -100,4 +100,4 @@ std::optional<JsonPlace> caromExtrasOf(const JsonPlace& place) {
   return carom;
 }
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

@@ -8,7 +8,7 @@
 #include "adjoint/base/types.h"
 #include "formats/json/json.hpp"
 
-namespace carom::detail {
+namespace carom::formats_detail {
 
 /// A value in a JSON tree and the pointer to it, for members that may be missing. All functions throw InputError with
 /// the pointer for a value of another kind.
@@ -42,4 +42,4 @@ std::optional<JsonPlace> extensionOf(const JsonPlace& place, const char* name);
 /// extras/carom likewise, when it is an object; what other programs write there is none of ours.
 std::optional<JsonPlace> caromExtrasOf(const JsonPlace& place);
 
-}  // namespace carom::detail
+}  // namespace carom::formats_detail

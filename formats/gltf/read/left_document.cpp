@@ -14,10 +14,10 @@
 #include "formats/gltf/read/parts.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
-using detail::Json;
 using tinygltf::Value;
 
 constexpr std::string_view kMeshes = "#/meshes/";
@@ -91,7 +91,7 @@ void forgetFiles(Shape& shape) {
 }
 
 /// The meshes of the file in place of files.
-class FileMeshes : public detail::SurfaceFiles {
+class FileMeshes : public SurfaceFiles {
  public:
   FileMeshes(std::size_t count, gltf::ShapeMaker& shapes, SurfaceMeshes& meshes)
       : SurfaceFiles(""), count_(count), shapes_(shapes), meshes_(meshes) {}
@@ -108,7 +108,7 @@ class FileMeshes : public detail::SurfaceFiles {
     std::size_t index = 0;
     while (index < count_ && meshReference(static_cast<int>(index)) != file) ++index;
     if (index == count_)
-      detail::fail(where, quotedText(file), "one of the " + std::to_string(count_) + " meshes of the file");
+      fail(where, quotedText(file), "one of the " + std::to_string(count_) + " meshes of the file");
     const auto mesh = static_cast<int>(index);
     auto surface = shapes_.surfaceOf({mesh, -1, convex});
     meshes_[surface.get()] = mesh;
@@ -129,14 +129,19 @@ Value documentOf(const Document& document, const Scene& scene, const SurfaceMesh
   whole.scene = scene;
   whole.schema.clear();  // found from a document's own folder
   for (Body& body : whole.scene.bodies) nameSurfaces(body.shape, meshes);
-  Json json = detail::parseJson(writeDocument(whole));
+  Json json = parseJson(writeDocument(whole));
   for (auto member = json.begin(); member != json.end();)  // tinygltf would write an empty list as null
     member = member->is_structured() && member->empty() ? json.erase(member) : std::next(member);
   noteOrder(json);
   return valueOf(json);
 }
 
-namespace gltf {
+}  // namespace carom::formats_detail
+
+namespace carom::gltf {
+
+using namespace formats_detail;
+
 namespace {
 
 template <class Vector>
@@ -155,7 +160,7 @@ bool samePose(const Frame& world, const PhysicsNode& expected) {
 
 LeftDocument::LeftDocument(const Json& document, std::size_t mesh_count, ShapeMaker& shapes, ImportReport& report)
     : report_(report) {
-  const auto scene = defaultScene(detail::JsonPlace{document, ""});
+  const auto scene = defaultScene(JsonPlace{document, ""});
   const auto left = scene ? caromExtrasOf(*scene) : std::nullopt;
   if (!left) return;
   try {
@@ -176,10 +181,10 @@ void LeftDocument::read(const Json& json, std::size_t mesh_count, ShapeMaker& sh
     whole["carom"] = 1;
     whole["bodies"] = Json::parse(R"([{"name": "none", "fixed": true, "shape": {"plane": {"normal": [0, 0, 1]}}}])");
   }
-  detail::requireSchema(whole);
+  requireSchema(whole);
   if (has_scene_) {
     FileMeshes files(mesh_count, shapes, meshes_);
-    scene_ = detail::readScene(whole, files);
+    scene_ = readScene(whole, files);
     for (Body& body : scene_.bodies) forgetFiles(body.shape);
     validate(scene_);
   }
@@ -244,8 +249,8 @@ std::vector<Material> LeftDocument::materialsOf(const PhysicsFile& file) const {
 
 void LeftDocument::addEdit(Document& document) {
   if (!edit_.is_object()) return;
-  document.name = detail::textOr(edit_, "name");
-  document.notes = detail::textOr(edit_, "notes");
+  document.name = textOr(edit_, "name");
+  document.notes = textOr(edit_, "notes");
   if (const auto duration = edit_.find("duration"); duration != edit_.end())
     document.duration = duration->get<double>();
   const auto each = [&](const char* list, const std::string& what, auto&& read) {
@@ -260,13 +265,12 @@ void LeftDocument::addEdit(Document& document) {
       }
   };
   each("controls", "control", [&](const Json& one) {
-    for (Control& control : detail::readControls(one, document.scene)) document.controls.push_back(std::move(control));
+    for (Control& control : readControls(one, document.scene)) document.controls.push_back(std::move(control));
   });
   each("constraints", "constraint", [&](const Json& one) {
-    for (Constraint& constraint : detail::readConstraints(one, document.scene, document.duration))
+    for (Constraint& constraint : readConstraints(one, document.scene, document.duration))
       document.constraints.push_back(std::move(constraint));
   });
 }
 
-}  // namespace gltf
-}  // namespace carom
+}  // namespace carom::gltf

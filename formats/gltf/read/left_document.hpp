@@ -12,7 +12,7 @@ namespace tinygltf {
 class Value;
 }
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// The scene document as a value, as writeDocument writes it for this scene: the words that importGltf takes bodies
 /// from without loss. Surfaces are named by their meshes, as files "#/meshes/3". Throws InputError as writeDocument
@@ -22,7 +22,7 @@ tinygltf::Value documentOf(const Document& document, const Scene& scene, const S
 /// The name by which the document in a file calls a mesh of that file.
 std::string meshReference(int mesh);
 
-}  // namespace carom
+}  // namespace carom::formats_detail
 
 namespace carom::gltf {
 
@@ -30,7 +30,7 @@ namespace carom::gltf {
 class LeftDocument {
  public:
   /// Reads extras/carom of the default scene, if there is any. What cannot be read is reported, and left out.
-  LeftDocument(const detail::Json& document, std::size_t mesh_count, ShapeMaker& shapes, ImportReport& report);
+  LeftDocument(const Json& document, std::size_t mesh_count, ShapeMaker& shapes, ImportReport& report);
 
   /// The body whose node this is, as written, while the node says the same; otherwise null.
   const Body* bodyOf(const PhysicsNode& node, const Frame& world, const std::vector<FileMaterial>& materials);
@@ -42,12 +42,12 @@ class LeftDocument {
   void addEdit(Document& document);
 
  private:
-  void read(const detail::Json& json, std::size_t mesh_count, ShapeMaker& shapes);
+  void read(const Json& json, std::size_t mesh_count, ShapeMaker& shapes);
   std::vector<FileMaterial> materials() const;
   std::vector<Material> materialsOf(const PhysicsFile& file) const;
 
   ImportReport& report_;
-  detail::Json edit_;  // object with duration, controls and constraints; empty when nothing was left
+  Json edit_;  // object with duration, controls and constraints; empty when nothing was left
   bool has_scene_ = false;
   Scene scene_;
   SurfaceMeshes meshes_;

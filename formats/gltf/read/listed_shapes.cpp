@@ -8,10 +8,10 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom::gltf {
-namespace {
 
-using detail::fail;
-using detail::JsonPlace;
+using namespace formats_detail;
+
+namespace {
 
 double positiveOr(const JsonPlace& shape, const char* member, double otherwise) {
   const double value = shape.numberOr(member, otherwise);
@@ -109,7 +109,7 @@ std::optional<ColliderShape> ShapeList::readListed(const JsonPlace& shape, bool 
   const std::string name = kindOfListed(shape);
   const auto known = std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& kind) { return name == kind.name; });
   const auto content = name.empty() ? std::nullopt : shape.find(name.c_str());
-  static const detail::Json kDefaults = detail::Json::object();
+  static const Json kDefaults = Json::object();
   if (known != kKinds.end()) return known->read(content ? *content : JsonPlace{kDefaults, shape.pointer});
   if (content && (name == "mesh" || name == "convex" || name == "trimesh")) {
     MeshShape surface;

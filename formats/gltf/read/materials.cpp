@@ -8,10 +8,10 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom::gltf {
-namespace {
 
-using detail::fail;
-using detail::JsonPlace;
+using namespace formats_detail;
+
+namespace {
 
 double notNegative(const JsonPlace& material, const char* member, double otherwise) {
   const double value = material.numberOr(member, otherwise);
@@ -22,9 +22,9 @@ double notNegative(const JsonPlace& material, const char* member, double otherwi
 Combine readCombine(const JsonPlace& material, const char* member) {
   const auto rule = material.find(member);
   if (!rule) return Combine::average;
-  const auto& words = detail::combineWords();
+  const auto& words = combineWords();
   const auto word = std::find(words.begin(), words.end(), rule->text());
-  if (word == words.end()) fail(rule->pointer, quotedText(rule->text()), "one of " + detail::listed(words));
+  if (word == words.end()) fail(rule->pointer, quotedText(rule->text()), "one of " + listed(words));
   return static_cast<Combine>(word - words.begin());
 }
 

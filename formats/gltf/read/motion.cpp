@@ -7,6 +7,9 @@
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::gltf {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr double kDensity = 1000;  // kg/m^3, where a file gives no mass: that of water

@@ -9,10 +9,10 @@
 #include "formats/json/json_writer.hpp"
 
 namespace carom::gltf {
-namespace {
 
-using detail::fail;
-using detail::JsonPlace;
+using namespace formats_detail;
+
+namespace {
 
 constexpr int kDeepest = 500;  // nodes below one another; every level is a call
 constexpr const char* kRigidBodies = "KHR_physics_rigid_bodies";
@@ -20,7 +20,7 @@ constexpr const char* kRigidBodies = "KHR_physics_rigid_bodies";
 std::string labelOf(int index, const std::string& name) {
   const std::string pointer = index < 0 ? "" : "/nodes/" + std::to_string(index);
   if (name.empty()) return "node " + pointer;
-  return "node '" + detail::oneLine(name) + "'" + (pointer.empty() ? "" : " (" + pointer + ")");
+  return "node '" + oneLine(name) + "'" + (pointer.empty() ? "" : " (" + pointer + ")");
 }
 
 /// A matrix is a rotation times a scale along the node's axes, as glTF asks; mirrored ones are mirrored in x. In the
@@ -203,7 +203,7 @@ void reportRequired(const JsonPlace& document, ImportReport& report) {
 std::string PhysicsNode::label() const { return labelOf(index, name); }
 
 InputError errorAt(const PhysicsNode& node, const std::string& sentence) {
-  const std::string name = node.name.empty() ? "" : "node '" + detail::oneLine(node.name) + "': ";
+  const std::string name = node.name.empty() ? "" : "node '" + oneLine(node.name) + "': ";
   return {"/nodes/" + std::to_string(node.index), name + sentence};
 }
 
@@ -221,7 +221,7 @@ std::optional<JsonPlace> defaultScene(const JsonPlace& document) {
   return scenes->at(chosen ? static_cast<std::size_t>(chosen->index(scenes->size(), "scenes")) : 0);
 }
 
-PhysicsFile readPhysics(const detail::Json& json, ImportReport& report) {
+PhysicsFile readPhysics(const Json& json, ImportReport& report) {
   const JsonPlace document{json, ""};
   PhysicsFile file;
   reportRequired(document, report);

@@ -9,6 +9,8 @@
 
 namespace carom::gltf {
 
+using namespace formats_detail;
+
 /// What nodes refer to.
 struct DocumentParts {
   std::size_t materials = 0;
@@ -16,33 +18,33 @@ struct DocumentParts {
 };
 
 /// The scene that is shown first; none when the document has no scenes.
-std::optional<detail::JsonPlace> defaultScene(const detail::JsonPlace& document);
+std::optional<JsonPlace> defaultScene(const JsonPlace& document);
 
 /// physicsMaterials. One friction here: the dynamic one; what differs is reported.
-std::vector<FileMaterial> readMaterials(const detail::JsonPlace& document, ImportReport& report);
+std::vector<FileMaterial> readMaterials(const JsonPlace& document, ImportReport& report);
 
 /// OMI_physics_gravity of the document, in its axes; 9.81 m/s^2 downwards without it.
-Vec3 readGravity(const detail::JsonPlace& document);
+Vec3 readGravity(const JsonPlace& document);
 
 /// The shapes of KHR_implicit_shapes, or of KHR_collision_shapes in older files.
 class ShapeList {
  public:
-  explicit ShapeList(const detail::JsonPlace& document);
+  explicit ShapeList(const JsonPlace& document);
 
   /// Shape of a `geometry` (shape, mesh or node, and convexHull) or of an older collider (shape). Reports a shape of a
   /// kind that is not supported and returns none.
-  std::optional<ColliderShape> read(const detail::JsonPlace& geometry, const PhysicsNode& node,
+  std::optional<ColliderShape> read(const JsonPlace& geometry, const PhysicsNode& node,
                                     ImportReport& report) const;
 
  private:
-  std::optional<ColliderShape> readListed(const detail::JsonPlace& shape, bool convex, const PhysicsNode& node,
+  std::optional<ColliderShape> readListed(const JsonPlace& shape, bool convex, const PhysicsNode& node,
                                           ImportReport& report) const;
   std::size_t countOf(const char* list) const;
-  detail::JsonPlace document_;
-  std::optional<detail::JsonPlace> shapes_;
+  JsonPlace document_;
+  std::optional<JsonPlace> shapes_;
 };
 
 /// An entry of `collisionFilters` of the document, by its index.
-CollisionFilter readFilter(const detail::JsonPlace& document, const detail::JsonPlace& index);
+CollisionFilter readFilter(const JsonPlace& document, const JsonPlace& index);
 
 }  // namespace carom::gltf

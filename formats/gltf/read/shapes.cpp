@@ -11,6 +11,9 @@
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::gltf {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr double kFloats = 1e-6;  // scales that differ by less differ by the rounding of floats

@@ -21,7 +21,7 @@ Quat axesOf(const ColliderShape& shape, const Mat3& stretch);
 /// Shapes of colliders, scaled by the stretch of their nodes. Surfaces are made once for all who use them.
 class ShapeMaker {
  public:
-  ShapeMaker(const tinygltf::Model& model, const detail::Json& document, ImportReport& report)
+  ShapeMaker(const tinygltf::Model& model, const formats_detail::Json& document, ImportReport& report)
       : model_(model), document_(document), report_(report) {}
 
   /// In our axes (see axesOf). None for what is not supported or turned off by a scale of 0, which is reported. Throws
@@ -44,7 +44,7 @@ class ShapeMaker {
   void appendBelow(int node, const Eigen::Affine3d& transform, Triangles& out);
 
   const tinygltf::Model& model_;
-  const detail::Json& document_;
+  const formats_detail::Json& document_;
   ImportReport& report_;
   std::map<Key, std::shared_ptr<const Surface>> made_;
 };

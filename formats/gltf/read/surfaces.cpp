@@ -14,7 +14,7 @@
 
 namespace carom::gltf {
 
-using detail::JsonPlace;
+using namespace formats_detail;
 
 std::shared_ptr<const Surface> ShapeMaker::surfaceOf(const MeshShape& shape, const Mat3& baked) {
   Key key{shape.mesh, shape.node, shape.convex, {}};

@@ -12,7 +12,7 @@
 #include "adjoint/base/errors.h"
 #include "formats/gltf/axes.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 constexpr int kNoTarget = 0;
@@ -130,4 +130,4 @@ int GltfBuffer::addView(const void* data, std::size_t bytes, int target) {
   return static_cast<int>(model_.bufferViews.size()) - 1;
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

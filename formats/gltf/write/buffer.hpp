@@ -13,7 +13,7 @@ class Model;
 struct Accessor;
 }  // namespace tinygltf
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Appends arrays to the one buffer of a model and returns the index of the accessor of each. Vectors and rotations are
 /// given in our axes, z up, and stored in glTF's, y up (gltf_frame.hpp). Vertices and indices that
@@ -43,4 +43,4 @@ class GltfBuffer {
   std::unordered_multimap<std::size_t, int> shared_;  // accessors of vertices and indices by the hash of their bytes
 };
 
-}  // namespace carom
+}  // namespace carom::formats_detail

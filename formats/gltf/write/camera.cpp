@@ -7,7 +7,8 @@
 
 #include "formats/gltf/write/stage.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 using tinygltf::Value;
@@ -82,4 +83,4 @@ int addSun(tinygltf::Model& model, const Extent& extent, double lux) {
   return append(model.nodes, node);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -8,7 +8,7 @@
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 // The largest turn between keys. Blended quaternions run ahead of an even turn by at most 0.004 turn^3.
@@ -175,4 +175,4 @@ FrameKeys frameKeys(const Motion& motion, int body, double fps, double tolerance
   return {moveKeys(pieces), turnKeys(pieces)};
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

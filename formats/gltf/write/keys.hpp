@@ -5,7 +5,7 @@
 
 #include "adjoint/motion/motion.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Rotation keys are so dense that the shortest turn from key to key stays this near to the motion, in radians. That
 /// holds for turns at an even rate (glTF) and for blended and normalized quaternions (Blender).
@@ -48,4 +48,4 @@ struct FrameKeys {
 };
 FrameKeys frameKeys(const Motion& motion, int body, double fps, double tolerance);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

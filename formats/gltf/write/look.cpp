@@ -8,7 +8,7 @@
 #include "formats/drawing/triangle_mesh.hpp"
 #include "formats/gltf/axes.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 void setPose(tinygltf::Node& node, const Vec3& ours, const Quat& our_axes) {
   const Vec3 x = gltf::yUp(ours);
@@ -61,4 +61,4 @@ int GltfLook::addMaterial(const std::string& name, const Tint& tint) {
   return append(model_.materials, material);
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

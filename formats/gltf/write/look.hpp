@@ -14,7 +14,7 @@ class Model;
 class Node;
 }  // namespace tinygltf
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Appends an item to one of the model's lists and returns its index.
 template <class Item>
@@ -55,4 +55,4 @@ class GltfLook {
   std::map<std::pair<int, double>, int> bodies_;
 };
 
-}  // namespace carom
+}  // namespace carom::formats_detail

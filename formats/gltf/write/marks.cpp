@@ -10,7 +10,8 @@
 #include "formats/gltf/write/stage.hpp"
 #include "formats/json/json_writer.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
+
 namespace {
 
 constexpr double kGhostAlpha = 0.25, kPoseAlpha = 0.5, kRegionAlpha = 0.2;
@@ -81,4 +82,4 @@ std::vector<int> addNails(tinygltf::Model& model, GltfLook& look, const Document
   return grouped(model, "nails", std::move(marks));
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -11,7 +11,7 @@
 #include "formats/documents/scene_reader.hpp"
 #include "formats/gltf/axes.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 namespace {
 
 using gltf::MeshShape;
@@ -30,7 +30,7 @@ Value quaternionOf(const Quat& ours) {
   return Value(Array{Value(q.x()), Value(q.y()), Value(q.z()), Value(q.w())});
 }
 
-const std::string& nameOf(Combine combine) { return detail::combineWords()[static_cast<std::size_t>(combine)]; }
+const std::string& nameOf(Combine combine) { return combineWords()[static_cast<std::size_t>(combine)]; }
 
 /// A listed shape: its word, and the members behind it.
 struct Listed {
@@ -162,4 +162,4 @@ void PhysicsWriter::finish(tinygltf::Model& model) const {
   model.extensionsUsed.push_back("OMI_physics_gravity");
 }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -12,7 +12,7 @@ class Model;
 class Value;
 }  // namespace tinygltf
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// Writes the document-wide parts of KHR_physics_rigid_bodies, KHR_implicit_shapes and OMI_physics_gravity, and the
 /// extensions of nodes, which refer to them. Equal shapes are written once.
@@ -35,4 +35,4 @@ class PhysicsWriter {
   std::map<std::vector<double>, int> known_;  // by kind and numbers
 };
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -10,7 +10,7 @@
 #include "formats/drawing/shape_extent.hpp"
 #include "formats/gltf/write/look.hpp"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// A perspective camera, 16 to 9, that sees all of the extent: from the side of its longer horizontal edge, a little
 /// turned and raised.
@@ -26,4 +26,4 @@ std::vector<int> addGhosts(tinygltf::Model& model, GltfLook& look, const Motion&
 /// Marks of constraints, below one node: balls at nailed places, bodies in nailed poses, regions as translucent solids.
 std::vector<int> addNails(tinygltf::Model& model, GltfLook& look, const Document& document, const Motion& motion);
 
-}  // namespace carom
+}  // namespace carom::formats_detail
