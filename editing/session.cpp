@@ -30,9 +30,8 @@ double EditSession::State::millisecondsSinceStart() const {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
 }
 
-Work EditSession::State::work(int limit, double seconds) const {
-  return replays ? Work(limit, std::numeric_limits<double>::infinity(), replayed_cut)
-                 : Work(limit, seconds, std::nullopt);
+Budget EditSession::State::budget(int limit, double seconds) const {
+  return replays ? Budget::replayed(limit, replayed_cut) : Budget(limit, seconds);
 }
 
 void EditSession::State::requireNoDrag(const char* call) const {

@@ -177,11 +177,8 @@ void tryHelp(const Scene& written, const EditSearch& search, WhyNot& why) {
     options.max_iterations = kTryIterations;
     options.tolerance = search.options().tolerance;
     options.sequence = SequencePolicy::stay;
-    if (search.deadline()) {
-      const std::chrono::duration<double> left = *search.deadline() - std::chrono::steady_clock::now();
-      options.time_budget_seconds = left.count();
-      if (!(left.count() > 0)) return;
-    }
+    options.time_budget_seconds = search.secondsLeft();
+    if (!(options.time_budget_seconds > 0)) return;
     EditProblem extended(written, *problem.contacts, problem.duration, more, problem.constraints.constraints());
     extended.step_limit = problem.step_limit;
     extended.stop = options.stop = problem.stop;

@@ -113,22 +113,22 @@ bool SessionSolver::holdAtKink(EditPoint& at, EditPoint& trial) {
   return !jumps.empty();
 }
 
-void SessionSolver::improveHere(Work& work) {
+void SessionSolver::improveHere(Budget& budget) {
   keepIfBetter(start_);  // a drag that comes back finds what was there
   beyond_.reset();
-  descendFromBest(work);
+  descendFromBest(budget);
   if (!reached() && beyond_) {  // leaps across the border led nowhere: along it
     holds_jumps_ = true;
-    descend(point_, work, kStepsAlong);
+    descend(point_, budget, kStepsAlong);
     holds_jumps_ = false;
   }
-  if (options_.sequence != SequencePolicy::stay && goal_ >= 0 && problem_.unknowns() > 0) lookElsewhere(work);
+  if (options_.sequence != SequencePolicy::stay && goal_ >= 0 && problem_.unknowns() > 0) lookElsewhere(budget);
 }
 
 /// For as long as that brings it nearer.
-void SessionSolver::descendFromBest(Work& work) {
-  for (double before = std::numeric_limits<double>::infinity(); before > 0 && work.left() > 0;) {
-    descend(point_, work, kSteps);
+void SessionSolver::descendFromBest(Budget& budget) {
+  for (double before = std::numeric_limits<double>::infinity(); before > 0 && budget.left() > 0;) {
+    descend(point_, budget, kSteps);
     const double now = merit(*point_);
     if (reached() || !(now < kNearer * before)) return;
     before = now;
@@ -145,10 +145,10 @@ std::optional<Surroundings> SessionSolver::surroundings(EditPoint& point) const 
 /// Where the steps from the best point end before the goal, others are tried from samples around it, and around the
 /// start of the gesture. What is found is another way to the same target; impact sequences that were not tried come
 /// first.
-void SessionSolver::lookElsewhere(Work& work) {
+void SessionSolver::lookElsewhere(Budget& budget) {
   const double longest = longest_, ease = ease_;
   std::vector<std::string> known{point_->signature};  // where steps began in this update
-  for (int round = 0; !reached() && work.left() >= kBatch + kLanding; ++round) {
+  for (int round = 0; !reached() && budget.left() >= kBatch + kLanding; ++round) {
     EditPoint& centre = round % 2 ? *start_ : *point_;
     const std::optional<Surroundings> here = surroundings(centre);
     if (!here) return;
@@ -156,7 +156,7 @@ void SessionSolver::lookElsewhere(Work& work) {
     const auto isKnown = [&](const EditPoint& p) { return std::count(known.begin(), known.end(), p.signature) > 0; };
     for (const Eigen::VectorXd& y : samples(centre.changes, {*here}, lower_, upper_, samples_, kBatch)) {
       ++samples_;
-      if (!work.take()) return;
+      if (!budget.take()) return;
       const EditPointPtr trial = evaluate(y);
       if (!trial) continue;
       keepIfBetter(trial);
@@ -167,21 +167,21 @@ void SessionSolver::lookElsewhere(Work& work) {
     known.push_back(best->signature);
     longest_ = kFirstStep, ease_ = 1;
     const double before = merit(*point_);
-    descend(best, work, kStepsElsewhere);
-    if (!reached() && merit(*point_) < kNearer * before) descendFromBest(work);
+    descend(best, budget, kStepsElsewhere);
+    if (!reached() && merit(*point_) < kNearer * before) descendFromBest(budget);
     longest_ = longest, ease_ = ease;
   }
 }
 
 /// Takes at most so many steps, tried or taken, from a point on.
-void SessionSolver::descend(EditPointPtr at, Work& work, int most) {
+void SessionSolver::descend(EditPointPtr at, Budget& budget, int most) {
   int stalls = 0, leaps = 0;
   bool lands = false, crosses = false;
   longest_ = std::max(longest_, kFirstStep);
   kinks_.clear();
   last_towards_.resize(0);
   while (stalls < kStalls) {
-    const int left = std::min(most, work.left());
+    const int left = std::min(most, budget.left());
     StepProblem problem = stepProblem(*at);
     if (!at->row_jacobian->allFinite()) return;
     lands = !reached() && (lands || left <= kLanding);
@@ -198,7 +198,7 @@ void SessionSolver::descend(EditPointPtr at, Work& work, int most) {
       crosses = true;
       continue;
     }
-    if (most-- <= 0 || !work.take()) return;
+    if (most-- <= 0 || !budget.take()) return;
     const EditPointPtr trial = evaluate(at->changes + step.d);
     const double length = step.d.norm(), eased = problem.ease * step.towards_zero.norm();
     if (trial && at == point_ && trial->signature != at->signature) beyond_ = trial;

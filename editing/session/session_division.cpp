@@ -52,14 +52,14 @@ void SessionSolver::startAt(const Eigen::VectorXd& changes) {
 }
 
 /// Verifies where the part came to. True when the part had to grow, so that there is more to do.
-bool SessionSolver::takeOverPart(Work& work) {
+bool SessionSolver::takeOverPart(Budget& budget) {
   const EditPointPtr found = part_->point();
   Eigen::VectorXd changes = point_->changes;
   division_.extend(found->changes, changes);
   if (changes == point_->changes) return false;
   EditPointPtr trial = start_;
   if (changes != start_->changes) {
-    work.takeReserved();
+    budget.count(1);
     trial = evaluate(changes);
   }
   if (!trial) {  // with all bodies it makes no sense
@@ -90,31 +90,31 @@ void SessionSolver::shrinkPart() {
   if (stays_whole_ || std::count(counts.begin(), counts.end(), true) < division_.moving) divide(counts);
 }
 
-void SessionSolver::improve(Work& work) {
-  if (is_part_) return improveHere(work);
+void SessionSolver::improve(Budget& budget) {
+  if (is_part_) return improveHere(budget);
   if (division_.bodies.empty()) divide(bodiesThatCount(problem_, *start_));
   shrinkPart();
   const double whole = std::max(1.0, division_.all_moving / kCounted);
   if (part_) keepIfBetter(start_);
   for (bool goes_on = true; part_ && goes_on;) {
     const int before = part_->iterations();
-    work.setPrice(whole * division_.moving / division_.all_moving, whole);
-    part_->improve(work);
-    work.setPrice(whole, 0);
+    budget.setPrice(whole * division_.moving / division_.all_moving, whole);
+    part_->improve(budget);
+    budget.setPrice(whole, 0);
     iterations_ += part_->iterations() - before;
-    goes_on = takeOverPart(work) && work.left() > 1;
+    goes_on = takeOverPart(budget) && budget.left() > 1;
   }
-  work.setPrice(whole, 0);
-  if (!part_) improveHere(work);
+  budget.setPrice(whole, 0);
+  if (!part_) improveHere(budget);
 }
 
-void SessionSolver::finish(Work& work) {
-  if (!part_) return finishHere(work);
+void SessionSolver::finish(Budget& budget) {
+  if (!part_) return finishHere(budget);
   const int before = part_->iterations();
-  part_->finish(work);
+  part_->finish(budget);
   iterations_ += part_->iterations() - before;
-  const bool agrees = !takeOverPart(work) && part_->reached() == reached();
-  if (!agrees) finishHere(work);
+  const bool agrees = !takeOverPart(budget) && part_->reached() == reached();
+  if (!agrees) finishHere(budget);
 }
 
 }  // namespace carom::editing_detail

@@ -109,14 +109,14 @@ SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<
   SessionSolver& solver = *drag->solver;
   const EditPointPtr from = solver.point();
   const int steps = solver.iterations();
-  Work work = this->work(options.drag_simulations, options.drag_seconds);
-  solver.improve(work);
+  Budget budget = this->budget(options.drag_simulations, options.drag_seconds);
+  solver.improve(budget);
 
   SessionUpdate update;
   update.motion = solver.atStart() ? drag->before : solver.point() == from ? last.motion : motionOf(solver);
   update.iterations = solver.iterations() - steps;
-  update.simulations = work.done();
-  update.cut_by_clock = work.cutByClock();
+  update.simulations = budget.done();
+  update.cut_by_clock = budget.cutAfter().has_value();
   if (solver.point() != from) {
     update.stage = update.iterations == 1 ? SessionStage::predicted : SessionStage::improved;
   }
@@ -124,7 +124,7 @@ SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<
   measureDrag(update);
   describe(solver, update);
   DragTarget target{millisecondsSinceStart(), place, orientation, std::nullopt};
-  target.cut_after = work.cutAfter();
+  target.cut_after = budget.cutAfter();
   drag->record.targets.push_back(target);
   update.milliseconds = millisecondsSince(began_at);
   return last = std::move(update);
@@ -141,17 +141,17 @@ SessionUpdate EditSession::State::endDrag(SessionGesture::Ending ending) {
     last.motion = ended.before;
     stay("");
   } else {
-    Work work = this->work(options.release_iterations, options.release_seconds);
+    Budget budget = this->budget(options.release_iterations, options.release_seconds);
     SessionSolver& solver = *ended.solver;
     const EditPointPtr from = solver.point();
     const int steps = solver.iterations();
-    if (!ended.record.targets.empty()) solver.finish(work);
+    if (!ended.record.targets.empty()) solver.finish(budget);
     SessionUpdate update;
     update.motion = solver.point() == from ? last.motion : motionOf(solver);
     update.stage = solver.atStart() ? SessionStage::kept : SessionStage::solved;
     update.iterations = solver.iterations() - steps;
-    update.cut_by_clock = work.cutByClock();
-    ended.record.cut_after = work.cutAfter();
+    update.cut_by_clock = budget.cutAfter().has_value();
+    ended.record.cut_after = budget.cutAfter();
     measureGoal(solver, update);
     drag = std::move(ended);  // where the distance is measured
     measureDrag(update);
@@ -185,19 +185,19 @@ NailId EditSession::State::addNail(Constraint constraint) {
   constraints.push_back(constraint);
   const std::unique_ptr<SessionSolver> solver = solverFor(constraints, static_cast<int>(constraints.size()) - 1);
 
-  Work fast(options.drag_simulations, std::numeric_limits<double>::infinity(), std::nullopt);
-  Work work = this->work(options.release_iterations, options.release_seconds);
+  Budget fast(options.drag_simulations);
+  Budget budget = this->budget(options.release_iterations, options.release_seconds);
   if (!solver->reached()) {
     solver->improve(fast);
-    solver->finish(work);
+    solver->finish(budget);
   }
   SessionUpdate update;
   update.motion = solver->atStart() ? last.motion : motionOf(*solver);
   update.stage = solver->atStart() ? SessionStage::kept : SessionStage::solved;
   update.iterations = solver->iterations();
   update.simulations = fast.done();
-  update.cut_by_clock = work.cutByClock();
-  gesture.cut_after = work.cutAfter();
+  update.cut_by_clock = budget.cutAfter().has_value();
+  gesture.cut_after = budget.cutAfter();
   remember(now);
   now.nails.push_back({{next_nail++}, std::move(constraint)});
   if (!solver->atStart()) takeOver(*solver, update);

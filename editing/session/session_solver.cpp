@@ -95,12 +95,12 @@ void SessionSolver::keepIfBetter(const EditPointPtr& point) {
   nails_allowed_ = std::clamp(nailViolation(*point), options_.tolerance, nails_allowed_);
 }
 
-void SessionSolver::finishHere(Work& work) {
+void SessionSolver::finishHere(Budget& budget) {
   EditOptions options;
   options.max_iterations = options_.release_iterations;
   options.tolerance = options_.tolerance;
   options.sequence = options_.sequence;
-  options.progress = [&](const EditProgress&) { return work.take(); };
+  options.progress = [&](const EditProgress&) { return budget.take(); };
   EditSearch search(problem_, options);
   EditPointPtr found;
   if (!reached()) {

@@ -9,7 +9,6 @@
 #include "editing/session/session_kink.hpp"
 #include "editing/session/session_part.hpp"
 #include "editing/session/session_step.hpp"
-#include "editing/session/session_work.hpp"
 #include "editing/session_journal.h"
 #include "editing/solve/edit_search.hpp"
 #include "editing/strategy/samples.hpp"
@@ -36,9 +35,9 @@ class SessionSolver {
   void aim(int target, const std::vector<double>& value);
   /// Comes nearer to the constraints and makes the change smaller, by differential updates. Where few of the bodies
   /// matter, it works with a scene of those alone, and what came of that is verified with all.
-  void improve(Work& work);
+  void improve(Budget& budget);
   /// Minimises the change, or searches further where the constraints are not met. Work is counted in iterations.
-  void finish(Work& work);
+  void finish(Budget& budget);
 
   /// Largest scaled error of the rows that are not of the goal.
   double nailError(const RowValues& rows) const;
@@ -62,18 +61,18 @@ class SessionSolver {
   void learnEase(const EditPoint& at, const Step& step);
 
   // session_descent.cpp: with all bodies that there are
-  void improveHere(Work& work);
-  void descendFromBest(Work& work);
-  void descend(EditPointPtr at, Work& work, int most);
+  void improveHere(Budget& budget);
+  void descendFromBest(Budget& budget);
+  void descend(EditPointPtr at, Budget& budget, int most);
   std::optional<Surroundings> surroundings(EditPoint& point) const;
-  void lookElsewhere(Work& work);
-  void finishHere(Work& work);
+  void lookElsewhere(Budget& budget);
+  void finishHere(Budget& budget);
 
   // session_division.cpp: with some of them
   void divide(const std::vector<bool>& moving);
   void shrinkPart();
   void startAt(const Eigen::VectorXd& changes);
-  bool takeOverPart(Work& work);
+  bool takeOverPart(Budget& budget);
 
   SessionOptions options_;
   EditProblem problem_;

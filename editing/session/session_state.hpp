@@ -68,7 +68,7 @@ struct EditSession::State {
   std::optional<int> replayed_cut;
 
   double millisecondsSinceStart() const;
-  Work work(int limit, double seconds) const;
+  Budget budget(int limit, double seconds) const;
   void requireNoDrag(const char* call) const;
 
   // session.cpp

@@ -15,31 +15,23 @@ constexpr std::size_t kRecentPoints = 4;
 /// No number is followed further than this, in natural scales: where constraints stand against each other steps may
 /// lead to any speed and spin, and so to motions of any cost.
 constexpr double kFarthest = 1e3;
-/// Longest time budget that a clock can add.
-constexpr double kLongestBudget = 1e8;
 
 }  // namespace
 
 EditSearch::EditSearch(const EditProblem& problem, const EditOptions& options)
-    : problem_(problem), options_(options), lower_(problem.lower()), upper_(problem.upper()), until_(problem.horizon) {
-  if (options.time_budget_seconds < kLongestBudget) {
-    using Clock = std::chrono::steady_clock;
-    const std::chrono::duration<double> budget(std::max(0.0, options.time_budget_seconds));
-    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(budget);
-  }
-}
-
-bool EditSearch::expired() {
-  if (options_.stop.stop_requested() && halt_ == Halt::none) halt_ = Halt::cancelled;
-  if (deadline_ && std::chrono::steady_clock::now() >= *deadline_ && halt_ == Halt::none) halt_ = Halt::out_of_time;
-  return halt_ != Halt::none;
-}
+    : problem_(problem),
+      options_(options),
+      budget_(options.max_iterations, options.time_budget_seconds, options.stop),
+      lower_(problem.lower()),
+      upper_(problem.upper()),
+      until_(problem.horizon) {}
 
 bool EditSearch::step(double objective, double violation) {
-  ++iterations_;
-  if (expired()) return false;
-  if (!silent_ && options_.progress && !options_.progress({iterations_, objective, violation})) halt_ = Halt::cancelled;
-  return halt_ == Halt::none;
+  budget_.count(1);
+  if (budget_.expired()) return false;
+  if (!silent_ && options_.progress && !options_.progress({iterations(), objective, violation}))
+    budget_.end(Halt::cancelled);
+  return halt() == Halt::none;
 }
 
 void readRows(const EditProblem& problem, EditPoint& point) {
@@ -103,7 +95,7 @@ EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_t
   for (const EditPointPtr& point : recent_) {
     if (!nearest_times && point->changes == changes) return point;
   }
-  if (expired()) return nullptr;
+  if (budget_.expired()) return nullptr;
   const EditPointPtr point = make(changes, nearest_times, maker_);
   if (!point) return nullptr;
   if (recent_.size() == kRecentPoints) recent_.erase(recent_.begin());

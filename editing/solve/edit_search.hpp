@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "editing/edit_options.h"
 #include "editing/problem/jacobian.hpp"
+#include "editing/solve/budget.hpp"
 
 /// Points, and how one is improved. Internal to editing/.
 namespace carom::editing_detail {
@@ -50,9 +50,6 @@ void readRows(const EditProblem& problem, EditPoint& point);
 /// Fills in the point's derivatives.
 void differentiate(const EditProblem& problem, EditPoint& point);
 
-/// Why a search must end early.
-enum class Halt { none, out_of_time, cancelled };
-
 /// Evaluates points, remembers the best, and watches the clock and the callback.
 class EditSearch {
  public:
@@ -75,7 +72,7 @@ class EditSearch {
   /// here and has the same deadline. In a thread of its own it must be `silent`: then it does not ask the callback.
   EditSearch branch(const MotionMaker& maker, bool silent) const;
   /// Counts on from where a branch ended.
-  void adopt(const EditSearch& branch) { iterations_ = branch.iterations_, halt_ = branch.halt_; }
+  void adopt(const EditSearch& branch) { budget_ = branch.budget_; }
   /// Remembers a point if it is the best so far. Its motion must be a simulated one.
   void consider(const EditPointPtr& point);
 
@@ -91,27 +88,23 @@ class EditSearch {
   /// Counts a step and asks the callback whether to go on.
   bool step(double objective, double violation);
   /// Counts steps that branches took at the same time, as many as the longest of them.
-  void count(int steps) { iterations_ += steps; }
-  int iterations() const { return iterations_; }
-  int iterationsLeft() const { return options_.max_iterations - iterations_; }
-  Halt halt() const { return halt_; }
-  bool goesOn() const { return halt_ == Halt::none && iterationsLeft() > 0; }
-  std::optional<std::chrono::steady_clock::time_point> deadline() const { return deadline_; }
+  void count(int steps) { budget_.count(steps); }
+  int iterations() const { return budget_.done(); }
+  int iterationsLeft() const { return budget_.left(); }
+  Halt halt() const { return budget_.halt(); }
+  bool goesOn() const { return halt() == Halt::none && iterationsLeft() > 0; }
+  double secondsLeft() const { return budget_.secondsLeft(); }
 
  private:
-  bool expired();
-
   const EditProblem& problem_;
   const EditOptions& options_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  Budget budget_;
   Eigen::VectorXd lower_, upper_;
   double until_;  ///< simulated first; further where a row is not found by then
   std::vector<EditPointPtr> recent_;
   EditPointPtr best_;
   MotionMaker maker_;
   bool silent_ = false;
-  int iterations_ = 0;
-  Halt halt_ = Halt::none;
 };
 
 }  // namespace carom::editing_detail

@@ -22,10 +22,6 @@ std::mutex& ipoptMutex() {
   return mutex;
 }
 
-bool expired(const SolverOptions& options) {
-  return options.deadline && std::chrono::steady_clock::now() >= *options.deadline;
-}
-
 /// Ipopt's C interface. The library is opened when the first program is solved: it brings a dozen others along, whose
 /// relocation would cost every process more time than a small simulation.
 struct IpoptLibrary {
@@ -68,13 +64,9 @@ const IpoptLibrary& ipoptLibrary() {
 /// A NonlinearProgram as Ipopt sees it; the functions below are given to it with the adapter as their last argument.
 class Adapter {
  public:
-  Adapter(NonlinearProgram& program, const SolverOptions& options)
-      : program_(program),
-        options_(options),
-        n_(program.variables()),
-        m_(program.constraints()) {}
+  explicit Adapter(NonlinearProgram& program)
+      : program_(program), n_(program.variables()), m_(program.constraints()) {}
 
-  bool outOfTime() const { return out_of_time_; }
   std::exception_ptr thrown() const { return thrown_; }
   int iterations() const { return iterations_; }
 
@@ -149,10 +141,6 @@ class Adapter {
                         Number, Index, UserDataPtr data) {
     Adapter& a = self(data);
     a.iterations_ = count;
-    if (expired(a.options_)) {
-      a.out_of_time_ = true;
-      return FALSE;
-    }
     try {
       return a.program_.iteration({count, objective, inf_pr});
     } catch (...) {
@@ -176,10 +164,6 @@ class Adapter {
   /// Ipopt takes a refused point calmly; an exception must not pass through it.
   template <class Evaluation>
   bool evaluate(Evaluation evaluation) {
-    if (expired(options_)) {
-      out_of_time_ = true;
-      return false;
-    }
     try {
       return evaluation();
     } catch (...) {
@@ -188,12 +172,10 @@ class Adapter {
   }
 
   NonlinearProgram& program_;
-  const SolverOptions& options_;
   Index n_, m_;
   Eigen::VectorXd vector_;
   Eigen::MatrixXd matrix_;
   int iterations_ = 0;
-  bool out_of_time_ = false;
   std::exception_ptr thrown_;
 };
 
@@ -213,7 +195,6 @@ constexpr Outcome kOutcomes[] = {
     {Diverging_Iterates, SolverStatus::no_progress, "The solver's points ran away."},
     {User_Requested_Stop, SolverStatus::stopped, "The solver was stopped."},
     {Maximum_Iterations_Exceeded, SolverStatus::iteration_limit, "The solver reached its limit of iterations."},
-    {Maximum_CpuTime_Exceeded, SolverStatus::out_of_time, "The solver ran out of time."},
     {Restoration_Failed, SolverStatus::no_progress, "The solver could not come nearer to the constraints."},
     {Error_In_Step_Computation, SolverStatus::no_progress, "The solver could not compute a step."},
     {Not_Enough_Degrees_Of_Freedom, SolverStatus::too_few_variables,
@@ -270,7 +251,7 @@ SolverResult solveLocked(NonlinearProgram& program, const SolverOptions& options
     result.message = ipopt.error;
     return result;
   }
-  Adapter adapter(program, options);
+  Adapter adapter(program);
   const std::unique_ptr<IpoptProblemInfo, decltype(ipopt.free)> problem(adapter.createProblem(ipopt), ipopt.free);
   if (!problem) {
     result.message = "Ipopt could not be started.";
@@ -284,7 +265,6 @@ SolverResult solveLocked(NonlinearProgram& program, const SolverOptions& options
   explain(code, result);
   result.iterations = adapter.iterations();
   if (adapter.thrown()) std::rethrow_exception(adapter.thrown());
-  if (adapter.outOfTime()) result.status = SolverStatus::out_of_time, result.message = "The solver ran out of time.";
   return result;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
-#include <optional>
 #include <string>
 
 #include "editing/solve/nonlinear_program.hpp"
@@ -14,7 +12,6 @@ enum class SolverStatus {
   acceptable,  ///< converged to a looser tolerance
   infeasible,  ///< at a point where the violation cannot be made smaller nearby
   iteration_limit,
-  out_of_time,
   stopped,            ///< NonlinearProgram::iteration() returned false
   cannot_evaluate,    ///< the start, or everything near a point, was refused
   too_few_variables,  ///< more equations than variables
@@ -29,7 +26,6 @@ struct SolverOptions {
   /// How far from its bounds the start is moved, and the first weight of the barrier that keeps it there.
   double bound_push = 1e-4;
   double barrier = 1e-4;
-  std::optional<std::chrono::steady_clock::time_point> deadline;
 };
 
 struct SolverResult {

@@ -26,7 +26,6 @@ EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const 
   options.max_iterations = max_iterations;
   options.tolerance = kOptimality;
   options.constraint_tolerance = std::max(search.options().tolerance, kLeastTolerance);
-  options.deadline = search.deadline();
   const SolverResult result = solveWithIpopt(program, options);
   EditPointPtr end = search.evaluate(result.x);
   if (!end || (signature && end->signature != *signature)) return start;

@@ -8,7 +8,6 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/session.h"
 #include "editing/session/session_part.hpp"
-#include "editing/session/session_work.hpp"
 #include "tests/editing/session_scenes.h"
 
 namespace carom {
@@ -129,27 +128,26 @@ TEST(SessionParts, AMotionThatEndsEarlySaysSo) {
   EXPECT_FALSE(session.isGrabbed());
 }
 
-TEST(SessionWork, IsCountedByItsPriceAndCutByTheRecord) {
-  const double forever = std::numeric_limits<double>::infinity();
-  Work work(2, forever, std::nullopt);
-  work.setPrice(0.25, 1);
-  EXPECT_EQ(work.left(), 4);
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(work.take()) << i;
-  EXPECT_FALSE(work.take());
-  EXPECT_FALSE(work.cutByClock());
-  work.setPrice(1, 0);
-  work.takeReserved();
-  EXPECT_FALSE(work.take());
-  EXPECT_EQ(work.done(), 5);
+TEST(Budget, IsCountedByItsPriceAndCutByTheRecord) {
+  Budget budget(2);
+  budget.setPrice(0.25, 1);
+  EXPECT_EQ(budget.left(), 4);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(budget.take()) << i;
+  EXPECT_FALSE(budget.take());
+  EXPECT_FALSE(budget.cutAfter().has_value());
+  budget.setPrice(1, 0);
+  budget.count(1);
+  EXPECT_FALSE(budget.take());
+  EXPECT_EQ(budget.done(), 5);
 
-  Work replayed(10, forever, 2);
+  Budget replayed = Budget::replayed(10, 2);
   EXPECT_TRUE(replayed.take() && replayed.take());
   EXPECT_FALSE(replayed.take());
-  replayed.takeReserved();
+  replayed.count(1);
   EXPECT_EQ(replayed.cutAfter(), 2);
   EXPECT_EQ(replayed.done(), 3);
 
-  Work late(10, 0, std::nullopt);
+  Budget late(10, 0);
   EXPECT_FALSE(late.take());
   EXPECT_EQ(late.cutAfter(), 0);
 }
