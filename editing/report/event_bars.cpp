@@ -9,13 +9,14 @@ namespace carom::editing_detail {
 
 using namespace adjoint_detail;
 
-EventBars::EventBars(const Motion& motion, int event)
-    : motion_(motion),
-      event_(motion.events[static_cast<std::size_t>(event)]),
-      linearization_(motion, event),
+EventBars::EventBars(DerivativeTape& tape, int event)
+    : tape_(tape),
+      motion_(tape.motion()),
+      event_(motion_.events[static_cast<std::size_t>(event)]),
+      pass_(tape.event(event).pass()),
       problem_(static_cast<int>(event_.contacts.size())),
       contacts_(event_.contacts.size(), Eigen::Matrix<double, 7, 1>::Zero()),
-      direct_(*motion.scene) {
+      direct_(*motion_.scene) {
   for (const Participant& p : event_.participants) {
     StateSeed& seed = seeds_.emplace_back();
     seed.body = p.body;
@@ -26,11 +27,11 @@ EventBars::EventBars(const Motion& motion, int event)
 Pose EventBars::poseOf(int body) const { return poseBefore(motion_, event_, body); }
 
 Vec3 EventBars::velocityAt(int contact) const {
-  return linearization_.pass().impact().problem().u.segment<3>(3 * contact);
+  return pass_.impact().problem().u.segment<3>(3 * contact);
 }
 
 Mat3 EventBars::matrixAt(int contact) const {
-  return linearization_.pass().impact().problem().K.block<3, 3>(3 * contact, 3 * contact);
+  return pass_.impact().problem().K.block<3, 3>(3 * contact, 3 * contact);
 }
 
 void EventBars::addPose(int body, const Vec3& x_bar, const Vec3& theta_bar) {
@@ -64,29 +65,28 @@ void EventBars::addLaw(int contact, const Mat3& K_bar, const Vec3& impulse_norma
   problem_.pair[static_cast<std::size_t>(contact)] += pair_bar;
 }
 
-SceneGradient EventBars::gradient(DerivativeTape& tape) const {
-  const EventPass<double>& pass = linearization_.pass();
-  auto bars = pass.impact().noBars();
-  auto between = pass.impact().nothingBetween();
-  pass.impact().problemPullback(problem_, between, bars);
+SceneGradient EventBars::gradient() const {
+  auto bars = pass_.impact().noBars();
+  auto between = pass_.impact().nothingBetween();
+  pass_.impact().problemPullback(problem_, between, bars);
   std::vector<StateSeed> seeds = seeds_;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     seeds[i].velocity += bars.before[i].v;
     seeds[i].angular_velocity += between.omega[i];
     between.omega[i].setZero();
   }
-  pass.impact().betweenPullback(between, bars);
+  pass_.impact().betweenPullback(between, bars);
   SceneGradient direct = direct_;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    pass.contactPullback(k, bars.contact[k], bars.pair[k], bars.before, direct);
-    pass.scatter(pass.parts()[k], contacts_[k], bars.before, direct);
+    pass_.contactPullback(k, bars.contact[k], bars.pair[k], bars.before, direct);
+    pass_.scatter(pass_.parts()[k], contacts_[k], bars.before, direct);
   }
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     seeds[i].center_of_mass += bars.before[i].x;
     seeds[i].orientation += bars.before[i].theta;
   }
 
-  SceneGradient g = adjoint(tape, seeds);
+  SceneGradient g = adjoint(tape_, seeds);
   for (std::size_t i = 0; i < bars.model.size(); ++i) {
     const auto b = static_cast<std::size_t>(event_.participants[i].body);
     if (!bars.model[i].isZero())

@@ -16,8 +16,8 @@ using namespace adjoint_detail;
 /// mass properties and coefficients. `gradient` turns it into the derivative by every number of the scene.
 class EventBars {
  public:
-  /// `motion` must outlive it.
-  EventBars(const Motion& motion, int event);
+  /// `tape` must outlive it.
+  EventBars(DerivativeTape& tape, int event);
 
   /// By (gap, normal, point) of a contact, at the moved poses of its bodies.
   void addContact(int contact, const Eigen::Matrix<double, 7, 1>& bar);
@@ -37,12 +37,13 @@ class EventBars {
   Pose poseOf(int body) const;
 
   /// One reverse pass.
-  SceneGradient gradient(DerivativeTape& tape) const;
+  SceneGradient gradient() const;
 
  private:
+  DerivativeTape& tape_;
   const Motion& motion_;
   const Event& event_;
-  EventLinearization linearization_;
+  const EventPass<double>& pass_;
   ImpactProblemDerivative problem_;                    // by what the law sees
   std::vector<Eigen::Matrix<double, 7, 1>> contacts_;  // by the contacts themselves
   std::vector<StateSeed> seeds_;                       // of the participants

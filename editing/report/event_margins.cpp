@@ -85,13 +85,13 @@ class MarginReader {
     return m;
   }
 
-  Eigen::VectorXd gradientOf(const EventBars& bars) { return by_changes_(bars.gradient(tape_)); }
+  Eigen::VectorXd gradientOf(const EventBars& bars) { return by_changes_(bars.gradient()); }
 
   const Eigen::VectorXd& timeGradient(int event) {
     times_.resize(motion_.events.size());
     Eigen::VectorXd& g = times_[static_cast<std::size_t>(event)];
     if (g.size() == 0) {
-      EventBars bars(motion_, event);
+      EventBars bars(tape_, event);
       bars.addTime(1);
       g = gradientOf(bars);
     }
@@ -101,7 +101,7 @@ class MarginReader {
   // d (n.u)^2 = 2 (n.u) (u.dn + n.du)
   void grazing(int event, int k) {
     const Contact& c = eventAt(event).contacts[static_cast<std::size_t>(k)];
-    EventBars bars(motion_, event);
+    EventBars bars(tape_, event);
     const Vec3 n = c.at.normal, u = bars.velocityAt(k);
     const double approach = n.dot(u);
     Vec7 contact = Vec7::Zero();
@@ -119,9 +119,9 @@ class MarginReader {
   void leaving(int event, int k) {
     if (!bodies_) return;
     const Contact& c = eventAt(event).contacts[static_cast<std::size_t>(k)];
-    const EventBars nothing(motion_, event);
+    const EventBars nothing(tape_, event);
     for (const FeatureLimit& limit : bodies_->limits(c.a, c.b, c.features, nothing.poseOf(c.a), nothing.poseOf(c.b))) {
-      EventBars bars(motion_, event);
+      EventBars bars(tape_, event);
       const Pose pose = bars.poseOf(limit.body);
       const Vec3 r = c.at.point - pose.x, w = pose.R * limit.point_weight, l = pose.R * limit.normal_weight;
       Vec7 contact = Vec7::Zero();
@@ -140,7 +140,7 @@ class MarginReader {
   }
 
   void parting(int event, int k) {
-    EventBars bars(motion_, event);
+    EventBars bars(tape_, event);
     bars.addContact(k, Vec7::Unit(0));
     EventMargin m = start(Way::parts, event);
     m.gradient = gradientOf(bars);
@@ -153,7 +153,7 @@ class MarginReader {
   Eigen::VectorXd impulseGradient(int event, const ContactProblem& problem, const Vec3& direction,
                                   const Vec3& normal_bar) {
     const ContactProblemBar bar = untruncatedImpulsePullback(problem, direction);
-    EventBars bars(motion_, event);
+    EventBars bars(tape_, event);
     bars.addLaw(0, bar.K, bar.normal + normal_bar, bar.pair);
     bars.addVelocity(0, bar.u);
     return gradientOf(bars);
@@ -162,12 +162,12 @@ class MarginReader {
   void slipping(int event) {
     const Event& e = eventAt(event);
     const Contact& c = e.contacts[0];
-    const EventBars nothing(motion_, event);
+    const EventBars nothing(tape_, event);
     const ContactProblem problem{nothing.matrixAt(0), nothing.velocityAt(0), c.impulse_normal, c.pair};
     const Vec3 n = problem.normal, P = untruncatedImpulse(problem);
     const double P_n = n.dot(P), mu = c.pair.friction;
     const Vec3 P_t = P - P_n * n, t1 = P_t.norm() > 0 ? P_t.normalized() : n.unitOrthogonal(), t2 = n.cross(t1);
-    EventBars friction(motion_, event);
+    EventBars friction(tape_, event);
     friction.addLaw(0, Mat3::Zero(), Vec3::Zero(), {0, P_n, 0});
     const Eigen::VectorXd by_friction = gradientOf(friction);
     if (e.mode == ImpactMode::frictionless && by_friction.isZero(0)) return;  // it stays without

@@ -120,11 +120,7 @@ struct Explanation {
     const auto varies = [&](const auto& test) {
       return std::any_of(controls.begin(), controls.end(), [&](const BoundControl& b) { return test(b.control); });
     };
-    if (varies([&](const Control& c) {
-          return c.vary == control.vary && c.body == control.body && c.material == control.material &&
-                 c.impact == control.impact;
-        }))
-      return 0;
+    if (varies([&](const Control& c) { return varyTheSame(c, control); })) return 0;
     if (findControlKind(control.vary)->owner == OwnerKind::impact) return 2;
     const Scene& scene = problem.controls.startScene();
     const auto belongs = [&](const std::string& body) {

@@ -14,9 +14,7 @@ namespace {
 std::vector<std::string> varied(const ControlSet& controls, const Control& like) {
   std::vector<std::string> names;
   for (const Variable& v : controls.variables()) {
-    const Control& c = controls.controls()[static_cast<std::size_t>(v.control)].control;
-    if (c.vary == like.vary && c.body == like.body && c.material == like.material &&
-        (c.vary != "tilt" || c.impact == like.impact))
+    if (varyTheSame(controls.controls()[static_cast<std::size_t>(v.control)].control, like))
       names.push_back(v.component);
   }
   return names;
@@ -74,6 +72,11 @@ std::string nameOf(const Control& control) {
 }
 
 }  // namespace
+
+bool varyTheSame(const Control& a, const Control& b) {
+  const bool one_owner = a.body == b.body && a.material == b.material;
+  return a.vary == b.vary && one_owner && (a.impact == b.impact || findControlKind(a.vary)->owner != OwnerKind::impact);
+}
 
 std::vector<Candidate> candidatesFor(const EditProblem& problem, const EditPoint& point) {
   const Scene scene = problem.controls.sceneAt(point.values);

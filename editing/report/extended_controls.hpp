@@ -18,6 +18,9 @@ struct Candidate {
   Eigen::VectorXd lower, upper;  ///< of the changes
 };
 
+/// Whether two controls vary numbers of the same kind and owner.
+bool varyTheSame(const Control& a, const Control& b);
+
 /// All kinds of controls for all their owners: bodies, materials, gravity, and tilts of the impacts that happened (the
 /// first kTiltedImpacts of a body). Two reverse passes a row give the derivatives by all of them, and as many again for
 /// the kinds that write the scene in other words (mass, moments).
