@@ -10,7 +10,7 @@
 #include "carom/version.h"
 #include "cli/command.h"
 #include "cli/pages/declared.h"
-#include "formats/answers/status_json.h"
+#include "formats/answers/status_json.hpp"
 #include "formats/base/format_error.h"
 
 namespace carom::cli {

@@ -15,7 +15,7 @@
 #include "cli/units.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
-#include "formats/answers/edit_json.h"
+#include "formats/answers/edit_json.hpp"
 
 namespace carom::cli {
 namespace {

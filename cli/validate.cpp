@@ -8,7 +8,7 @@
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "formats/answers/status_json.h"
+#include "formats/answers/status_json.hpp"
 
 namespace carom::cli {
 namespace {

@@ -2,30 +2,15 @@
 #include "formats/documents/scene_json.h"
 
 #include <filesystem>
-#include <variant>
 
 #include "formats/base/read_file.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/documents/surface_files.hpp"
 #include "formats/json/json.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom {
-namespace {
-
-using detail::Json;
-
-void rebaseFiles(Shape& shape, const std::string& from, const std::string& to) {
-  if (auto* hull = std::get_if<Hull>(&shape); hull != nullptr && !hull->file.empty())
-    hull->file = detail::rebased(hull->file, from, to);
-  if (auto* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && !mesh->file.empty())
-    mesh->file = detail::rebased(mesh->file, from, to);
-  if (auto* compound = std::get_if<Compound>(&shape))
-    for (CompoundPart& part : compound->parts) rebaseFiles(part.shape, from, to);
-}
-
-}  // namespace
-
 std::string detail::folderOf(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
@@ -38,7 +23,9 @@ std::string detail::movedSchema(const std::string& schema, const std::string& fr
 
 void detail::moveTo(const std::string& folder, Document& document) {
   document.schema = movedSchema(document.schema, document.folder, folder);
-  for (Body& body : document.scene.bodies) rebaseFiles(body.shape, document.folder, folder);
+  for (Body& body : document.scene.bodies)
+    for (const shapes::SurfaceUse& use : shapes::surfacesOf(body.shape))
+      if (!use.file.empty()) use.file = rebased(use.file, document.folder, folder);
   document.folder = folder;
 }
 
@@ -61,7 +48,7 @@ Document parseDocument(std::string_view text, const std::string& name, const std
   if (text.size() > kLargestDocument)
     throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
                      std::to_string(kLargestDocument) + " bytes");
-  const Json json = detail::parseJson(text);
+  const detail::Json json = detail::parseJson(text);
   detail::requireVersion(json, "carom");
   detail::requireSchema(json);
   return detail::readDocument(json, folder);

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/documents/scene_reader.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 namespace {
@@ -54,8 +48,9 @@ FormatKind formatRow(KindOf<Box>) {
       .read = [](const detail::Json& value, const std::string&,
                  detail::SurfaceFiles&) -> Shape { return Box{detail::readVector(value["size"])}; },
       .write = [](JsonWriter& out,
-                  const Shape& s) { out.beginObject().key("size").vector(std::get<Box>(s).size).endObject(); },
+                  const Shape& s) { out.beginObject().members("size", std::get<Box>(s).size).endObject(); },
       .on_one_line = onOneLine,
+      .surfaces = noSurfaces,
       .extent = [](const Shape& s, const ShapePose& at) {
         return extentAround(at.x, 0.5 * (at.q.toRotationMatrix().cwiseAbs() * std::get<Box>(s).size));
       },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/answers/result_json.h"
+#include "formats/answers/result_json.hpp"
 
 #include <gtest/gtest.h>
 
