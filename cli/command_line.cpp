@@ -10,10 +10,13 @@
 #include "carom/version.h"
 #include "cli/command.h"
 #include "cli/pages/declared.h"
-#include "formats/answers/status_json.h"
+#include "formats/answers/status_json.hpp"
 #include "formats/base/format_error.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr const char* kIntroduction =

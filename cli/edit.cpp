@@ -15,10 +15,11 @@
 #include "cli/units.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
-#include "formats/answers/edit_json.h"
+#include "formats/answers/edit_json.hpp"
 
 namespace carom::cli {
 
+using namespace formats_detail;
 using namespace adjoint_detail;
 using namespace editing_detail;
 

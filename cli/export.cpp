@@ -13,7 +13,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
-#include "formats/answers/status_json.h"
+#include "formats/answers/status_json.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/export/export_motion.h"
 

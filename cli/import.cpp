@@ -10,11 +10,14 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
-#include "formats/answers/status_json.h"
+#include "formats/answers/status_json.hpp"
 #include "formats/documents/save_with_meshes.h"
 #include "formats/gltf/read/import_gltf.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 struct ImportArguments {

@@ -14,8 +14,8 @@
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/table.h"
-#include "formats/answers/info_json.h"
-#include "formats/answers/status_json.h"
+#include "formats/answers/info_json.hpp"
+#include "formats/answers/status_json.hpp"
 #include "formats/export/export_motion.h"
 #include "formats/json/json_writer.hpp"
 

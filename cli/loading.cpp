@@ -6,6 +6,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "cli/progress.h"
 #include "cli/streams.h"
+#include "editing/problem/controls/control_kinds.hpp"
 #include "editing/problem/rows/refined_times.hpp"
 #include "formats/json/json_writer.hpp"
 
@@ -60,10 +61,6 @@ std::string describeMissing(const Motion& motion, const Constraint& constraint) 
          constraint.body + "', expected one that comes: it has " + (count == 0 ? "none" : std::to_string(count)) +
          " within " + end + reason;
 }
-
-}  // namespace
-
-namespace {
 
 Document readScene(const Output& out, const std::string& file) {
   const Progress progress(out, "reading");
@@ -127,7 +124,8 @@ EditProblem derivativeProblem(Loaded& loaded) {
     std::vector<Control> unbounded = document.controls;
     for (Control& control : unbounded) {
       control.min.clear();
-      if (control.vary != "tilt") control.max.clear();  // the cone of a tilt is no bound of its components
+      // the cone of a tilt is no bound of its components
+      if (findControlKind(control.vary)->owner != OwnerKind::impact) control.max.clear();
     }
     EditProblem problem(document.scene, loaded.contacts, document.duration, unbounded, document.constraints);
     problem.step_limit = loaded.step_limit;

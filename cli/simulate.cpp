@@ -11,7 +11,7 @@
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/table.h"
-#include "formats/answers/result_json.h"
+#include "formats/answers/result_json.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom::cli {

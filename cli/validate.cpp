@@ -8,10 +8,11 @@
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "formats/answers/status_json.h"
+#include "formats/answers/status_json.hpp"
 
 namespace carom::cli {
 
+using namespace formats_detail;
 using namespace adjoint_detail;
 using namespace editing_detail;
 

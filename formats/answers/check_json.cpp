@@ -20,43 +20,35 @@ void writeEntry(JsonWriter& out, const EditProblem& problem, const DerivativeChe
     return;
   }
   out.beginObject(Layout::line);
-  out.key("row").integer(entry.row);
-  out.key("column").integer(entry.column);
-  out.key("name").text(problem.constraints.describeRow(entry.row) + " by " +
-                       problem.controls.describeVariable(entry.column));
-  out.key("adjoint").number(check.by_adjoint(entry.row, entry.column));
-  out.key(other_name).number(other(entry.row, entry.column));
-  out.key("disagreement").number(entry.disagreement);
+  out.members("row", entry.row, "column", entry.column);
+  out.members("name", problem.constraints.describeRow(entry.row) + " by " +
+                          problem.controls.describeVariable(entry.column));
+  out.members("adjoint", check.by_adjoint(entry.row, entry.column), other_name, other(entry.row, entry.column));
+  out.members("disagreement", entry.disagreement);
+  out.endObject();
+}
+
+void writeStep(JsonWriter& out, double step, const DifferenceColumn& column) {
+  out.beginObject(column.compared ? Layout::line : Layout::block);
+  out.members("step", step, "compared", column.compared);
+  if (column.compared)
+    out.members("scheme", column.scheme, "disagreement", column.disagreement);
+  else
+    out.members("why", column.why, "sequence_below", column.below, "sequence_above", column.above);
   out.endObject();
 }
 
 void writeColumn(JsonWriter& out, const EditProblem& problem, const DerivativeCheck& check, int column) {
   const auto c = static_cast<std::size_t>(column);
-  const int best = check.best_step[c];
-  out.beginObject();
-  out.key("control").integer(problem.controls.variables()[c].control);
-  out.key("component").text(columnName(problem.controls, column));
-  out.key("best_step");
-  best < 0 ? out.null() : out.number(check.steps[static_cast<std::size_t>(best)]);
-  out.key("disagreement");
-  best < 0 ? out.null() : out.number(check.columns[c][static_cast<std::size_t>(best)].disagreement);
+  const std::vector<DifferenceColumn>& steps = check.columns[c];
+  out.members("control", problem.controls.variables()[c].control, "component", columnName(problem.controls, column));
+  std::optional<std::size_t> best;
+  if (check.best_step[c] >= 0) best = static_cast<std::size_t>(check.best_step[c]);
+  out.members("best_step", best ? std::optional(check.steps[*best]) : std::nullopt);
+  out.members("disagreement", best ? std::optional(steps[*best].disagreement) : std::nullopt);
   out.key("steps").beginArray();
-  for (std::size_t s = 0; s < check.steps.size(); ++s) {
-    const DifferenceColumn& one = check.columns[c][s];
-    out.beginObject(one.compared ? Layout::line : Layout::block);
-    out.key("step").number(check.steps[s]);
-    out.key("compared").boolean(one.compared);
-    if (one.compared) {
-      out.key("scheme").text(one.scheme);
-      out.key("disagreement").number(one.disagreement);
-    } else {
-      out.key("why").text(one.why);
-      out.key("sequence_below").texts(one.below);
-      out.key("sequence_above").texts(one.above);
-    }
-    out.endObject();
-  }
-  out.endArray().endObject();
+  for (std::size_t s = 0; s < check.steps.size(); ++s) writeStep(out, check.steps[s], steps[s]);
+  out.endArray();
 }
 
 }  // namespace
@@ -64,15 +56,12 @@ void writeColumn(JsonWriter& out, const EditProblem& problem, const DerivativeCh
 std::string checkJson(const EditProblem& problem, const DerivativeCheck& check) {
   JsonWriter out;
   out.beginObject();
-  out.key("passed").boolean(check.passed);
-  out.key("message").text(check.message);
-  out.key("not_compared").integer(check.not_compared);
-  out.key("sequence").texts(check.sequence);
+  out.members("passed", check.passed, "message", check.message, "not_compared", check.not_compared);
+  out.members("sequence", check.sequence);
   writeEntry(out, problem, check, "worst_tangent", check.adjoint_tangent, check.by_tangent, "tangent");
   writeEntry(out, problem, check, "worst_differences", check.differences, check.by_differences, "differences");
-  out.key("columns").beginArray();
-  for (int j = 0; j < problem.controls.size(); ++j) writeColumn(out, problem, check, j);
-  out.endArray();
+  int j = 0;
+  out.objects("columns", check.columns, Layout::block, [&](const auto&) { writeColumn(out, problem, check, j++); });
   out.endObject();
   return out.take();
 }

@@ -13,44 +13,26 @@ namespace {
 using Layout = JsonWriter::Layout;
 
 void writeRows(JsonWriter& out, const ConstraintSet& constraints, const RowValues& rows) {
-  out.key("rows").beginArray();
-  for (int i = 0; i < constraints.size(); ++i) {
-    const Row& row = constraints.rows()[static_cast<std::size_t>(i)];
-    out.beginObject(Layout::line);
-    out.key("constraint").integer(row.constraint);
-    out.key("component").text(row.name);
-    out.key("value").number(rows.values[i]);
-    out.key("target").number(row.target);
-    if (row.isRange()) out.key("min").number(row.lower).key("max").number(row.upper);
-    out.endObject();
-  }
-  out.endArray();
+  Eigen::Index i = 0;
+  out.objects("rows", constraints.rows(), Layout::line, [&](const Row& row) {
+    out.members("constraint", row.constraint, "component", row.name, "value", rows.values[i++], "target", row.target);
+    if (row.isRange()) out.members("min", row.lower, "max", row.upper);
+  });
 }
 
 void writeTimes(JsonWriter& out, const ConstraintSet& constraints, const RowValues& rows) {
-  out.key("times").beginArray();
-  for (std::size_t k = 0; k < constraints.freeTimes().size(); ++k) {
-    const FreeTime& free = constraints.freeTimes()[k];
-    out.beginObject(Layout::line);
-    out.key("constraint").integer(free.constraint);
-    out.key("from").number(free.from);
-    out.key("to").number(free.to);
-    out.key("time").number(rows.times[static_cast<Eigen::Index>(k)]);
-    out.endObject();
-  }
-  out.endArray();
+  Eigen::Index k = 0;
+  out.objects("times", constraints.freeTimes(), Layout::line, [&](const FreeTime& free) {
+    out.members("constraint", free.constraint, "from", free.from, "to", free.to, "time", rows.times[k++]);
+  });
 }
 
 void writeColumns(JsonWriter& out, const ControlSet& controls, const Eigen::VectorXd& values) {
-  out.key("columns").beginArray();
-  for (int j = 0; j < controls.size(); ++j) {
-    out.beginObject(Layout::line);
-    out.key("control").integer(controls.variables()[static_cast<std::size_t>(j)].control);
-    out.key("component").text(columnName(controls, j));
-    out.key("value").number(values[j]);
-    out.endObject();
-  }
-  out.endArray();
+  int j = 0;
+  out.objects("columns", controls.variables(), Layout::line, [&](const Variable& variable) {
+    out.members("control", variable.control, "component", columnName(controls, j), "value", values[j]);
+    ++j;
+  });
 }
 
 }  // namespace
@@ -69,15 +51,10 @@ std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& valu
   writeTimes(out, problem.constraints, result.rows);
   writeColumns(out, problem.controls, values);
   out.key("jacobian").beginArray();
-  for (Eigen::Index i = 0; i < result.jacobian.rows(); ++i) {
-    const Eigen::VectorXd row = result.jacobian.row(i).transpose();
-    out.numbers({row.data(), static_cast<std::size_t>(row.size())});
-  }
+  for (Eigen::Index i = 0; i < result.jacobian.rows(); ++i) out.value(Eigen::VectorXd(result.jacobian.row(i)));
   out.endArray();
-  out.key("signature")
-      .text(result.motion.signature(problem.constraints.extentIn(result.motion, result.rows.times).events));
-  out.key("reliable").boolean(reliable);
-  out.key("message").text(message);
+  const std::size_t events = problem.constraints.extentIn(result.motion, result.rows.times).events;
+  out.members("signature", result.motion.signature(events), "reliable", reliable, "message", message);
   out.endObject();
   return out.take();
 }

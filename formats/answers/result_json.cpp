@@ -1,93 +1,72 @@
 // SPDX-License-Identifier: MIT
-#include "formats/answers/result_json.h"
+#include "formats/answers/result_json.hpp"
 
 #include "formats/json/json_writer.hpp"
 
-namespace carom {
-
-using namespace formats_detail;
+namespace carom::formats_detail {
 
 namespace {
 
 using Layout = JsonWriter::Layout;
 
-void writeContact(JsonWriter& out, const Contact& contact, const Scene& scene) {
-  const auto nameAt = [&](int body) { return scene.bodies.at(static_cast<std::size_t>(body)).name; };
-  out.key("bodies").texts({nameAt(contact.a), nameAt(contact.b)});
-  out.key("point").vector(contact.at.point);
-  out.key("normal").vector(contact.at.normal);
-  out.key("elasticity").number(contact.pair.elasticity);
-}
+/// Writes the answer about one motion.
+class MotionWriter {
+ public:
+  explicit MotionWriter(const Motion& motion) : motion_(motion), bodies_(motion.scene->bodies) {}
 
-void writeEvent(JsonWriter& out, const Event& event, const Scene& scene) {
-  out.beginObject();
-  out.key("time").number(event.time);
-  if (!event.contacts.empty()) writeContact(out, event.contacts.front(), scene);
-  out.key("mode").text(nameOf(event.mode));
-  out.key("margin").number(event.margins.smallest());
-  out.key("margins").beginObject(Layout::line);
-  out.key("grazing").number(event.margins.grazing);
-  out.key("stick_slip").number(event.margins.stick_slip);
-  out.endObject();
-  if (event.mode == ImpactMode::joint) {
-    out.key("contacts").beginArray();
-    for (const Contact& contact : event.contacts) {
-      out.beginObject(Layout::line);
-      writeContact(out, contact, scene);
-      out.endObject();
+  std::string write(const std::vector<double>& at) {
+    out_.beginObject();
+    out_.members("status", nameOf(motion_.status), "message", motion_.message, "end", motion_.end);
+    out_.objects("overlaps", motion_.overlaps, Layout::line, [&](const StartOverlap& overlap) {
+      out_.members("bodies", names(overlap), "depth", overlap.depth, "parted", overlap.parted);
+    });
+    out_.objects("events", motion_.events, Layout::block, [&](const Event& event) { writeEvent(event); });
+    out_.objects("states", at.empty() ? std::vector{motion_.end} : at, Layout::block,
+                 [&](double time) { writeStates(time); });
+    out_.endObject();
+    return out_.take();
+  }
+
+ private:
+  template <class Pair>
+  std::array<std::string, 2> names(const Pair& pair) const {
+    const auto name = [&](int body) { return bodies_.at(static_cast<std::size_t>(body)).name; };
+    return {name(pair.a), name(pair.b)};
+  }
+
+  void writeContact(const Contact& contact) {
+    out_.members("bodies", names(contact), "point", contact.at.point, "normal", contact.at.normal);
+    out_.members("elasticity", contact.pair.elasticity);
+  }
+
+  void writeEvent(const Event& event) {
+    out_.members("time", event.time);
+    if (!event.contacts.empty()) writeContact(event.contacts.front());
+    out_.members("mode", nameOf(event.mode), "margin", event.margins.smallest());
+    out_.key("margins").beginObject(Layout::line);
+    out_.members("grazing", event.margins.grazing, "stick_slip", event.margins.stick_slip).endObject();
+    if (event.mode == ImpactMode::joint)
+      out_.objects("contacts", event.contacts, Layout::line, [&](const Contact& contact) { writeContact(contact); });
+  }
+
+  void writeStates(double time) {
+    out_.members("time", time).key("bodies").beginObject();
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const BodyState state = motion_.stateAt(static_cast<int>(i), time);
+      out_.key(bodies_[i].name).beginObject();
+      out_.members("position", state.position, "orientation", state.orientation);
+      out_.members("velocity", state.velocity, "angular_velocity", state.angular_velocity).endObject();
     }
-    out.endArray();
+    out_.endObject();
   }
-  out.endObject();
-}
 
-void writeOverlap(JsonWriter& out, const StartOverlap& overlap, const Scene& scene) {
-  const auto nameAt = [&](int body) { return scene.bodies.at(static_cast<std::size_t>(body)).name; };
-  out.beginObject(Layout::line);
-  out.key("bodies").texts({nameAt(overlap.a), nameAt(overlap.b)});
-  out.key("depth").number(overlap.depth);
-  out.key("parted");
-  overlap.parted ? out.number(*overlap.parted) : out.null();
-  out.endObject();
-}
-
-void writeStates(JsonWriter& out, const Motion& motion, double time) {
-  out.beginObject();
-  out.key("time").number(time);
-  out.key("bodies").beginObject();
-  const std::vector<Body>& bodies = motion.scene->bodies;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const BodyState state = motion.stateAt(static_cast<int>(i), time);
-    out.key(bodies[i].name).beginObject();
-    out.key("position").vector(state.position);
-    out.key("orientation").quaternion(state.orientation);
-    out.key("velocity").vector(state.velocity);
-    out.key("angular_velocity").vector(state.angular_velocity);
-    out.endObject();
-  }
-  out.endObject().endObject();
-}
+  const Motion& motion_;
+  const std::vector<Body>& bodies_;
+  JsonWriter out_;
+};
 
 }  // namespace
 
-std::string motionJson(const Motion& motion, const std::vector<double>& at) {
-  JsonWriter out;
-  out.beginObject();
-  out.key("status").text(nameOf(motion.status));
-  out.key("message").text(motion.message);
-  out.key("end").number(motion.end);
-  out.key("overlaps").beginArray();
-  for (const StartOverlap& overlap : motion.overlaps) writeOverlap(out, overlap, *motion.scene);
-  out.endArray();
-  out.key("events").beginArray();
-  for (const Event& event : motion.events) writeEvent(out, event, *motion.scene);
-  out.endArray();
-  out.key("states").beginArray();
-  if (at.empty()) writeStates(out, motion, motion.end);
-  for (const double time : at) writeStates(out, motion, time);
-  out.endArray();
-  out.endObject();
-  return out.take();
-}
+std::string motionJson(const Motion& motion, const std::vector<double>& at) { return MotionWriter(motion).write(at); }
 
-}  // namespace carom
+}  // namespace carom::formats_detail

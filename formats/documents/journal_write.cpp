@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 
-#include "formats/documents/scene_writer.hpp"
-#include "formats/documents/journal_json.h"
 #include "editing/session_numbers.h"
+#include "formats/documents/journal_json.h"
+#include "formats/documents/scene_writer.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
@@ -15,20 +16,14 @@ namespace {
 using Layout = JsonWriter::Layout;
 using Kind = SessionGesture::Kind;
 
-void writeStop(JsonWriter& out, const char* member, double seconds) {
-  out.key(member);
-  std::isfinite(seconds) ? out.number(seconds) : out.null();
-}
-
 void writeOptions(JsonWriter& out, const SessionOptions& options) {
+  const auto stop = [](double seconds) { return std::isfinite(seconds) ? std::optional(seconds) : std::nullopt; };
   out.key("options").beginObject();
-  out.key("measure_from").text(options.measure_from == MeasureFrom::grab ? "grab" : "start");
-  out.key("sequence").text(options.sequence == SequencePolicy::stay ? "stay" : "prefer_start");
-  out.key("tolerance").number(options.tolerance);
-  out.key("drag_simulations").integer(options.drag_simulations);
-  out.key("release_iterations").integer(options.release_iterations);
-  writeStop(out, "drag_seconds", options.drag_seconds);
-  writeStop(out, "release_seconds", options.release_seconds);
+  out.members("measure_from", options.measure_from == MeasureFrom::grab ? "grab" : "start");
+  out.members("sequence", options.sequence == SequencePolicy::stay ? "stay" : "prefer_start");
+  out.members("tolerance", options.tolerance, "drag_simulations", options.drag_simulations);
+  out.members("release_iterations", options.release_iterations);
+  out.members("drag_seconds", stop(options.drag_seconds), "release_seconds", stop(options.release_seconds));
   out.endObject();
 }
 
@@ -43,52 +38,42 @@ void writeOne(JsonWriter& out, const char* member, const Constraint& constraint,
   writeConstraint(out.key(member), constraint);
 }
 
-void writeTarget(JsonWriter& out, const DragTarget& target) {
-  out.beginObject(Layout::line);
-  out.key("milliseconds").number(target.milliseconds);
-  out.key("place").vector(target.place);
-  if (target.orientation) out.key("orientation").quaternion(*target.orientation);
-  if (target.cut_after) out.key("cut_after").integer(*target.cut_after);
-  out.endObject();
-}
-
-void writeGesture(JsonWriter& out, const SessionGesture& gesture, const std::string& where) {
-  out.beginObject();
-  out.key("milliseconds").number(gesture.milliseconds);
+/// What is done, by its kind.
+void writeDeed(JsonWriter& out, const SessionGesture& gesture, const std::string& where) {
   switch (gesture.kind) {
     case Kind::controls:
       out.key("controls").beginArray();
       for (const Control& control : gesture.controls) writeControl(out, control);
       out.endArray();
-      break;
+      return;
     case Kind::nail:
-      writeOne(out, "nail", *gesture.constraint, where);
-      break;
+      return writeOne(out, "nail", *gesture.constraint, where);
     case Kind::unnail:
-      out.key("unnail").integer(gesture.nail);
-      break;
+      out.members("unnail", gesture.nail);
+      return;
     case Kind::drag:
       writeOne(out, "drag", *gesture.constraint, where);
-      out.key("targets").beginArray();
-      for (const DragTarget& target : gesture.targets) writeTarget(out, target);
-      out.endArray();
-      out.key("ending").text(nameOf(gesture.ending));
-      break;
+      out.objects("targets", gesture.targets, Layout::line, [&](const DragTarget& target) {
+        out.members("milliseconds", target.milliseconds, "place", target.place);
+        if (target.orientation) out.members("orientation", *target.orientation);
+        if (target.cut_after) out.members("cut_after", *target.cut_after);
+      });
+      out.members("ending", nameOf(gesture.ending));
+      return;
     case Kind::undo:
-      out.key("undo").boolean(true);
-      break;
     case Kind::redo:
-      out.key("redo").boolean(true);
-      break;
+      out.members(gesture.kind == Kind::undo ? "undo" : "redo", true);
   }
+}
+
+void writeGesture(JsonWriter& out, const SessionGesture& gesture, const std::string& where) {
+  out.members("milliseconds", gesture.milliseconds);
+  writeDeed(out, gesture, where);
   const bool makes_nail = gesture.kind == Kind::nail ||
                           (gesture.kind == Kind::drag && gesture.ending == SessionGesture::Ending::release_nailed);
-  if (makes_nail) out.key("id").integer(gesture.nail);
-  if (gesture.cut_after) out.key("cut_after").integer(*gesture.cut_after);
-  out.key("reached").boolean(gesture.reached);
-  out.key("distance").number(gesture.distance);
-  out.key("numbers").numbers(gesture.numbers);
-  out.endObject();
+  if (makes_nail) out.members("id", gesture.nail);
+  if (gesture.cut_after) out.members("cut_after", *gesture.cut_after);
+  out.members("reached", gesture.reached, "distance", gesture.distance, "numbers", gesture.numbers);
 }
 
 }  // namespace
@@ -97,15 +82,14 @@ std::string writeJournal(const JournalDocument& document) {
   const SessionJournal& journal = document.journal;
   JsonWriter out;
   out.beginObject();
-  if (!document.schema.empty()) out.key("$schema").text(document.schema);
-  out.key("carom_journal").integer(1);
+  out.unlessEmpty("$schema", document.schema).members("carom_journal", 1);
   writeDocument(out.key("scene"), {journal.scene, journal.duration, journal.controls, journal.nails,
                                            document.folder, document.name, document.notes, ""});
   writeOptions(out, journal.options);
-  out.key("gestures").beginArray();
-  for (std::size_t i = 0; i < journal.gestures.size(); ++i)
-    writeGesture(out, journal.gestures[i], "/gestures/" + std::to_string(i));
-  out.endArray();
+  std::size_t i = 0;
+  out.objects("gestures", journal.gestures, Layout::block, [&](const SessionGesture& gesture) {
+    writeGesture(out, gesture, "/gestures/" + std::to_string(i++));
+  });
   out.endObject();
   return out.take();
 }
@@ -113,43 +97,26 @@ std::string writeJournal(const JournalDocument& document) {
 std::string replayJson(const std::string& file, const SessionJournal& journal,
                        const std::vector<ReplayedGesture>& gestures, const EditSession& session,
                        const std::string& output) {
+  const bool same =
+      std::all_of(gestures.begin(), gestures.end(), [](auto& played) { return played.differences.empty(); });
   JsonWriter out;
-  bool same = true;
-  for (const ReplayedGesture& gesture : gestures) same = same && gesture.differences.empty();
   out.beginObject();
-  out.key("file").text(file);
-  out.key("same").boolean(same);
-  out.key("gestures").beginArray();
-  for (std::size_t i = 0; i < gestures.size(); ++i) {
-    const ReplayedGesture& played = gestures[i];
-    out.beginObject();
-    out.key("gesture").text(nameOf(journal.gestures[i].kind));
-    out.key("body").text(journal.gestures[i].constraint ? journal.gestures[i].constraint->body : "");
-    out.key("reached").boolean(played.update.reached);
-    out.key("distance").number(played.update.distance);
-    out.key("nail_error").number(played.update.nail_error);
-    out.key("iterations").integer(played.update.iterations);
-    out.key("milliseconds").number(played.update.milliseconds);
-    out.key("updates").integer(played.updates);
-    out.key("slowest_milliseconds").number(played.slowest_milliseconds);
-    out.key("message").text(played.update.message);
+  out.members("file", file, "same", same);
+  std::size_t i = 0;
+  out.objects("gestures", gestures, Layout::block, [&](const ReplayedGesture& played) {
+    const SessionGesture& gesture = journal.gestures[i++];
+    const SessionUpdate& update = played.update;
+    out.members("gesture", nameOf(gesture.kind), "body", gesture.constraint ? gesture.constraint->body : "");
+    out.members("reached", update.reached, "distance", update.distance, "nail_error", update.nail_error);
+    out.members("iterations", update.iterations, "milliseconds", update.milliseconds, "updates", played.updates);
+    out.members("slowest_milliseconds", played.slowest_milliseconds, "message", update.message);
     out.key("differences").beginArray();
-    for (const std::string& difference : played.differences) out.text(difference);
+    for (const std::string& difference : played.differences) out.value(difference);
     out.endArray();
-    out.endObject();
-  }
-  out.endArray();
-  out.key("numbers").beginArray();
-  for (const SessionNumber& number : sessionNumbers(session.scene(), session.controls())) {
-    out.beginObject(Layout::line);
-    out.key("name").text(number.name);
-    out.key("value").number(number.value);
-    out.endObject();
-  }
-  out.endArray();
-  out.key("output");
-  output.empty() ? out.null() : out.text(output);
-  out.endObject();
+  });
+  out.objects("numbers", sessionNumbers(session.scene(), session.controls()), Layout::line,
+              [&](const SessionNumber& number) { out.members("name", number.name, "value", number.value); });
+  out.members("output", textOrNone(output)).endObject();
   return out.take();
 }
 

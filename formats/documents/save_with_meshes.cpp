@@ -11,6 +11,7 @@
 #include "formats/documents/scene_json.h"
 #include "formats/documents/surface_files.hpp"
 #include "formats/json/json_writer.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom {
 
@@ -62,13 +63,9 @@ class MeshFiles {
 
   /// Names the files of a shape relative to the document's new folder.
   void name(Shape& shape, const std::string& body) {
-    if (auto* hull = std::get_if<Hull>(&shape)) {
-      const bool few = hull->surface->vertices.size() <= kFewPoints;
-      if (!hull->file.empty() || !few) hull->file = nameOf(hull->file, *hull->surface, body);
-    } else if (auto* mesh = std::get_if<Mesh>(&shape)) {
-      mesh->file = nameOf(mesh->file, *mesh->surface, body);
-    } else if (auto* compound = std::get_if<Compound>(&shape)) {
-      for (CompoundPart& part : compound->parts) name(part.shape, body);
+    for (const shapes::SurfaceUse& use : shapes::surfacesOf(shape)) {
+      if (use.file.empty() && use.convex && use.surface.vertices.size() <= kFewPoints) continue;
+      use.file = use.file.empty() ? fileOf(use.surface, body) : rebased(use.file, from_, folder_.string());
     }
   }
 
@@ -88,10 +85,6 @@ class MeshFiles {
   }
 
  private:
-  std::string nameOf(const std::string& file, const Surface& surface, const std::string& body) {
-    return file.empty() ? fileOf(surface, body) : rebased(file, from_, folder_.string());
-  }
-
   std::string fileOf(const Surface& surface, const std::string& body) {
     std::string& file = files_[&surface];
     if (!file.empty()) return file;

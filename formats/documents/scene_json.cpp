@@ -2,31 +2,17 @@
 #include "formats/documents/scene_json.h"
 
 #include <filesystem>
-#include <variant>
 
 #include "formats/base/read_file.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/documents/surface_files.hpp"
 #include "formats/json/json.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom {
 
 using namespace formats_detail;
-
-namespace {
-
-
-void rebaseFiles(Shape& shape, const std::string& from, const std::string& to) {
-  if (auto* hull = std::get_if<Hull>(&shape); hull != nullptr && !hull->file.empty())
-    hull->file = rebased(hull->file, from, to);
-  if (auto* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && !mesh->file.empty())
-    mesh->file = rebased(mesh->file, from, to);
-  if (auto* compound = std::get_if<Compound>(&shape))
-    for (CompoundPart& part : compound->parts) rebaseFiles(part.shape, from, to);
-}
-
-}  // namespace
 
 std::string formats_detail::folderOf(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
@@ -40,7 +26,9 @@ std::string formats_detail::movedSchema(const std::string& schema, const std::st
 
 void formats_detail::moveTo(const std::string& folder, Document& document) {
   document.schema = movedSchema(document.schema, document.folder, folder);
-  for (Body& body : document.scene.bodies) rebaseFiles(body.shape, document.folder, folder);
+  for (Body& body : document.scene.bodies)
+    for (const shapes::SurfaceUse& use : shapes::surfacesOf(body.shape))
+      if (!use.file.empty()) use.file = rebased(use.file, document.folder, folder);
   document.folder = folder;
 }
 

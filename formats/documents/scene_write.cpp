@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <utility>
 
 #include "adjoint/base/errors.h"
 #include "editing/problem/controls/control_kinds.hpp"
@@ -23,23 +23,14 @@ using Layout = JsonWriter::Layout;
 
 const std::string& wordOf(Combine rule) { return combineWords()[static_cast<std::size_t>(rule)]; }
 
-void writeText(JsonWriter& out, const char* member, const std::string& text) {
-  if (!text.empty()) out.key(member).text(text);
-}
-
 void writeMaterial(JsonWriter& out, const Material& m) {
   out.key(m.name).beginObject(Layout::line);
-  out.key("elasticity").number(m.elasticity);
-  out.key("friction").number(m.friction);
-  out.key("tangential_elasticity").number(m.tangential_elasticity);
+  out.members("elasticity", m.elasticity, "friction", m.friction, "tangential_elasticity", m.tangential_elasticity);
   if (m.combine_elasticity != Combine::average || m.combine_friction != Combine::average) {
     out.key("combine").beginObject();
-    out.key("elasticity").text(wordOf(m.combine_elasticity));
-    out.key("friction").text(wordOf(m.combine_friction));
-    out.endObject();
+    out.members("elasticity", wordOf(m.combine_elasticity), "friction", wordOf(m.combine_friction)).endObject();
   }
-  writeText(out, "notes", m.notes);
-  out.endObject();
+  out.unlessEmpty("notes", m.notes).endObject();
 }
 
 /// Entries to so many decimals.
@@ -69,93 +60,45 @@ Mat3 roundedMatrix(const Inertia& inertia) {
 
 void writeInertia(JsonWriter& out, const Inertia& inertia) {
   if (inertia.source == Inertia::Source::derived) return;
-  out.key("inertia");
   if (inertia.source == Inertia::Source::moments) {
-    out.vector(inertia.moments);
+    out.members("inertia", inertia.moments);
     return;
   }
   const Mat3 matrix = roundedMatrix(inertia);
-  out.beginArray(Layout::line);
-  for (int i = 0; i < 3; ++i) out.vector(matrix.row(i));
-  out.endArray();
+  out.members("inertia", std::array<Vec3, 3>{matrix.row(0), matrix.row(1), matrix.row(2)});
 }
 
 void writeFilter(JsonWriter& out, const CollisionFilter& filter) {
   if (filter.empty()) return;
   out.key("collision_filter").beginObject(Layout::line);
-  const auto names = [&](const char* member, const std::vector<std::string>& list) {
-    if (!list.empty()) out.key(member).texts(list);
-  };
-  names("systems", filter.systems);
-  names("collide_with", filter.collide_with);
-  names("not_collide_with", filter.not_collide_with);
-  out.endObject();
+  out.unlessEmpty("systems", filter.systems).unlessEmpty("collide_with", filter.collide_with);
+  out.unlessEmpty("not_collide_with", filter.not_collide_with).endObject();
 }
 
 void writeBody(JsonWriter& out, const Body& body) {
-  out.beginObject();
-  out.key("name").text(body.name);
-  writeText(out, "notes", body.notes);
-  if (body.fixed) out.key("fixed").boolean(true);
-  if (body.kinematic) out.key("kinematic").boolean(true);
-  if (body.gravity_factor != 1) out.key("gravity_factor").number(body.gravity_factor);
+  out.members("name", body.name).unlessEmpty("notes", body.notes);
+  if (body.fixed) out.members("fixed", true);
+  if (body.kinematic) out.members("kinematic", true);
+  if (body.gravity_factor != 1) out.members("gravity_factor", body.gravity_factor);
   writeFilter(out, body.collision_filter);
-  writeText(out, "material", body.material);
-  if (body.mass) out.key("mass").number(*body.mass);
-  if (body.density) out.key("density").number(*body.density);
+  out.unlessEmpty("material", body.material);
+  if (body.mass) out.members("mass", *body.mass);
+  if (body.density) out.members("density", *body.density);
   writeInertia(out, body.inertia);
   writeShape(out.key("shape"), body.shape);
-  if (body.center_of_mass) out.key("center_of_mass").vector(*body.center_of_mass);
+  if (body.center_of_mass) out.members("center_of_mass", *body.center_of_mass);
   // A floor need not say that it lies at the origin.
-  if (!body.fixed || !body.position.isZero(0)) out.key("position").vector(body.position);
+  if (!body.fixed || !body.position.isZero(0)) out.members("position", body.position);
   if (!body.fixed || body.orientation.coeffs() != Quat::Identity().coeffs())
-    out.key("orientation").quaternion(body.orientation);
-  if (!body.fixed) {
-    out.key("velocity").vector(body.velocity);
-    out.key("angular_velocity").vector(body.angular_velocity);
-  }
-  out.endObject();
-}
-
-void writeTilt(JsonWriter& out, const Tilt& tilt) {
-  out.beginObject(Layout::line);
-  out.key("body").text(tilt.body);
-  out.key("impact").integer(tilt.impact);
-  out.key("value").numbers({tilt.value.data(), 2});
-  out.endObject();
+    out.members("orientation", body.orientation);
+  if (!body.fixed) out.members("velocity", body.velocity, "angular_velocity", body.angular_velocity);
 }
 
 void writeBound(JsonWriter& out, const char* member, const std::vector<double>& bound) {
-  if (bound.empty()) return;
-  out.key(member);
-  if (bound.size() == 1) {
-    out.number(bound[0]);
-  } else {
-    out.numbers(bound);
-  }
-}
-
-void writeControlObject(JsonWriter& out, const Control& control) {
-  const ControlKind* kind = findControlKind(control.vary);
-  out.beginObject(Layout::line);
-  out.key("vary").text(control.vary);
-  writeText(out, "body", control.body);
-  writeText(out, "material", control.material);
-  if (kind != nullptr && kind->owner == OwnerKind::impact) out.key("impact").integer(control.impact);
-  if (!control.components.empty()) out.key("components").texts(control.components);
-  writeBound(out, "min", control.min);
-  writeBound(out, "max", control.max);
-  if (control.weight != 1) out.key("weight").number(control.weight);
-  writeText(out, "notes", control.notes);
-  out.endObject();
-}
-
-template <class Items, class Write>
-void writeList(JsonWriter& out, const char* member, const Items& items, Write write) {
-  if (items.empty()) return;
-  out.key(member).beginArray();
-  for (const auto& item : items) write(out, item);
-  out.endArray();
+  if (bound.size() == 1)
+    out.members(member, bound[0]);
+  else
+    out.unlessEmpty(member, bound);
 }
 
 /// What `validate` does not see. The components that a constraint leaves free are the only numbers that may be NaN.
@@ -177,26 +120,47 @@ void requireWritableDocument(const Document& document) {
 
 }  // namespace
 
-void formats_detail::writeControl(JsonWriter& out, const Control& control) { writeControlObject(out, control); }
+void formats_detail::writeVaried(JsonWriter& out, const Control& control) {
+  const ControlKind* kind = findControlKind(control.vary);
+  out.members("vary", control.vary).unlessEmpty("body", control.body).unlessEmpty("material", control.material);
+  if (kind != nullptr && kind->owner == OwnerKind::impact) out.members("impact", control.impact);
+  out.unlessEmpty("components", control.components);
+}
+
+void formats_detail::writeControl(JsonWriter& out, const Control& control) {
+  out.beginObject(Layout::line);
+  writeVaried(out, control);
+  writeBound(out, "min", control.min);
+  writeBound(out, "max", control.max);
+  if (control.weight != 1) out.members("weight", control.weight);
+  out.unlessEmpty("notes", control.notes).endObject();
+}
 
 void formats_detail::writeDocument(JsonWriter& out, const Document& document) {
   requireWritableDocument(document);
-  out.beginObject();
-  writeText(out, "$schema", document.schema);
-  out.key("carom").integer(1);
-  writeText(out, "name", document.name);
-  writeText(out, "notes", document.notes);
-  out.key("gravity").vector(document.scene.gravity);
-  out.key("duration").number(document.duration);
-  if (!document.scene.materials.empty()) {
+  const Scene& scene = document.scene;
+  out.beginObject().unlessEmpty("$schema", document.schema).members("carom", 1);
+  out.unlessEmpty("name", document.name).unlessEmpty("notes", document.notes);
+  out.members("gravity", scene.gravity, "duration", document.duration);
+  if (!scene.materials.empty()) {
     out.key("materials").beginObject();
-    for (const Material& material : document.scene.materials) writeMaterial(out, material);
+    for (const Material& material : scene.materials) writeMaterial(out, material);
     out.endObject();
   }
-  writeList(out, "bodies", document.scene.bodies, writeBody);
-  writeList(out, "tilts", document.scene.tilts, writeTilt);
-  writeList(out, "controls", document.controls, writeControlObject);
-  writeList(out, "constraints", document.constraints, writeConstraint);
+  const auto list = [&](const char* member, const auto& items, auto write) {
+    if (items.empty()) return;
+    out.key(member).beginArray();
+    for (const auto& item : items) write(out, item);
+    out.endArray();
+  };
+  if (!scene.bodies.empty())
+    out.objects("bodies", scene.bodies, Layout::block, [&](const Body& body) { writeBody(out, body); });
+  if (!scene.tilts.empty())
+    out.objects("tilts", scene.tilts, Layout::line, [&](const Tilt& tilt) {
+      out.members("body", tilt.body, "impact", tilt.impact, "value", tilt.value);
+    });
+  list("controls", document.controls, formats_detail::writeControl);
+  list("constraints", document.constraints, writeConstraint);
   out.endObject();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 #include <vector>
@@ -15,23 +16,20 @@ namespace {
 using Layout = JsonWriter::Layout;
 
 void writeSpan(JsonWriter& out, const char* member, const std::pair<double, double>& span) {
-  const double ends[] = {span.first, span.second};
-  out.key(member).numbers(ends);
+  out.members(member, std::array{span.first, span.second});
 }
 
 void writeWhen(JsonWriter& out, const When& at) {
-  out.key("at");
-  if (at.span) {
-    out.beginObject();
-    writeSpan(out, "between", *at.span);
-    out.endObject();
-  } else if (at.impact == 0) {
-    out.number(at.time);
-  } else {
-    out.beginObject().key("impact").integer(at.impact);
-    if (!at.with.empty()) out.key("with").text(at.with);
-    out.endObject();
+  if (!at.span && at.impact == 0) {
+    out.members("at", at.time);
+    return;
   }
+  out.key("at").beginObject();
+  if (at.span)
+    writeSpan(out, "between", *at.span);
+  else
+    out.members("impact", at.impact).unlessEmpty("with", at.with);
+  out.endObject();
 }
 
 /// NaN where there is none.
@@ -41,12 +39,12 @@ double limitAt(const std::vector<double>& limits, std::size_t i) { return limits
 void writeComponent(JsonWriter& out, const Target& target, std::size_t i) {
   const double min = limitAt(target.min, i), max = limitAt(target.max, i);
   if (std::isnan(min) && std::isnan(max)) {
-    out.number(target.value[i]);
+    out.value(target.value[i]);
     return;
   }
   out.beginObject();
-  if (!std::isnan(min)) out.key("min").number(min);
-  if (!std::isnan(max)) out.key("max").number(max);
+  if (!std::isnan(min)) out.members("min", min);
+  if (!std::isnan(max)) out.members("max", max);
   out.endObject();
 }
 
@@ -61,7 +59,7 @@ void writeTarget(JsonWriter& out, const Target& target) {
   if (target.quantity == "time") {
     writeComponent(out, target, 0);
   } else if (target.quantity == "point") {
-    out.beginObject().key("body_point").vector(target.body_point).key("world");
+    out.beginObject().members("body_point", target.body_point).key("world");
     writeComponents(out, target);
     out.endObject();
   } else {
@@ -70,16 +68,10 @@ void writeTarget(JsonWriter& out, const Target& target) {
 }
 
 void writeRegion(JsonWriter& out, const Region& region) {
-  out.beginObject();
-  if (const auto* sphere = std::get_if<Sphere>(&region.shape)) {
-    out.key("sphere").beginObject().key("radius").number(sphere->radius).endObject();
-  } else {
-    out.key("box").beginObject().key("size").vector(std::get<Box>(region.shape).size).endObject();
-  }
-  if (!region.position.isZero(0)) out.key("position").vector(region.position);
-  if (region.orientation.coeffs() != Quat::Identity().coeffs()) out.key("orientation").quaternion(region.orientation);
+  std::visit([&](const auto& shape) { beginShape(out, shape); }, region.shape);
+  writePlace(out, region.position, region.orientation);
   if (region.during) writeSpan(out, "during", *region.during);
-  if (region.margin) out.key("margin").number(*region.margin);
+  if (region.margin) out.members("margin", *region.margin);
   out.endObject();
 }
 
@@ -162,9 +154,9 @@ void writeConstraint(JsonWriter& out, const Constraint& constraint) {
   bool first = true;
   while (first || !left.empty()) {
     out.beginObject(Layout::line);
-    out.key("body").text(constraint.body);
+    out.members("body", constraint.body);
     if (!left.empty()) writeWhen(out, constraint.at);
-    if (!left.empty() && !constraint.relative_to.empty()) out.key("relative_to").text(constraint.relative_to);
+    if (!left.empty()) out.unlessEmpty("relative_to", constraint.relative_to);
     std::vector<const Target*> written, next;
     for (const Target* target : left) {
       const bool again =
@@ -173,7 +165,7 @@ void writeConstraint(JsonWriter& out, const Constraint& constraint) {
       (again ? next : written).push_back(target);
     }
     if (first) writeBothSides(out, constraint.regions);
-    if (first && !constraint.notes.empty()) out.key("notes").text(constraint.notes);
+    if (first) out.unlessEmpty("notes", constraint.notes);
     out.endObject();
     left = std::move(next);
     first = false;

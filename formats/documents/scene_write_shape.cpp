@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <variant>
-
 #include "adjoint/base/errors.h"
 #include "formats/documents/scene_writer.hpp"
 #include "formats/json/json_writer.hpp"
@@ -21,15 +19,17 @@ void writeShape(JsonWriter& out, const Shape& shape) {
   out.endObject();
 }
 
-void requireFiles(const Shape& shape, const std::string& where) {
-  const std::string place = where + "/" + kindOf(shape).name;
-  if (const Mesh* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && mesh->file.empty())
-    throw InputError(place,
-                     "found a mesh made in memory, expected one with a file (a document names the files of meshes, "
-                     "it does not hold meshes)");
-  if (const Compound* compound = std::get_if<Compound>(&shape))
-    for (std::size_t i = 0; i < compound->parts.size(); ++i)
-      requireFiles(compound->parts[i].shape, place + "/" + std::to_string(i));
+void writePlace(JsonWriter& out, const Vec3& position, const Quat& orientation) {
+  if (!position.isZero(0)) out.members("position", position);
+  if (orientation.coeffs() != Quat::Identity().coeffs()) out.members("orientation", orientation);
+}
+
+void requireFiles(Shape shape, const std::string& where) {
+  for (const shapes::SurfaceUse& use : shapes::surfacesOf(shape))
+    if (!use.convex && use.file.empty())
+      throw InputError(where + use.place,
+                       "found a mesh made in memory, expected one with a file (a document names the files of meshes, "
+                       "it does not hold meshes)");
 }
 
 }  // namespace carom::formats_detail

@@ -20,11 +20,15 @@ class JsonWriter;
 void writeDocument(JsonWriter& out, const Document& document);
 
 void writeControl(JsonWriter& out, const Control& control);
+/// Its members that say what varies: vary, body, material, impact, components.
+void writeVaried(JsonWriter& out, const Control& control);
 
 /// Writes a shape as an object with its word: { "sphere": { "radius": 1 } }.
 void writeShape(JsonWriter& out, const Shape& shape);
 /// The same without its end, for members that follow.
 void beginShape(JsonWriter& out, const Shape& shape);
+/// Members that are left out at the origin, and where nothing is turned.
+void writePlace(JsonWriter& out, const Vec3& position, const Quat& orientation);
 
 /// Writes a constraint as an object, or as several where it has two targets of one kind.
 void writeConstraint(JsonWriter& out, const Constraint& constraint);
@@ -35,6 +39,6 @@ void requireFinite(const std::string& where, double value);
 void requireWritable(const Constraint& constraint, const std::string& where);
 
 /// Throws InputError for a mesh without a file: the document has no other form for it.
-void requireFiles(const Shape& shape, const std::string& where);
+void requireFiles(Shape shape, const std::string& where);
 
 }  // namespace carom::formats_detail

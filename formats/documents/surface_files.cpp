@@ -51,8 +51,7 @@ fs::path folderOrHere(const std::string& folder) { return folder.empty() ? fs::p
 
 }  // namespace
 
-std::shared_ptr<const Surface> SurfaceFiles::find(Surfaces& known, Read read, const std::string& file,
-                                                  const std::string& where) {
+std::shared_ptr<const Surface> SurfaceFiles::find(const std::string& file, const std::string& where, bool convex) {
   if (folder_.empty())
     throw InputError(where, "found a file in a document that has no folder, expected a document read from a file");
   for (const char c : file)  // a message that names the file stays on its line
@@ -64,21 +63,13 @@ std::shared_ptr<const Surface> SurfaceFiles::find(Surfaces& known, Read read, co
   // "a/.." is not always nothing: `a` may be a link.
   const fs::path normal = path.lexically_normal();
   const std::string shown = (shortest(normal) == key ? normal : path).string();
-  if (const auto found = known.find(key); found != known.end()) return found->second;
+  if (const auto found = known_.find({key, convex}); found != known_.end()) return found->second;
   try {
-    return known[key] = read(shown);
+    return known_[{key, convex}] = convex ? readHull(shown) : readMesh(shown);
   } catch (const InputError& error) {
-    known.erase(key);
+    known_.erase({key, convex});
     throw InputError(where, error.what());
   }
-}
-
-std::shared_ptr<const Surface> SurfaceFiles::mesh(const std::string& file, const std::string& where) {
-  return find(meshes_, readMesh, file, where);
-}
-
-std::shared_ptr<const Surface> SurfaceFiles::hull(const std::string& file, const std::string& where) {
-  return find(hulls_, readHull, file, where);
 }
 
 std::string rebased(const std::string& file, const std::string& from, const std::string& to) {

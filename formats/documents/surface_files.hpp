@@ -18,17 +18,14 @@ class SurfaceFiles {
   explicit SurfaceFiles(std::string folder) : folder_(std::move(folder)) {}
   virtual ~SurfaceFiles() = default;
 
-  /// Throw InputError at `where` that names the file and the place in it.
-  virtual std::shared_ptr<const Surface> mesh(const std::string& file, const std::string& where);
-  virtual std::shared_ptr<const Surface> hull(const std::string& file, const std::string& where);
+  /// The triangles of a file, or their convex hull. Throws InputError at `where` that names the file and the place in
+  /// it.
+  virtual std::shared_ptr<const Surface> find(const std::string& file, const std::string& where, bool convex);
 
  private:
-  using Surfaces = std::map<std::string, std::shared_ptr<const Surface>>;  // by the path in its shortest form
-  using Read = std::shared_ptr<const Surface> (*)(const std::string& path);
-  std::shared_ptr<const Surface> find(Surfaces& known, Read read, const std::string& file, const std::string& where);
-
   std::string folder_;
-  Surfaces meshes_, hulls_;
+  // by the path in its shortest form, and whether it is a hull
+  std::map<std::pair<std::string, bool>, std::shared_ptr<const Surface>> known_;
 };
 
 /// The name, relative to `to`, of the file that `file` names relative to `from` (empty: the current folder). A name

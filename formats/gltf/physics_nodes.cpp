@@ -71,14 +71,4 @@ gltf::PhysicsNode physicsNodeOf(const Scene& scene, int index, const BodyModel& 
   return node;
 }
 
-std::vector<const Surface*> surfacesOf(const Shape& shape) {
-  if (const auto* hull = std::get_if<Hull>(&shape)) return {hull->surface.get()};
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return {mesh->surface.get()};
-  std::vector<const Surface*> all;
-  if (const auto* compound = std::get_if<Compound>(&shape))
-    for (const CompoundPart& part : compound->parts)
-      for (const Surface* surface : surfacesOf(part.shape)) all.push_back(surface);
-  return all;
-}
-
 }  // namespace carom::formats_detail

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <vector>
 
 #include "adjoint/motion/motion.h"
 #include "formats/gltf/nodes.hpp"
@@ -34,8 +33,5 @@ struct ColliderAdder {
 /// motion, if it moves, and its collider; colliders that need a pose or a scale of their own are below it.
 /// Materials are numbered as in the scene; the one after the last stands for bodies that name none.
 gltf::PhysicsNode physicsNodeOf(const Scene& scene, int body, const BodyModel& model, const SurfaceMeshes& meshes);
-
-/// All surfaces of hulls and meshes in a shape, parts of compounds too.
-std::vector<const Surface*> surfacesOf(const Shape& shape);
 
 }  // namespace carom::formats_detail

@@ -124,23 +124,6 @@ JsonWriter& JsonWriter::key(std::string_view name) {
   return *this;
 }
 
-JsonWriter& JsonWriter::numbers(std::span<const double> values) {
-  beginArray(Layout::line);
-  for (const double value : values) number(value);
-  return endArray();
-}
-
-JsonWriter& JsonWriter::quaternion(const Quat& q) {
-  const std::array<double, 4> values{q.w(), q.x(), q.y(), q.z()};
-  return numbers(values);
-}
-
-JsonWriter& JsonWriter::texts(const std::vector<std::string>& values) {
-  beginArray(Layout::line);
-  for (const std::string& value : values) text(value);
-  return endArray();
-}
-
 std::string JsonWriter::take() {
   out_ += '\n';
   levels_.clear();

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/documents/scene_reader.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 
@@ -57,8 +51,9 @@ FormatKind formatRow(KindOf<Box>) {
       .read = [](const Json& value, const std::string&,
                  SurfaceFiles&) -> Shape { return Box{readVector(value["size"])}; },
       .write = [](JsonWriter& out,
-                  const Shape& s) { out.beginObject().key("size").vector(std::get<Box>(s).size).endObject(); },
+                  const Shape& s) { out.beginObject().members("size", std::get<Box>(s).size).endObject(); },
       .on_one_line = onOneLine,
+      .surfaces = noSurfaces,
       .extent = [](const Shape& s, const ShapePose& at) {
         return extentAround(at.x, 0.5 * (at.q.toRotationMatrix().cwiseAbs() * std::get<Box>(s).size));
       },

@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
-#include "formats/documents/scene_reader.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 
@@ -29,13 +21,10 @@ TriangleMesh capsuleMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Capsule>) {
   return {
-      .read =
-          [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
-            return Capsule{numberOf(value, "radius"), numberOf(value, "height")};
-          },
-      .write = [](JsonWriter& out,
-                  const Shape& s) { writeRound(out, std::get<Capsule>(s).radius, std::get<Capsule>(s).height); },
+      .read = readRound<Capsule>,
+      .write = writeRound<Capsule>,
       .on_one_line = onOneLine,
+      .surfaces = noSurfaces,
       .extent = [](const Shape& s, const ShapePose& at) {
         const Vec3 axis = at.q * Vec3::UnitZ();
         const Capsule& capsule = std::get<Capsule>(s);

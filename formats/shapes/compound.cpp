@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
-#include "formats/documents/scene_reader.hpp"
 #include "formats/documents/scene_writer.hpp"
 #include "formats/drawing/shape_extent.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 
@@ -36,11 +28,16 @@ void writeCompound(JsonWriter& out, const Shape& s) {
   out.beginArray();
   for (const CompoundPart& part : partsOf(s)) {
     beginShape(out, part.shape);
-    if (!part.position.isZero(0)) out.key("position").vector(part.position);
-    if (part.orientation.coeffs() != Quat::Identity().coeffs()) out.key("orientation").quaternion(part.orientation);
+    writePlace(out, part.position, part.orientation);
     out.endObject();
   }
   out.endArray();
+}
+
+void compoundSurfaces(Shape& s, const std::string& where, std::vector<SurfaceUse>& out) {
+  std::size_t i = 0;
+  for (CompoundPart& part : std::get<Compound>(s).parts)
+    formatOf(part.shape).surfaces(part.shape, where + "/compound/" + std::to_string(i++), out);
 }
 
 Extent compoundExtent(const Shape& s, const ShapePose& at) {
@@ -88,6 +85,7 @@ FormatKind formatRow(KindOf<Compound>) {
       .read = readCompound,
       .write = writeCompound,
       .on_one_line = [](const Shape&) { return false; },
+      .surfaces = compoundSurfaces,
       .extent = compoundExtent,
       .radius_about = compoundRadius,
       .contours = compoundContours,

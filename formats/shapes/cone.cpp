@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 
@@ -59,11 +52,10 @@ TriangleMesh coneMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Cone>) {
   return {
-      .read = [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
-        return Cone{numberOf(value, "radius"), numberOf(value, "height")};
-      },
-      .write = [](JsonWriter& out, const Shape& s) { writeRound(out, std::get<Cone>(s).radius, std::get<Cone>(s).height); },
+      .read = readRound<Cone>,
+      .write = writeRound<Cone>,
       .on_one_line = onOneLine,
+      .surfaces = noSurfaces,
       .extent =
           [](const Shape& s, const ShapePose& at) {
             const auto [r, h] = std::get<Cone>(s);

@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
-#include "formats/documents/scene_reader.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 
@@ -47,13 +39,10 @@ TriangleMesh cylinderMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Cylinder>) {
   return {
-      .read =
-          [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
-            return Cylinder{numberOf(value, "radius"), numberOf(value, "height")};
-          },
-      .write = [](JsonWriter& out,
-                  const Shape& s) { writeRound(out, std::get<Cylinder>(s).radius, std::get<Cylinder>(s).height); },
+      .read = readRound<Cylinder>,
+      .write = writeRound<Cylinder>,
       .on_one_line = onOneLine,
+      .surfaces = noSurfaces,
       .extent = [](const Shape& s, const ShapePose& at) {
         const Vec3 axis = at.q * Vec3::UnitZ();
         const Cylinder& cylinder = std::get<Cylinder>(s);

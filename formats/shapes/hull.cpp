@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/base/errors.h"
-#include "formats/documents/scene_reader.hpp"
-#include "formats/documents/surface_files.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::shapes {
@@ -37,7 +30,7 @@ Shape readHull(const Json& value, const std::string& where, SurfaceFiles& files)
     hull.surface = hullOfPoints(*points, where + "/points");
   } else {
     hull.file = file->get<std::string>();
-    hull.surface = files.hull(hull.file, where + "/file");
+    hull.surface = files.find(hull.file, where + "/file", true);
   }
   return hull;
 }
@@ -47,10 +40,10 @@ void writeHull(JsonWriter& out, const Shape& shape) {
   out.beginObject();
   if (s.file.empty()) {
     out.key("points").beginArray();
-    for (const Vec3& vertex : s.surface->vertices) out.vector(vertex);
+    for (const Vec3& vertex : s.surface->vertices) out.value(vertex);
     out.endArray();
   } else {
-    out.key("file").text(s.file);
+    out.members("file", s.file);
   }
   writeScale(out, s.scale);
   out.endObject();
@@ -59,25 +52,7 @@ void writeHull(JsonWriter& out, const Shape& shape) {
 }  // namespace
 
 FormatKind formatRow(KindOf<Hull>) {
-  return {
-      .read = readHull,
-      .write = writeHull,
-      .on_one_line = [](const Shape& s) { return !std::get<Hull>(s).file.empty(); },
-      .extent = [](const Shape& s, const ShapePose& at) {
-        return surfaceExtent(*std::get<Hull>(s).surface, std::get<Hull>(s).scale, at);
-      },
-      .radius_about = [](const Shape& s, const Vec3& point) {
-        return surfaceRadius(*std::get<Hull>(s).surface, std::get<Hull>(s).scale, point);
-      },
-      .contours =
-          [](Contours& out, const Shape& s, const ShapePose& at, const Vec3& viewer) {
-            addSurface(out, *std::get<Hull>(s).surface, std::get<Hull>(s).scale, at.x, at.q, viewer);
-          },
-      .mesh = [](const Shape& s, double) { return surfaceMesh(*std::get<Hull>(s).surface, std::get<Hull>(s).scale); },
-      .collider = [](const ColliderAdder& out,
-                     const Shape& s) { out.setSurface(*std::get<Hull>(s).surface, std::get<Hull>(s).scale, true); },
-      .from_tapered = notTapered,
-  };
+  return surfaceRow<Hull>(readHull, writeHull, [](const Shape& s) { return !std::get<Hull>(s).file.empty(); });
 }
 
 }  // namespace carom::shapes

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <limits>
 
-#include "formats/documents/scene_reader.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 
@@ -39,9 +32,10 @@ FormatKind formatRow(KindOf<Plane>) {
       .write =
           [](JsonWriter& out, const Shape& s) {
             const Plane& plane = std::get<Plane>(s);
-            out.beginObject().key("normal").vector(plane.normal).key("offset").number(plane.offset).endObject();
+            out.beginObject().members("normal", plane.normal, "offset", plane.offset).endObject();
           },
       .on_one_line = onOneLine,
+      .surfaces = noSurfaces,
       .extent = [](const Shape&, const ShapePose&) { return Extent(); },
       .radius_about = [](const Shape&, const Vec3&) { return std::numeric_limits<double>::infinity(); },
       .contours = [](Contours&, const Shape&, const ShapePose&, const Vec3&) {},

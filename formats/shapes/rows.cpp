@@ -17,4 +17,10 @@ const std::array<FormatKind, std::variant_size_v<Shape>>& formatKinds() {
 
 const FormatKind& formatOf(const Shape& shape) { return formatKinds()[shape.index()]; }
 
+std::vector<SurfaceUse> surfacesOf(Shape& shape) {
+  std::vector<SurfaceUse> all;
+  formatOf(shape).surfaces(shape, "", all);
+  return all;
+}
+
 }  // namespace carom::shapes

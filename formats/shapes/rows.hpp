@@ -2,7 +2,10 @@
 // Private to formats/*.cpp.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "adjoint/base/required.h"
 #include "adjoint/scene/shape.h"
@@ -33,6 +36,16 @@ struct ShapePose {
   const Quat& q;
 };
 
+/// A hull or mesh: a shape, or a part of one.
+struct SurfaceUse {
+  Shape& shape;  ///< itself
+  const Surface& surface;
+  double scale;
+  std::string& file;  ///< where it is from; empty where it was made in memory
+  std::string place;  ///< in the document of the whole shape: "/compound/2/mesh"
+  bool convex;        ///< a hull
+};
+
 /// One row of the table of shapes: what documents, pictures and glTF files ask of a shape, beside its words in
 /// scene.schema.json. Like those of ShapeKind, rows and the table are complete or do not compile.
 struct FormatKind {
@@ -41,6 +54,8 @@ struct FormatKind {
   /// The value of its word.
   Required<void(JsonWriter& out, const Shape&)> write;
   Required<bool(const Shape&)> on_one_line;  ///< whether it is written on one
+  /// Adds itself where it has a surface, or its parts; `where` is the place of the object that has its word.
+  Required<void(Shape&, const std::string& where, std::vector<SurfaceUse>& out)> surfaces;
   /// Smallest axis-aligned box around it; empty for a plane.
   Required<Extent(const Shape&, const ShapePose& at)> extent;
   /// See radiusAbout.
@@ -58,6 +73,7 @@ struct FormatKind {
 /// FormatKind::from_tapered of what no such shape is.
 inline std::optional<Shape> notTapered(const gltf::Tapered&) { return std::nullopt; }
 inline bool onOneLine(const Shape&) { return true; }
+inline void noSurfaces(Shape&, const std::string&, std::vector<SurfaceUse>&) {}
 
 // The table: a row each, which stands in the file of that name.
 FormatKind formatRow(KindOf<Sphere>);
@@ -73,5 +89,7 @@ FormatKind formatRow(KindOf<Compound>);
 /// All of them, in the order of Shape.
 const std::array<FormatKind, std::variant_size_v<Shape>>& formatKinds();
 const FormatKind& formatOf(const Shape& shape);
+/// Of a shape and all its parts. A copy of a shape uses the same surfaces.
+std::vector<SurfaceUse> surfacesOf(Shape& shape);
 
 }  // namespace carom::shapes

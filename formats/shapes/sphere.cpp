@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/documents/scene_reader.hpp"
-#include "formats/drawing/triangle_mesh.hpp"
-#include "formats/gltf/physics_nodes.hpp"
-#include "formats/json/json_writer.hpp"
 #include "formats/shapes/parts.hpp"
-#include "formats/shapes/rows.hpp"
-#include "formats/svg/contours.hpp"
 
 namespace carom::shapes {
 
@@ -28,8 +22,9 @@ FormatKind formatRow(KindOf<Sphere>) {
       .read = [](const Json& value, const std::string&,
                  SurfaceFiles&) -> Shape { return Sphere{numberOf(value, "radius")}; },
       .write = [](JsonWriter& out,
-                  const Shape& s) { out.beginObject().key("radius").number(std::get<Sphere>(s).radius).endObject(); },
+                  const Shape& s) { out.beginObject().members("radius", std::get<Sphere>(s).radius).endObject(); },
       .on_one_line = onOneLine,
+      .surfaces = noSurfaces,
       .extent = [](const Shape& s,
                    const ShapePose& at) { return extentAround(at.x, Vec3::Constant(std::get<Sphere>(s).radius)); },
       .radius_about = [](const Shape& s, const Vec3& point) { return point.norm() + std::get<Sphere>(s).radius; },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/answers/result_json.h"
+#include "formats/answers/result_json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 
 namespace carom {
+
+using namespace formats_detail;
+
 namespace {
 
 using nlohmann::json;

@@ -13,6 +13,7 @@
 #include "formats/documents/surface_files.hpp"
 #include "formats/gltf/read/parts.hpp"
 #include "formats/json/json_writer.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom::formats_detail {
 
@@ -75,36 +76,13 @@ void restoreOrder(Json& document) {
   }
 }
 
-void nameSurfaces(Shape& shape, const SurfaceMeshes& meshes) {
-  if (auto* hull = std::get_if<Hull>(&shape)) hull->file = meshReference(meshes.at(hull->surface.get()));
-  if (auto* mesh = std::get_if<Mesh>(&shape)) mesh->file = meshReference(meshes.at(mesh->surface.get()));
-  if (auto* compound = std::get_if<Compound>(&shape))
-    for (CompoundPart& part : compound->parts) nameSurfaces(part.shape, meshes);
-}
-
-/// Surfaces are made here: they have no files, and mesh references mean nothing elsewhere.
-void forgetFiles(Shape& shape) {
-  if (auto* hull = std::get_if<Hull>(&shape)) hull->file.clear();
-  if (auto* mesh = std::get_if<Mesh>(&shape)) mesh->file.clear();
-  if (auto* compound = std::get_if<Compound>(&shape))
-    for (CompoundPart& part : compound->parts) forgetFiles(part.shape);
-}
-
 /// The meshes of the file in place of files.
 class FileMeshes : public SurfaceFiles {
  public:
   FileMeshes(std::size_t count, gltf::ShapeMaker& shapes, SurfaceMeshes& meshes)
       : SurfaceFiles(""), count_(count), shapes_(shapes), meshes_(meshes) {}
 
-  std::shared_ptr<const Surface> mesh(const std::string& file, const std::string& where) override {
-    return find(file, where, false);
-  }
-  std::shared_ptr<const Surface> hull(const std::string& file, const std::string& where) override {
-    return find(file, where, true);
-  }
-
- private:
-  std::shared_ptr<const Surface> find(const std::string& file, const std::string& where, bool convex) {
+  std::shared_ptr<const Surface> find(const std::string& file, const std::string& where, bool convex) override {
     std::size_t index = 0;
     while (index < count_ && meshReference(static_cast<int>(index)) != file) ++index;
     if (index == count_)
@@ -115,6 +93,7 @@ class FileMeshes : public SurfaceFiles {
     return surface;
   }
 
+ private:
   std::size_t count_;
   gltf::ShapeMaker& shapes_;
   SurfaceMeshes& meshes_;
@@ -128,7 +107,9 @@ Value documentOf(const Document& document, const Scene& scene, const SurfaceMesh
   Document whole = document;
   whole.scene = scene;
   whole.schema.clear();  // found from a document's own folder
-  for (Body& body : whole.scene.bodies) nameSurfaces(body.shape, meshes);
+  for (Body& body : whole.scene.bodies)
+    for (const shapes::SurfaceUse& use : shapes::surfacesOf(body.shape))
+      use.file = meshReference(meshes.at(&use.surface));
   Json json = parseJson(writeDocument(whole));
   for (auto member = json.begin(); member != json.end();)  // tinygltf would write an empty list as null
     member = member->is_structured() && member->empty() ? json.erase(member) : std::next(member);
@@ -185,7 +166,8 @@ void LeftDocument::read(const Json& json, std::size_t mesh_count, ShapeMaker& sh
   if (has_scene_) {
     FileMeshes files(mesh_count, shapes, meshes_);
     scene_ = readScene(whole, files);
-    for (Body& body : scene_.bodies) forgetFiles(body.shape);
+    for (Body& body : scene_.bodies)  // mesh references mean nothing elsewhere
+      for (const shapes::SurfaceUse& use : shapes::surfacesOf(body.shape)) use.file.clear();
     validate(scene_);
   }
   edit_ = std::move(whole);

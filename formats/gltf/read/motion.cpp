@@ -4,6 +4,7 @@
 #include "adjoint/scene/body_model.h"
 #include "formats/gltf/read/bodies.hpp"
 #include "formats/json/json_writer.hpp"
+#include "formats/shapes/rows.hpp"
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::gltf {
@@ -20,14 +21,9 @@ bool same(const Value& a, const Value& b, double size) {
 }
 
 /// Open meshes closed by their convex hulls. Throws InputError for flat ones.
-Shape withHulls(const Shape& shape) {
-  if (const auto* mesh = std::get_if<Mesh>(&shape); mesh != nullptr && !mesh->surface->closed)
-    return Hull{convexHull(mesh->surface->vertices), mesh->scale, ""};
-  if (const auto* compound = std::get_if<Compound>(&shape)) {
-    Compound out = *compound;
-    for (CompoundPart& part : out.parts) part.shape = withHulls(part.shape);
-    return out;
-  }
+Shape withHulls(Shape shape) {
+  for (const shapes::SurfaceUse& use : shapes::surfacesOf(shape))
+    if (!use.surface.closed) use.shape = Hull{convexHull(use.surface.vertices), use.scale, ""};
   return shape;
 }
 

@@ -18,6 +18,7 @@
 #include "formats/gltf/write/physics.hpp"
 #include "formats/gltf/write/stage.hpp"
 #include "formats/json/json_writer.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom {
 
@@ -64,8 +65,9 @@ class Writer {
   // The surfaces that bodies collide with, as meshes that no node shows. Other programs see floats, 6e-8 of the
   // coordinates off; importGltf finds the doubles in a view of their own, which extras name.
   void addSurfaces() {
-    for (const Body& body : scene_.bodies)
-      for (const Surface* surface : surfacesOf(body.shape)) {
+    for (Body body : scene_.bodies)
+      for (const shapes::SurfaceUse& use : shapes::surfacesOf(body.shape)) {
+        const Surface* surface = &use.surface;
         if (surfaces_.count(surface) > 0) continue;
         tinygltf::Primitive primitive;
         primitive.mode = TINYGLTF_MODE_TRIANGLES;

@@ -8,7 +8,7 @@
 #include "adjoint/motion/start_overlap.h"
 #include "adjoint/scene/scene.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// How a scene is computed, and why.
 struct ScenePlan {
@@ -39,4 +39,4 @@ struct ScenePlan {
 /// derivative_tier, derivative_why}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
 std::string infoJson(const Scene& scene, const ScenePlan& plan);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

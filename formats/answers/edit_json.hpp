@@ -5,7 +5,7 @@
 
 #include "editing/edit.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// The answer of `carom edit --json`: status, message, changed {control, component, name, before, after}, residuals
 /// {constraint, component, name, value, target, error, scaled_error} (of a range target is null, and there are min and
@@ -21,4 +21,4 @@ namespace carom {
 /// alternatives were written to, in this order; where there is none, or it is empty, `output` is null.
 std::string editJson(const EditResult& result, const std::vector<std::string>& outputs);
 
-}  // namespace carom
+}  // namespace carom::formats_detail

@@ -9,7 +9,7 @@
 #include "formats/base/document.h"
 #include "formats/gltf/read/import_gltf.h"
 
-namespace carom {
+namespace carom::formats_detail {
 
 /// The answer of every command that could not do its work: {"error": {"message", "file", "pointer"}}. `file` and
 /// `pointer` (a JSON pointer into the file) are empty where the error has no such place.
@@ -43,4 +43,4 @@ struct ProgramInfo {
 /// The answer of `carom info --json` without a scene.
 std::string programJson(const ProgramInfo& info);
 
-}  // namespace carom
+}  // namespace carom::formats_detail
