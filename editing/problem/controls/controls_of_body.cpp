@@ -19,18 +19,8 @@ void prepareMass(Scene& scene, const ControlOwner& o) {
   body.mass = modelOf(body).mass;
   body.density.reset();
 }
-Eigen::VectorXd getMass(const Scene& scene, const ControlOwner& o) {
-  return oneNumber(scene.bodies[o.body].mass.value_or(0));
-}
-void setMass(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
-  scene.bodies[o.body].mass = values[0];
-}
-Eigen::VectorXd gatherMass(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
-  return oneNumber(gradient.bodies[o.body].mass);
-}
-void scatterMass(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&, SceneTangent& tangent) {
-  tangent.bodies[o.body].mass += rates[0];
-}
+constexpr auto kMass = [](auto& scene, const ControlOwner& o) -> auto& { return scene.bodies[o.body].mass; };
+using Mass = FieldNumbers<kMass>;
 
 void prepareInertia(Scene& scene, const ControlOwner& o) {
   Body& body = scene.bodies[o.body];
@@ -41,17 +31,11 @@ void prepareInertia(Scene& scene, const ControlOwner& o) {
   body.inertia.source = Inertia::Source::matrix;
   body.inertia.axes = Quat(Mat3(model.R_BG.transpose())).normalized();
 }
-Eigen::VectorXd getInertia(const Scene& scene, const ControlOwner& o) { return scene.bodies[o.body].inertia.moments; }
-void setInertia(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
-  scene.bodies[o.body].inertia.moments = values;
-}
-Eigen::VectorXd gatherInertia(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
-  return gradient.bodies[o.body].inertia;
-}
-void scatterInertia(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&,
-                    SceneTangent& tangent) {
-  tangent.bodies[o.body].inertia += rates;
-}
+constexpr auto kMoments = [](auto& scene, const ControlOwner& o) -> auto& {
+  return scene.bodies[o.body].inertia.moments;
+};
+constexpr auto kMomentRates = [](auto& scene, const ControlOwner& o) -> auto& { return scene.bodies[o.body].inertia; };
+using Moments = FieldNumbers<kMoments, kMomentRates>;
 
 std::vector<std::string> sizeComponents(const Scene& scene, const ControlOwner& o) {
   const Shape& shape = scene.bodies[o.body].shape;
@@ -65,12 +49,8 @@ void setSize(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o,
   Shape& shape = scene.bodies[o.body].shape;
   kindOf(shape).setDimensions(shape, values);
 }
-Eigen::VectorXd gatherSize(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
-  return gradient.bodies[o.body].size;
-}
-void scatterSize(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&, SceneTangent& tangent) {
-  tangent.bodies[o.body].size += rates;
-}
+constexpr auto kSizeRates = [](auto& scene, const ControlOwner& o) -> auto& { return scene.bodies[o.body].size; };
+using SizeRates = FieldNumbers<kSizeRates>;
 
 }  // namespace
 
@@ -82,10 +62,10 @@ const ControlKind kMassControl{
     .strictly_positive = true,
     .components = oneComponent,
     .prepare = prepareMass,
-    .get = getMass,
-    .set = setMass,
-    .gather = gatherMass,
-    .scatter = scatterMass,
+    .get = Mass::get,
+    .set = Mass::set,
+    .gather = Mass::gather,
+    .scatter = Mass::scatter,
     .scale = oneScale,
 };
 
@@ -97,10 +77,10 @@ const ControlKind kInertiaControl{
     .strictly_positive = true,
     .components = xyzComponents,
     .prepare = prepareInertia,
-    .get = getInertia,
-    .set = setInertia,
-    .gather = gatherInertia,
-    .scatter = scatterInertia,
+    .get = Moments::get,
+    .set = Moments::set,
+    .gather = Moments::gather,
+    .scatter = Moments::scatter,
     .scale = xyzScale,
     .asks_inertia = true,
     .keeps_triangle = true,
@@ -115,8 +95,8 @@ const ControlKind kSizeControl{
     .components = sizeComponents,
     .get = getSize,
     .set = setSize,
-    .gather = gatherSize,
-    .scatter = scatterSize,
+    .gather = SizeRates::gather,
+    .scatter = SizeRates::scatter,
     .scale = getSize,
     .asks_inertia = true,
     .changes_shape = true,

@@ -8,16 +8,9 @@ namespace carom::editing_detail {
 namespace {
 
 std::vector<std::string> tiltComponents(const Scene&, const ControlOwner&) { return {"alpha", "beta"}; }
-Eigen::VectorXd getTilt(const Scene& scene, const ControlOwner& o) { return scene.tilts[o.tilt].value; }
-void setTilt(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
-  scene.tilts[o.tilt].value = values;
-}
-Eigen::VectorXd gatherTilt(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
-  return gradient.tilts[o.tilt];
-}
-void scatterTilt(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&, SceneTangent& tangent) {
-  tangent.tilts[o.tilt] += rates;
-}
+constexpr auto kTilt = [](auto& scene, const ControlOwner& o) -> auto& { return scene.tilts[o.tilt].value; };
+constexpr auto kTiltRates = [](auto& scene, const ControlOwner& o) -> auto& { return scene.tilts[o.tilt]; };
+using Tilts = FieldNumbers<kTilt, kTiltRates>;
 
 Eigen::VectorXd scaleTilt(const Scene&, const ControlOwner&) { return Vec2::Ones(); }
 
@@ -27,10 +20,10 @@ const ControlKind kTiltControl{
     .word = "tilt",
     .owner = OwnerKind::impact,
     .components = tiltComponents,
-    .get = getTilt,
-    .set = setTilt,
-    .gather = gatherTilt,
-    .scatter = scatterTilt,
+    .get = Tilts::get,
+    .set = Tilts::set,
+    .gather = Tilts::gather,
+    .scatter = Tilts::scatter,
     .scale = scaleTilt,
 };
 

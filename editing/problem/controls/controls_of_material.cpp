@@ -6,26 +6,18 @@
 namespace carom::editing_detail {
 namespace {
 
-template <double Material::*kField, double MaterialDerivative::*kRate>
-struct MaterialNumber {
-  static Eigen::VectorXd get(const Scene& scene, const ControlOwner& o) {
-    return oneNumber(scene.materials[o.material].*kField);
-  }
-  static void set(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
-    scene.materials[o.material].*kField = values[0];
-  }
-  static Eigen::VectorXd gather(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
-    return oneNumber(gradient.materials[o.material].*kRate);
-  }
-  static void scatter(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&,
-                      SceneTangent& tangent) {
-    tangent.materials[o.material].*kRate += rates[0];
-  }
+constexpr auto kElasticity = [](auto& scene, const ControlOwner& o) -> auto& {
+  return scene.materials[o.material].elasticity;
 };
-using Elasticity = MaterialNumber<&Material::elasticity, &MaterialDerivative::elasticity>;
-using Friction = MaterialNumber<&Material::friction, &MaterialDerivative::friction>;
-using TangentialElasticity =
-    MaterialNumber<&Material::tangential_elasticity, &MaterialDerivative::tangential_elasticity>;
+constexpr auto kFriction = [](auto& scene, const ControlOwner& o) -> auto& {
+  return scene.materials[o.material].friction;
+};
+constexpr auto kTangentialElasticity = [](auto& scene, const ControlOwner& o) -> auto& {
+  return scene.materials[o.material].tangential_elasticity;
+};
+using Elasticity = FieldNumbers<kElasticity>;
+using Friction = FieldNumbers<kFriction>;
+using TangentialElasticity = FieldNumbers<kTangentialElasticity>;
 
 }  // namespace
 

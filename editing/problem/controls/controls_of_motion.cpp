@@ -14,23 +14,16 @@ using namespace adjoint_detail;
 
 namespace {
 
-template <Vec3 Body::*kField, Vec3 BodyDerivative::*kRate>
-struct BodyVector {
-  static Eigen::VectorXd get(const Scene& scene, const ControlOwner& o) { return scene.bodies[o.body].*kField; }
-  static void set(const Eigen::VectorXd& values, const Scene&, const ControlOwner& o, Scene& scene) {
-    scene.bodies[o.body].*kField = values;
-  }
-  static Eigen::VectorXd gather(const SceneGradient& gradient, const ControlOwner& o, const Eigen::VectorXd&) {
-    return gradient.bodies[o.body].*kRate;
-  }
-  static void scatter(const Eigen::VectorXd& rates, const ControlOwner& o, const Eigen::VectorXd&,
-                      SceneTangent& tangent) {
-    tangent.bodies[o.body].*kRate += rates;
-  }
+constexpr auto kPosition = [](auto& scene, const ControlOwner& o) -> auto& { return scene.bodies[o.body].position; };
+constexpr auto kVelocity = [](auto& scene, const ControlOwner& o) -> auto& { return scene.bodies[o.body].velocity; };
+constexpr auto kAngularVelocity = [](auto& scene, const ControlOwner& o) -> auto& {
+  return scene.bodies[o.body].angular_velocity;
 };
-using Position = BodyVector<&Body::position, &BodyDerivative::position>;
-using Velocity = BodyVector<&Body::velocity, &BodyDerivative::velocity>;
-using AngularVelocity = BodyVector<&Body::angular_velocity, &BodyDerivative::angular_velocity>;
+constexpr auto kGravity = [](auto& scene, const ControlOwner&) -> auto& { return scene.gravity; };
+using Position = FieldNumbers<kPosition>;
+using Velocity = FieldNumbers<kVelocity>;
+using AngularVelocity = FieldNumbers<kAngularVelocity>;
+using Gravity = FieldNumbers<kGravity>;
 
 template <double NaturalScales::*kScale>
 Eigen::VectorXd bodyScale(const Scene& start, const ControlOwner& o) {
@@ -55,16 +48,6 @@ Eigen::VectorXd gatherRateOrientation(const SceneGradient& gradient, const Contr
   return leftJacobianRate(values, rates).transpose() * gradient.bodies[o.body].orientation;
 }
 
-Eigen::VectorXd getGravity(const Scene& scene, const ControlOwner&) { return scene.gravity; }
-void setGravity(const Eigen::VectorXd& values, const Scene&, const ControlOwner&, Scene& scene) {
-  scene.gravity = values;
-}
-Eigen::VectorXd gatherGravity(const SceneGradient& gradient, const ControlOwner&, const Eigen::VectorXd&) {
-  return gradient.gravity;
-}
-void scatterGravity(const Eigen::VectorXd& rates, const ControlOwner&, const Eigen::VectorXd&, SceneTangent& tangent) {
-  tangent.gravity += rates;
-}
 Eigen::VectorXd scaleGravity(const Scene& start, const ControlOwner&) { return Vec3::Constant(gravityScale(start)); }
 
 }  // namespace
@@ -119,10 +102,10 @@ const ControlKind kGravityControl{
     .word = "gravity",
     .owner = OwnerKind::scene,
     .components = xyzComponents,
-    .get = getGravity,
-    .set = setGravity,
-    .gather = gatherGravity,
-    .scatter = scatterGravity,
+    .get = Gravity::get,
+    .set = Gravity::set,
+    .gather = Gravity::gather,
+    .scatter = Gravity::scatter,
     .scale = scaleGravity,
 };
 
