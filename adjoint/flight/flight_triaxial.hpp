@@ -12,7 +12,7 @@
 namespace carom::adjoint_detail {
 
 /// Torque-free rotation with three different moments: Taylor segments at first, which are the cheapest to read, and the
-/// closed form (flight_elliptic.h) after them, where more segments would cost more than it does. With l = |L| the
+/// closed form (flight_elliptic.hpp) after them, where more segments would cost more than it does. With l = |L| the
 /// direction of L in principal axes, u = R^T L / l, obeys a quadratic system, and R is a twist about u(0) followed by
 /// the swing S from u(0) to u:
 ///   u' = l u x (D u),  psi' = l (u(0) + u).(D u) / (1 + u(0).u),  R = R(0) exp([psi u(0)]x) S^T,  D = diag(1/I).

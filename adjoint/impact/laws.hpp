@@ -5,7 +5,7 @@
 #include "adjoint/impact/law.hpp"
 #include "adjoint/impact/single_laws.hpp"
 
-/// The impact laws of law.h for any number. Derivatives along directions are the law itself in dual numbers; adjoints
+/// The impact laws of law.hpp for any number. Derivatives along directions are the law itself in dual numbers; adjoints
 /// are written by hand, and the dot-product tests hold one against the other.
 namespace carom::adjoint_detail {
 

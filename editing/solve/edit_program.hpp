@@ -14,7 +14,7 @@ namespace carom::editing_detail {
 /// minimise 1/2 |y|^2 subject to chosen rows = 0, ranges, validity >= 0, bounds; y the unknowns of EditProblem, of
 /// which the free times cost nothing.
 ///
-/// The objective's second derivative is the identity; those of the rows are exact (hessian.h), or learnt from their
+/// The objective's second derivative is the identity; those of the rows are exact (hessian.hpp), or learnt from their
 /// gradients, row by row, by Powell's symmetric rank-one-two (PSB) secant update, or left to the solver.
 class EditProgram final : public NonlinearProgram {
  public:

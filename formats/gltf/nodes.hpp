@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Private to formats/*.cpp. What a glTF file says about physics (KHR_physics_rigid_bodies, KHR_implicit_shapes), in its
-// own words but in our axes: z up, for the axes of every node too (gltf_frame.hpp), so that round shapes lie along z and
+// own words but in our axes: z up, for the axes of every node too (frame.hpp), so that round shapes lie along z and
 // planes face z. Every node is in the axes of its parent.
 #pragma once
 

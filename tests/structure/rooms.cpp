@@ -12,13 +12,6 @@ using Graph = std::map<std::string, std::set<std::string>>;
 
 constexpr std::size_t kMostRooms = 2;
 
-// Known circles, to be cut: the folder and the most rooms that one may have. An entry excuses one circle.
-struct KnownCircle {
-  const char* folder;
-  std::size_t rooms;
-};
-const std::vector<KnownCircle> kKnown = {{"adjoint", 3}};
-
 std::string roomOf(const std::string& path) { return path.substr(0, path.rfind('.')); }
 
 Graph graphOf(const Sources& sources) {
@@ -86,17 +79,9 @@ std::vector<std::vector<std::string>> circles(const Sources& sources) {
 
 std::vector<std::string> circleViolations(const Sources& sources) {
   static const std::set<std::string> product = {"adjoint", "ode_bridge", "editing", "formats", "cli"};
-  std::vector<KnownCircle> known = kKnown;
   std::vector<std::string> violations;
   for (const std::vector<std::string>& circle : circles(sources)) {
     if (circle.size() <= kMostRooms || !product.contains(folderOf(circle.front()))) continue;
-    const auto excuse = std::find_if(known.begin(), known.end(), [&](const KnownCircle& k) {
-      return circle.size() <= k.rooms && folderOf(circle.front()) == k.folder;
-    });
-    if (excuse != known.end()) {
-      known.erase(excuse);
-      continue;
-    }
     std::string sentence = "a circle of " + std::to_string(circle.size()) + " rooms:";
     for (const std::string& room : circle) sentence += " " + room;
     violations.push_back(std::move(sentence));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Control of one impact: the tilt (alpha, beta) of the collision normal at the body's n-th impact. Tilts stay within
-// the cone alpha^2 + beta^2 <= max^2 (see validity_rows.h).
+// the cone alpha^2 + beta^2 <= max^2 (see validity_rows.hpp).
 
 #include "editing/problem/controls/control_families.hpp"
 

@@ -16,7 +16,7 @@ struct Accessor;
 namespace carom::formats_detail {
 
 /// Appends arrays to the one buffer of a model and returns the index of the accessor of each. Vectors and rotations are
-/// given in our axes, z up, and stored in glTF's, y up (gltf_frame.hpp). Vertices and indices that
+/// given in our axes, z up, and stored in glTF's, y up (frame.hpp). Vertices and indices that
 /// are there already, as those of equal bodies, are used again. Throws InputError, with `what` as the place, for a
 /// number that is not finite as a float.
 class GltfBuffer {
