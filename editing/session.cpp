@@ -26,6 +26,13 @@ std::vector<Constraint> editing_detail::SessionMoment::constraints() const {
 EditSession::State::State(ContactSource& source, double length, const SessionOptions& chosen)
     : contacts(source), duration(length), options(chosen) {}
 
+SessionGesture EditSession::State::newGesture(SessionGesture::Kind kind) const {
+  SessionGesture gesture;
+  gesture.kind = kind;
+  gesture.milliseconds = millisecondsSinceStart();
+  return gesture;
+}
+
 double EditSession::State::millisecondsSinceStart() const {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
 }
@@ -87,9 +94,7 @@ void EditSession::setControls(std::vector<Control> controls) {
   State& s = *state_;
   s.requireNoDrag("setControls");
   const ControlSet checked(*s.now.scene, controls);
-  SessionGesture gesture;
-  gesture.kind = SessionGesture::Kind::controls;
-  gesture.milliseconds = s.millisecondsSinceStart();
+  SessionGesture gesture = s.newGesture(SessionGesture::Kind::controls);
   gesture.controls = controls;
   s.remember(s.now);
   s.now.controls = std::move(controls);
@@ -113,9 +118,7 @@ void EditSession::unnail(NailId id) {
   State& s = *state_;
   s.requireNoDrag("unnail");
   constraintOf(id);
-  SessionGesture gesture;
-  gesture.kind = SessionGesture::Kind::unnail;
-  gesture.milliseconds = s.millisecondsSinceStart();
+  SessionGesture gesture = s.newGesture(SessionGesture::Kind::unnail);
   gesture.nail = id.value;
   s.remember(s.now);
   std::erase_if(s.now.nails, [&](const SessionNail& nail) { return nail.id == id; });
@@ -173,9 +176,7 @@ SessionUpdate EditSession::State::goTo(std::vector<SessionMoment>& from, std::ve
                                        SessionGesture::Kind kind) {
   const bool back = kind == SessionGesture::Kind::undo;
   if (from.empty()) return stay(back ? "There is nothing to undo." : "There is nothing to redo.");
-  SessionGesture gesture;
-  gesture.kind = kind;
-  gesture.milliseconds = millisecondsSinceStart();
+  SessionGesture gesture = newGesture(kind);
   const bool other_scene = from.back().scene != now.scene;
   if (other_scene) last.motion = simulated(from.back().scene);
   to.push_back(std::move(now));

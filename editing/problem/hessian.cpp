@@ -20,6 +20,13 @@ struct Readings {
   std::vector<Eigen::VectorXd> time_rate;  // of the instant by the controls; empty: it stays
 };
 
+StateSeed weighted(StateSeed seed, double weight) {
+  for (Vec3* w : {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity, &seed.center_of_mass})
+    *w *= weight;
+  seed.time *= weight;
+  return seed;
+}
+
 int freeTimeOf(const EditProblem& problem, const Row& row) {
   for (int k = 0; k < problem.times() && row.region < 0; ++k)
     if (problem.constraints.freeTimes()[k].constraint == row.constraint) return k;
@@ -57,11 +64,8 @@ Readings readingsOf(const EditProblem& problem, DerivativeTape& tape, const RowV
     Eigen::VectorXd time_rate;
     if (row.region >= 0)
       time_rate = clearanceTimeRate(*problem.constraints.clearance(tape.motion(), i), tape, controls);
-    for (StateSeed seed : rows.seeds[i]) {
-      for (Vec3* w : {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity, &seed.center_of_mass})
-        *w *= weights[i];
-      seed.time *= weights[i];
-      out.seeds.push_back(seed);
+    for (const StateSeed& seed : rows.seeds[i]) {
+      out.seeds.push_back(weighted(seed, weights[i]));
       out.row.push_back(i);
       out.first.push_back(first);
       out.free_time.push_back(freeTimeOf(problem, row));
@@ -78,13 +82,9 @@ SeedRates seedRatesOf(const EditProblem& problem, const Motion& motion, const Ro
     while (out.size() < rates.size()) {
       const int row = readings.row[out.size()];
       const std::size_t count = rows.seeds[row].size();
-      for (StateSeed seed : problem.constraints.seedRates(motion, rows.times, row, rates.subspan(out.size(), count))) {
-        for (Vec3* w :
-             {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity, &seed.center_of_mass})
-          *w *= weights[row];
-        seed.time *= weights[row];
-        out.push_back(seed);
-      }
+      for (const StateSeed& seed :
+           problem.constraints.seedRates(motion, rows.times, row, rates.subspan(out.size(), count)))
+        out.push_back(weighted(seed, weights[row]));
     }
     return out;
   };

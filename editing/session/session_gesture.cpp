@@ -176,9 +176,7 @@ SessionUpdate EditSession::State::endDrag(SessionGesture::Ending ending) {
 
 NailId EditSession::State::addNail(Constraint constraint) {
   const auto began_at = Clock::now();
-  SessionGesture gesture;
-  gesture.kind = SessionGesture::Kind::nail;
-  gesture.milliseconds = millisecondsSinceStart();
+  SessionGesture gesture = newGesture(SessionGesture::Kind::nail);
   gesture.constraint = constraint;
   gesture.nail = next_nail;
   std::vector<Constraint> constraints = now.constraints();

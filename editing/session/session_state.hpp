@@ -68,6 +68,7 @@ struct EditSession::State {
   std::optional<int> replayed_cut;
 
   double millisecondsSinceStart() const;
+  SessionGesture newGesture(SessionGesture::Kind kind) const;  ///< of now
   Budget budget(int limit, double seconds) const;
   void requireNoDrag(const char* call) const;
 
