@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -38,12 +37,8 @@ std::vector<std::string> formats() {
 std::string formatOf(const ExportArguments& options) {
   if (!options.format.empty()) return options.format;
   const std::vector<std::string> known = exportExtensions();
-  std::string list;
-  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  const std::string list = joined(known), extension = extensionOf(options.output);
   if (isStandard(options.output)) throw UsageError("-o - needs --format, one of " + list);
-  std::string extension = std::filesystem::path(options.output).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw UsageError("-o " + options.output + ": found the extension '" + extension + "', expected one of " + list);
   return extension.substr(1);
@@ -101,7 +96,7 @@ std::size_t writeExport(const ExportArguments& options, const std::string& forma
                         const Motion& motion, const ExportOptions& export_options, Output& out) {
   const Progress progress(out, "writing " + format);
   const std::string name = isStandard(options.output) ? "<stdout>" : options.output;
-  try {
+  return inFile(name, [&] {
     std::string bytes =
         motionText(format, titleOf(options, loaded.document), loaded.document, motion, export_options);
     const std::size_t size = bytes.size();
@@ -110,9 +105,7 @@ std::size_t writeExport(const ExportArguments& options, const std::string& forma
     else
       writeFile(options.output, bytes);
     return size;
-  } catch (const InputError& error) {
-    throw FormatError(name, error.where() == name ? "" : error.where(), error.message());
-  }
+  });
 }
 
 Exit exportScene(const ExportArguments& options, Output& out) {
@@ -141,7 +134,7 @@ Exit exportScene(const ExportArguments& options, Output& out) {
   else
     sayWritten(out, options.output,
                " (" + out.number(motion.end) + " s, " +
-                   counted(static_cast<long long>(motion.events.size()), "impact") + ", " + std::to_string(bytes) +
+                   counted(motion.events.size(), "impact") + ", " + std::to_string(bytes) +
                    " bytes)");
   return Exit::done;
 }

@@ -62,10 +62,10 @@ Exit importScene(const ImportArguments& options, Output& out) {
     out.document(importJson(options.output, imported, meshes));
     return Exit::done;
   }
-  const auto count = [](std::size_t number, const char* noun) { return counted(static_cast<long long>(number), noun); };
   const Scene& scene = imported.document.scene;
-  std::string details = countedBodies(scene.bodies.size()) + ", " + count(scene.materials.size(), "material");
-  if (!meshes.empty()) details += ", " + count(meshes.size(), "mesh file");
+  std::string details =
+      counted(scene.bodies.size(), "body", "bodies") + ", " + counted(scene.materials.size(), "material");
+  if (!meshes.empty()) details += ", " + counted(meshes.size(), "mesh file");
   sayWritten(out, options.output, " (" + details + ")");
   return Exit::done;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace carom {
 
@@ -11,5 +12,11 @@ namespace carom {
 std::string shortNumber(double value);
 /// Words of at most `most` letters, the end cut off for an ellipsis where there are more.
 std::string ellipsized(std::string_view words, std::size_t most);
+/// "1 word" or "2 words".
+std::string counted(std::size_t count, const std::string& word, const std::string& plural = "");
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
+/// The end of a file's name, ".glb", in small letters.
+std::string extensionOf(const std::string& path);
 
 }  // namespace carom

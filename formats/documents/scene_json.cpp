@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "formats/base/in_file.hpp"
 #include "formats/base/read_file.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/scene_reader.hpp"
@@ -21,12 +22,10 @@ std::string detail::movedSchema(const std::string& schema, const std::string& fr
   return schema.empty() || address ? schema : rebased(schema, from, to);
 }
 
-void detail::moveTo(const std::string& folder, Document& document) {
-  document.schema = movedSchema(document.schema, document.folder, folder);
-  for (Body& body : document.scene.bodies)
+void detail::moveFiles(Scene& scene, const std::string& from, const std::string& to) {
+  for (Body& body : scene.bodies)
     for (const shapes::SurfaceUse& use : shapes::surfacesOf(body.shape))
-      if (!use.file.empty()) use.file = rebased(use.file, document.folder, folder);
-  document.folder = folder;
+      if (!use.file.empty()) use.file = rebased(use.file, from, to);
 }
 
 Document detail::readDocument(const Json& json, const std::string& folder) {
@@ -44,16 +43,10 @@ Document detail::readDocument(const Json& json, const std::string& folder) {
   return document;
 }
 
-Document parseDocument(std::string_view text, const std::string& name, const std::string& folder) try {
-  if (text.size() > kLargestDocument)
-    throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
-                     std::to_string(kLargestDocument) + " bytes");
-  const detail::Json json = detail::parseJson(text);
-  detail::requireVersion(json, "carom");
-  detail::requireSchema(json);
-  return detail::readDocument(json, folder);
-} catch (const InputError& error) {
-  throw FormatError(name, error.where(), error.message());
+Document parseDocument(std::string_view text, const std::string& name, const std::string& folder) {
+  return inFile(name, [&] {
+    return detail::readDocument(detail::parseJson(text, detail::DocumentKind::scene, kLargestDocument), folder);
+  });
 }
 
 Document readDocument(const std::string& path) {
@@ -62,7 +55,9 @@ Document readDocument(const std::string& path) {
 
 std::string writeDocumentIn(const std::string& folder, const Document& document) {
   Document moved = document;
-  detail::moveTo(folder, moved);
+  moved.schema = detail::movedSchema(document.schema, document.folder, folder);
+  detail::moveFiles(moved.scene, document.folder, folder);
+  moved.folder = folder;
   std::string text = writeDocument(moved);
   try {
     parseDocument(text, "", moved.folder);
@@ -72,12 +67,8 @@ std::string writeDocumentIn(const std::string& folder, const Document& document)
   return text;
 }
 
-void saveDocument(const std::string& path, const Document& document) try {
-  writeFile(path, writeDocumentIn(detail::folderOf(path), document));
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where() == path ? "" : error.where(), error.message());
+void saveDocument(const std::string& path, const Document& document) {
+  inFile(path, [&] { writeFile(path, writeDocumentIn(detail::folderOf(path), document)); });
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "formats/base/unit.hpp"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/documents/surface_files.hpp"
 #include "formats/json/json.hpp"
@@ -148,8 +149,7 @@ Quat readQuaternion(const Json& value, const std::string& where) {
   constexpr double kHandWritten = 1e-3;  // three digits, as people write them
   if (!(std::abs(q.norm() - 1) <= kHandWritten))
     fail(where, describe(value) + " of length " + numberText(q.norm()), "a unit quaternion [w, x, y, z]");
-  // Twice: once is not always exact to the last bit but one.
-  return std::abs(q.squaredNorm() - 1) > kUnitRounding ? q.normalized().normalized() : q;
+  return unitQuaternion(q);
 }
 
 int readBodyName(const Json& value, const std::string& where, const Scene& scene) {

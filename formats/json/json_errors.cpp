@@ -107,12 +107,4 @@ void fail(const std::string& where, const std::string& found, const std::string&
   throw InputError(where, "found " + found + ", expected " + expected);
 }
 
-void requireVersion(const Json& document, const std::string& name) {
-  const std::string member = '"' + name + '"';
-  if (!document.is_object()) fail("", describe(document), "an object that begins with " + member + ": 1");
-  const auto version = document.find(name);
-  if (version == document.end()) fail("", "no member " + member, member + ": 1, the version of the format");
-  if (*version != 1) fail('/' + name, describe(*version), "1, the version of the format that this program reads");
-}
-
 }  // namespace carom::detail

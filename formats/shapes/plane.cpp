@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
 
+#include "formats/base/unit.hpp"
 #include "formats/shapes/parts.hpp"
 
 namespace carom::shapes {
@@ -10,7 +11,7 @@ Shape readPlane(const detail::Json& value, const std::string& where, detail::Sur
   Vec3 normal = detail::readVector(value["normal"]);
   const double length = normal.stableNorm();
   if (!(length > 0)) detail::fail(where + "/normal", detail::describe(value["normal"]), "a vector that is not 0");
-  if (std::abs(normal.squaredNorm() - 1) > detail::kUnitRounding) normal = (normal / length).normalized();
+  if (std::abs(normal.squaredNorm() - 1) > kUnitRounding) normal = (normal / length).normalized();
   const auto offset = value.find("offset");
   return Plane{normal, offset == value.end() ? 0 : offset->get<double>()};
 }

@@ -58,6 +58,21 @@ std::string svgPoints(const std::vector<Vec2>& points) {
   return out;
 }
 
+SvgAttributes lineEnds(const Vec2& a, const Vec2& b) {
+  return {{"x1", svgNumber(a.x())}, {"y1", svgNumber(a.y())}, {"x2", svgNumber(b.x())}, {"y2", svgNumber(b.y())}};
+}
+
+SvgAttributes boxSides(const PixelBox& box) {
+  return {{"x", svgNumber(box.x)},
+          {"y", svgNumber(box.y)},
+          {"width", svgNumber(box.width)},
+          {"height", svgNumber(box.height)}};
+}
+
+SvgAttributes circleAt(const Vec2& centre, double radius) {
+  return {{"cx", svgNumber(centre.x())}, {"cy", svgNumber(centre.y())}, {"r", svgNumber(radius)}};
+}
+
 double textWidth(std::string_view words, double font_size, bool bold) {
   double thousandths = 0;
   for (const char c : words) {
@@ -85,14 +100,15 @@ SvgCanvas::SvgCanvas(double width, double height, std::string_view title, std::s
   element("rect", {{"width", w}, {"height", h}, {"fill", "#ffffff"}});
 }
 
-void SvgCanvas::start(std::string_view name, const SvgAttributes& attributes, std::string_view end) {
+void SvgCanvas::start(std::string_view name, std::initializer_list<const SvgAttributes*> lists, std::string_view end) {
   out_.append("<").append(name);
-  for (const auto& [key, value] : attributes) out_.append(" ").append(key).append("=\"" + escaped(value) + "\"");
+  for (const SvgAttributes* attributes : lists)
+    for (const auto& [key, value] : *attributes) out_.append(" ").append(key).append("=\"" + escaped(value) + "\"");
   out_.append(end);
 }
 
-void SvgCanvas::open(std::string_view name, const SvgAttributes& attributes) {
-  start(name, attributes, ">\n");
+void SvgCanvas::open(std::string_view name, const SvgAttributes& first, const SvgAttributes& second) {
+  start(name, {&first, &second}, ">\n");
   open_.emplace_back(name);
 }
 
@@ -101,11 +117,14 @@ void SvgCanvas::close() {
   open_.pop_back();
 }
 
-void SvgCanvas::element(std::string_view name, const SvgAttributes& attributes) { start(name, attributes, "/>\n"); }
+void SvgCanvas::element(std::string_view name, const SvgAttributes& first, const SvgAttributes& second,
+                        const SvgAttributes& third) {
+  start(name, {&first, &second, &third}, "/>\n");
+}
 
-void SvgCanvas::text(const Vec2& at, std::string_view words, SvgAttributes attributes) {
-  attributes.insert(attributes.begin(), {{"x", svgNumber(at.x())}, {"y", svgNumber(at.y())}});
-  start("text", attributes, ">");
+void SvgCanvas::text(const Vec2& at, std::string_view words, const SvgAttributes& attributes) {
+  const SvgAttributes place{{"x", svgNumber(at.x())}, {"y", svgNumber(at.y())}};
+  start("text", {&place, &attributes}, ">");
   out_ += escaped(words) + "</text>\n";
 }
 

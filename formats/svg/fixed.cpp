@@ -37,7 +37,7 @@ std::string fixedNames(const Scene& scene) {
     ++count;
     if (names.size() <= kLongestList) names += (names.empty() ? "" : ", ") + body.name;
   }
-  return names.size() <= kLongestList ? "fixed: " + names : countedWords(count, "fixed body", "fixed bodies");
+  return names.size() <= kLongestList ? "fixed: " + names : counted(count, "fixed body", "fixed bodies");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "formats/gltf/read/json_place.hpp"
+#include "formats/json/json_place.hpp"
 #include "formats/gltf/read/shapes.hpp"
 #include "formats/mesh/gltf_geometry.hpp"
 #include "ode_bridge/convex_hull.h"
@@ -30,7 +30,6 @@ std::shared_ptr<const Surface> ShapeMaker::surfaceOf(const MeshShape& shape, con
 ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3& baked) {
   Triangles out;
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  const Mat3 z_up = (Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished();
   if (shape.mesh >= 0) {
     appendMeshTriangles(model_, shape.mesh, transform, out.vertices, out.triangles, "");
     useExactVertices(shape.mesh, out.vertices);
@@ -41,7 +40,7 @@ ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3
         for (auto& triangle : out.triangles) std::swap(triangle[1], triangle[2]);
     }
   } else {
-    transform.linear() = baked * z_up;
+    transform.linear() = baked * zUpFromYUp();
     appendBelow(shape.node, transform, out);
   }
   return out;

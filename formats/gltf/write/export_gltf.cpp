@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "adjoint/base/errors.h"
+#include "formats/base/short_text.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/gltf/axes.hpp"
@@ -205,12 +206,6 @@ class Writer {
   std::vector<int> roots_;  // nodes of the scene
 };
 
-bool isBinary(const std::string& path) {
-  std::string end = path.size() < 4 ? "" : path.substr(path.size() - 4);
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-  return end == ".glb";
-}
-
 void requireSense(const std::string& what, double value, double most) {
   if (!(value > 0 && value <= most))
     throw InputError(what, "found " + numberText(value) + ", expected a number above 0 and up to " + numberText(most));
@@ -237,7 +232,7 @@ std::string gltfText(const Document& document, const Motion& motion, const GltfO
 }
 
 void exportGltf(const std::string& path, const Document& document, const Motion& motion, const GltfOptions& options) {
-  writeFile(path, gltfText(document, motion, options, isBinary(path)));
+  writeFile(path, gltfText(document, motion, options, extensionOf(path) == ".glb"));
 }
 
 }  // namespace carom

@@ -16,6 +16,7 @@ struct JsonPlace {
   const Json& value;
   std::string pointer;
 
+  void requireObject() const;
   /// A member of an object.
   std::optional<JsonPlace> find(const char* member) const;
   JsonPlace require(const char* member) const;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "formats/gltf/read/json_place.hpp"
+#include "formats/json/json_place.hpp"
 
 #include <cmath>
 
-#include "formats/gltf/axes.hpp"
-
+#include "formats/base/unit.hpp"
 
 namespace carom::detail {
 
-std::optional<JsonPlace> JsonPlace::find(const char* member) const {
+void JsonPlace::requireObject() const {
   if (!value.is_object()) fail(pointer, describe(value), "an object");
+}
+
+std::optional<JsonPlace> JsonPlace::find(const char* member) const {
+  requireObject();
   const auto found = value.find(member);
   if (found == value.end()) return std::nullopt;
   return JsonPlace{*found, pointerTo(pointer, member)};
@@ -52,7 +55,7 @@ Quat JsonPlace::quaternion() const {
   const Quat q(at(3).number(), at(0).number(), at(1).number(), at(2).number());
   constexpr double kFloats = 1e-3;  // a few digits, as other programs write them
   if (!(std::abs(q.norm() - 1) <= kFloats)) fail(pointer, describe(value), "a unit quaternion [x, y, z, w]");
-  return gltf::unitQuaternion(q);
+  return unitQuaternion(q);
 }
 
 int JsonPlace::index(std::size_t count, const char* what) const {
@@ -63,8 +66,7 @@ int JsonPlace::index(std::size_t count, const char* what) const {
 }
 
 double JsonPlace::numberOr(const char* member, double otherwise) const {
-  const auto found = find(member);
-  return found ? found->number() : otherwise;
+  return findNumber(member).value_or(otherwise);
 }
 
 bool JsonPlace::booleanOr(const char* member, bool otherwise) const {
