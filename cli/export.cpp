@@ -142,11 +142,8 @@ Exit exportScene(const ExportArguments& options, Output& out) {
 Action declareExport(CLI::App& app) {
   const auto options = std::make_shared<ExportArguments>();
   addScene(app, options->scene);
-  app.add_option("-o,--output", options->output,
-                 "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output")
-      ->required()
-      ->check(fileName())
-      ->type_name("FILE");
+  addOutput(app, options->output, "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output", "FILE")
+      ->required();
   app.add_option("--format", options->format, "What to write, where the name of the file does not say it")
       ->check(CLI::IsMember(formats()))
       ->type_name("FORMAT");

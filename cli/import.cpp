@@ -75,10 +75,7 @@ Action declareImport(CLI::App& app) {
   app.add_option("file", options->input, "The file to read: .glb or .gltf; - for standard input")
       ->required()
       ->type_name("M.glb");
-  app.add_option("-o,--output", options->output, "The scene document to write; - for standard output")
-      ->required()
-      ->check(fileName())
-      ->type_name("S.json");
+  addOutput(app, options->output, "The scene document to write; - for standard output", "S.json")->required();
   app.add_option("--duration", options->duration, "Seconds to simulate, 1 if neither this nor the file says it")
       ->check(positiveNumber())
       ->type_name("T");

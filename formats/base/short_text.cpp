@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/base/short_text.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -26,6 +27,16 @@ std::string ellipsized(std::string_view words, std::size_t most) {
 
 std::string counted(std::size_t count, const std::string& word, const std::string& plural) {
   return std::to_string(count) + " " + (count == 1 ? word : plural.empty() ? word + "s" : plural);
+}
+
+std::string escaped(std::string_view text, std::span<const std::pair<char, const char*>> replacements) {
+  std::string out;
+  for (const char c : text) {
+    const auto found =
+        std::find_if(replacements.begin(), replacements.end(), [&](const auto& pair) { return pair.first == c; });
+    out += found == replacements.end() ? std::string(1, c) : found->second;
+  }
+  return out;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {

@@ -37,7 +37,7 @@ Document detail::readDocument(const Json& json, const std::string& folder) {
   SurfaceFiles files(folder);
   document.scene = readScene(json, files);
   validate(document.scene);
-  if (const auto duration = json.find("duration"); duration != json.end()) document.duration = duration->get<double>();
+  document.duration = json.value("duration", document.duration);
   document.controls = readControls(json, document.scene);
   document.constraints = readConstraints(json, document.scene, document.duration);
   return document;

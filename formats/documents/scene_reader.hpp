@@ -25,8 +25,8 @@ void moveFiles(Scene& scene, const std::string& from, const std::string& to);
 /// The shape that an object has as one of its members.
 Shape readShape(const Json& value, const std::string& where, SurfaceFiles& files);
 
-/// A member that may be missing.
-std::string textOr(const Json& object, const char* member, const std::string& otherwise = "");
+/// A text that may be missing: then it is empty.
+std::string textOr(const Json& object, const char* member);
 Vec3 readVector(const Json& value);
 /// Unit quaternion from [w, x, y, z]; accepts numbers that were rounded to three digits.
 Quat readQuaternion(const Json& value, const std::string& where);

@@ -12,8 +12,7 @@ Shape readPlane(const detail::Json& value, const std::string& where, detail::Sur
   const double length = normal.stableNorm();
   if (!(length > 0)) detail::fail(where + "/normal", detail::describe(value["normal"]), "a vector that is not 0");
   if (std::abs(normal.squaredNorm() - 1) > kUnitRounding) normal = (normal / length).normalized();
-  const auto offset = value.find("offset");
-  return Plane{normal, offset == value.end() ? 0 : offset->get<double>()};
+  return Plane{normal, value.value("offset", 0.0)};
 }
 
 TriangleMesh planeMesh(const Shape&, double half_width) {

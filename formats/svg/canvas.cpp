@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "adjoint/base/errors.h"
+#include "formats/base/short_text.hpp"
 
 namespace carom {
 namespace {
@@ -21,22 +22,11 @@ constexpr std::array<int, 95> kLetterWidths = {
     333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584};                        // r to ~
 constexpr int kOtherLetter = 1000;  // Chinese, say
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out += ' ';  // control characters are not allowed in XML
-    else
-      out += c;
-  }
+std::string xmlText(std::string_view text) {
+  constexpr std::pair<char, const char*> kMarkup[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string out = escaped(text, kMarkup);
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';  // control characters are not allowed in XML
   return out;
 }
 
@@ -95,15 +85,15 @@ SvgCanvas::SvgCanvas(double width, double height, std::string_view title, std::s
                {"font-family", "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"},
                {"font-size", "13"},
                {"fill", "#2b2f36"}});
-  out_ += "<title id=\"title\">" + escaped(title) + "</title>\n";
-  out_ += "<desc id=\"desc\">" + escaped(description) + "</desc>\n";
+  out_ += "<title id=\"title\">" + xmlText(title) + "</title>\n";
+  out_ += "<desc id=\"desc\">" + xmlText(description) + "</desc>\n";
   element("rect", {{"width", w}, {"height", h}, {"fill", "#ffffff"}});
 }
 
 void SvgCanvas::start(std::string_view name, std::initializer_list<const SvgAttributes*> lists, std::string_view end) {
   out_.append("<").append(name);
   for (const SvgAttributes* attributes : lists)
-    for (const auto& [key, value] : *attributes) out_.append(" ").append(key).append("=\"" + escaped(value) + "\"");
+    for (const auto& [key, value] : *attributes) out_.append(" ").append(key).append("=\"" + xmlText(value) + "\"");
   out_.append(end);
 }
 
@@ -125,7 +115,7 @@ void SvgCanvas::element(std::string_view name, const SvgAttributes& first, const
 void SvgCanvas::text(const Vec2& at, std::string_view words, const SvgAttributes& attributes) {
   const SvgAttributes place{{"x", svgNumber(at.x())}, {"y", svgNumber(at.y())}};
   start("text", {&place, &attributes}, ">");
-  out_ += escaped(words) + "</text>\n";
+  out_ += xmlText(words) + "</text>\n";
 }
 
 std::string SvgCanvas::finish() {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <variant>
 
-#include "formats/drawing/shape_extent.hpp"
+#include "formats/shapes/rows.hpp"
 #include "formats/svg/layers.hpp"
 #include "formats/svg/shapes.hpp"
 

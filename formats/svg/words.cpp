@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "formats/drawing/motion_extent.hpp"
-#include "formats/drawing/shape_extent.hpp"
+#include "formats/shapes/rows.hpp"
 #include "formats/svg/labels.hpp"
 #include "formats/svg/layers.hpp"
 

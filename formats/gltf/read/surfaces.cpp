@@ -50,13 +50,13 @@ ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3
 void ShapeMaker::appendBelow(int index, const Eigen::Affine3d& transform, Triangles& out) {
   const std::string where = "/nodes/" + std::to_string(index);
   const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-  const bool morphed = std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; });
-  if (morphed)
-    report_.warnings.push_back("node '" + node.name + "' (" + where +
-                               "): its morph weights are left out: the mesh collides as it is at rest");
-  if (node.skin >= 0)
-    report_.warnings.push_back("node '" + node.name + "' (" + where +
-                               "): its skin is left out: the mesh collides as it is at rest");
+  const auto leave_out = [&](const char* what) {
+    report_.warnings.push_back("node '" + node.name + "' (" + where + "): its " + what +
+                               " left out: the mesh collides as it is at rest");
+  };
+  if (std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; }))
+    leave_out("morph weights are");
+  if (node.skin >= 0) leave_out("skin is");
   if (node.mesh >= 0) appendMeshTriangles(model_, node.mesh, transform, out.vertices, out.triangles, where);
   for (const int child : node.children) {
     const tinygltf::Node& below = model_.nodes[static_cast<std::size_t>(child)];

@@ -127,12 +127,9 @@ class Writer {
   void addStage() {
     if (options_.camera) roots_.push_back(addCamera(model_, extent_));
     if (options_.light) roots_.push_back(addSun(model_, extent_, *options_.light));
-    std::vector<int> marks;
-    if (options_.ghosts) marks = addGhosts(model_, look_, motion_, *options_.ghosts);
-    roots_.insert(roots_.end(), marks.begin(), marks.end());
-    marks.clear();
-    if (options_.nails) marks = addNails(model_, look_, document_, motion_);
-    roots_.insert(roots_.end(), marks.begin(), marks.end());
+    const auto add = [&](const std::vector<int>& marks) { roots_.insert(roots_.end(), marks.begin(), marks.end()); };
+    if (options_.ghosts) add(addGhosts(model_, look_, motion_, *options_.ghosts));
+    if (options_.nails) add(addNails(model_, look_, document_, motion_));
   }
 
   void addAnimation() {
