@@ -21,8 +21,8 @@ namespace {
 
 struct ExportArguments {
   std::string scene, output, format, before, keys;
-  std::optional<double> frames_per_second, tolerance, light, ghosts;
-  bool camera = false, nails = false;
+  std::optional<double> frames_per_second, tolerance;
+  GltfOptions gltf;  // camera, light, ghosts and nails
   MotionArguments motion;
 };
 
@@ -56,10 +56,10 @@ void requireSense(const ExportArguments& options, const std::string& format) {
   if (format == "glb" || format == "gltf" || format == "py") return;
   const std::pair<const char*, bool> given[] = {{"--keys", !options.keys.empty()},
                                                 {"--tolerance", options.tolerance.has_value()},
-                                                {"--camera", options.camera},
-                                                {"--light", options.light.has_value()},
-                                                {"--ghosts", options.ghosts.has_value()},
-                                                {"--nails", options.nails}};
+                                                {"--camera", options.gltf.camera},
+                                                {"--light", options.gltf.light.has_value()},
+                                                {"--ghosts", options.gltf.ghosts.has_value()},
+                                                {"--nails", options.gltf.nails}};
   for (const auto& [name, is_given] : given)
     if (is_given) throw UsageError(std::string(name) + " is only for .glb, .gltf and .py");
 }
@@ -77,18 +77,6 @@ std::string titleOf(const ExportArguments& options, const Document& document) {
   if (!isStandard(options.output)) return std::filesystem::path(options.output).stem().string();
   if (!document.name.empty()) return document.name;
   return isStandard(options.scene) ? "motion" : std::filesystem::path(options.scene).stem().string();
-}
-
-GltfOptions gltfOptionsOf(const ExportArguments& options) {
-  GltfOptions out;
-  if (options.keys == "cubic") out.keys = GltfKeys::cubic;
-  out.frames_per_second = options.frames_per_second.value_or(out.frames_per_second);
-  out.tolerance = options.tolerance.value_or(out.tolerance);
-  out.camera = options.camera;
-  out.light = options.light;
-  out.ghosts = options.ghosts;
-  out.nails = options.nails;
-  return out;
 }
 
 /// Writes the file; how many bytes it has.
@@ -118,7 +106,11 @@ Exit exportScene(const ExportArguments& options, Output& out) {
   const Motion motion = loaded.simulate(out);
   requireNotStopped(motion);
   ExportOptions export_options;
-  export_options.gltf = gltfOptionsOf(options);
+  export_options.gltf = options.gltf;
+  GltfOptions& gltf = export_options.gltf;
+  if (options.keys == "cubic") gltf.keys = GltfKeys::cubic;
+  gltf.frames_per_second = options.frames_per_second.value_or(gltf.frames_per_second);
+  gltf.tolerance = options.tolerance.value_or(gltf.tolerance);
   export_options.csv_rate = options.frames_per_second.value_or(export_options.csv_rate);
   std::optional<Motion> before;
   if (!options.before.empty()) {
@@ -156,16 +148,17 @@ Action declareExport(CLI::App& app) {
   app.add_option("--tolerance", options->tolerance, "Metres that linear keys may be off between keys (0.0001)")
       ->check(positiveNumber())
       ->type_name("M");
-  app.add_flag("--camera", options->camera, "A camera that sees the whole motion (.glb, .gltf, .py)");
-  app.add_option("--light", options->light, "A sun of so many lux, 2000 if none are given (.glb, .gltf, .py)")
+  app.add_flag("--camera", options->gltf.camera, "A camera that sees the whole motion (.glb, .gltf, .py)");
+  app.add_option("--light", options->gltf.light, "A sun of so many lux, 2000 if none are given (.glb, .gltf, .py)")
       ->expected(0, 1)
       ->default_str("2000")
       ->check(positiveNumber())
       ->type_name("LUX");
-  app.add_option("--ghosts", options->ghosts, "Translucent copies of moving bodies every S seconds (.glb, .gltf, .py)")
+  app.add_option("--ghosts", options->gltf.ghosts,
+                 "Translucent copies of moving bodies every S seconds (.glb, .gltf, .py)")
       ->check(positiveNumber())
       ->type_name("S");
-  app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
+  app.add_flag("--nails", options->gltf.nails, "Marks of nails and regions (.glb, .gltf, .py)");
   app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")
       ->type_name("OLD.json");
   addMotion(app, options->motion);

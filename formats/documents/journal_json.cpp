@@ -173,13 +173,7 @@ void saveJournal(const std::string& path, const JournalDocument& journal) {
 }
 
 Document documentOf(const EditSession& session, const std::string& folder) {
-  Document document;
-  document.scene = session.scene();
-  document.duration = session.duration();
-  document.controls = session.controls();
-  document.constraints = session.constraints();
-  document.folder = folder;
-  return document;
+  return {session.scene(), session.duration(), session.controls(), session.constraints(), folder};
 }
 
 }  // namespace carom

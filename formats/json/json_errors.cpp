@@ -47,13 +47,10 @@ std::string pointerTo(const std::string& parent, std::size_t index) { return par
 std::string describe(const Json& value) {
   switch (value.type()) {
     case Json::value_t::null:
-      return "null";
     case Json::value_t::boolean:
-      return value.get<bool>() ? "true" : "false";
     case Json::value_t::number_integer:
-      return std::to_string(value.get<long long>());
     case Json::value_t::number_unsigned:
-      return std::to_string(value.get<unsigned long long>());
+      return value.dump();
     case Json::value_t::number_float:
       return numberText(value.get<double>());
     case Json::value_t::string:

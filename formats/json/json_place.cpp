@@ -65,30 +65,6 @@ int JsonPlace::index(std::size_t count, const char* what) const {
   return static_cast<int>(value.get<std::uint64_t>());
 }
 
-double JsonPlace::numberOr(const char* member, double otherwise) const {
-  return findNumber(member).value_or(otherwise);
-}
-
-bool JsonPlace::booleanOr(const char* member, bool otherwise) const {
-  const auto found = find(member);
-  return found ? found->boolean() : otherwise;
-}
-
-std::string JsonPlace::textOr(const char* member, const std::string& otherwise) const {
-  const auto found = find(member);
-  return found ? found->text() : otherwise;
-}
-
-std::optional<double> JsonPlace::findNumber(const char* member) const {
-  const auto found = find(member);
-  return found ? std::optional(found->number()) : std::nullopt;
-}
-
-std::optional<Vec3> JsonPlace::findVector(const char* member) const {
-  const auto found = find(member);
-  return found ? std::optional(found->vector()) : std::nullopt;
-}
-
 std::optional<JsonPlace> extensionOf(const JsonPlace& place, const char* name) {
   const auto extensions = place.find("extensions");
   return extensions ? extensions->find(name) : std::nullopt;

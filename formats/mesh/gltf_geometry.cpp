@@ -39,8 +39,8 @@ class Elements {
   std::size_t count() const { return accessor_.count; }
 
   Vec3 position(std::size_t i) const {
-    float numbers[3];
-    copy(i, numbers);
+    float numbers[3] = {};
+    if (const unsigned char* from = element(i)) std::memcpy(numbers, from, sizeof numbers);
     return {numbers[0], numbers[1], numbers[2]};
   }
 
@@ -85,16 +85,6 @@ class Elements {
     if (found != replaced_.end() && *found == i)
       return replacements_ + size_ * static_cast<std::size_t>(found - replaced_.begin());
     return data_ == nullptr ? nullptr : data_ + stride_ * i;
-  }
-
-  template <class Number>
-  void copy(std::size_t i, Number& numbers) const {
-    const unsigned char* from = element(i);
-    if (from == nullptr) {
-      std::memset(&numbers, 0, sizeof numbers);
-    } else {
-      std::memcpy(&numbers, from, sizeof numbers);
-    }
   }
 
   const tinygltf::Accessor& accessor_;
