@@ -106,9 +106,9 @@ void addSettings(CLI::App& app, Settings& settings) {
 
 std::string noCommand(int argc, const char* const* argv) {
   const std::string first = argc > 1 ? argv[1] : "";
-  std::string list;
-  for (const Command* command : commands()) list += (list.empty() ? "" : ", ") + std::string(command->name);
-  return "found " + (first.empty() ? "no command" : "'" + first + "'") + ", expected one of " + list;
+  std::vector<std::string> names;
+  for (const Command* command : commands()) names.emplace_back(command->name);
+  return "found " + (first.empty() ? "no command" : "'" + first + "'") + ", expected one of " + joined(names);
 }
 
 int runCommandLine(int argc, const char* const* argv) {

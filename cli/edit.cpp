@@ -184,9 +184,7 @@ Action declareEdit(CLI::App& app) {
   const auto options = std::make_shared<EditArguments>();
   addScene(app, options->scene);
   addMotion(app, options->motion);
-  app.add_option("-o,--output", options->output, "Write the scene with its new values here; - for standard output")
-      ->check(fileName())
-      ->type_name("OUT.json");
+  addOutput(app, options->output, "Write the scene with its new values here; - for standard output", "OUT.json");
   app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");

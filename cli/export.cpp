@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -25,8 +24,8 @@ namespace {
 
 struct ExportArguments {
   std::string scene, output, format, before, keys;
-  std::optional<double> frames_per_second, tolerance, light, ghosts;
-  bool camera = false, nails = false;
+  std::optional<double> frames_per_second, tolerance;
+  GltfOptions gltf;  // camera, light, ghosts and nails
   MotionArguments motion;
 };
 
@@ -41,12 +40,8 @@ std::vector<std::string> formats() {
 std::string formatOf(const ExportArguments& options) {
   if (!options.format.empty()) return options.format;
   const std::vector<std::string> known = exportExtensions();
-  std::string list;
-  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  const std::string list = joined(known), extension = extensionOf(options.output);
   if (isStandard(options.output)) throw UsageError("-o - needs --format, one of " + list);
-  std::string extension = std::filesystem::path(options.output).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw UsageError("-o " + options.output + ": found the extension '" + extension + "', expected one of " + list);
   return extension.substr(1);
@@ -64,10 +59,10 @@ void requireSense(const ExportArguments& options, const std::string& format) {
   if (format == "glb" || format == "gltf" || format == "py") return;
   const std::pair<const char*, bool> given[] = {{"--keys", !options.keys.empty()},
                                                 {"--tolerance", options.tolerance.has_value()},
-                                                {"--camera", options.camera},
-                                                {"--light", options.light.has_value()},
-                                                {"--ghosts", options.ghosts.has_value()},
-                                                {"--nails", options.nails}};
+                                                {"--camera", options.gltf.camera},
+                                                {"--light", options.gltf.light.has_value()},
+                                                {"--ghosts", options.gltf.ghosts.has_value()},
+                                                {"--nails", options.gltf.nails}};
   for (const auto& [name, is_given] : given)
     if (is_given) throw UsageError(std::string(name) + " is only for .glb, .gltf and .py");
 }
@@ -87,24 +82,12 @@ std::string titleOf(const ExportArguments& options, const Document& document) {
   return isStandard(options.scene) ? "motion" : std::filesystem::path(options.scene).stem().string();
 }
 
-GltfOptions gltfOptionsOf(const ExportArguments& options) {
-  GltfOptions out;
-  if (options.keys == "cubic") out.keys = GltfKeys::cubic;
-  out.frames_per_second = options.frames_per_second.value_or(out.frames_per_second);
-  out.tolerance = options.tolerance.value_or(out.tolerance);
-  out.camera = options.camera;
-  out.light = options.light;
-  out.ghosts = options.ghosts;
-  out.nails = options.nails;
-  return out;
-}
-
 /// Writes the file; how many bytes it has.
 std::size_t writeExport(const ExportArguments& options, const std::string& format, const Loaded& loaded,
                         const Motion& motion, const ExportOptions& export_options, Output& out) {
   const Progress progress(out, "writing " + format);
   const std::string name = isStandard(options.output) ? "<stdout>" : options.output;
-  try {
+  return inFile(name, [&] {
     std::string bytes =
         motionText(format, titleOf(options, loaded.document), loaded.document, motion, export_options);
     const std::size_t size = bytes.size();
@@ -113,9 +96,7 @@ std::size_t writeExport(const ExportArguments& options, const std::string& forma
     else
       writeFile(options.output, bytes);
     return size;
-  } catch (const InputError& error) {
-    throw FormatError(name, error.where() == name ? "" : error.where(), error.message());
-  }
+  });
 }
 
 Exit exportScene(const ExportArguments& options, Output& out) {
@@ -128,7 +109,11 @@ Exit exportScene(const ExportArguments& options, Output& out) {
   const Motion motion = loaded.simulate(out);
   requireNotStopped(motion);
   ExportOptions export_options;
-  export_options.gltf = gltfOptionsOf(options);
+  export_options.gltf = options.gltf;
+  GltfOptions& gltf = export_options.gltf;
+  if (options.keys == "cubic") gltf.keys = GltfKeys::cubic;
+  gltf.frames_per_second = options.frames_per_second.value_or(gltf.frames_per_second);
+  gltf.tolerance = options.tolerance.value_or(gltf.tolerance);
   export_options.csv_rate = options.frames_per_second.value_or(export_options.csv_rate);
   std::optional<Motion> before;
   if (!options.before.empty()) {
@@ -144,7 +129,7 @@ Exit exportScene(const ExportArguments& options, Output& out) {
   else
     sayWritten(out, options.output,
                " (" + out.number(motion.end) + " s, " +
-                   counted(static_cast<long long>(motion.events.size()), "impact") + ", " + std::to_string(bytes) +
+                   counted(motion.events.size(), "impact") + ", " + std::to_string(bytes) +
                    " bytes)");
   return Exit::done;
 }
@@ -152,11 +137,8 @@ Exit exportScene(const ExportArguments& options, Output& out) {
 Action declareExport(CLI::App& app) {
   const auto options = std::make_shared<ExportArguments>();
   addScene(app, options->scene);
-  app.add_option("-o,--output", options->output,
-                 "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output")
-      ->required()
-      ->check(fileName())
-      ->type_name("FILE");
+  addOutput(app, options->output, "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output", "FILE")
+      ->required();
   app.add_option("--format", options->format, "What to write, where the name of the file does not say it")
       ->check(CLI::IsMember(formats()))
       ->type_name("FORMAT");
@@ -169,16 +151,17 @@ Action declareExport(CLI::App& app) {
   app.add_option("--tolerance", options->tolerance, "Metres that linear keys may be off between keys (0.0001)")
       ->check(positiveNumber())
       ->type_name("M");
-  app.add_flag("--camera", options->camera, "A camera that sees the whole motion (.glb, .gltf, .py)");
-  app.add_option("--light", options->light, "A sun of so many lux, 2000 if none are given (.glb, .gltf, .py)")
+  app.add_flag("--camera", options->gltf.camera, "A camera that sees the whole motion (.glb, .gltf, .py)");
+  app.add_option("--light", options->gltf.light, "A sun of so many lux, 2000 if none are given (.glb, .gltf, .py)")
       ->expected(0, 1)
       ->default_str("2000")
       ->check(positiveNumber())
       ->type_name("LUX");
-  app.add_option("--ghosts", options->ghosts, "Translucent copies of moving bodies every S seconds (.glb, .gltf, .py)")
+  app.add_option("--ghosts", options->gltf.ghosts,
+                 "Translucent copies of moving bodies every S seconds (.glb, .gltf, .py)")
       ->check(positiveNumber())
       ->type_name("S");
-  app.add_flag("--nails", options->nails, "Marks of nails and regions (.glb, .gltf, .py)");
+  app.add_flag("--nails", options->gltf.nails, "Marks of nails and regions (.glb, .gltf, .py)");
   app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")
       ->type_name("OLD.json");
   addMotion(app, options->motion);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <vector>
 
 #include "cli/table.h"
@@ -21,25 +22,20 @@ std::string pairName(const Motion& motion, const std::pair<int, int>& pair) {
   return nameOfBody(motion, pair.first) + "-" + nameOfBody(motion, pair.second);
 }
 
-class ImpactTable {
- public:
-  ImpactTable() : table_({">", ">time [s]", "bodies", "mode", "point [m]", "normal", ">elasticity", ">margin"}) {}
-
-  void add(const Output& out, const Motion& motion, std::size_t index) {
+/// One row an impact.
+void printRows(Output& out, const Motion& motion, const std::vector<std::size_t>& impacts) {
+  Table table({">", ">time [s]", "bodies", "mode", "point [m]", "normal", ">elasticity", ">margin"});
+  for (const std::size_t index : impacts) {
     const Event& event = motion.events[index];
     const Contact& first = event.contacts.front();
-    std::string names;
-    for (const Contact& contact : event.contacts)
-      names += (names.empty() ? "" : " + ") + pairName(motion, {contact.a, contact.b});
-    table_.row({std::to_string(index + 1), out.number(event.time), names, nameOf(event.mode),
-                out.vector(first.at.point), out.vector(first.at.normal), out.number(first.pair.elasticity),
-                out.number(event.margins.smallest())});
+    std::vector<std::string> names;
+    for (const Contact& contact : event.contacts) names.push_back(pairName(motion, {contact.a, contact.b}));
+    table.row({std::to_string(index + 1), out.number(event.time), joined(names, " + "), nameOf(event.mode),
+               out.vector(first.at.point), out.vector(first.at.normal), out.number(first.pair.elasticity),
+               out.number(event.margins.smallest())});
   }
-  void print(Output& out) const { table_.print(out); }
-
- private:
-  Table table_;
-};
+  table.print(out);
+}
 
 /// Impacts that have something in common.
 struct Tally {
@@ -123,9 +119,9 @@ void printSequences(Output& out, const std::vector<std::string>& before, const s
 
 void printImpacts(Output& out, const Motion& motion) {
   if (motion.events.empty()) return;
-  ImpactTable table;
-  for (std::size_t i = 0; i < motion.events.size(); ++i) table.add(out, motion, i);
-  table.print(out);
+  std::vector<std::size_t> all(motion.events.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  printRows(out, motion, all);
 }
 
 void printImpactSummary(Output& out, const Motion& motion) {
@@ -149,9 +145,7 @@ void printImpactSummary(Output& out, const Motion& motion) {
   out.text() << "\nThe first impact, the one nearest to where derivatives stop, and the last:\n";
   std::vector<std::size_t> chosen{0, nearestToTheEdge(motion.events), motion.events.size() - 1};
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-  ImpactTable table;
-  for (const std::size_t index : chosen) table.add(out, motion, index);
-  table.print(out);
+  printRows(out, motion, chosen);
   out.text() << "--impacts lists all of them.\n";
 }
 

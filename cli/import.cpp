@@ -65,10 +65,10 @@ Exit importScene(const ImportArguments& options, Output& out) {
     out.document(importJson(options.output, imported, meshes));
     return Exit::done;
   }
-  const auto count = [](std::size_t number, const char* noun) { return counted(static_cast<long long>(number), noun); };
   const Scene& scene = imported.document.scene;
-  std::string details = countedBodies(scene.bodies.size()) + ", " + count(scene.materials.size(), "material");
-  if (!meshes.empty()) details += ", " + count(meshes.size(), "mesh file");
+  std::string details =
+      counted(scene.bodies.size(), "body", "bodies") + ", " + counted(scene.materials.size(), "material");
+  if (!meshes.empty()) details += ", " + counted(meshes.size(), "mesh file");
   sayWritten(out, options.output, " (" + details + ")");
   return Exit::done;
 }
@@ -78,10 +78,7 @@ Action declareImport(CLI::App& app) {
   app.add_option("file", options->input, "The file to read: .glb or .gltf; - for standard input")
       ->required()
       ->type_name("M.glb");
-  app.add_option("-o,--output", options->output, "The scene document to write; - for standard output")
-      ->required()
-      ->check(fileName())
-      ->type_name("S.json");
+  addOutput(app, options->output, "The scene document to write; - for standard output", "S.json")->required();
   app.add_option("--duration", options->duration, "Seconds to simulate, 1 if neither this nor the file says it")
       ->check(positiveNumber())
       ->type_name("T");

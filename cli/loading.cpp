@@ -102,7 +102,7 @@ Motion Loaded::simulate(const Output& out) {
   options.stop = stoppable.token();
   options.progress = [&](const SimulateProgress& at) {
     progress.show(Output::brief(at.time) + " s of " + Output::brief(document.duration) + " s, " +
-                  counted(static_cast<long long>(at.impacts), "impact") + ", " + std::to_string(at.steps) + " steps");
+                  counted(at.impacts, "impact") + ", " + std::to_string(at.steps) + " steps");
   };
   return inFile(path, [&] { return carom::simulate(document.scene, contacts, document.duration, options); });
 }

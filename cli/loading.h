@@ -7,24 +7,12 @@
 #include "cli/output.h"
 #include "editing/problem/jacobian.hpp"
 #include "formats/base/document.h"
-#include "formats/base/format_error.h"
+#include "formats/base/in_file.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::cli {
 
 using namespace editing_detail;
-
-/// Runs a function and adds the file to the places that its errors name.
-template <class Function>
-auto inFile(const std::string& path, Function function) {
-  try {
-    return function();
-  } catch (const FormatError&) {
-    throw;
-  } catch (const InputError& error) {
-    throw FormatError(path, error.where(), error.message());
-  }
-}
 
 /// A scene document that is ready to be simulated.
 struct Loaded {

@@ -20,11 +20,11 @@ void addMotion(CLI::App& app, MotionArguments& arguments) {
       ->type_name("N");
 }
 
-CLI::Validator fileName() {
+CLI::Option* addOutput(CLI::App& app, std::string& path, const std::string& help, const std::string& type) {
   const auto check = [](std::string& text) {
-    return text.empty() ? std::string("found an empty name, expected that of a file, or - for standard output") : std::string();
+    return std::string(text.empty() ? "found an empty name, expected that of a file, or - for standard output" : "");
   };
-  return CLI::Validator(check, "", "file name");
+  return app.add_option("-o,--output", path, help)->check(CLI::Validator(check, "", "file name"))->type_name(type);
 }
 
 CLI::Validator positiveNumber() {

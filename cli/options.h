@@ -6,6 +6,7 @@
 
 namespace CLI {
 class App;
+class Option;
 class Validator;
 }  // namespace CLI
 
@@ -24,8 +25,8 @@ struct MotionArguments {
 /// Adds --refuse-overlaps and --step-limit.
 void addMotion(CLI::App& app, MotionArguments& arguments);
 
-/// Accepts the name of a file to write: any but an empty one.
-CLI::Validator fileName();
+/// Adds -o, the file to write: any name but an empty one.
+CLI::Option* addOutput(CLI::App& app, std::string& path, const std::string& help, const std::string& type);
 
 /// Accepts finite numbers greater than 0.
 CLI::Validator positiveNumber();

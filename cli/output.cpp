@@ -56,10 +56,4 @@ std::string describeWanted(const Output& out, double target, double lower, doubl
   return "in [" + out.number(lower) + ", " + out.number(upper) + "]";
 }
 
-std::string counted(long long count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-std::string countedBodies(std::size_t count) { return std::to_string(count) + (count == 1 ? " body" : " bodies"); }
-
 }  // namespace carom::cli

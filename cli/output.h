@@ -9,6 +9,7 @@
 #include "adjoint/base/types.h"
 #include "cli/interruption.h"
 #include "cli/terminal.h"
+#include "formats/base/short_text.hpp"
 
 namespace carom::cli {
 
@@ -73,10 +74,5 @@ class Output {
 
 /// What a held number is to be: `target`, or where the limits differ "in [0.2, 0.9]", ">= 0.2", "<= 0.9".
 std::string describeWanted(const Output& out, double target, double lower, double upper);
-
-/// "1 impact", "3 impacts".
-std::string counted(long long count, const std::string& noun);
-/// "1 body", "3 bodies".
-std::string countedBodies(std::size_t count);
 
 }  // namespace carom::cli

@@ -99,9 +99,7 @@ Action declareReplay(CLI::App& app) {
   app.add_option("journal", options->journal, "The journal of an edit session; - for standard input")
       ->required()
       ->type_name("J.json");
-  app.add_option("-o,--output", options->output, "Write the scene at its end here; - for standard output")
-      ->check(fileName())
-      ->type_name("OUT.json");
+  addOutput(app, options->output, "Write the scene at its end here; - for standard output", "OUT.json");
   return [options](Output& out) { return replay(*options, out); };
 }
 

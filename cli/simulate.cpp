@@ -57,7 +57,7 @@ void printEnd(Output& out, const Motion& motion) {
 
 void printMotion(Output& out, const Motion& motion, const SimulateArguments& arguments,
                  const std::vector<double>& times) {
-  out.text() << counted(static_cast<long long>(motion.events.size()), "impact") << " in " << out.number(motion.end)
+  out.text() << counted(motion.events.size(), "impact") << " in " << out.number(motion.end)
              << " s";
   if (motion.status != MotionStatus::complete)
     out.text() << "; " << out.styled(Look::warning, "the motion ends there") << " (" << nameOf(motion.status)

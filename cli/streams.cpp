@@ -43,12 +43,7 @@ Imported importFrom(const std::string& path) {
 }
 
 void requireOutput(const std::string& path) {
-  if (isStandard(path)) return;
-  try {
-    requireWritable(path);
-  } catch (const InputError& error) {
-    throw FormatError(path, "", error.message());
-  }
+  if (!isStandard(path)) inFile(path, [&] { requireWritable(path); });
 }
 
 void saveSceneTo(Output& out, const std::string& path, const Document& document) {

@@ -51,7 +51,7 @@ void forEachCharacter(const std::string& text, Take take) {
     } else if (const int width = wcwidth(character); width >= 0) {
       columns = static_cast<std::size_t>(width);
     }
-    if (!take(std::string_view(text).substr(i, bytes), columns)) return;
+    take(std::string_view(text).substr(i, bytes), columns);
     i += bytes;
   }
 }
@@ -80,10 +80,7 @@ std::string coloured(Look look, const std::string& text) {
 
 std::size_t displayWidth(const std::string& text) {
   std::size_t width = 0;
-  forEachCharacter(text, [&](std::string_view, std::size_t columns) {
-    width += columns;
-    return true;
-  });
+  forEachCharacter(text, [&](std::string_view, std::size_t columns) { width += columns; });
   return width;
 }
 
@@ -93,7 +90,6 @@ std::string fitted(const std::string& text, std::size_t width) {
   forEachCharacter(text, [&](std::string_view bytes, std::size_t columns) {
     used += columns;
     if (used <= width) part += bytes;
-    return used <= width;
   });
   return part;
 }
@@ -106,11 +102,7 @@ std::string printable(const std::string& text) {
     const bool control = first < 0x20 || first == 0x7f ||
                          (bytes.size() == 2 && first == 0xc2 && static_cast<unsigned char>(bytes[1]) < 0xa0) ||
                          (bytes.size() == 1 && first >= 0x80 && first < 0xa0);
-    if (control)
-      out += ' ';
-    else
-      out += bytes;
-    return true;
+    out += control ? " " : bytes;
   });
   return out;
 }

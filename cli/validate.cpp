@@ -49,12 +49,10 @@ Exit validate(const ValidateArguments& options, Output& out) {
   if (out.json()) {
     out.document(validateJson(loaded.path, document, message));
   } else {
-    const auto count = [](const auto& items, const char* noun) {
-      return counted(static_cast<long long>(items.size()), noun);
-    };
     out.text() << loaded.path << ": " << out.styled(Look::good, "valid") << ": "
-               << countedBodies(document.scene.bodies.size()) << ", " << count(document.controls, "control") << ", "
-               << count(document.constraints, "constraint") << '\n';
+               << counted(document.scene.bodies.size(), "body", "bodies") << ", "
+               << counted(document.controls.size(), "control") << ", "
+               << counted(document.constraints.size(), "constraint") << '\n';
   }
   return Exit::done;
 }

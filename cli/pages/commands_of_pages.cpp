@@ -21,9 +21,7 @@ struct PageArguments {
 };
 
 void addPageOutput(CLI::App& app, PageArguments& arguments) {
-  app.add_option("-o,--output", arguments.output, "The file to write; - for standard output, as without it")
-      ->check(fileName())
-      ->type_name("FILE");
+  addOutput(app, arguments.output, "The file to write; - for standard output, as without it", "FILE");
 }
 
 Exit writePage(const PageArguments& arguments, const std::string& page, Output& out) {

@@ -59,10 +59,4 @@ DeclaredProgram declaredProgram(const CLI::App& app) {
   return program;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : separator) + word;
-  return all;
-}
-
 }  // namespace carom::cli

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/base/short_text.hpp"
+
 namespace CLI {
 class App;
 }
@@ -42,8 +44,5 @@ struct DeclaredProgram {
 inline constexpr const char* kCommonOptions = "Common options";
 
 DeclaredProgram declaredProgram(const CLI::App& app);
-
-/// "-o", "--output" -> "-o SEPARATOR --output".
-std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
 }  // namespace carom::cli

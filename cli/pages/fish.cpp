@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Completion in fish: one `complete` for each command and option.
+#include <array>
+
 #include "cli/pages/pages.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 std::string fishText(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "'";
+  return "'" + escaped(text, std::array<std::pair<char, const char*>, 2>{{{'\'', "\\'"}, {'\\', "\\\\"}}}) + "'";
 }
 
 /// The files that a value may be, as a list that fish makes when it is asked for.

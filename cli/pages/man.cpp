@@ -6,27 +6,21 @@
 #include "cli/pages/pages.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 /// A text as roff reads it: no character and no beginning of a line has a meaning.
 std::string roff(const std::string& text) {
+  constexpr std::pair<char, const char*> kMeanings[] = {
+      {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'^', "\\(ha"}, {'`', "\\(ga"}};
   std::string out;
-  bool line_start = true;
-  for (const char c : text) {
-    if (line_start && (c == '.' || c == '\'')) out += "\\&";
-    if (c == '\\')
-      out += "\\e";
-    else if (c == '-')
-      out += "\\-";
-    else if (c == '\'')
-      out += "\\(aq";
-    else if (c == '^')
-      out += "\\(ha";
-    else if (c == '`')
-      out += "\\(ga";
-    else
-      out += c;
-    line_start = c == '\n';
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find('\n', from), text.size() - 1) + 1;
+    const bool is_request = text[from] == '.' || text[from] == '\'';
+    out += (is_request ? "\\&" : "") + escaped(text.substr(from, to - from), kMeanings);
+    from = to;
   }
   return out;
 }

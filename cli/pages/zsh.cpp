@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Completion in zsh, by its function _arguments.
+#include <array>
+
 #include "cli/pages/pages.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 /// A text in single quotes, with a backslash before what the specifications of _arguments give a meaning to.
 std::string zshText(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\'')
-      out += "'\\''";
-    else if (c == '[' || c == ']' || c == ':' || c == '\\')
-      out += std::string("\\") + c;
-    else
-      out += c;
-  }
-  return out;
+  return escaped(text, std::array<std::pair<char, const char*>, 5>{
+                           {{'\'', "'\\''"}, {'[', "\\["}, {']', "\\]"}, {':', "\\:"}, {'\\', "\\\\"}}});
 }
 
 /// ":FILE:_files", the end of a specification.

@@ -57,7 +57,13 @@ class OpenFile {
   bool isOpen() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
 
-  // 0, or what went wrong.
+  // Writes the whole of it, and closes the file. 0, or what went wrong.
+  int finish(std::string_view content) {
+    const int error = write(content), closed = close();
+    return error != 0 ? error : closed;
+  }
+
+ private:
   int write(std::string_view content) {
     while (!content.empty()) {
       const ssize_t written = ::write(descriptor_, content.data(), content.size());
@@ -73,7 +79,6 @@ class OpenFile {
     return result == 0 || errno == EINTR ? 0 : errno;
   }
 
- private:
   int descriptor_;
 };
 
@@ -92,8 +97,7 @@ void replaceFile(const std::string& path, const fs::path& target, const struct s
   OpenFile file(temporary, O_WRONLY | O_CREAT | O_EXCL, old ? 0600 : 0666);
   if (!file.isOpen()) failToWrite(path, reasonOf(errno));
   if (old) keepOwnerAndMode(file, *old);
-  int error = file.write(content);
-  if (const int closed = file.close(); error == 0) error = closed;
+  int error = file.finish(content);
   if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
   if (error == 0) return;
   ::unlink(temporary.c_str());
@@ -103,9 +107,7 @@ void replaceFile(const std::string& path, const fs::path& target, const struct s
 void writeInPlace(const std::string& path, const fs::path& target, std::string_view content) {
   OpenFile file(target, O_WRONLY);
   if (!file.isOpen()) failToWrite(path, reasonOf(errno));
-  int error = file.write(content);
-  if (const int closed = file.close(); error == 0) error = closed;
-  if (error != 0) failToWrite(path, reasonOf(error));
+  if (const int error = file.finish(content); error != 0) failToWrite(path, reasonOf(error));
 }
 
 struct WriteTarget {

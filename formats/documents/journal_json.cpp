@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/base/in_file.hpp"
 #include "formats/base/read_file.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/scene_json.h"
@@ -18,8 +19,6 @@ namespace {
 
 using Kind = SessionGesture::Kind;
 using Ending = SessionGesture::Ending;
-
-constexpr std::size_t kMostJournalValues = 8'000'000;
 
 /// Runs a reader whose errors begin at `inner` of a part of the document, which stands at `outer`.
 template <class Read>
@@ -138,15 +137,7 @@ SessionGesture readGesture(const Json& value, const Document& scene, const std::
   return gesture;
 }
 
-}  // namespace
-
-JournalDocument parseJournal(std::string_view text, const std::string& name, const std::string& folder) try {
-  if (text.size() > kLargestJournal)
-    throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
-                     std::to_string(kLargestJournal) + " bytes");
-  const Json json = parseJson(text, kMostJournalValues);
-  requireVersion(json, "carom_journal");
-  requireSchema(json, DocumentKind::journal);
+JournalDocument journalOf(const Json& json, const std::string& folder) {
   const Document scene = readAt("", "/scene", [&] { return readDocument(json["scene"], folder); });
   JournalDocument document;
   document.folder = folder;
@@ -157,40 +148,34 @@ JournalDocument parseJournal(std::string_view text, const std::string& name, con
   for (std::size_t i = 0; i < gestures.size(); ++i)
     document.journal.gestures.push_back(readGesture(gestures[i], scene, "/gestures/" + std::to_string(i)));
   return document;
-} catch (const InputError& error) {
-  throw FormatError(name, error.where(), error.message());
+}
+
+}  // namespace
+
+JournalDocument parseJournal(std::string_view text, const std::string& name, const std::string& folder) {
+  return inFile(name, [&] {
+    return journalOf(parseJson(text, DocumentKind::journal, kLargestJournal), folder);
+  });
 }
 
 JournalDocument readJournal(const std::string& path) {
   return parseJournal(readFile(path, "a journal", kLargestJournal), path, folderOf(path));
 }
 
-void saveJournal(const std::string& path, const JournalDocument& journal) try {
-  Document scene;
-  scene.scene = journal.journal.scene;
-  scene.folder = journal.folder;
-  moveTo(folderOf(path), scene);
+void saveJournal(const std::string& path, const JournalDocument& journal) {
   JournalDocument moved = journal;
-  moved.journal.scene = scene.scene;
-  moved.folder = scene.folder;
-  moved.schema = movedSchema(journal.schema, journal.folder, scene.folder);
-  const std::string text = writeJournal(moved);
-  parseJournal(text, path, moved.folder);
-  writeFile(path, text);
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where() == path ? "" : error.where(), error.message());
+  moved.folder = folderOf(path);
+  moved.schema = movedSchema(journal.schema, journal.folder, moved.folder);
+  moveFiles(moved.journal.scene, journal.folder, moved.folder);
+  inFile(path, [&] {
+    const std::string text = writeJournal(moved);
+    parseJournal(text, path, moved.folder);
+    writeFile(path, text);
+  });
 }
 
 Document documentOf(const EditSession& session, const std::string& folder) {
-  Document document;
-  document.scene = session.scene();
-  document.duration = session.duration();
-  document.controls = session.controls();
-  document.constraints = session.constraints();
-  document.folder = folder;
-  return document;
+  return {session.scene(), session.duration(), session.controls(), session.constraints(), folder};
 }
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 #include <set>
 #include <system_error>
 
+#include "formats/base/in_file.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/scene_json.h"
 #include "formats/documents/surface_files.hpp"
@@ -103,18 +104,14 @@ class MeshFiles {
 
 }  // namespace
 
-std::vector<std::string> saveWithMeshes(const std::string& path, const Document& document) try {
+std::vector<std::string> saveWithMeshes(const std::string& path, const Document& document) {
   Document named = document;
   named.folder = fs::path(path).parent_path().string();
   MeshFiles files(path, document.folder);
   for (Body& body : named.scene.bodies) files.name(body.shape, body.name);
-  files.write();
+  inFile(path, [&] { files.write(); });
   saveDocument(path, named);
   return files.names();
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where(), error.message());
 }
 
 }  // namespace carom

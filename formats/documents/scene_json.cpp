@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "formats/base/in_file.hpp"
 #include "formats/base/read_file.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/scene_reader.hpp"
@@ -24,12 +25,10 @@ std::string formats_detail::movedSchema(const std::string& schema, const std::st
   return schema.empty() || address ? schema : rebased(schema, from, to);
 }
 
-void formats_detail::moveTo(const std::string& folder, Document& document) {
-  document.schema = movedSchema(document.schema, document.folder, folder);
-  for (Body& body : document.scene.bodies)
+void formats_detail::moveFiles(Scene& scene, const std::string& from, const std::string& to) {
+  for (Body& body : scene.bodies)
     for (const shapes::SurfaceUse& use : shapes::surfacesOf(body.shape))
-      if (!use.file.empty()) use.file = rebased(use.file, document.folder, folder);
-  document.folder = folder;
+      if (!use.file.empty()) use.file = rebased(use.file, from, to);
 }
 
 Document formats_detail::readDocument(const Json& json, const std::string& folder) {
@@ -41,22 +40,16 @@ Document formats_detail::readDocument(const Json& json, const std::string& folde
   SurfaceFiles files(folder);
   document.scene = readScene(json, files);
   validate(document.scene);
-  if (const auto duration = json.find("duration"); duration != json.end()) document.duration = duration->get<double>();
+  document.duration = json.value("duration", document.duration);
   document.controls = readControls(json, document.scene);
   document.constraints = readConstraints(json, document.scene, document.duration);
   return document;
 }
 
-Document parseDocument(std::string_view text, const std::string& name, const std::string& folder) try {
-  if (text.size() > kLargestDocument)
-    throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
-                     std::to_string(kLargestDocument) + " bytes");
-  const Json json = parseJson(text);
-  requireVersion(json, "carom");
-  requireSchema(json);
-  return formats_detail::readDocument(json, folder);
-} catch (const InputError& error) {
-  throw FormatError(name, error.where(), error.message());
+Document parseDocument(std::string_view text, const std::string& name, const std::string& folder) {
+  return inFile(name, [&] {
+    return formats_detail::readDocument(parseJson(text, DocumentKind::scene, kLargestDocument), folder);
+  });
 }
 
 Document readDocument(const std::string& path) {
@@ -65,7 +58,9 @@ Document readDocument(const std::string& path) {
 
 std::string writeDocumentIn(const std::string& folder, const Document& document) {
   Document moved = document;
-  moveTo(folder, moved);
+  moved.schema = formats_detail::movedSchema(document.schema, document.folder, folder);
+  moveFiles(moved.scene, document.folder, folder);
+  moved.folder = folder;
   std::string text = writeDocument(moved);
   try {
     parseDocument(text, "", moved.folder);
@@ -75,12 +70,8 @@ std::string writeDocumentIn(const std::string& folder, const Document& document)
   return text;
 }
 
-void saveDocument(const std::string& path, const Document& document) try {
-  writeFile(path, writeDocumentIn(folderOf(path), document));
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where() == path ? "" : error.where(), error.message());
+void saveDocument(const std::string& path, const Document& document) {
+  inFile(path, [&] { writeFile(path, writeDocumentIn(formats_detail::folderOf(path), document)); });
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "formats/base/unit.hpp"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/documents/surface_files.hpp"
 #include "formats/json/json.hpp"
@@ -17,11 +18,6 @@ std::vector<std::string> namesOf(const Items& items) {
   std::vector<std::string> names;
   for (const auto& item : items) names.push_back(item.name);
   return names;
-}
-
-double numberOr(const Json& object, const char* member, double otherwise) {
-  const auto found = object.find(member);
-  return found == object.end() ? otherwise : found->get<double>();
 }
 
 Vec3 vectorOr(const Json& object, const char* member, const Vec3& otherwise) {
@@ -40,9 +36,9 @@ Combine readCombine(const Json& material, const char* coefficient) {
 Material readMaterial(const std::string& name, const Json& value) {
   Material material;
   material.name = name;
-  material.elasticity = numberOr(value, "elasticity", material.elasticity);
-  material.friction = numberOr(value, "friction", material.friction);
-  material.tangential_elasticity = numberOr(value, "tangential_elasticity", material.tangential_elasticity);
+  material.elasticity = value.value("elasticity", material.elasticity);
+  material.friction = value.value("friction", material.friction);
+  material.tangential_elasticity = value.value("tangential_elasticity", material.tangential_elasticity);
   material.combine_elasticity = readCombine(value, "elasticity");
   material.combine_friction = readCombine(value, "friction");
   material.notes = textOr(value, "notes");
@@ -72,18 +68,16 @@ void requireAtRest(const Body& body, const std::string& where) {
 }
 
 CollisionFilter readFilter(const Json& value) {
-  const auto names = [&](const char* member) {
-    return value.contains(member) ? value[member].get<std::vector<std::string>>() : std::vector<std::string>();
-  };
+  const auto names = [&](const char* member) { return value.value(member, std::vector<std::string>()); };
   return {names("systems"), names("collide_with"), names("not_collide_with")};
 }
 
 Body readBody(const Json& value, const std::string& where, SurfaceFiles& files) {
   Body body;
   body.name = value["name"].get<std::string>();
-  body.fixed = value.contains("fixed") && value["fixed"].get<bool>();
-  body.kinematic = value.contains("kinematic") && value["kinematic"].get<bool>();
-  if (value.contains("gravity_factor")) body.gravity_factor = value["gravity_factor"].get<double>();
+  body.fixed = value.value("fixed", false);
+  body.kinematic = value.value("kinematic", false);
+  body.gravity_factor = value.value("gravity_factor", body.gravity_factor);
   if (value.contains("collision_filter")) body.collision_filter = readFilter(value["collision_filter"]);
   body.material = textOr(value, "material");
   body.shape = readShape(value["shape"], where + "/shape", files);
@@ -136,10 +130,7 @@ const std::vector<std::string>& combineWords() {
   return words;
 }
 
-std::string textOr(const Json& object, const char* member, const std::string& otherwise) {
-  const auto found = object.find(member);
-  return found == object.end() ? otherwise : found->get<std::string>();
-}
+std::string textOr(const Json& object, const char* member) { return object.value(member, std::string()); }
 
 Vec3 readVector(const Json& value) { return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()}; }
 
@@ -148,8 +139,7 @@ Quat readQuaternion(const Json& value, const std::string& where) {
   constexpr double kHandWritten = 1e-3;  // three digits, as people write them
   if (!(std::abs(q.norm() - 1) <= kHandWritten))
     fail(where, describe(value) + " of length " + numberText(q.norm()), "a unit quaternion [w, x, y, z]");
-  // Twice: once is not always exact to the last bit but one.
-  return std::abs(q.squaredNorm() - 1) > kUnitRounding ? q.normalized().normalized() : q;
+  return unitQuaternion(q);
 }
 
 int readBodyName(const Json& value, const std::string& where, const Scene& scene) {

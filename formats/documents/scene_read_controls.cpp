@@ -116,7 +116,7 @@ Control readControl(const Json& value, const Scene& scene, const std::string& wh
   control.min = readBound(value, "min", count, where);
   control.max = readBound(value, "max", count, where);
   requireOrder(control, where);
-  if (value.contains("weight")) control.weight = value["weight"].get<double>();
+  control.weight = value.value("weight", control.weight);
   control.notes = textOr(value, "notes");
   return control;
 }

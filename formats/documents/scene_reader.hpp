@@ -19,17 +19,14 @@ std::vector<Constraint> readConstraints(const Json& document, const Scene& scene
 std::string folderOf(const std::string& path);
 /// The member "$schema" for a document in another folder: a file name becomes relative to it, an address stays.
 std::string movedSchema(const std::string& schema, const std::string& from, const std::string& to);
-/// File names of hulls and meshes, and that of the schema, become relative to another folder.
-void moveTo(const std::string& folder, Document& document);
+/// File names of hulls and meshes become relative to another folder.
+void moveFiles(Scene& scene, const std::string& from, const std::string& to);
 
 /// The shape that an object has as one of its members.
 Shape readShape(const Json& value, const std::string& where, SurfaceFiles& files);
 
-/// A norm that differs from 1 by no more than this is left alone, so that reading what was written changes nothing.
-inline constexpr double kUnitRounding = 1e-15;
-
-/// A member that may be missing.
-std::string textOr(const Json& object, const char* member, const std::string& otherwise = "");
+/// A text that may be missing: then it is empty.
+std::string textOr(const Json& object, const char* member);
 Vec3 readVector(const Json& value);
 /// Unit quaternion from [w, x, y, z]; accepts numbers that were rounded to three digits.
 Quat readQuaternion(const Json& value, const std::string& where);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "formats/base/in_file.hpp"
 #include "formats/mesh/mesh_file.h"
 #include "ode_bridge/convex_hull.h"
 
@@ -32,12 +33,7 @@ std::shared_ptr<const Surface> readMesh(const std::string& path) {
 }
 
 std::shared_ptr<const Surface> readHull(const std::string& path) {
-  const std::vector<Vec3> points = readPointsFile(path);
-  try {
-    return convexHull(points);
-  } catch (const InputError& error) {
-    throw FormatError(path, error.where(), error.message());
-  }
+  return inFile(path, [&] { return convexHull(readPointsFile(path)); });
 }
 
 /// Without "..", "." and links as far as the path exists.

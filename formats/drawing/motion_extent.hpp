@@ -2,7 +2,7 @@
 #pragma once
 
 #include "adjoint/motion/motion.h"
-#include "formats/drawing/shape_extent.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom::formats_detail {
 

@@ -90,19 +90,17 @@ BodyState stateOf(const Motion& motion, const CsvRow& row) {
   return motion.stateAt(row.body, row.time);
 }
 
-void appendNumber(std::string& out, double value) {
+std::string allDigits(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, ",%.17g", value);
-  out += text;
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
 }
 
 void appendRow(std::string& out, const Motion& motion, const CsvRow& row) {
   const BodyState s = stateOf(motion, row);
   const Quat& q = s.orientation;
-  char time[32];
-  std::snprintf(time, sizeof time, "%.17g", row.time);
-  out += time;
-  out += "," + quoted(motion.scene->bodies[row.body].name) + "," + kKindNames[static_cast<int>(row.kind)] + ",";
+  out += allDigits(row.time) + "," + quoted(motion.scene->bodies[row.body].name) + "," +
+         kKindNames[static_cast<int>(row.kind)] + ",";
   if (row.event >= 0) out += std::to_string(row.event + 1);
   for (const double value :
        {s.position.x(), s.position.y(), s.position.z(), q.w(), q.x(), q.y(), q.z(), s.velocity.x(), s.velocity.y(),
@@ -110,7 +108,7 @@ void appendRow(std::string& out, const Motion& motion, const CsvRow& row) {
     if (!std::isfinite(value))
       throw InputError("body '" + motion.scene->bodies[row.body].name + "'",
                        "its motion holds a number that is not finite; nothing was written");
-    appendNumber(out, value);
+    out += "," + allDigits(value);
   }
   out += "\r\n";
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "formats/export/export_motion.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "adjoint/base/errors.h"
+#include "formats/base/short_text.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/export/export_blender.h"
 #include "formats/export/export_csv.h"
@@ -42,22 +41,14 @@ const Format* findFormat(const std::string& extension) {
   return nullptr;
 }
 
-std::string listOfFormats(std::size_t without) {
-  std::string list;
-  for (const Format& format : kFormats) list += std::string(list.empty() ? "" : ", ") + (format.extension + without);
-  return list;
-}
-
 }  // namespace
 
 void exportMotion(const std::string& path, const Document& document, const Motion& motion,
                   const ExportOptions& options) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = extensionOf(path);
   const Format* const format = findFormat(extension);
   if (format == nullptr)
-    throw InputError(path, "found the extension '" + extension + "', expected one of " + listOfFormats(0));
+    throw InputError(path, "found the extension '" + extension + "', expected one of " + joined(exportExtensions()));
   const std::string title = std::filesystem::path(path).stem().string();
   writeFile(path, format->text({title, document, motion, options}));
 }
@@ -65,8 +56,11 @@ void exportMotion(const std::string& path, const Document& document, const Motio
 std::string motionText(const std::string& format, const std::string& title, const Document& document,
                        const Motion& motion, const ExportOptions& options) {
   const Format* const found = findFormat("." + format);
-  if (found == nullptr)
-    throw InputError("format", "found '" + format + "', expected one of " + listOfFormats(1));
+  if (found == nullptr) {
+    std::vector<std::string> words = exportExtensions();
+    for (std::string& word : words) word.erase(0, 1);
+    throw InputError("format", "found '" + format + "', expected one of " + joined(words));
+  }
   return found->text({title, document, motion, options});
 }
 

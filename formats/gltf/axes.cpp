@@ -3,17 +3,9 @@
 
 #include <cmath>
 
+#include "formats/base/unit.hpp"
+
 namespace carom::gltf {
-namespace {
-
-constexpr double kUnitRounding = 1e-15;
-
-}  // namespace
-
-Quat unitQuaternion(const Quat& q) {
-  // Twice: once is not always exact to the last bit but one.
-  return std::abs(q.squaredNorm() - 1) > kUnitRounding ? q.normalized().normalized() : q;
-}
 
 Quat product(const Quat& a, const Quat& b) {
   const Quat q = a * b;

@@ -6,8 +6,6 @@
 
 namespace carom::gltf {
 
-/// A unit quaternion is kept as it is, to the last bits; another is normalized.
-Quat unitQuaternion(const Quat& q);
 /// a b; the identity when the two cancel up to rounding.
 Quat product(const Quat& a, const Quat& b);
 /// Of a unit quaternion; entries that are whole numbers up to rounding are.

@@ -2,6 +2,7 @@
 // Bodies -> nodes with physics.
 #include "formats/gltf/physics_nodes.hpp"
 
+#include "formats/base/unit.hpp"
 #include "formats/gltf/axes.hpp"
 #include "formats/shapes/rows.hpp"
 
@@ -29,7 +30,7 @@ gltf::Moving movingOf(const Body& body, const BodyModel& model) {
   if (model.has_offset)
     out.inertia_orientation = body.inertia.source == Inertia::Source::matrix
                                   ? body.inertia.axes
-                                  : gltf::unitQuaternion(Quat(Mat3(model.R_BG.transpose())));
+                                  : unitQuaternion(Quat(Mat3(model.R_BG.transpose())));
   return out;
 }
 

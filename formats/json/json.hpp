@@ -17,6 +17,10 @@ inline constexpr std::size_t kMostValues = 400'000;  ///< keeps the memory of a 
 Json parseJson(std::string_view text, std::size_t most_values = kMostValues);
 
 enum class DocumentKind { scene, journal };
+/// The tree of a document of a kind, of at most so many bytes, in the version of this program and by its schema. Throws
+/// InputError.
+Json parseJson(std::string_view text, DocumentKind kind, std::size_t most_bytes);
+
 /// Throws InputError at the deepest place where the document breaks formats/documents/scene.schema.json or journal.schema.json.
 void requireSchema(const Json& document, DocumentKind kind = DocumentKind::scene);
 
@@ -39,9 +43,5 @@ std::string hintFor(std::string_view word, const std::vector<std::string>& known
 std::string expectedOf(std::string_view word, const std::vector<std::string>& known);
 
 [[noreturn]] void fail(const std::string& where, const std::string& found, const std::string& expected);
-
-/// The document begins with the member `name` with the value 1. To be asked first of all: a document of another version
-/// may break every other rule.
-void requireVersion(const Json& document, const std::string& name);
 
 }  // namespace carom::formats_detail

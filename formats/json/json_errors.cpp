@@ -47,13 +47,10 @@ std::string pointerTo(const std::string& parent, std::size_t index) { return par
 std::string describe(const Json& value) {
   switch (value.type()) {
     case Json::value_t::null:
-      return "null";
     case Json::value_t::boolean:
-      return value.get<bool>() ? "true" : "false";
     case Json::value_t::number_integer:
-      return std::to_string(value.get<long long>());
     case Json::value_t::number_unsigned:
-      return std::to_string(value.get<unsigned long long>());
+      return value.dump();
     case Json::value_t::number_float:
       return numberText(value.get<double>());
     case Json::value_t::string:
@@ -105,14 +102,6 @@ std::string listed(const std::vector<std::string>& words) {
 
 void fail(const std::string& where, const std::string& found, const std::string& expected) {
   throw InputError(where, "found " + found + ", expected " + expected);
-}
-
-void requireVersion(const Json& document, const std::string& name) {
-  const std::string member = '"' + name + '"';
-  if (!document.is_object()) fail("", describe(document), "an object that begins with " + member + ": 1");
-  const auto version = document.find(name);
-  if (version == document.end()) fail("", "no member " + member, member + ": 1, the version of the format");
-  if (*version != 1) fail('/' + name, describe(*version), "1, the version of the format that this program reads");
 }
 
 }  // namespace carom::formats_detail

@@ -162,6 +162,15 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   std::size_t values_ = 0, most_values_;
 };
 
+/// The document begins with the member `name` with the value 1.
+void requireVersion(const Json& document, const std::string& name) {
+  const std::string member = '"' + name + '"';
+  if (!document.is_object()) fail("", describe(document), "an object that begins with " + member + ": 1");
+  const auto version = document.find(name);
+  if (version == document.end()) fail("", "no member " + member, member + ": 1, the version of the format");
+  if (*version != 1) fail('/' + name, describe(*version), "1, the version of the format that this program reads");
+}
+
 }  // namespace
 
 Json parseJson(std::string_view text, std::size_t most_values) {
@@ -171,6 +180,18 @@ Json parseJson(std::string_view text, std::size_t most_values) {
   TreeBuilder builder(text, most_values);
   Json::sax_parse(text.begin(), text.end(), &builder);
   return builder.take();
+}
+
+Json parseJson(std::string_view text, DocumentKind kind, std::size_t most_bytes) {
+  constexpr std::size_t kMostJournalValues = 8'000'000;
+  const bool scene = kind == DocumentKind::scene;
+  if (text.size() > most_bytes)
+    throw InputError("found a text of " + std::to_string(text.size()) + " bytes, expected at most " +
+                     std::to_string(most_bytes) + " bytes");
+  Json document = parseJson(text, scene ? kMostValues : kMostJournalValues);
+  requireVersion(document, scene ? "carom" : "carom_journal");  // another version may break every other rule
+  requireSchema(document, kind);
+  return document;
 }
 
 }  // namespace carom::formats_detail

@@ -8,7 +8,7 @@
 namespace carom::formats_detail {
 namespace {
 
-using Object = Json::object_t;
+using Members = Json::object_t;
 
 std::size_t codePoints(const std::string& text) {
   return static_cast<std::size_t>(
@@ -24,7 +24,7 @@ class Walk {
     if (!rules.is_object()) return unknown();
     if (const auto reference = rules.find("$ref"); reference != rules.end())
       return keeps(value, target(reference->get_ref<const std::string&>()));
-    for (const auto& [word, rule] : rules.get_ref<const Object&>())
+    for (const auto& [word, rule] : rules.get_ref<const Members&>())
       if (!keepsRule(value, word, rule, rules)) return false;
     return true;
   }
@@ -101,7 +101,7 @@ class Walk {
 
   bool properties(const Json& value, const Json& rule, const Json&) {
     if (!value.is_object()) return true;
-    for (const auto& [name, member] : value.get_ref<const Object&>())
+    for (const auto& [name, member] : value.get_ref<const Members&>())
       if (const auto known = rule.find(name); known != rule.end() && !keeps(member, *known)) return false;
     return true;
   }
@@ -110,7 +110,7 @@ class Walk {
     if (!value.is_object()) return true;
     if (rules.contains("patternProperties")) return unknown();
     const auto known = rules.find("properties");
-    for (const auto& [name, member] : value.get_ref<const Object&>())
+    for (const auto& [name, member] : value.get_ref<const Members&>())
       if ((known == rules.end() || !known->contains(name)) && !keeps(member, rule)) return false;
     return true;
   }
@@ -122,7 +122,7 @@ class Walk {
   bool required(const Json& value, const Json& rule, const Json&) { return !value.is_object() || hasAll(value, rule); }
   bool dependencies(const Json& value, const Json& rule, const Json&) {
     if (!value.is_object()) return true;
-    for (const auto& [name, needed] : rule.get_ref<const Object&>()) {
+    for (const auto& [name, needed] : rule.get_ref<const Members&>()) {
       if (!needed.is_array()) return unknown();
       if (value.contains(name) && !hasAll(value, needed)) return false;
     }

@@ -8,38 +8,14 @@
 #include <optional>
 #include <vector>
 
+#include "formats/json/json_place.hpp"
 #include "formats/json/json_writer.hpp"
 #include "formats/mesh/triangle_soup.h"
 
 namespace carom::formats_detail {
 namespace {
 
-/// A value and where it stands.
-struct Place {
-  const Json& value;
-  std::string pointer;
-
-  std::optional<Place> find(const char* member) const {
-    const auto found = value.find(member);
-    if (found == value.end()) return std::nullopt;
-    return Place{*found, pointerTo(pointer, member)};
-  }
-  Place require(const char* member) const {
-    if (auto found = find(member)) return *found;
-    fail(pointer, std::string("no member \"") + member + "\"", "one");
-  }
-  Place at(std::size_t i) const { return {value[i], pointerTo(pointer, i)}; }
-};
-
-const Json& objectAt(const Place& place) {
-  if (!place.value.is_object()) fail(place.pointer, describe(place.value), "an object");
-  return place.value;
-}
-
-const Json& arrayAt(const Place& place) {
-  if (!place.value.is_array()) fail(place.pointer, describe(place.value), "an array");
-  return place.value;
-}
+using Place = JsonPlace;
 
 std::uint64_t wholeAt(const Place& place, std::uint64_t least, std::uint64_t most) {
   const bool whole = place.value.is_number_unsigned();
@@ -66,19 +42,8 @@ void checkNumbers(const Place& node, const char* member, std::size_t count) {
 }
 
 std::uint64_t componentSize(std::uint64_t type) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return 4;
-    default:
-      return 0;
-  }
+  constexpr std::uint64_t kFirst = TINYGLTF_COMPONENT_TYPE_BYTE, kSizes[] = {1, 1, 2, 2, 0, 4, 4};  // glTF has no 5124
+  return type >= kFirst && type - kFirst < std::size(kSizes) ? kSizes[type - kFirst] : 0;
 }
 
 struct ElementType {
@@ -93,7 +58,6 @@ class GltfCheck {
   explicit GltfCheck(const Json& document) : root_{document, ""} {}
 
   void run() {
-    objectAt(root_);
     checkVersion();
     forEach("buffers", [&](const Place& p) { checkBuffer(p); });
     forEach("bufferViews", [&](const Place& p) { checkView(p); });
@@ -109,13 +73,7 @@ class GltfCheck {
   template <class Check>
   void forEach(const char* member, Check check) const {
     const auto list = root_.find(member);
-    if (!list) return;
-    arrayAt(*list);
-    for (std::size_t i = 0; i < list->value.size(); ++i) {
-      const Place item = list->at(i);
-      objectAt(item);
-      check(item);
-    }
+    for (std::size_t i = 0; list && i < list->size(); ++i) check(list->at(i));
   }
 
   std::size_t countOf(const char* member) const {
@@ -124,34 +82,25 @@ class GltfCheck {
   }
 
   std::size_t indexAt(const Place& place, const char* list) const {
-    const std::size_t count = countOf(list);
-    if (!place.value.is_number_unsigned() || place.value.get<std::uint64_t>() >= count)
-      fail(place.pointer, describe(place.value),
-           std::string("an index into ") + list + ", of which there are " + std::to_string(count));
-    return place.value.get<std::size_t>();
+    return static_cast<std::size_t>(place.index(countOf(list), list));
   }
 
   std::optional<std::size_t> checkIndex(const Place& place, const char* member, const char* list) const {
     const auto index = place.find(member);
-    if (!index) return std::nullopt;
-    return indexAt(*index, list);
+    return index ? std::optional(indexAt(*index, list)) : std::nullopt;
   }
 
   std::vector<std::size_t> checkIndices(const Place& place, const char* member, const char* list) const {
     std::vector<std::size_t> indices;
     const auto found = place.find(member);
-    if (!found) return indices;
-    arrayAt(*found);
-    for (std::size_t i = 0; i < found->value.size(); ++i) indices.push_back(indexAt(found->at(i), list));
+    for (std::size_t i = 0; found && i < found->size(); ++i) indices.push_back(indexAt(found->at(i), list));
     return indices;
   }
 
   const Json& item(const char* list, std::size_t index) const { return root_.value.find(list)->at(index); }
 
   void checkVersion() const {
-    const Place asset = root_.require("asset");
-    objectAt(asset);
-    const Place version = asset.require("version");
+    const Place version = root_.require("asset").require("version");
     if (!version.value.is_string() || version.value.get_ref<const std::string&>().rfind("2.", 0) != 0)
       fail(version.pointer, describe(version.value), "\"2.0\", the version of glTF that this program reads");
   }
@@ -163,8 +112,7 @@ class GltfCheck {
     if (bytes_ > kLargestMeshFile)
       fail(buffer.pointer, "buffers of " + std::to_string(bytes_) + " bytes and more",
            "at most " + std::to_string(kLargestMeshFile));
-    if (const auto uri = buffer.find("uri"); uri && !uri->value.is_string())
-      fail(uri->pointer, describe(uri->value), "a text");
+    buffer.textOr("uri", "");
   }
 
   void checkView(const Place& view) const {
@@ -214,11 +162,8 @@ class GltfCheck {
   }
 
   void checkSparse(const Place& sparse, std::uint64_t elements, std::uint64_t element_size) const {
-    objectAt(sparse);
     const std::uint64_t count = wholeAt(sparse.require("count"), 1, elements);
     const Place indices = sparse.require("indices"), values = sparse.require("values");
-    objectAt(indices);
-    objectAt(values);
     const Place type = indices.require("componentType");
     const bool known = type.value == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                        type.value == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
@@ -231,26 +176,22 @@ class GltfCheck {
   // ---- meshes and nodes ----
 
   void checkAttributes(const Place& attributes) const {
-    objectAt(attributes);
+    attributes.requireObject();
     for (const auto& attribute : attributes.value.items())
       indexAt({attribute.value(), pointerTo(attributes.pointer, attribute.key())}, "accessors");
   }
 
   void checkMesh(const Place& mesh) const {
     const Place primitives = mesh.require("primitives");
-    arrayAt(primitives);
-    for (std::size_t i = 0; i < primitives.value.size(); ++i) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
       const Place primitive = primitives.at(i);
-      objectAt(primitive);
       checkAttributes(primitive.require("attributes"));
       if (const auto indices = checkIndex(primitive, "indices", "accessors"))
         if (!item("accessors", *indices).contains("bufferView"))
           fail(primitive.pointer + "/indices", "an accessor without a view", "one with a view");
       wholeOr(primitive, "mode", TINYGLTF_MODE_TRIANGLES, TINYGLTF_MODE_POINTS, TINYGLTF_MODE_TRIANGLE_FAN);
-      if (const auto targets = primitive.find("targets")) {
-        arrayAt(*targets);
-        for (std::size_t k = 0; k < targets->value.size(); ++k) checkAttributes(targets->at(k));
-      }
+      const auto targets = primitive.find("targets");
+      for (std::size_t k = 0; targets && k < targets->size(); ++k) checkAttributes(targets->at(k));
     }
     if (const auto weights = mesh.find("weights")) checkNumbers(mesh, "weights", weights->value.size());
   }

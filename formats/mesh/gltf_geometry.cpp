@@ -36,8 +36,8 @@ class Elements {
   std::size_t count() const { return accessor_.count; }
 
   Vec3 position(std::size_t i) const {
-    float numbers[3];
-    copy(i, numbers);
+    float numbers[3] = {};
+    if (const unsigned char* from = element(i)) std::memcpy(numbers, from, sizeof numbers);
     return {numbers[0], numbers[1], numbers[2]};
   }
 
@@ -82,16 +82,6 @@ class Elements {
     if (found != replaced_.end() && *found == i)
       return replacements_ + size_ * static_cast<std::size_t>(found - replaced_.begin());
     return data_ == nullptr ? nullptr : data_ + stride_ * i;
-  }
-
-  template <class Number>
-  void copy(std::size_t i, Number& numbers) const {
-    const unsigned char* from = element(i);
-    if (from == nullptr) {
-      std::memset(&numbers, 0, sizeof numbers);
-    } else {
-      std::memcpy(&numbers, from, sizeof numbers);
-    }
   }
 
   const tinygltf::Accessor& accessor_;
@@ -178,8 +168,8 @@ std::vector<Corners> cornersOf(int mode, const std::vector<std::uint32_t>& order
   return corners;
 }
 
-void requireRigid(const tinygltf::Mesh& mesh) {
-  if (std::any_of(mesh.weights.begin(), mesh.weights.end(), [](double w) { return w != 0; }))
+void requireRigid(const std::vector<double>& weights) {
+  if (std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0; }))
     fail("/weights", "a morphed mesh", "weights of 0 or none");
 }
 
@@ -261,14 +251,15 @@ void appendMeshTriangles(const tinygltf::Model& model, int mesh, const Eigen::Af
   const auto index = static_cast<std::size_t>(mesh);
   const tinygltf::Mesh& m = model.meshes.at(index);
   const std::string place = where + pointerTo("/meshes", index);
-  within(place, [&] { requireRigid(m); });
+  within(place, [&] { requireRigid(m.weights); });
   for (std::size_t i = 0; i < m.primitives.size(); ++i)
     within(pointerTo(place + "/primitives", i),
            [&] { appendPrimitive(model, m.primitives[i], transform, vertices, triangles); });
 }
 
-void appendSceneTriangles(const tinygltf::Model& model, std::vector<Vec3>& vertices,
-                          std::vector<std::array<int, 3>>& triangles) {
+TriangleSoup parseGltfMesh(std::string_view bytes, const std::string& folder) {
+  const tinygltf::Model model = parseGltf(bytes, folder);
+  TriangleSoup soup;
   if (model.scenes.empty()) fail("/scenes", "none", "a scene with meshes");
   struct Visit {
     int node;
@@ -290,17 +281,11 @@ void appendSceneTriangles(const tinygltf::Model& model, std::vector<Vec3>& verti
     const Eigen::Affine3d transform = visit.parent * nodeTransform(node, where);
     if (node.mesh >= 0) {
       if (node.skin >= 0) fail(where + "/skin", "a skin, which bends the mesh", "a rigid mesh");
-      if (std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; }))
-        fail(where + "/weights", "a morphed mesh", "weights of 0 or none");
-      appendMeshTriangles(model, node.mesh, transform, vertices, triangles, "");
+      within(where, [&] { requireRigid(node.weights); });
+      appendMeshTriangles(model, node.mesh, transform, soup.vertices, soup.triangles, "");
     }
     push(node.children, transform);
   }
-}
-
-TriangleSoup parseGltfMesh(std::string_view bytes, const std::string& folder) {
-  TriangleSoup soup;
-  appendSceneTriangles(parseGltf(bytes, folder), soup.vertices, soup.triangles);
   return soup;
 }
 

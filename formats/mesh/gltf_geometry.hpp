@@ -21,14 +21,11 @@ namespace carom::formats_detail {
 /// glTF's axes (y up) to ours (z up): (x, y, z) -> (x, -z, y).
 Mat3 zUpFromYUp();
 
-/// Reads a .gltf or .glb file with the buffers that it names; which of the two it is, its first bytes say. Images,
-/// textures, materials, samplers, cameras, animations and skins are left out of the model. All indices, types and
-/// lengths in the rest are checked: every index of a node, mesh, accessor, view or buffer is in range, every accessor
-/// lies within its view, every view within its buffer, and no node is its own ancestor. Throws FormatError with the
-/// path and the JSON pointer of the place.
-tinygltf::Model loadGltf(const std::string& path);
-
-/// The same for bytes; buffers in other files are searched in `folder`. Throws InputError with the JSON pointer.
+/// Reads the bytes of a .gltf or .glb file with the buffers that it names, which are searched in `folder`; which of the
+/// two it is, its first bytes say. Images, textures, materials, samplers, cameras, animations and skins are left out of
+/// the model. All indices, types and lengths in the rest are checked: every index of a node, mesh, accessor, view or
+/// buffer is in range, every accessor lies within its view, every view within its buffer, and no node is its own
+/// ancestor. Throws InputError with the JSON pointer.
 tinygltf::Model parseGltf(std::string_view bytes, const std::string& folder);
 
 /// The document of a .gltf or .glb file as it is written, unchecked.
@@ -40,15 +37,11 @@ Eigen::Affine3d nodeTransform(const tinygltf::Node& node, const std::string& whe
 
 /// Appends all triangles of a mesh (lists, strips and fans), its vertices taken through `transform`; vertices that no
 /// triangle uses are left out. Triangles stay counter-clockwise seen from outside when `transform` mirrors. The model
-/// must come from loadGltf or parseGltf. Throws InputError whose place is `where` followed by the JSON pointer:
+/// must come from parseGltf. Throws InputError whose place is `where` followed by the JSON pointer:
 /// primitives of points or lines, positions that are not floats, compressed or morphed meshes, indices out of range,
 /// more than kMostVertices or kMostTriangles (formats/mesh/mesh_file.h).
 void appendMeshTriangles(const tinygltf::Model& model, int mesh, const Eigen::Affine3d& transform,
                          std::vector<Vec3>& vertices, std::vector<std::array<int, 3>>& triangles,
                          const std::string& where);
-
-/// The same for every mesh of the default scene (the first one when none is named), in our axes.
-void appendSceneTriangles(const tinygltf::Model& model, std::vector<Vec3>& vertices,
-                          std::vector<std::array<int, 3>>& triangles);
 
 }  // namespace carom::formats_detail

@@ -221,13 +221,4 @@ tinygltf::Model parseGltf(std::string_view bytes, const std::string& folder) {
   return model;
 }
 
-tinygltf::Model loadGltf(const std::string& path) try {
-  const std::string bytes = readFile(path, "a glTF file", kLargestMeshFile);
-  return parseGltf(bytes, std::filesystem::path(path).parent_path().string());
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where(), error.message());
-}
-
 }  // namespace carom::formats_detail

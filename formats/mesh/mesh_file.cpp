@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "formats/mesh/mesh_file.h"
 
-#include <tiny_gltf.h>
-
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
+#include "formats/base/in_file.hpp"
 #include "formats/base/read_file.hpp"
-#include "formats/mesh/gltf_geometry.hpp"
+#include "formats/base/short_text.hpp"
+#include "formats/mesh/gltf_reader.hpp"
 #include "formats/mesh/obj_reader.hpp"
 
 namespace carom {
@@ -17,40 +15,29 @@ using namespace formats_detail;
 
 namespace {
 
-TriangleSoup readObj(const std::string& path) try {
-  return parseObj(readFile(path, "an OBJ file", kLargestMeshFile));
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where(), error.message());
-}
-
-TriangleSoup readGltf(const std::string& path) try {
-  TriangleSoup soup;
-  appendSceneTriangles(loadGltf(path), soup.vertices, soup.triangles);
-  return soup;
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where(), error.message());
-}
-
 struct Reader {
   const char* ending;
-  TriangleSoup (*read)(const std::string& path);
+  const char* what;
+  TriangleSoup (*parse)(std::string_view bytes, const std::string& folder);
 };
-constexpr Reader kReaders[] = {{".obj", readObj}, {".gltf", readGltf}, {".glb", readGltf}};
+TriangleSoup parseObjIn(std::string_view text, const std::string&) { return parseObj(text); }
+constexpr Reader kReaders[] = {{".obj", "an OBJ file", parseObjIn},
+                               {".gltf", "a glTF file", parseGltfMesh},
+                               {".glb", "a glTF file", parseGltfMesh}};
 
 }  // namespace
 
 TriangleSoup readMeshFile(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = extensionOf(path);
   // A pipe or a device has no end, or waits for one.
   if (std::error_code error; std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
     throw FormatError(path, "", "found no regular file, expected a mesh file");
   for (const Reader& reader : kReaders)
-    if (ending == reader.ending) return reader.read(path);
+    if (ending == reader.ending)
+      return inFile(path, [&] {
+        return reader.parse(readFile(path, reader.what, kLargestMeshFile),
+                            std::filesystem::path(path).parent_path().string());
+      });
   throw FormatError(path, "",
                     "found a name that ends in \"" + ending + "\", expected a mesh file: .obj, .gltf or .glb");
 }

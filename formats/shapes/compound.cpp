@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "formats/documents/scene_writer.hpp"
-#include "formats/drawing/shape_extent.hpp"
 #include "formats/shapes/parts.hpp"
 
 namespace carom::shapes {

@@ -37,7 +37,7 @@ void writeRound(JsonWriter& out, const Shape& s) {
 }
 
 // The member "scale" of hulls and meshes, which is left out where it is 1.
-inline double scaleOf(const Json& value) { return value.contains("scale") ? numberOf(value, "scale") : 1; }
+inline double scaleOf(const Json& value) { return value.value("scale", 1.0); }
 inline void writeScale(JsonWriter& out, double scale) {
   if (scale != 1) out.members("scale", scale);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
 
+#include "formats/base/unit.hpp"
 #include "formats/shapes/parts.hpp"
 
 namespace carom::shapes {
@@ -14,8 +15,7 @@ Shape readPlane(const Json& value, const std::string& where, SurfaceFiles&) {
   const double length = normal.stableNorm();
   if (!(length > 0)) fail(where + "/normal", describe(value["normal"]), "a vector that is not 0");
   if (std::abs(normal.squaredNorm() - 1) > kUnitRounding) normal = (normal / length).normalized();
-  const auto offset = value.find("offset");
-  return Plane{normal, offset == value.end() ? 0 : offset->get<double>()};
+  return Plane{normal, value.value("offset", 0.0)};
 }
 
 TriangleMesh planeMesh(const Shape&, double half_width) {

@@ -24,3 +24,13 @@ std::vector<SurfaceUse> surfacesOf(Shape& shape) {
 }
 
 }  // namespace carom::shapes
+
+namespace carom::formats_detail {
+
+Extent shapeExtent(const Shape& shape, const Vec3& x, const Quat& q) {
+  return shapes::formatOf(shape).extent(shape, {x, q});
+}
+
+double radiusAbout(const Shape& shape, const Vec3& point) { return shapes::formatOf(shape).radius_about(shape, point); }
+
+}  // namespace carom::formats_detail

@@ -9,7 +9,6 @@
 
 #include "adjoint/base/required.h"
 #include "adjoint/scene/shape.h"
-#include "formats/base/extent.hpp"
 #include "formats/json/json.hpp"
 
 namespace carom::gltf {
@@ -23,6 +22,14 @@ struct TriangleMesh;
 class JsonWriter;
 struct ColliderAdder;
 class SurfaceFiles;
+
+/// An axis-aligned box in the world, m; empty where it holds nothing.
+using Extent = Eigen::AlignedBox3d;
+
+/// Smallest axis-aligned box around a shape at a pose (origin x, shape axes to world q); empty for a plane.
+Extent shapeExtent(const Shape& shape, const Vec3& x, const Quat& q);
+/// Radius of the smallest ball about a point of the shape's axes that holds the shape; infinite for a plane.
+double radiusAbout(const Shape& shape, const Vec3& point);
 
 }  // namespace carom::formats_detail
 
@@ -56,7 +63,7 @@ struct FormatKind {
   Required<bool(const Shape&)> on_one_line;  ///< whether it is written on one
   /// Adds itself where it has a surface, or its parts; `where` is the place of the object that has its word.
   Required<void(Shape&, const std::string& where, std::vector<SurfaceUse>& out)> surfaces;
-  /// Smallest axis-aligned box around it; empty for a plane.
+  /// See shapeExtent.
   Required<Extent(const Shape&, const ShapePose& at)> extent;
   /// See radiusAbout.
   Required<double(const Shape&, const Vec3& point)> radius_about;

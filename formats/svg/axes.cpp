@@ -18,14 +18,6 @@ constexpr const char* kGrid = "#e9ebee";
 constexpr const char* kFrame = "#9aa1ab";
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
-void drawGridLine(SvgCanvas& canvas, const Vec2& a, const Vec2& b, const char* colour) {
-  canvas.element("line", {{"x1", svgNumber(a.x())},
-                          {"y1", svgNumber(a.y())},
-                          {"x2", svgNumber(b.x())},
-                          {"y2", svgNumber(b.y())},
-                          {"stroke", colour}});
-}
-
 // Multiples of the step inside [low, high]; of numbers so large that the step is lost in them, few.
 std::vector<double> ticks(double low, double high, double step) {
   constexpr double kMostTicks = 200;
@@ -97,7 +89,7 @@ void drawAxes(SvgCanvas& canvas, const View& view) {
   const AxisNumbers across = axisNumbers(kAxisNames[view.across_axis], view.low.x(), high.x(), step);
   for (const double u : ticks(view.low.x(), high.x(), step)) {
     const double x = view.pixelOf({u, view.low.y()}).x();
-    drawGridLine(canvas, {x, panel.y}, {x, bottom}, kGrid);
+    canvas.element("line", lineEnds({x, panel.y}, {x, bottom}), {{"stroke", kGrid}});
     canvas.text({x, bottom + 17}, across.words(u), {{"text-anchor", "middle"}});
   }
   const double sign = view.up_is_negative ? -1 : 1;
@@ -108,15 +100,10 @@ void drawAxes(SvgCanvas& canvas, const View& view) {
     const double y = view.pixelOf({view.low.x(), v}).y();
     const std::string words = upwards.words(sign * v);
     widest = std::max(widest, textWidth(words, kTickFont));
-    drawGridLine(canvas, {panel.x, y}, {panel.x + panel.width, y}, kGrid);
+    canvas.element("line", lineEnds({panel.x, y}, {panel.x + panel.width, y}), {{"stroke", kGrid}});
     canvas.text({panel.x - 7, y + 4}, words, {{"text-anchor", "end"}});
   }
-  canvas.element("rect", {{"x", svgNumber(panel.x)},
-                          {"y", svgNumber(panel.y)},
-                          {"width", svgNumber(panel.width)},
-                          {"height", svgNumber(panel.height)},
-                          {"fill", "none"},
-                          {"stroke", kFrame}});
+  canvas.element("rect", boxSides(panel), {{"fill", "none"}, {"stroke", kFrame}});
   canvas.text({panel.x + panel.width, bottom + 34}, across.name,
               {{"text-anchor", "end"}, {"font-weight", "600"}});
   canvas.text({panel.x, panel.y - 10}, view.title, {{"font-size", "15"}, {"font-weight", "600"}, {"fill", "#2b2f36"}});

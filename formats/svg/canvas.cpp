@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "adjoint/base/errors.h"
+#include "formats/base/short_text.hpp"
 
 namespace carom::formats_detail {
 namespace {
@@ -21,22 +22,11 @@ constexpr std::array<int, 95> kLetterWidths = {
     333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584};                        // r to ~
 constexpr int kOtherLetter = 1000;  // Chinese, say
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out += ' ';  // control characters are not allowed in XML
-    else
-      out += c;
-  }
+std::string xmlText(std::string_view text) {
+  constexpr std::pair<char, const char*> kMarkup[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string out = escaped(text, kMarkup);
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';  // control characters are not allowed in XML
   return out;
 }
 
@@ -56,6 +46,21 @@ std::string svgPoints(const std::vector<Vec2>& points) {
   std::string out;
   for (const Vec2& p : points) out += (out.empty() ? "" : " ") + svgNumber(p.x()) + "," + svgNumber(p.y());
   return out;
+}
+
+SvgAttributes lineEnds(const Vec2& a, const Vec2& b) {
+  return {{"x1", svgNumber(a.x())}, {"y1", svgNumber(a.y())}, {"x2", svgNumber(b.x())}, {"y2", svgNumber(b.y())}};
+}
+
+SvgAttributes boxSides(const PixelBox& box) {
+  return {{"x", svgNumber(box.x)},
+          {"y", svgNumber(box.y)},
+          {"width", svgNumber(box.width)},
+          {"height", svgNumber(box.height)}};
+}
+
+SvgAttributes circleAt(const Vec2& centre, double radius) {
+  return {{"cx", svgNumber(centre.x())}, {"cy", svgNumber(centre.y())}, {"r", svgNumber(radius)}};
 }
 
 double textWidth(std::string_view words, double font_size, bool bold) {
@@ -80,19 +85,20 @@ SvgCanvas::SvgCanvas(double width, double height, std::string_view title, std::s
                {"font-family", "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"},
                {"font-size", "13"},
                {"fill", "#2b2f36"}});
-  out_ += "<title id=\"title\">" + escaped(title) + "</title>\n";
-  out_ += "<desc id=\"desc\">" + escaped(description) + "</desc>\n";
+  out_ += "<title id=\"title\">" + xmlText(title) + "</title>\n";
+  out_ += "<desc id=\"desc\">" + xmlText(description) + "</desc>\n";
   element("rect", {{"width", w}, {"height", h}, {"fill", "#ffffff"}});
 }
 
-void SvgCanvas::start(std::string_view name, const SvgAttributes& attributes, std::string_view end) {
+void SvgCanvas::start(std::string_view name, std::initializer_list<const SvgAttributes*> lists, std::string_view end) {
   out_.append("<").append(name);
-  for (const auto& [key, value] : attributes) out_.append(" ").append(key).append("=\"" + escaped(value) + "\"");
+  for (const SvgAttributes* attributes : lists)
+    for (const auto& [key, value] : *attributes) out_.append(" ").append(key).append("=\"" + xmlText(value) + "\"");
   out_.append(end);
 }
 
-void SvgCanvas::open(std::string_view name, const SvgAttributes& attributes) {
-  start(name, attributes, ">\n");
+void SvgCanvas::open(std::string_view name, const SvgAttributes& first, const SvgAttributes& second) {
+  start(name, {&first, &second}, ">\n");
   open_.emplace_back(name);
 }
 
@@ -101,12 +107,15 @@ void SvgCanvas::close() {
   open_.pop_back();
 }
 
-void SvgCanvas::element(std::string_view name, const SvgAttributes& attributes) { start(name, attributes, "/>\n"); }
+void SvgCanvas::element(std::string_view name, const SvgAttributes& first, const SvgAttributes& second,
+                        const SvgAttributes& third) {
+  start(name, {&first, &second, &third}, "/>\n");
+}
 
-void SvgCanvas::text(const Vec2& at, std::string_view words, SvgAttributes attributes) {
-  attributes.insert(attributes.begin(), {{"x", svgNumber(at.x())}, {"y", svgNumber(at.y())}});
-  start("text", attributes, ">");
-  out_ += escaped(words) + "</text>\n";
+void SvgCanvas::text(const Vec2& at, std::string_view words, const SvgAttributes& attributes) {
+  const SvgAttributes place{{"x", svgNumber(at.x())}, {"y", svgNumber(at.y())}};
+  start("text", {&place, &attributes}, ">");
+  out_ += xmlText(words) + "</text>\n";
 }
 
 std::string SvgCanvas::finish() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,10 @@ using SvgAttributes = std::vector<std::pair<std::string_view, std::string>>;
 std::string svgNumber(double value);
 /// "x,y x,y ..." of a polygon.
 std::string svgPoints(const std::vector<Vec2>& points);
+/// Attributes that say where something is.
+SvgAttributes lineEnds(const Vec2& a, const Vec2& b);
+SvgAttributes boxSides(const PixelBox& box);
+SvgAttributes circleAt(const Vec2& centre, double radius);
 /// Width of a line of text in Helvetica, Arial or Liberation Sans, rather too wide than too narrow; bold is wider.
 double textWidth(std::string_view words, double font_size, bool bold = false);
 
@@ -41,17 +46,19 @@ class SvgCanvas {
   /// A document; title and description are for people who cannot see it.
   SvgCanvas(double width, double height, std::string_view title, std::string_view description);
 
-  void open(std::string_view name, const SvgAttributes& attributes = {});
+  void open(std::string_view name, const SvgAttributes& first = {}, const SvgAttributes& second = {});
   void close();
-  void element(std::string_view name, const SvgAttributes& attributes);
-  void text(const Vec2& at, std::string_view words, SvgAttributes attributes = {});
+  /// With the attributes of all three lists.
+  void element(std::string_view name, const SvgAttributes& first, const SvgAttributes& second = {},
+               const SvgAttributes& third = {});
+  void text(const Vec2& at, std::string_view words, const SvgAttributes& attributes = {});
   void append(std::string_view part) { out_ += part; }
   /// Bytes so far.
   std::size_t size() const { return out_.size(); }
   std::string finish();
 
  private:
-  void start(std::string_view name, const SvgAttributes& attributes, std::string_view end);
+  void start(std::string_view name, std::initializer_list<const SvgAttributes*> lists, std::string_view end);
   std::string out_;
   std::vector<std::string> open_;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "formats/base/short_text.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/svg/layout.hpp"
 
@@ -65,8 +64,8 @@ std::size_t movingCount(const Scene& scene) {
 
 std::string subtitleOf(const Picture& picture) {
   const Motion& motion = picture.motion;
-  std::string words = countedWords(movingCount(*motion.scene), "moving body", "moving bodies");
-  words += " · " + countedWords(motion.events.size(), "impact") + " · " + shortNumber(motion.end) + " s";
+  std::string words = counted(movingCount(*motion.scene), "moving body", "moving bodies");
+  words += " · " + counted(motion.events.size(), "impact") + " · " + shortNumber(motion.end) + " s";
   if (motion.status != MotionStatus::complete)
     words += " of " + shortNumber(motion.duration) + " s (" + nameOf(motion.status) + ")";
   return words;
@@ -75,10 +74,10 @@ std::string subtitleOf(const Picture& picture) {
 std::string descriptionOf(const Picture& picture) {
   const Motion& motion = picture.motion;
   std::string words = "Side view and top view, to scale, of " +
-                      countedWords(movingCount(*motion.scene), "moving body", "moving bodies") + " with " +
-                      countedWords(motion.events.size(), "impact") + " in " + shortNumber(motion.end) + " seconds";
+                      counted(movingCount(*motion.scene), "moving body", "moving bodies") + " with " +
+                      counted(motion.events.size(), "impact") + " in " + shortNumber(motion.end) + " seconds";
   if (picture.before) words += ", and of the motion before the edit";
-  if (!picture.nails.empty()) words += ", with " + countedWords(picture.nails.size(), "nail");
+  if (!picture.nails.empty()) words += ", with " + counted(picture.nails.size(), "nail");
   words += ". Paths of the centres of mass are off by at most " + shortNumber(picture.paths.tolerance) + " pixels.";
   return words;
 }
@@ -87,8 +86,7 @@ void addHatch(SvgCanvas& canvas, const char* id, const char* colour, const char*
   canvas.open(
       "pattern",
       {{"id", id}, {"width", "8"}, {"height", "8"}, {"patternUnits", "userSpaceOnUse"}, {"patternTransform", turn}});
-  canvas.element("line",
-                 {{"x1", "0"}, {"y1", "0"}, {"x2", "0"}, {"y2", "8"}, {"stroke", colour}, {"stroke-width", width}});
+  canvas.element("line", lineEnds({0, 0}, {0, 8}), {{"stroke", colour}, {"stroke-width", width}});
   canvas.close();
 }
 
@@ -98,10 +96,7 @@ void addDefinitions(SvgCanvas& canvas, const std::vector<View>& views, const Pic
   if (!picture.regions.empty()) addHatch(canvas, "hatch-avoid", kAvoidColour, "0.9", "rotate(-45)");
   for (const View& view : views) {
     canvas.open("clipPath", {{"id", "clip-" + view.name}});
-    canvas.element("rect", {{"x", svgNumber(view.panel.x)},
-                            {"y", svgNumber(view.panel.y)},
-                            {"width", svgNumber(view.panel.width)},
-                            {"height", svgNumber(view.panel.height)}});
+    canvas.element("rect", boxSides(view.panel));
     canvas.close();
   }
   canvas.close();
@@ -116,10 +111,6 @@ std::vector<int> nailedBodies(const Picture& picture) {
 }
 
 }  // namespace
-
-std::string formats_detail::countedWords(std::size_t count, const std::string& word, const std::string& plural) {
-  return std::to_string(count) + " " + (count == 1 ? word : plural.empty() ? word + "s" : plural);
-}
 
 std::string svgText(const std::string& heading, const Document& document, const Motion& motion, const Motion* before) {
   Picture picture{motion, before, nailsOf(document, motion), regionsOf(document)};

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <variant>
 
-#include "formats/drawing/shape_extent.hpp"
+#include "formats/shapes/rows.hpp"
 #include "formats/svg/layers.hpp"
 #include "formats/svg/shapes.hpp"
 
@@ -38,7 +38,7 @@ std::string fixedNames(const Scene& scene) {
     ++count;
     if (names.size() <= kLongestList) names += (names.empty() ? "" : ", ") + body.name;
   }
-  return names.size() <= kLongestList ? "fixed: " + names : countedWords(count, "fixed body", "fixed bodies");
+  return names.size() <= kLongestList ? "fixed: " + names : counted(count, "fixed body", "fixed bodies");
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/base/short_text.hpp"
 #include "formats/svg/layers.hpp"
 #include "formats/svg/shapes.hpp"
 

@@ -12,26 +12,19 @@ namespace {
 void drawFreeLine(SvgCanvas& canvas, const View& view, const Vec2& p) {
   const PixelBox& panel = view.panel;
   const bool level = std::isfinite(p.y());
-  canvas.element("line", {{"class", classOf(Mark::nail_line)},
-                          {"x1", svgNumber(level ? panel.x : p.x())},
-                          {"y1", svgNumber(level ? p.y() : panel.y)},
-                          {"x2", svgNumber(level ? panel.x + panel.width : p.x())},
-                          {"y2", svgNumber(level ? p.y() : panel.y + panel.height)},
-                          {"stroke", kNailColour},
-                          {"stroke-width", "1.8"},
-                          {"stroke-dasharray", "10 4"}});
+  const Vec2 from(level ? panel.x : p.x(), level ? p.y() : panel.y);
+  const Vec2 to(level ? panel.x + panel.width : p.x(), level ? p.y() : panel.y + panel.height);
+  canvas.element("line", {{"class", classOf(Mark::nail_line)}}, lineEnds(from, to),
+                 {{"stroke", kNailColour}, {"stroke-width", "1.8"}, {"stroke-dasharray", "10 4"}});
 }
 
 void drawHoop(SvgCanvas& canvas, const Vec2& p, Mark mark) {
   for (const bool rim : {true, false})
-    canvas.element("circle", {{"class", rim ? "rim" : classOf(mark)},
-                              {"cx", svgNumber(p.x())},
-                              {"cy", svgNumber(p.y())},
-                              {"r", svgNumber(kHoopRadius)},
-                              {"fill", "none"},
-                              {"stroke", rim ? "#ffffff" : kNailColour},
-                              {"stroke-width", rim ? "6" : "3.4"},
-                              {"stroke-dasharray", mark == Mark::nail || rim ? "none" : "3 3"}});
+    canvas.element("circle", {{"class", rim ? "rim" : classOf(mark)}}, circleAt(p, kHoopRadius),
+                   {{"fill", "none"},
+                    {"stroke", rim ? "#ffffff" : kNailColour},
+                    {"stroke-width", rim ? "6" : "3.4"},
+                    {"stroke-dasharray", mark == Mark::nail || rim ? "none" : "3 3"}});
 }
 
 void drawPose(SvgCanvas& canvas, const View& view, const Body& body, const Vec3& x, const Quat& q) {

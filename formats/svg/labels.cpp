@@ -43,6 +43,16 @@ void forEachSquare(const PixelBox& box, double size, const Visit& visit) {
       visit(i, j);
 }
 
+/// Points along a leader line, with the small boxes about them.
+template <class Visit>
+void forEachStep(const Vec2& from, const Vec2& to, const Visit& visit) {
+  const double steps = std::max(1.0, std::ceil((to - from).norm() / kLeaderStep));
+  for (double i = 0; i <= steps; ++i) {
+    const Vec2 p = from + (i / steps) * (to - from);
+    visit(p, PixelBox{p.x() - 1, p.y() - 1, 2, 2});
+  }
+}
+
 }  // namespace
 
 LabelPlacer::LabelPlacer(const PixelBox& panel)
@@ -81,12 +91,11 @@ bool LabelPlacer::isFree(const PixelBox& box) const {
 }
 
 bool LabelPlacer::leaderIsFree(const Vec2& from, const Vec2& to, const Vec2& anchor, double radius) const {
-  const double steps = std::max(1.0, std::ceil((to - from).norm() / kLeaderStep));
-  for (double i = 0; i <= steps; ++i) {
-    const Vec2 p = from + (i / steps) * (to - from);
-    if ((p - anchor).norm() > radius + 4 && !isFree({p.x() - 1, p.y() - 1, 2, 2})) return false;
-  }
-  return true;
+  bool free = true;
+  forEachStep(from, to, [&](const Vec2& p, const PixelBox& box) {
+    free = free && ((p - anchor).norm() <= radius + 4 || isFree(box));
+  });
+  return free;
 }
 
 double LabelPlacer::inkUnder(const PixelBox& box) const {
@@ -115,12 +124,7 @@ std::optional<PlacedLabel> LabelPlacer::labelAt(const PixelBox& box, const Vec2&
 void LabelPlacer::take(const PlacedLabel& label) {
   avoid(label.box);
   if (!label.leader) return;
-  const auto& [from, to] = *label.leader;
-  const double steps = std::max(1.0, std::ceil((to - from).norm() / kLeaderStep));
-  for (double i = 0; i <= steps; ++i) {
-    const Vec2 p = from + (i / steps) * (to - from);
-    avoid({p.x() - 1, p.y() - 1, 2, 2});
-  }
+  forEachStep(label.leader->first, label.leader->second, [&](const Vec2&, const PixelBox& box) { avoid(box); });
 }
 
 std::optional<PlacedLabel> LabelPlacer::place(const std::vector<Vec2>& anchors, double radius, const std::string& words,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "formats/base/short_text.hpp"
 #include "formats/drawing/nail_marks.hpp"
 #include "formats/svg/canvas.hpp"
 #include "formats/svg/impacts.hpp"
@@ -82,7 +83,5 @@ bool drawAllowed(SvgCanvas& canvas, const View& view, const AllowedBox& box);
 
 /// A step of 1, 2 or 5 times a power of ten, not below `least`.
 double niceStep(double least);
-/// "1 word" or "2 words".
-std::string countedWords(std::size_t count, const std::string& word, const std::string& plural = "");
 
 }  // namespace carom::formats_detail

@@ -2,6 +2,7 @@
 #include "formats/svg/legend.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "formats/svg/layers.hpp"
@@ -15,11 +16,53 @@ constexpr double kLineSwatch = 28, kMarkSwatch = 18;  // widths
 constexpr double kWordsGap = 7, kEntryGap = 20;
 constexpr double kShadeWidth = 15, kScaleGap = 10, kDotRoom = 10;  // of the steps of a scale
 
+enum class Swatch { scale, line, box, circle, diamond };
+constexpr const char* kOwn = "own";  // the colour of the entry
+
+/// A row of the table of marks: its class, and what stands before its words. Attributes that are null are left out.
+struct MarkRow {
+  const char* name;
+  Swatch swatch;
+  double radius = 0;  // of a circle, px
+  const char* fill = nullptr;
+  const char* fill_opacity = nullptr;
+  const char* stroke = kOwn;
+  const char* stroke_width = nullptr;
+  const char* dashes = nullptr;
+};
+// In the order of Mark.
+constexpr std::array<MarkRow, 18> kMarks = {{
+    {.name = "path", .swatch = Swatch::line},
+    {.name = "crowd-path", .swatch = Swatch::line},
+    {.name = "crowd-shade", .swatch = Swatch::scale},
+    {.name = "before", .swatch = Swatch::line},
+    {.name = "start", .swatch = Swatch::circle, .radius = 3.2, .fill = "#ffffff", .stroke_width = "1.6"},
+    {.name = "end", .swatch = Swatch::circle, .radius = 4, .fill = kOwn, .stroke = nullptr},
+    {.name = "ghost", .swatch = Swatch::box, .fill = kOwn, .fill_opacity = "0.25"},
+    {.name = "crowd-ghost", .swatch = Swatch::circle, .radius = 6, .fill = "#ffffff", .stroke_width = "0.8"},
+    {.name = "impact", .swatch = Swatch::diamond, .fill = kOwn, .stroke = nullptr},
+    {.name = "impact-cell", .swatch = Swatch::scale},
+    {.name = "nail", .swatch = Swatch::circle, .radius = 7, .fill = "none", .stroke_width = "3.2", .dashes = "none"},
+    {.name = "nail-elsewhere",
+     .swatch = Swatch::circle,
+     .radius = 7,
+     .fill = "none",
+     .stroke_width = "3.2",
+     .dashes = "3 3"},
+    {.name = "nail-line", .swatch = Swatch::line},
+    {.name = "nail-range", .swatch = Swatch::box, .fill = kOwn, .fill_opacity = "0.14"},
+    {.name = "target-pose", .swatch = Swatch::box, .fill = "none", .stroke_width = "2", .dashes = "5 3"},
+    {.name = "avoid", .swatch = Swatch::box, .fill = "url(#hatch-avoid)", .dashes = "4 3"},
+    {.name = "inside", .swatch = Swatch::box, .fill = "none", .dashes = "4 3"},
+    {.name = "fixed", .swatch = Swatch::box, .fill = "#dcdfe3"},
+}};
+static_assert(kMarks.size() == static_cast<std::size_t>(Mark::fixed) + 1);
+
+const MarkRow& rowOf(Mark mark) { return kMarks[static_cast<std::size_t>(mark)]; }
+
 double swatchWidth(const Legend::Entry& entry) {
   if (!entry.scale.empty()) return 0;
-  const bool line = entry.mark == Mark::path || entry.mark == Mark::crowd_path || entry.mark == Mark::before ||
-                    entry.mark == Mark::nail_line;
-  return (line ? kLineSwatch : kMarkSwatch) + kWordsGap;
+  return (rowOf(entry.mark).swatch == Swatch::line ? kLineSwatch : kMarkSwatch) + kWordsGap;
 }
 
 double stepWidth(const ScaleStep& step) {
@@ -46,91 +89,55 @@ std::vector<Vec2> flowOf(const std::vector<Legend::Entry>& entries, double width
   return places;
 }
 
-void drawKeyBox(SvgCanvas& canvas, const Vec2& middle, const SvgAttributes& look) {
-  SvgAttributes attributes{
-      {"x", svgNumber(middle.x() - 9)}, {"y", svgNumber(middle.y() - 6)}, {"width", "18"}, {"height", "12"}};
-  attributes.insert(attributes.end(), look.begin(), look.end());
-  canvas.element("rect", attributes);
+SvgAttributes paintOf(const MarkRow& row, const std::string& colour) {
+  SvgAttributes out;
+  const std::pair<const char*, const char*> all[] = {{"fill", row.fill},
+                                                     {"fill-opacity", row.fill_opacity},
+                                                     {"stroke", row.stroke},
+                                                     {"stroke-width", row.stroke_width},
+                                                     {"stroke-dasharray", row.dashes}};
+  for (const auto& [name, value] : all)
+    if (value != nullptr) out.emplace_back(name, value == kOwn ? colour : value);
+  return out;
 }
 
 void drawKeyLine(SvgCanvas& canvas, const Vec2& at, const Legend::Entry& entry) {
-  SvgAttributes attributes{{"x1", svgNumber(at.x())},
-                           {"y1", svgNumber(at.y())},
-                           {"x2", svgNumber(at.x() + kLineSwatch)},
-                           {"y2", svgNumber(at.y())},
-                           {"stroke", entry.colour},
-                           {"stroke-width", svgNumber(entry.width)}};
-  if (entry.dashes != "none") attributes.push_back({"stroke-dasharray", entry.dashes});
-  canvas.element("line", attributes);
-}
-
-void drawKeyCircle(SvgCanvas& canvas, const Vec2& middle, const char* radius, const SvgAttributes& look) {
-  SvgAttributes attributes{{"cx", svgNumber(middle.x())}, {"cy", svgNumber(middle.y())}, {"r", radius}};
-  attributes.insert(attributes.end(), look.begin(), look.end());
-  canvas.element("circle", attributes);
+  const SvgAttributes dashes{{"stroke-dasharray", entry.dashes}};
+  canvas.element("line", lineEnds(at, at + Vec2(kLineSwatch, 0)),
+                 {{"stroke", entry.colour}, {"stroke-width", svgNumber(entry.width)}},
+                 entry.dashes != "none" ? dashes : SvgAttributes());
 }
 
 void drawSwatch(SvgCanvas& canvas, const Legend::Entry& entry, const Vec2& at) {
+  const MarkRow& row = rowOf(entry.mark);
   const Vec2 middle = at + Vec2(kMarkSwatch / 2, 0);
-  const std::string& colour = entry.colour;
-  switch (entry.mark) {
-    case Mark::path:
-    case Mark::crowd_path:
-    case Mark::before:
-    case Mark::nail_line:
+  const SvgAttributes paint = paintOf(row, entry.colour);
+  constexpr double kDiamond = 5.5;
+  switch (row.swatch) {
+    case Swatch::scale:
+      return;
+    case Swatch::line:
       return drawKeyLine(canvas, at, entry);
-    case Mark::start:
-      return drawKeyCircle(canvas, middle, "3.2", {{"fill", "#ffffff"}, {"stroke", colour}, {"stroke-width", "1.6"}});
-    case Mark::end:
-      return drawKeyCircle(canvas, middle, "4", {{"fill", colour}});
-    case Mark::ghost:
-      return drawKeyBox(canvas, middle, {{"fill", colour}, {"fill-opacity", "0.25"}, {"stroke", colour}});
-    case Mark::crowd_ghost:
-      return drawKeyCircle(canvas, middle, "6", {{"fill", "#ffffff"}, {"stroke", colour}, {"stroke-width", "0.8"}});
-    case Mark::impact:
-      return canvas.element("polygon", {{"points", svgPoints({middle + Vec2(0, -5.5), middle + Vec2(5.5, 0),
-                                                              middle + Vec2(0, 5.5), middle + Vec2(-5.5, 0)})},
-                                        {"fill", colour}});
-    case Mark::nail:
-    case Mark::nail_elsewhere:
-      return drawKeyCircle(canvas, middle, "7",
-                           {{"fill", "none"},
-                            {"stroke", colour},
-                            {"stroke-width", "3.2"},
-                            {"stroke-dasharray", entry.mark == Mark::nail ? "none" : "3 3"}});
-    case Mark::nail_range:
-      return drawKeyBox(canvas, middle, {{"fill", colour}, {"fill-opacity", "0.14"}, {"stroke", colour}});
-    case Mark::target_pose:
-      return drawKeyBox(canvas, middle,
-                        {{"fill", "none"}, {"stroke", colour}, {"stroke-width", "2"}, {"stroke-dasharray", "5 3"}});
-    case Mark::avoid:
-      return drawKeyBox(canvas, middle,
-                        {{"fill", "url(#hatch-avoid)"}, {"stroke", colour}, {"stroke-dasharray", "4 3"}});
-    case Mark::inside:
-      return drawKeyBox(canvas, middle, {{"fill", "none"}, {"stroke", colour}, {"stroke-dasharray", "4 3"}});
-    case Mark::fixed:
-      return drawKeyBox(canvas, middle, {{"fill", "#dcdfe3"}, {"stroke", colour}});
-    case Mark::crowd_shade:
-    case Mark::impact_cell:
-      return;  // scales
+    case Swatch::box:
+      return canvas.element("rect", boxSides({middle.x() - 9, middle.y() - 6, 18, 12}), paint);
+    case Swatch::circle:
+      return canvas.element("circle", circleAt(middle, row.radius), paint);
+    case Swatch::diamond: {
+      const Vec2 up(0, -kDiamond), right(kDiamond, 0);
+      const std::vector<Vec2> corners{middle + up, middle + right, middle - up, middle - right};
+      canvas.element("polygon", {{"points", svgPoints(corners)}}, paint);
+    }
   }
 }
 
 void drawScale(SvgCanvas& canvas, const Legend::Entry& entry, Vec2 at) {
   for (const ScaleStep& step : entry.scale) {
-    double words_at = kShadeWidth;
-    if (step.size > 0) {
-      words_at = kDotRoom;
-      drawKeyCircle(canvas, at + Vec2(kDotRoom / 2, 0), svgNumber(0.5 * step.size).c_str(),
-                    {{"fill", entry.colour}, {"fill-opacity", svgNumber(step.opacity)}});
-    } else {
-      canvas.element("rect", {{"x", svgNumber(at.x())},
-                              {"y", svgNumber(at.y() - 6)},
-                              {"width", svgNumber(kShadeWidth)},
-                              {"height", "12"},
-                              {"fill", entry.colour},
-                              {"fill-opacity", svgNumber(step.opacity)}});
-    }
+    const SvgAttributes shade{{"fill", entry.colour}, {"fill-opacity", svgNumber(step.opacity)}};
+    const double words_at = step.size > 0 ? kDotRoom : kShadeWidth;
+    if (step.size > 0)
+      canvas.element("circle", circleAt(at + Vec2(kDotRoom / 2, 0), 0.5 * step.size), shade);
+    else
+      canvas.element("rect", boxSides({at.x(), at.y() - 6, kShadeWidth, 12}), shade);
     if (!step.words.empty()) canvas.text(at + Vec2(words_at + 4, 4.5), step.words);
     at.x() += stepWidth(step);
   }
@@ -138,29 +145,7 @@ void drawScale(SvgCanvas& canvas, const Legend::Entry& entry, Vec2 at) {
 
 }  // namespace
 
-const char* classOf(Mark mark) {
-  switch (mark) {
-    case Mark::path: return "path";
-    case Mark::crowd_path: return "crowd-path";
-    case Mark::crowd_shade: return "crowd-shade";
-    case Mark::before: return "before";
-    case Mark::start: return "start";
-    case Mark::end: return "end";
-    case Mark::ghost: return "ghost";
-    case Mark::crowd_ghost: return "crowd-ghost";
-    case Mark::impact: return "impact";
-    case Mark::impact_cell: return "impact-cell";
-    case Mark::nail: return "nail";
-    case Mark::nail_elsewhere: return "nail-elsewhere";
-    case Mark::nail_line: return "nail-line";
-    case Mark::nail_range: return "nail-range";
-    case Mark::target_pose: return "target-pose";
-    case Mark::avoid: return "avoid";
-    case Mark::inside: return "inside";
-    case Mark::fixed: return "fixed";
-  }
-  return "";
-}
+const char* classOf(Mark mark) { return rowOf(mark).name; }
 
 void Legend::add(Entry entry) {
   for (const Entry& known : entries_)

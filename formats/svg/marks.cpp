@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 
-#include "formats/base/short_text.hpp"
 #include "formats/svg/layers.hpp"
 #include "formats/svg/path.hpp"
 
@@ -50,7 +49,7 @@ void drawImpactCells(const LayerPage& page) {
                          {"stroke-linecap", "round"},
                          {"stroke-opacity", "0.85"}});
   const std::size_t events = page.picture.motion.events.size();
-  Legend::Entry entry{Mark::impact_cell, countedWords(events, "impact") + ", as many in a cell:", kImpactColour};
+  Legend::Entry entry{Mark::impact_cell, counted(events, "impact") + ", as many in a cell:", kImpactColour};
   int low = 1;
   for (std::size_t k = 0; k < plan.classes.size(); ++k) {
     const double size = kDotSizes[k + kDotSizes.size() - plan.classes.size()];

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "formats/base/short_text.hpp"
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/svg/layers.hpp"
 
@@ -16,8 +15,8 @@ constexpr std::size_t kLongestLegendName = 24;
 
 std::string crowdWords(const PathPlan& plan) {
   const auto count = static_cast<std::size_t>(plan.crowd);
-  if (plan.lines == 0) return countedWords(count, "body", "bodies");
-  return countedWords(count, "more body", "more bodies");
+  if (plan.lines == 0) return counted(count, "body", "bodies");
+  return counted(count, "more body", "more bodies");
 }
 
 /// To two digits.
@@ -81,11 +80,7 @@ void drawDots(const LayerPage& page, bool at_start) {
     if (paths.looks[body].as != BodyLook::As::line) continue;
     const Vec2 at = page.view.pixel(centreAt(motion, static_cast<int>(body), at_start ? 0 : motion.end));
     const std::string colour = paths.looks[body].colour.hex();
-    page.canvas.element("circle", {{"cx", svgNumber(at.x())},
-                                   {"cy", svgNumber(at.y())},
-                                   {"r", "3.2"},
-                                   {"fill", at_start ? "#ffffff" : colour},
-                                   {"stroke", colour}});
+    page.canvas.element("circle", circleAt(at, 3.2), {{"fill", at_start ? "#ffffff" : colour}, {"stroke", colour}});
   }
   page.canvas.close();
   page.legend.add({mark, at_start ? "start" : "end", "#454c56"});
@@ -137,9 +132,9 @@ void drawPaths(const LayerPage& page) {
   for (std::size_t body = 0; body < paths.looks.size(); ++body) {
     const BodyLook& look = paths.looks[body];
     if (look.as != BodyLook::As::line) continue;
-    SvgAttributes attributes{{"d", look.paths[page.index]}, {"stroke", look.colour.hex()}};
-    if (look.dash > 0) attributes.push_back({"stroke-dasharray", kPathDashes[look.dash]});
-    page.canvas.element("path", attributes);
+    const SvgAttributes dashes{{"stroke-dasharray", kPathDashes[look.dash]}};
+    page.canvas.element("path", {{"d", look.paths[page.index]}, {"stroke", look.colour.hex()}},
+                        look.dash > 0 ? dashes : SvgAttributes());
     page.legend.add({Mark::path, ellipsized(page.picture.motion.scene->bodies[body].name, kLongestLegendName),
                      look.colour.hex(), kPathDashes[look.dash], paths.lineWidth()});
   }

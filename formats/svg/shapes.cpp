@@ -26,10 +26,8 @@ void drawFilled(SvgCanvas& canvas, const std::vector<Vec2>& points, const char* 
   canvas.element("polygon", {{"points", svgPoints(points)}, {"fill", fill}, {"stroke", "none"}});
 }
 
-void drawPath(SvgCanvas& canvas, const std::string& data, SvgAttributes look) {
-  if (data.empty()) return;
-  look.insert(look.begin(), {"d", data});
-  canvas.element("path", look);
+void drawPath(SvgCanvas& canvas, const std::string& data, const SvgAttributes& look) {
+  if (!data.empty()) canvas.element("path", {{"d", data}}, look);
 }
 
 struct ShapePainter {
@@ -41,21 +39,15 @@ struct ShapePainter {
   const ShapeLook& look;
   ShapeDetail detail;
 
-  SvgAttributes attributes() const {
-    return {{"data-body", name},
-            {"fill", look.fill},
+  SvgAttributes paint() const {
+    return {{"fill", look.fill},
             {"fill-opacity", svgNumber(look.fill_opacity)},
             {"stroke", look.stroke},
             {"stroke-width", svgNumber(look.stroke_width)}};
   }
 
   bool operator()(const Sphere& sphere) const {
-    const Vec2 centre = view.pixel(x);
-    SvgAttributes circle = attributes();
-    circle.insert(circle.begin() + 1, {{"cx", svgNumber(centre.x())},
-                                       {"cy", svgNumber(centre.y())},
-                                       {"r", svgNumber(sphere.radius * view.scale)}});
-    canvas.element("circle", circle);
+    canvas.element("circle", {{"data-body", name}}, circleAt(view.pixel(x), sphere.radius * view.scale), paint());
     return true;
   }
 
@@ -65,13 +57,11 @@ struct ShapePainter {
       const std::string area = detail == ShapeDetail::area ? silhouetteArea(shape, x, q, view, kAreaTolerance)
                                                            : silhouetteHull(shape, x, q, view, kHullTolerance);
       if (area.empty()) return false;
-      SvgAttributes path = attributes();
-      path.insert(path.begin() + 1, {"d", area});
-      canvas.element("path", path);
+      canvas.element("path", {{"data-body", name}}, {{"d", area}}, paint());
       return true;
     }
     const Silhouette seen = silhouetteOf(shape, x, q, view);
-    canvas.open("g", attributes());
+    canvas.open("g", {{"data-body", name}}, paint());
     drawPath(canvas, seen.area, seen.outline.empty() ? SvgAttributes() : SvgAttributes{{"stroke", "none"}});
     drawPath(canvas, seen.edges, {{"fill", "none"}, {"stroke-width", svgNumber(0.5 * look.stroke_width)}});
     drawPath(canvas, seen.outline, {{"fill", "none"}});
@@ -94,13 +84,7 @@ struct ShapePainter {
     const Vec2 along(-out.y(), out.x()), middle = view.pixel(foot);
     const double reach = view.panel.width + view.panel.height + std::abs(along.dot(middle - solid.front()));
     const Vec2 a = middle - reach * along, b = middle + reach * along;
-    canvas.element("line", {{"data-body", name},
-                            {"x1", svgNumber(a.x())},
-                            {"y1", svgNumber(a.y())},
-                            {"x2", svgNumber(b.x())},
-                            {"y2", svgNumber(b.y())},
-                            {"stroke", look.stroke},
-                            {"stroke-width", "1.8"}});
+    canvas.element("line", {{"data-body", name}}, lineEnds(a, b), {{"stroke", look.stroke}, {"stroke-width", "1.8"}});
     return true;
   }
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/drawing/shape_extent.hpp"
+#include "formats/shapes/rows.hpp"
 #include "formats/drawing/triangle_mesh.hpp"
 #include "formats/svg/contours.hpp"
 #include "formats/svg/path.hpp"
@@ -25,6 +25,12 @@ std::vector<Vec2> pixelsOf(const std::vector<Vec3>& points, const View& view) {
   std::vector<Vec2> out;
   for (const Vec3& p : points) out.push_back(view.pixel(p));
   return out;
+}
+
+Contours contoursOf(const Shape& shape, const Vec3& x, const Quat& q, const View& view) {
+  Contours contours;
+  addContours(contours, shape, x, q, view.towardsViewer());
+  return contours;
 }
 
 // Adds a line, simplified, to path data.
@@ -149,8 +155,7 @@ class Judge {
 }  // namespace
 
 Silhouette silhouetteOf(const Shape& shape, const Vec3& x, const Quat& q, const View& view) {
-  Contours contours;
-  addContours(contours, shape, x, q, view.towardsViewer());
+  const Contours contours = contoursOf(shape, x, q, view);
   Silhouette out;
   for (const auto& loop : contours.loops) addLine(out.area, pixelsOf(loop, view), true, kFlat);
   if (!contours.convex) {
@@ -163,8 +168,7 @@ Silhouette silhouetteOf(const Shape& shape, const Vec3& x, const Quat& q, const 
 }
 
 std::string silhouetteArea(const Shape& shape, const Vec3& x, const Quat& q, const View& view, double tolerance) {
-  Contours contours;
-  addContours(contours, shape, x, q, view.towardsViewer());
+  const Contours contours = contoursOf(shape, x, q, view);
   std::string out;
   for (const auto& loop : contours.loops) {
     const std::vector<Vec2> points = pixelsOf(loop, view);
@@ -177,8 +181,7 @@ std::string silhouetteArea(const Shape& shape, const Vec3& x, const Quat& q, con
 }
 
 std::string silhouetteHull(const Shape& shape, const Vec3& x, const Quat& q, const View& view, double tolerance) {
-  Contours contours;
-  addContours(contours, shape, x, q, view.towardsViewer());
+  const Contours contours = contoursOf(shape, x, q, view);
   std::vector<Vec2> points;
   for (const auto& loop : contours.loops)
     for (const Vec3& p : loop) points.push_back(view.pixel(p));

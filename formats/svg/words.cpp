@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "formats/base/short_text.hpp"
 #include "formats/drawing/motion_extent.hpp"
-#include "formats/drawing/shape_extent.hpp"
+#include "formats/shapes/rows.hpp"
 #include "formats/svg/labels.hpp"
 #include "formats/svg/layers.hpp"
 
@@ -125,13 +124,8 @@ class Labeller {
     }
     if (placed->leader) {
       const auto& [from, to] = *placed->leader;
-      page_.canvas.element("line", {{"class", "leader"},
-                                    {"x1", svgNumber(from.x())},
-                                    {"y1", svgNumber(from.y())},
-                                    {"x2", svgNumber(to.x())},
-                                    {"y2", svgNumber(to.y())},
-                                    {"stroke", colour},
-                                    {"stroke-width", "0.9"}});
+      page_.canvas.element("line", {{"class", "leader"}}, lineEnds(from, to),
+                           {{"stroke", colour}, {"stroke-width", "0.9"}});
     }
     page_.canvas.text(placed->baseline, words, {{"fill", colour}});
   }

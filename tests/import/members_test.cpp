@@ -49,6 +49,32 @@ TEST(Members, EveryKindOfShape) {
   EXPECT_EQ(shapeIn<Compound>(sample, "Car").parts.size(), 5u);
 }
 
+// Its axes are those of a cone: from the base to the apex, the centre of mass a quarter of the height above the base.
+TEST(Members, ACylinderThatNarrowsToAPointIsACone) {
+  struct Case {
+    double bottom, top, scale_y, apex;  // apex: which way it points, in our z
+  };
+  for (const auto& [bottom, top, scale_y, apex] :
+       {Case{0.3, 0, 1, 1}, Case{0, 0.3, 1, -1}, Case{0.3, 0, -1, -1}, Case{0, 0.3, -1, 1}}) {
+    SCOPED_TRACE(testing::Message() << "radii " << bottom << " and " << top << ", scale " << scale_y);
+    json file = plainDocument();
+    shapesOf(file)[1] = {{"type", "cylinder"},
+                         {"cylinder", {{"height", 0.4}, {"radiusBottom", bottom}, {"radiusTop", top}}}};
+    file["nodes"][1]["scale"] = {1, scale_y, 1};
+    ballMotion(file) = {{"mass", 2}, {"linearVelocity", {1, 2, 3}}, {"angularVelocity", {0, 5, 1}}};
+    const Imported imported = importJson(file);
+    EXPECT_TRUE(imported.report.warnings.empty()) << listOf(imported.report);
+    const Body& body = bodyIn(imported, "ball");
+    EXPECT_EQ(shapeIn<Cone>(imported, "ball").radius, 0.3);
+    EXPECT_EQ(shapeIn<Cone>(imported, "ball").height, 0.4);
+    EXPECT_EQ(body.position, Vec3(0, 0, 2));
+    expectEntries(Vec3(turnOf(body).col(2)), Vec3(0, 0, apex), kTight, "from base to apex");
+    expectEntries(Vec3(turnOf(body) * modelOf(body).center), Vec3(0, 0, -0.1 * apex), kTight, "centre of mass");
+    expectEntries(body.velocity, Vec3(1, -3, 2), kTight, "velocity");
+    expectEntries(body.angular_velocity, Vec3(0, -1, 5), kTight, "spin");
+  }
+}
+
 TEST(Members, YUpBecomesZUp) {
   const Imported sample = importGltf(samplePath("shapes.gltf"));
   const Body& box = bodyIn(sample, "Box");

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "formats/base/in_file.hpp"
 #include "formats/base/read_file.hpp"
 #include "formats/gltf/read/left_document.hpp"
 #include "formats/mesh/gltf_geometry.hpp"
@@ -36,13 +37,9 @@ Imported parseGltfScene(std::string_view bytes, const std::string& folder) {
   return out;
 }
 
-Imported importGltf(const std::string& path) try {
+Imported importGltf(const std::string& path) {
   const std::string bytes = readFile(path, "a glTF file", kLargestMeshFile);
-  return parseGltfScene(bytes, std::filesystem::path(path).parent_path().string());
-} catch (const FormatError&) {
-  throw;
-} catch (const InputError& error) {
-  throw FormatError(path, error.where(), error.message());
+  return inFile(path, [&] { return parseGltfScene(bytes, std::filesystem::path(path).parent_path().string()); });
 }
 
 }  // namespace carom

@@ -233,8 +233,7 @@ void LeftDocument::addEdit(Document& document) {
   if (!edit_.is_object()) return;
   document.name = textOr(edit_, "name");
   document.notes = textOr(edit_, "notes");
-  if (const auto duration = edit_.find("duration"); duration != edit_.end())
-    document.duration = duration->get<double>();
+  document.duration = edit_.value("duration", document.duration);
   const auto each = [&](const char* list, const std::string& what, auto&& read) {
     const auto items = edit_.find(list);
     for (std::size_t i = 0; items != edit_.end() && i < items->size(); ++i) try {

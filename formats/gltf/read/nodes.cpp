@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "formats/base/unit.hpp"
 #include "formats/gltf/axes.hpp"
 #include "formats/gltf/read/parts.hpp"
 #include "formats/json/json_writer.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "formats/gltf/nodes.hpp"
-#include "formats/gltf/read/json_place.hpp"
+#include "formats/json/json_place.hpp"
 
 namespace carom::gltf {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "formats/gltf/read/json_place.hpp"
+#include "formats/json/json_place.hpp"
 #include "formats/gltf/read/shapes.hpp"
 #include "formats/mesh/gltf_geometry.hpp"
 #include "ode_bridge/convex_hull.h"
@@ -30,7 +30,6 @@ std::shared_ptr<const Surface> ShapeMaker::surfaceOf(const MeshShape& shape, con
 ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3& baked) {
   Triangles out;
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  const Mat3 z_up = (Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished();
   if (shape.mesh >= 0) {
     appendMeshTriangles(model_, shape.mesh, transform, out.vertices, out.triangles, "");
     useExactVertices(shape.mesh, out.vertices);
@@ -41,7 +40,7 @@ ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3
         for (auto& triangle : out.triangles) std::swap(triangle[1], triangle[2]);
     }
   } else {
-    transform.linear() = baked * z_up;
+    transform.linear() = baked * zUpFromYUp();
     appendBelow(shape.node, transform, out);
   }
   return out;
@@ -51,13 +50,13 @@ ShapeMaker::Triangles ShapeMaker::trianglesOf(const MeshShape& shape, const Mat3
 void ShapeMaker::appendBelow(int index, const Eigen::Affine3d& transform, Triangles& out) {
   const std::string where = "/nodes/" + std::to_string(index);
   const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-  const bool morphed = std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; });
-  if (morphed)
-    report_.warnings.push_back("node '" + node.name + "' (" + where +
-                               "): its morph weights are left out: the mesh collides as it is at rest");
-  if (node.skin >= 0)
-    report_.warnings.push_back("node '" + node.name + "' (" + where +
-                               "): its skin is left out: the mesh collides as it is at rest");
+  const auto leave_out = [&](const char* what) {
+    report_.warnings.push_back("node '" + node.name + "' (" + where + "): its " + what +
+                               " left out: the mesh collides as it is at rest");
+  };
+  if (std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; }))
+    leave_out("morph weights are");
+  if (node.skin >= 0) leave_out("skin is");
   if (node.mesh >= 0) appendMeshTriangles(model_, node.mesh, transform, out.vertices, out.triangles, where);
   for (const int child : node.children) {
     const tinygltf::Node& below = model_.nodes[static_cast<std::size_t>(child)];

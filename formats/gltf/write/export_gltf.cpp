@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "adjoint/base/errors.h"
+#include "formats/base/short_text.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/gltf/axes.hpp"
@@ -129,12 +130,9 @@ class Writer {
   void addStage() {
     if (options_.camera) roots_.push_back(addCamera(model_, extent_));
     if (options_.light) roots_.push_back(addSun(model_, extent_, *options_.light));
-    std::vector<int> marks;
-    if (options_.ghosts) marks = addGhosts(model_, look_, motion_, *options_.ghosts);
-    roots_.insert(roots_.end(), marks.begin(), marks.end());
-    marks.clear();
-    if (options_.nails) marks = addNails(model_, look_, document_, motion_);
-    roots_.insert(roots_.end(), marks.begin(), marks.end());
+    const auto add = [&](const std::vector<int>& marks) { roots_.insert(roots_.end(), marks.begin(), marks.end()); };
+    if (options_.ghosts) add(addGhosts(model_, look_, motion_, *options_.ghosts));
+    if (options_.nails) add(addNails(model_, look_, document_, motion_));
   }
 
   void addAnimation() {
@@ -208,12 +206,6 @@ class Writer {
   std::vector<int> roots_;  // nodes of the scene
 };
 
-bool isBinary(const std::string& path) {
-  std::string end = path.size() < 4 ? "" : path.substr(path.size() - 4);
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-  return end == ".glb";
-}
-
 void requireSense(const std::string& what, double value, double most) {
   if (!(value > 0 && value <= most))
     throw InputError(what, "found " + numberText(value) + ", expected a number above 0 and up to " + numberText(most));
@@ -240,7 +232,7 @@ std::string gltfText(const Document& document, const Motion& motion, const GltfO
 }
 
 void exportGltf(const std::string& path, const Document& document, const Motion& motion, const GltfOptions& options) {
-  writeFile(path, gltfText(document, motion, options, isBinary(path)));
+  writeFile(path, gltfText(document, motion, options, extensionOf(path) == ".glb"));
 }
 
 }  // namespace carom

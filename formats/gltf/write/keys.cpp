@@ -58,17 +58,13 @@ double rateOfSwings(const Arc& arc) {
 void requireFew(double keys, const Motion& motion, int body) {
   const auto& bodies = motion.scene->bodies;
   const auto moving = std::count_if(bodies.begin(), bodies.end(), [](const Body& b) { return !b.fixed; });
-  if (keys <= kMaxKeys && !(keys * static_cast<double>(moving) <= kMaxKeysOfAll))
-    throw InputError("body '" + bodies[body].name + "'",
-                     "would need " + numberText(std::ceil(keys)) + " keys, at most " +
-                         numberText(std::floor(kMaxKeysOfAll / static_cast<double>(moving))) + " are written of each of " +
-                         std::to_string(moving) + " moving bodies; a shorter motion, fewer frames a second, a larger "
-                         "tolerance or cubic keys need less");
-  if (!(keys <= kMaxKeys))
-    throw InputError("body '" + motion.scene->bodies[body].name + "'",
-                     "would need " + numberText(std::ceil(keys)) + " keys, at most " + numberText(kMaxKeys) +
-                         " are written; a shorter motion, fewer frames a second, a larger tolerance or cubic keys "
-                         "need less");
+  const bool few_alone = keys <= kMaxKeys;
+  if (few_alone && keys * static_cast<double>(moving) <= kMaxKeysOfAll) return;
+  const double most = few_alone ? std::floor(kMaxKeysOfAll / static_cast<double>(moving)) : kMaxKeys;
+  throw InputError("body '" + bodies[body].name + "'",
+                   "would need " + numberText(std::ceil(keys)) + " keys, at most " + numberText(most) + " are written" +
+                       (few_alone ? " of each of " + std::to_string(moving) + " moving bodies" : "") +
+                       "; a shorter motion, fewer frames a second, a larger tolerance or cubic keys need less");
 }
 
 // The flights, each in equal parts.

@@ -7,7 +7,7 @@
 
 #include "adjoint/motion/motion.h"
 #include "formats/base/document.h"
-#include "formats/drawing/shape_extent.hpp"
+#include "formats/shapes/rows.hpp"
 #include "formats/gltf/write/look.hpp"
 
 namespace carom::formats_detail {

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "formats/gltf/read/json_place.hpp"
+#include "formats/json/json_place.hpp"
 
 #include <cmath>
 
-#include "formats/gltf/axes.hpp"
-
+#include "formats/base/unit.hpp"
 
 namespace carom::formats_detail {
 
-std::optional<JsonPlace> JsonPlace::find(const char* member) const {
+void JsonPlace::requireObject() const {
   if (!value.is_object()) fail(pointer, describe(value), "an object");
+}
+
+std::optional<JsonPlace> JsonPlace::find(const char* member) const {
+  requireObject();
   const auto found = value.find(member);
   if (found == value.end()) return std::nullopt;
   return JsonPlace{*found, pointerTo(pointer, member)};
@@ -52,7 +55,7 @@ Quat JsonPlace::quaternion() const {
   const Quat q(at(3).number(), at(0).number(), at(1).number(), at(2).number());
   constexpr double kFloats = 1e-3;  // a few digits, as other programs write them
   if (!(std::abs(q.norm() - 1) <= kFloats)) fail(pointer, describe(value), "a unit quaternion [x, y, z, w]");
-  return gltf::unitQuaternion(q);
+  return unitQuaternion(q);
 }
 
 int JsonPlace::index(std::size_t count, const char* what) const {
@@ -60,31 +63,6 @@ int JsonPlace::index(std::size_t count, const char* what) const {
     fail(pointer, describe(value),
          std::string("an index into ") + what + ", of which there are " + std::to_string(count));
   return static_cast<int>(value.get<std::uint64_t>());
-}
-
-double JsonPlace::numberOr(const char* member, double otherwise) const {
-  const auto found = find(member);
-  return found ? found->number() : otherwise;
-}
-
-bool JsonPlace::booleanOr(const char* member, bool otherwise) const {
-  const auto found = find(member);
-  return found ? found->boolean() : otherwise;
-}
-
-std::string JsonPlace::textOr(const char* member, const std::string& otherwise) const {
-  const auto found = find(member);
-  return found ? found->text() : otherwise;
-}
-
-std::optional<double> JsonPlace::findNumber(const char* member) const {
-  const auto found = find(member);
-  return found ? std::optional(found->number()) : std::nullopt;
-}
-
-std::optional<Vec3> JsonPlace::findVector(const char* member) const {
-  const auto found = find(member);
-  return found ? std::optional(found->vector()) : std::nullopt;
 }
 
 std::optional<JsonPlace> extensionOf(const JsonPlace& place, const char* name) {

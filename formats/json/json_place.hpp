@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "adjoint/base/types.h"
 #include "formats/json/json.hpp"
@@ -16,6 +17,7 @@ struct JsonPlace {
   const Json& value;
   std::string pointer;
 
+  void requireObject() const;
   /// A member of an object.
   std::optional<JsonPlace> find(const char* member) const;
   JsonPlace require(const char* member) const;
@@ -30,11 +32,23 @@ struct JsonPlace {
   Quat quaternion() const;  ///< written x, y, z, w; a unit quaternion, as far as floats go
   int index(std::size_t count, const char* what) const;
 
-  double numberOr(const char* member, double otherwise) const;
-  bool booleanOr(const char* member, bool otherwise) const;
-  std::string textOr(const char* member, const std::string& otherwise) const;
-  std::optional<double> findNumber(const char* member) const;
-  std::optional<Vec3> findVector(const char* member) const;
+  // Of members that may be missing.
+  std::optional<double> findNumber(const char* member) const { return findAs(member, &JsonPlace::number); }
+  std::optional<Vec3> findVector(const char* member) const { return findAs(member, &JsonPlace::vector); }
+  double numberOr(const char* member, double otherwise) const { return findNumber(member).value_or(otherwise); }
+  bool booleanOr(const char* member, bool otherwise) const {
+    return findAs(member, &JsonPlace::boolean).value_or(otherwise);
+  }
+  std::string textOr(const char* member, const std::string& otherwise) const {
+    return findAs(member, &JsonPlace::text).value_or(otherwise);
+  }
+
+ private:
+  template <class T>
+  std::optional<std::decay_t<T>> findAs(const char* member, T (JsonPlace::*as)() const) const {
+    const auto found = find(member);
+    return found ? std::optional<std::decay_t<T>>(((*found).*as)()) : std::nullopt;
+  }
 };
 
 /// extensions/<name> of an object that may have neither.
