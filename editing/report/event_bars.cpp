@@ -2,7 +2,6 @@
 #include "editing/report/event_bars.hpp"
 
 #include "adjoint/derivative/adjoint.h"
-#include "adjoint/impact/event_pass.hpp"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom {
@@ -24,11 +23,11 @@ EventBars::EventBars(const Motion& motion, int event)
 Pose EventBars::poseOf(int body) const { return poseBefore(motion_, event_, body); }
 
 Vec3 EventBars::velocityAt(int contact) const {
-  return linearization_.pass().impact().problem().u.segment<3>(3 * contact);
+  return linearization_.impact().problem().u.segment<3>(3 * contact);
 }
 
 Mat3 EventBars::matrixAt(int contact) const {
-  return linearization_.pass().impact().problem().K.block<3, 3>(3 * contact, 3 * contact);
+  return linearization_.impact().problem().K.block<3, 3>(3 * contact, 3 * contact);
 }
 
 void EventBars::addPose(int body, const Vec3& x_bar, const Vec3& theta_bar) {
@@ -63,7 +62,7 @@ void EventBars::addLaw(int contact, const Mat3& K_bar, const Vec3& impulse_norma
 }
 
 SceneGradient EventBars::gradient(DerivativeTape& tape) const {
-  const detail::EventPass<double>& pass = linearization_.pass();
+  const EventLinearization& pass = linearization_;
   auto bars = pass.impact().noBars();
   auto between = pass.impact().nothingBetween();
   pass.impact().problemPullback(problem_, between, bars);
