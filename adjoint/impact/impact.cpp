@@ -100,34 +100,27 @@ void requireContacts(const Event& event) {
       throw NotComputable("its features give the contact no point or no normal");
 }
 
-// Velocity of one body's point relative to the other's, and the sum of what it is made of.
-struct ContactVelocity {
-  Vec3 u = Vec3::Zero();
-  double size = 0;
-};
-ContactVelocity contactVelocity(const Event& event, const std::vector<BodyModel>& models, const Contact& c,
-                                const std::vector<State>* after = nullptr) {
-  ContactVelocity sum;
-  for (std::size_t i = 0; i < event.participants.size(); ++i) {
-    const Participant& p = event.participants[i];
-    if (p.body != c.a && p.body != c.b) continue;
-    const State& s = after ? (*after)[i] : p.before;
-    const Mat3 A = models[static_cast<std::size_t>(p.body)].inverseInertiaWorld(p.before.q.toRotationMatrix());
-    const Vec3 turning = (A * s.L).cross(c.at.point - p.before.x);
-    sum.u += (p.body == c.a ? 1.0 : -1.0) * (s.v + turning);
-    sum.size += s.v.norm() + turning.norm();
-  }
-  return sum;
-}
-
 // The states as they go on, rounded, must part every contact as fast as its elasticity says. One contact without
 // friction has its impulse from that condition.
 void requireParting(const Event& event, const std::vector<BodyModel>& models, const std::vector<State>& after) {
   if (event.contacts.size() == 1 && event.mode == ImpactMode::frictionless) return;
   for (const Contact& c : event.contacts) {
-    const ContactVelocity u = contactVelocity(event, models, c), v = contactVelocity(event, models, c, &after);
-    const double least = -c.pair.elasticity * c.impulse_normal.dot(u.u);
-    if (!(c.impulse_normal.dot(v.u) >= least - kParting * (u.size + v.size)))
+    Vec3 u = Vec3::Zero(), v = Vec3::Zero();  // of one body's point relative to the other's, before and after
+    double size = 0;                          // of what they are made of
+    for (std::size_t i = 0; i < event.participants.size(); ++i) {
+      const Participant& p = event.participants[i];
+      if (p.body != c.a && p.body != c.b) continue;
+      const Mat3 A = models[static_cast<std::size_t>(p.body)].inverseInertiaWorld(p.before.q.toRotationMatrix());
+      const auto add = [&](const State& s, Vec3& sum) {
+        const Vec3 turning = (A * s.L).cross(c.at.point - p.before.x);
+        sum += (p.body == c.a ? 1.0 : -1.0) * (s.v + turning);
+        size += s.v.norm() + turning.norm();
+      };
+      add(p.before, u);
+      add(after[i], v);
+    }
+    const double least = -c.pair.elasticity * c.impulse_normal.dot(u);
+    if (!(c.impulse_normal.dot(v) >= least - kParting * size))
       throw NotComputable("no digits are left of the velocities that part its contacts: masses, or moments of inertia, "
                           "differ too much");
   }
@@ -137,7 +130,8 @@ detail::ImpactOutcome<double> outcomeOf(const detail::ImpactPass<double>& pass, 
   if (!wide) {
     try {
       ImpactSolution solution = pass.solve();
-      return {solution, pass.after(solution.P)};
+      auto after = pass.after(solution.P);
+      return {std::move(solution), std::move(after)};
     } catch (const NotComputable&) {  // many contacts, nearly redundant
       wide = true;
     }
