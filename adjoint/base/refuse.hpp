@@ -8,13 +8,19 @@
 
 namespace carom::adjoint_detail {
 
+/// The parts put together, numbers to so many digits.
+template <class... Parts>
+std::string textOf(int digits, const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(digits);
+  (out << ... << parts);
+  return out.str();
+}
+
 /// Throws InputError at `where` with the parts put together, numbers to all their digits.
 template <class... Parts>
 [[noreturn]] void refuse(const std::string& where, const Parts&... parts) {
-  std::ostringstream out;
-  out.precision(17);
-  (out << ... << parts);
-  throw InputError(where, out.str());
+  throw InputError(where, textOf(17, parts...));
 }
 
 }  // namespace carom::adjoint_detail

@@ -2,13 +2,13 @@
 #include "adjoint/derivative/derivative_tape.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "adjoint/base/arguments.hpp"
-#include "adjoint/base/errors.h"
+#include "adjoint/base/refuse.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/impact/tilt.hpp"
+#include "adjoint/motion/pair_rules.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
 namespace carom {
@@ -28,25 +28,19 @@ double tiltMarginOf(const Event& event) {
 }
 
 std::string sentenceOf(const Motion& motion, int index) {
-  std::ostringstream text;
-  text << "the impact " << motion.describeEvent(index) << " at t = "
-       << motion.events[static_cast<std::size_t>(index)].time << " s ";
-  return text.str();
+  return textOf(6, "the impact ", motion.describeEvent(index), " at t = ",
+                motion.events[static_cast<std::size_t>(index)].time, " s ");
 }
 
 // Why the derivative through an event cannot be trusted; empty, and made of nothing, where it can.
 std::string doubtOf(const Event& event, double tilt) {
-  const auto with = [](const char* before, double margin, const char* after) {
-    std::ostringstream text;
-    text << before << margin << after;
-    return text.str();
-  };
   if (event.mode == ImpactMode::joint) return "joins several contacts: the derivative is that of the joint law";
-  if (event.margins.grazing < kReliableMargin) return with("is nearly grazing (margin ", event.margins.grazing, ")");
+  if (event.margins.grazing < kReliableMargin) return textOf(6, "is nearly grazing (margin ", event.margins.grazing, ")");
   if (event.margins.stick_slip < kReliableMargin)
-    return with("is at the boundary of stick and slide (margin ", event.margins.stick_slip, "): one-sided derivative");
+    return textOf(6, "is at the boundary of stick and slide (margin ", event.margins.stick_slip,
+                  "): one-sided derivative");
   if (tilt < kReliableTilt)
-    return with("has a normal near the one direction whose tilt has no axes (margin ", tilt, ")");
+    return textOf(6, "has a normal near the one direction whose tilt has no axes (margin ", tilt, ")");
   return {};
 }
 
@@ -113,25 +107,23 @@ void Reliability::passFriction(const Motion& motion, int index, double margin) {
   const Scene& scene = *motion.scene;
   for (const Contact& c : event.contacts) {
     if (c.pair.friction != 0) continue;
-    MaterialDerivative by_a, by_b;
-    combinePullback(materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
-                    materialOf(scene, scene.bodies[static_cast<std::size_t>(c.b)]), {0, 1, 0}, by_a, by_b);
-    for (const auto& [body, by] : {std::pair(c.a, by_a), std::pair(c.b, by_b)}) {
+    const Body &a = scene.bodies[static_cast<std::size_t>(c.a)], &b = scene.bodies[static_cast<std::size_t>(c.b)];
+    const Rule<double> friction = rulesOf(materialOf(scene, a), materialOf(scene, b)).friction;
+    for (const auto& [body, by] : {std::pair(c.a, friction.by_a), std::pair(c.b, friction.by_b)}) {
       const int material = materialIndexOf(scene, body);
-      if (material < 0 || by.friction == 0) continue;
+      if (material < 0 || by == 0) continue;
       if (std::find(frictions.begin(), frictions.end(), material) == frictions.end()) frictions.push_back(material);
     }
   }
   if (frictions.empty() || !friction_message.empty()) return;
-  std::ostringstream text;
-  text << sentenceOf(motion, index);
+  friction_message = sentenceOf(motion, index);
   if (event.contacts.size() > 1) {
-    text << "joins several contacts, some without friction: it has no derivative by their friction, and 0 stands for it";
+    friction_message +=
+        "joins several contacts, some without friction: it has no derivative by their friction, and 0 stands for it";
   } else {
-    text << "is without friction and does not slip (margin " << margin
-         << "): the derivative by its friction is one-sided, and another one next to it";
+    friction_message += textOf(6, "is without friction and does not slip (margin ", margin,
+                               "): the derivative by its friction is one-sided, and another one next to it");
   }
-  friction_message = text.str();
 }
 
 void Reliability::askFriction(int material) {

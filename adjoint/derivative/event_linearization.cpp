@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
-#include "adjoint/impact/event_pass.hpp"
 #include "adjoint/impact/impact.hpp"
+#include "adjoint/impact/single_laws.hpp"
 #include "adjoint/impact/tilt.hpp"
+#include "adjoint/impact/tilt_frame.hpp"
 #include "adjoint/impact/wide_impact.hpp"
 #include "adjoint/motion/guard.hpp"
 
@@ -28,7 +29,8 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
   part.size_b = std::move(J.size_b);
   part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
   if (part.tilted)
-    part.tilt = tiltedNormalJacobian(c.at.normal, tiltOf(*motion.scene, c.tilt_a), tiltOf(*motion.scene, c.tilt_b));
+    part.tilt = tiltJacobian<double>(c.at.normal, tiltOf(*motion.scene, c.tilt_a),
+                                             tiltOf(*motion.scene, c.tilt_b));
   part.material_a = materialIndexOf(*motion.scene, c.a);
   part.material_b = materialIndexOf(*motion.scene, c.b);
   part.rules = rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
@@ -36,7 +38,7 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
   return part;
 }
 
-std::unique_ptr<const Pass> passOf(const Motion& motion, const Event& event) {
+Pass passOf(const Motion& motion, const Event& event) {
   std::vector<Part> parts;
   const std::vector<double> weights = guardWeights(event);
   for (std::size_t k = 0; k < weights.size(); ++k)
@@ -48,8 +50,8 @@ std::unique_ptr<const Pass> passOf(const Motion& motion, const Event& event) {
     rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rate(p.before));
     rate_after.push_back(next.rate(next.startState()));
   }
-  return std::make_unique<const Pass>(event, usesWide(event, *motion.models), impactInputs(event, *motion.models),
-                                      std::move(parts), std::move(rate_before), std::move(rate_after));
+  return {event, usesWide(event, *motion.models), impactInputs(event, *motion.models), std::move(parts),
+          std::move(rate_before), std::move(rate_after)};
 }
 
 // d(gap, normal, point)
@@ -70,22 +72,14 @@ Vec7 contactTangent(const Part& part, const std::vector<StateDerivative>& before
 }  // namespace
 
 EventLinearization::EventLinearization(const Motion& motion, int index)
-    : motion_(motion), event_(motion.events[static_cast<std::size_t>(index)]), pass_(passOf(motion, event_)) {}
-
-EventLinearization::~EventLinearization() = default;
-
-const StateDerivative& EventLinearization::rateBefore(int participant) const {
-  return pass_->rateBefore()[static_cast<std::size_t>(participant)];
-}
-const StateDerivative& EventLinearization::rateAfter(int participant) const {
-  return pass_->rateAfter()[static_cast<std::size_t>(participant)];
-}
-double EventLinearization::guardRate() const { return pass_->guardRate(); }
+    : EventPass(passOf(motion, motion.events[static_cast<std::size_t>(index)])) {}
 
 double EventLinearization::frictionFromZero() const {
-  const ImpactProblem& p = pass_->impact().problem();
+  const ImpactProblem& p = impact().problem();
   if (std::none_of(p.pair.begin(), p.pair.end(), [](const PairCoefficients& c) { return c.friction == 0; })) return 1;
-  return p.contacts() > 1 ? 0 : frictionFromZeroMargin(onlyContact(p));
+  if (p.contacts() > 1) return 0;
+  const FrictionTerms<double> t(onlyContact(p));
+  return t.slides ? t.margin : 0;
 }
 
 EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateDerivative>& before,
@@ -93,21 +87,21 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
                                                         const std::vector<BodyModelDerivative>& dmodel) const {
   Tangent out;
   double dgap = 0;
-  for (const Part& part : pass_->parts()) dgap += part.weight * contactTangent(part, before, dscene)[0];
-  out.time = -dgap / pass_->guardRate();
+  for (const Part& part : parts()) dgap += part.weight * contactTangent(part, before, dscene)[0];
+  out.time = -dgap / guardRate();
 
   // at the moved time of the impact
   std::vector<StateDerivative> moved = before;
   std::vector<BodyModelDerivative> dmodels;
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    moved[i].addScaled(out.time, pass_->rateBefore()[i]);
-    dmodels.push_back(dmodel[static_cast<std::size_t>(event_.participants[i].body)]);
+    moved[i].addScaled(out.time, rateBefore()[i]);
+    dmodels.push_back(dmodel[static_cast<std::size_t>(event().participants[i].body)]);
   }
   std::vector<Vec7> dcontact;
   std::vector<PairCoefficients> dpair;
-  for (std::size_t k = 0; k < pass_->parts().size(); ++k) {
-    const Part& part = pass_->parts()[k];
-    const Contact& c = event_.contacts[k];
+  for (std::size_t k = 0; k < parts().size(); ++k) {
+    const Part& part = parts()[k];
+    const Contact& c = event().contacts[k];
     Vec7 d = contactTangent(part, moved, dscene);
     if (part.tilted) {
       Vec7 by;
@@ -120,20 +114,11 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
     const auto dmaterial = [&](int m) {
       return m < 0 ? MaterialDerivative() : dscene.materials[static_cast<std::size_t>(m)];
     };
-    dpair.push_back(combineTangent(materialOf(*motion_.scene, motion_.scene->bodies[static_cast<std::size_t>(c.a)]),
-                                   materialOf(*motion_.scene, motion_.scene->bodies[static_cast<std::size_t>(c.b)]),
-                                   dmaterial(part.material_a), dmaterial(part.material_b)));
+    dpair.push_back(part.rules.tangent(dmaterial(part.material_a), dmaterial(part.material_b)));
   }
-  out.after = impactTangent(pass_->impact().inputs(), pass_->wide(), moved, dcontact, dpair, dmodels);
-  for (std::size_t i = 0; i < moved.size(); ++i) out.after[i].addScaled(-out.time, pass_->rateAfter()[i]);
+  out.after = impactTangent(impact().inputs(), wide(), moved, dcontact, dpair, dmodels);
+  for (std::size_t i = 0; i < moved.size(); ++i) out.after[i].addScaled(-out.time, rateAfter()[i]);
   return out;
-}
-
-std::vector<StateDerivative> EventLinearization::pullback(const std::vector<StateDerivative>& after_bar,
-                                                          const std::vector<StateDerivative>& read_bar, double time_bar,
-                                                          SceneGradient& scene_bar,
-                                                          std::vector<BodyModelDerivative>& model_bar) const {
-  return pass_->pullback(after_bar, read_bar, time_bar, scene_bar, model_bar);
 }
 
 }  // namespace carom::adjoint_detail

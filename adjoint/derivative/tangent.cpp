@@ -4,7 +4,7 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
-#include "adjoint/derivative/reach.hpp"
+#include "adjoint/derivative/influence.hpp"
 #include "adjoint/derivative/seed.hpp"
 
 namespace carom {
@@ -59,7 +59,7 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction) {
   return tangent(tape, direction, nullptr);
 }
 
-MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const Reach* reach) {
+MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const Influence* influence) {
   const Motion& motion = tape.motion();
   MotionTangent t;
   t.tape_ = &tape;
@@ -72,7 +72,7 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
   }
   for (std::size_t e = 0; e < motion.events.size(); ++e) {
     const Event& event = motion.events[e];
-    if (reach && !reach->event(static_cast<int>(e))) {
+    if (influence && !influence->event(static_cast<int>(e))) {
       t.event_time_.push_back(0);
       for (const Participant& p : event.participants) t.starts_[static_cast<std::size_t>(p.body)].emplace_back();
       continue;

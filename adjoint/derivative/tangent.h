@@ -8,7 +8,7 @@
 
 namespace carom {
 namespace adjoint_detail {
-class Reach;
+class Influence;
 }
 
 /// Rate of a BodyState as the scene varies: world rotation vector for the orientation. `time` is the rate of the
@@ -39,7 +39,7 @@ class MotionTangent {
   double eventTime(int event) const;
 
  private:
-  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const adjoint_detail::Reach* reach);
+  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const adjoint_detail::Influence* influence);
   DerivativeTape* tape_ = nullptr;
   Vec3 dgravity_ = Vec3::Zero();
   std::vector<BodyModelDerivative> dmodels_;

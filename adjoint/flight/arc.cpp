@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/base/names.hpp"
 #include "adjoint/flight/flight_pass.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/flight/flight_triaxial.hpp"
@@ -13,19 +14,7 @@ namespace carom {
 
 using namespace adjoint_detail;
 
-const char* nameOf(Tier tier) {
-  switch (tier) {
-    case Tier::none:
-      return "none";
-    case Tier::spherical:
-      return "spherical";
-    case Tier::symmetric:
-      return "symmetric";
-    case Tier::triaxial:
-      return "triaxial";
-  }
-  return "";
-}
+const char* nameOf(Tier tier) { return nameIn({"none", "spherical", "symmetric", "triaxial"}, tier); }
 
 namespace {
 
@@ -116,8 +105,8 @@ Arc::Arc(Arc&&) noexcept = default;
 Arc& Arc::operator=(Arc&&) noexcept = default;
 Arc::~Arc() = default;
 
-double Arc::reach() const {
-  return triaxial_ ? start_ + triaxial_->reach() : std::numeric_limits<double>::infinity();
+double Arc::availableUntil() const {
+  return triaxial_ ? start_ + triaxial_->availableUntil() : std::numeric_limits<double>::infinity();
 }
 std::size_t Arc::series() const { return triaxial_ ? triaxial_->series() : 0; }
 

@@ -51,7 +51,7 @@ class Arc {
   /// InputError for a time that is not finite, NotComputable where the rotation cannot be followed that far.
   void extendTo(double t);
   /// Up to here the motion is available; infinite where all of it is.
-  double reach() const;
+  double availableUntil() const;
 
   /// Series that carry the rotation so far: the work that `extendTo` has done.
   std::size_t series() const;

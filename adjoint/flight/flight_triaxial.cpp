@@ -132,7 +132,7 @@ void TriaxialRotation::extendTo(double elapsed) {
   }
 }
 
-double TriaxialRotation::reach() const {
+double TriaxialRotation::availableUntil() const {
   if (closed_form_) return std::numeric_limits<double>::infinity();
   return segments_.empty() ? 0 : endOfSegments();
 }

@@ -33,7 +33,7 @@ class TriaxialRotation {
   /// stays available.
   void extendTo(double elapsed);
   /// Up to here the rotation is available.
-  double reach() const;
+  double availableUntil() const;
   std::size_t series() const { return segments_.size(); }
   Quat orientationAt(double elapsed) const;
   /// Sensitivity over [0, elapsed] by the variational equations of the same system, see

@@ -2,6 +2,7 @@
 #include "adjoint/impact/complementarity.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -103,13 +104,6 @@ typename LeastNormSolveOf<T>::Vector LeastNormSolveOf<T>::tangent(const Matrix& 
   return -inverse * (db + dA * y) + rest * (dA * inverse_y);
 }
 
-template <class T>
-void LeastNormSolveOf<T>::pullback(const Vector& y_bar, Matrix& A_bar, Vector& b_bar) const {
-  const Vector z = inverse * y_bar;
-  b_bar = -z;
-  A_bar = -z * y.transpose() + (rest.transpose() * y_bar) * inverse_y.transpose();
-}
-
 template struct LeastNormSolveOf<double>;
 template struct LeastNormSolveOf<Wide>;
 
@@ -154,14 +148,9 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
   requireComputable<T>(A, b);
   if (n == 0) return {};
   const T largest = b.unaryExpr(&absOf<T>).maxCoeff();
-  std::vector<bool> in(static_cast<std::size_t>(n), false);
+  Contacts list;  // those with an impulse, in increasing order
   Vector<T> y = Vector<T>::Zero(n);
-  const auto members = [&] {
-    Contacts list;
-    for (Index i = 0; i < n; ++i)
-      if (in[static_cast<std::size_t>(i)]) list.push_back(static_cast<int>(i));
-    return list;
-  };
+  const auto leaves = [&](int contact) { std::erase(list, contact), y[contact] = T(0); };
   // what the contact's velocity may be off by
   const auto rounding = [&](Index i) {
     T sum = T(0);
@@ -170,42 +159,40 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
   };
   for (Index round = 0; round < 10 * n + 10; ++round) {
     const Vector<T> w = A * y + b;
-    Index enter = -1;
-    for (Index i = 0; i < n; ++i)
-      if (!in[static_cast<std::size_t>(i)] && w[i] < -rounding(i) && (enter < 0 || w[i] < w[enter])) enter = i;
+    int enter = -1;
+    for (int i = 0; i < n; ++i)
+      if (!std::ranges::binary_search(list, i) && w[i] < -rounding(i) && (enter < 0 || w[i] < w[enter])) enter = i;
     if (enter < 0) break;
-    in[static_cast<std::size_t>(enter)] = true;
-    for (bool feasible = false; !feasible;) {
-      const Contacts list = members();
-      if (list.empty()) break;
+    list.insert(std::ranges::upper_bound(list, enter), enter);
+    for (bool feasible = false; !feasible && !list.empty();) {
       const LeastNormSolveOf<T> solve(A(list, list), b(list));
       const Vector<T> against = solve.rest * b(list);  // no impulse changes this part of the velocities
       const T size = sqrt(against.dot(against));
       if (!in_range && size > T(1e-9) * largest) {
         // more of -against leaves the velocities alone and is wanted: up to where the first contact leaves
         T most = T(std::numeric_limits<double>::infinity());
-        Index first = -1;
+        int first = -1;
         for (std::size_t c = 0; c < list.size(); ++c) {
           const T rate = -against[static_cast<Index>(c)];
           if (rate < T(-1e-12) * size && -y[list[c]] / rate < most) most = -y[list[c]] / rate, first = list[c];
         }
         if (first < 0) throw NotComputable("a body is squeezed between others that nothing moves");
-        for (std::size_t c = 0; c < list.size(); ++c) y[list[c]] -= most * against[static_cast<Index>(c)];
-        in[static_cast<std::size_t>(first)] = false, y[first] = T(0);
+        y(list) -= most * against;
+        leaves(first);
         continue;
       }
       T step = T(1);
-      Index leave = -1;
+      int leave = -1;
       for (std::size_t c = 0; c < list.size(); ++c) {
         const T from = y[list[c]], to = solve.y[static_cast<Index>(c)];
         if (to <= T(0) && from > to && from / (from - to) < step) step = from / (from - to), leave = list[c];
       }
-      for (std::size_t c = 0; c < list.size(); ++c) y[list[c]] += step * (solve.y[static_cast<Index>(c)] - y[list[c]]);
+      y(list) += step * (solve.y - y(list));
       feasible = leave < 0;
-      if (!feasible) in[static_cast<std::size_t>(leave)] = false, y[leave] = T(0);
+      if (!feasible) leaves(leave);
     }
   }
-  return spread<T>(A, b, y, members());
+  return spread<T>(A, b, y, list);
 }
 
 template std::vector<int> activeContactsOf(const Matrix<double>&, const Vector<double>&, bool);

@@ -19,7 +19,6 @@ struct LeastNormSolveOf {
 
   LeastNormSolveOf(const Matrix& A, const Vector& b);
   Vector tangent(const Matrix& dA, const Vector& db) const;
-  void pullback(const Vector& y_bar, Matrix& A_bar, Vector& b_bar) const;
 };
 using LeastNormSolve = LeastNormSolveOf<double>;
 

@@ -35,11 +35,6 @@ struct LeastNorm<Dual<N, T>> {
     }
     inverse_y = inverse * y;
   }
-  void pullback(const VectorOf<S>& y_bar, MatrixOf<S>& A_bar, VectorOf<S>& b_bar) const {
-    const VectorOf<S> z = inverse * y_bar;
-    b_bar = -z;
-    A_bar = -z * y.transpose() + (rest.transpose() * y_bar) * inverse_y.transpose();
-  }
 };
 
 // Impulses P = C y from directions C (contacts x directions) that are to receive the velocity change -s o (C^T u).
@@ -60,9 +55,10 @@ struct DirectedSolve {
   template <class Problem, class Bar>
   void pullback(const Problem& p, const VectorOf<S>& P_bar, Bar& bar, MatrixOf<S>& C_bar,
                 VectorOf<S>& share_bar) const {
-    MatrixOf<S> A_bar;
-    VectorOf<S> b_bar;
-    solve.pullback(C.transpose() * P_bar, A_bar, b_bar);
+    // the adjoint of LeastNorm
+    const VectorOf<S> y_bar = C.transpose() * P_bar, b_bar = -solve.inverse * y_bar;
+    const MatrixOf<S> A_bar =
+        b_bar * solve.y.transpose() + (solve.rest.transpose() * y_bar) * solve.inverse_y.transpose();
     const VectorOf<S> v_bar = share.cwiseProduct(b_bar);
     share_bar = b_bar.cwiseProduct(C.transpose() * p.u);
     C_bar = P_bar * solve.y.transpose() + p.K * C * (A_bar + A_bar.transpose()) + p.u * v_bar.transpose();

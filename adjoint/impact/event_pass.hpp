@@ -58,9 +58,11 @@ class EventPass {
     }
   }
 
+  const Event& event() const { return event_; }
   const ImpactPass<S>& impact() const { return impact_; }
   bool wide() const { return wide_; }
   const std::vector<Part>& parts() const { return parts_; }
+  /// F- and F+, d(state)/dt of the participants just before and just after.
   const std::vector<StateBar>& rateBefore() const { return rate_before_; }
   const std::vector<StateBar>& rateAfter() const { return rate_after_; }
   /// D = d(guard)/dt < 0, m/s.
@@ -123,7 +125,8 @@ class EventPass {
     part.rules.pullback(pair_bar, slot(part.material_a), slot(part.material_b));
   }
 
-  /// See EventLinearization::pullback.
+  /// Adjoint just before the event from that just after (`after_bar`), plus adjoints of the state just before
+  /// (`read_bar`) and of the time of the event (`time_bar`) that are read at the event itself.
   std::vector<StateBar> pullback(const std::vector<StateBar>& after_bar, const std::vector<StateBar>& read_bar,
                                  const S& time_bar, SceneBar& scene_bar, std::vector<ModelBar>& model_bar) const {
     std::vector<StateBar> before_bar(after_bar.size());

@@ -15,6 +15,7 @@ using Rate = Dual<1>;
 
 ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyModel>& models) {
   ImpactInputs<double> in;
+  in.bodies.reserve(event.participants.size());
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
     in.bodies.push_back({model.kinematic, model.kinematic ? 0 : model.inverse_mass, p.before.q.toRotationMatrix(),
@@ -99,104 +100,43 @@ void requireContacts(const Event& event) {
       throw NotComputable("its features give the contact no point or no normal");
 }
 
-void record(Contact& c, const Vec3& u, const Vec3& P) {
-  c.approach = c.at.normal.dot(u);
-  c.impulse = P;
-}
-
-Margins marginsOf(const Contact& c, const Vec3& u, double stick_slip) {
-  const double speed = u.norm();
-  return {speed > 0 ? std::abs(c.approach) / speed : 1, stick_slip};
-}
-
-// Velocity of one body's point relative to the other's, and the sum of what it is made of.
-struct ContactVelocity {
-  Vec3 u = Vec3::Zero();
-  double size = 0;
-};
-ContactVelocity contactVelocity(const Event& event, const std::vector<BodyModel>& models, const Contact& c,
-                                const std::vector<State>* after) {
-  ContactVelocity sum;
-  for (std::size_t i = 0; i < event.participants.size(); ++i) {
-    const Participant& p = event.participants[i];
-    if (p.body != c.a && p.body != c.b) continue;
-    const State& s = after ? (*after)[i] : p.before;
-    const Mat3 A = models[static_cast<std::size_t>(p.body)].inverseInertiaWorld(p.before.q.toRotationMatrix());
-    const Vec3 turning = (A * s.L).cross(c.at.point - p.before.x);
-    sum.u += (p.body == c.a ? 1.0 : -1.0) * (s.v + turning);
-    sum.size += s.v.norm() + turning.norm();
-  }
-  return sum;
-}
-
 // The states as they go on, rounded, must part every contact as fast as its elasticity says. One contact without
 // friction has its impulse from that condition.
 void requireParting(const Event& event, const std::vector<BodyModel>& models, const std::vector<State>& after) {
   if (event.contacts.size() == 1 && event.mode == ImpactMode::frictionless) return;
   for (const Contact& c : event.contacts) {
-    const ContactVelocity u = contactVelocity(event, models, c, nullptr), v = contactVelocity(event, models, c, &after);
-    const double least = -c.pair.elasticity * c.impulse_normal.dot(u.u);
-    if (!(c.impulse_normal.dot(v.u) >= least - kParting * (u.size + v.size)))
+    Vec3 u = Vec3::Zero(), v = Vec3::Zero();  // of one body's point relative to the other's, before and after
+    double size = 0;                          // of what they are made of
+    for (std::size_t i = 0; i < event.participants.size(); ++i) {
+      const Participant& p = event.participants[i];
+      if (p.body != c.a && p.body != c.b) continue;
+      const Mat3 A = models[static_cast<std::size_t>(p.body)].inverseInertiaWorld(p.before.q.toRotationMatrix());
+      const auto add = [&](const State& s, Vec3& sum) {
+        const Vec3 turning = (A * s.L).cross(c.at.point - p.before.x);
+        sum += (p.body == c.a ? 1.0 : -1.0) * (s.v + turning);
+        size += s.v.norm() + turning.norm();
+      };
+      add(p.before, u);
+      add(after[i], v);
+    }
+    const double least = -c.pair.elasticity * c.impulse_normal.dot(u);
+    if (!(c.impulse_normal.dot(v) >= least - kParting * size))
       throw NotComputable("no digits are left of the velocities that part its contacts: masses, or moments of inertia, "
                           "differ too much");
   }
 }
 
-// What ImpactPass does, for one contact and in fixed sizes: nearly every impact of a simulation is one.
-void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
-  Contact& c = event.contacts[0];
-  ContactProblem problem{Mat3::Zero(), Vec3::Zero(), c.impulse_normal, c.pair};
-  for (const Participant& p : event.participants) {
-    const BodyModel& model = models[static_cast<std::size_t>(p.body)];
-    const Mat3 A = model.inverseInertiaWorld(p.before.q.toRotationMatrix());
-    const Vec3 r = c.at.point - p.before.x, omega = A * p.before.L;
-    problem.u += (p.body == c.a ? 1.0 : -1.0) * (p.before.v + omega.cross(r));
-    if (!model.kinematic) problem.K += model.inverse_mass * Mat3::Identity() - skew(r) * A * skew(r);
+ImpactOutcome<double> outcomeOf(const ImpactPass<double>& pass, bool& wide) {
+  if (!wide) {
+    try {
+      ImpactSolution solution = pass.solve();
+      auto after = pass.after(solution.P);
+      return {std::move(solution), std::move(after)};
+    } catch (const NotComputable&) {  // many contacts, nearly redundant
+      wide = true;
+    }
   }
-  const ContactSolution solution = solveContact(problem);
-  record(c, problem.u, solution.P);
-  event.mode = solution.mode;
-  event.margins = marginsOf(c, problem.u, solution.stick_slip_margin);
-  for (const Participant& p : event.participants) {
-    State& s = after.emplace_back(p.before);
-    if (models[static_cast<std::size_t>(p.body)].kinematic) continue;
-    const Vec3 P = (p.body == c.a ? 1.0 : -1.0) * solution.P;
-    s.v += models[static_cast<std::size_t>(p.body)].inverse_mass * P;
-    s.L += (c.at.point - p.before.x).cross(P);
-  }
-}
-
-// The states after, in doubles, of what a pass has found.
-void take(const ImpactOutcome<double>& outcome, Event& event, std::vector<State>& after) {
-  event.mode = outcome.solution.mode;
-  for (std::size_t i = 0; i < outcome.after.size(); ++i) {
-    State& s = after.emplace_back(event.participants[i].before);
-    s.v = outcome.after[i].v;
-    s.L = outcome.after[i].L;
-  }
-}
-
-void solveJoint(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
-  const ImpactPass<double> pass(impactInputs(event, models));
-  const ImpactSolution solution = pass.solve();
-  const Eigen::VectorXd& u = pass.problem().u;
-  for (std::size_t k = 0; k < event.contacts.size(); ++k) {
-    const auto row = 3 * static_cast<Eigen::Index>(k);
-    record(event.contacts[k], u.segment<3>(row), solution.P.segment<3>(row));
-  }
-  event.margins = marginsOf(event.contacts[0], u.head<3>(), solution.stick_slip_margin);
-  take({solution, pass.after(solution.P)}, event, after);
-}
-
-void solveWide(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
-  const ImpactOutcome<double> outcome = wideImpact(impactInputs(event, models));
-  for (std::size_t k = event.contacts.size(); k-- > 0;) {
-    Contact& c = event.contacts[k];
-    const Vec3 u = contactVelocity(event, models, c, nullptr).u;
-    record(c, u, outcome.solution.P.segment<3>(3 * static_cast<Eigen::Index>(k)));
-    event.margins = marginsOf(c, u, outcome.solution.stick_slip_margin);
-  }
-  take(outcome, event, after);
+  return wideImpact(pass.inputs());
 }
 
 }  // namespace
@@ -205,17 +145,20 @@ void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector
   after.clear();
   requireContacts(event);
   event.wide = needsWide(event, models);
-  if (event.wide) {
-    solveWide(event, models, after);
-  } else if (event.contacts.size() == 1) {
-    solveSingle(event, models, after);
-  } else {
-    try {
-      solveJoint(event, models, after);
-    } catch (const NotComputable&) {  // many contacts, nearly redundant
-      event.wide = true;
-      solveWide(event, models, after);
-    }
+  const ImpactPass<double> pass(impactInputs(event, models));
+  const ImpactOutcome<double> outcome = outcomeOf(pass, event.wide);
+  event.mode = outcome.solution.mode;
+  for (std::size_t k = 0; k < event.contacts.size(); ++k) {
+    const auto row = 3 * static_cast<Eigen::Index>(k);
+    event.contacts[k].approach = event.contacts[k].at.normal.dot(pass.problem().u.segment<3>(row));
+    event.contacts[k].impulse = outcome.solution.P.segment<3>(row);
+  }
+  const double speed = pass.problem().u.head<3>().norm();
+  event.margins = {speed > 0 ? std::abs(event.contacts[0].approach) / speed : 1, outcome.solution.stick_slip_margin};
+  for (std::size_t i = 0; i < outcome.after.size(); ++i) {
+    State& s = after.emplace_back(event.participants[i].before);
+    s.v = outcome.after[i].v;
+    s.L = outcome.after[i].L;
   }
   if (!std::all_of(after.begin(), after.end(), isFinite))
     throw NotComputable("its impulses, or the velocities after it, are beyond the range of doubles");

@@ -36,18 +36,36 @@ S normOf(const V3<S>& v) {
 
 using Contacts = std::vector<int>;
 
-template <class S>
-MatrixOf<S> normalColumns(const std::vector<V3<S>>& normals, const Contacts& active) {
-  MatrixOf<S> C = MatrixOf<S>::Zero(3 * static_cast<Index>(normals.size()), static_cast<Index>(active.size()));
-  for (std::size_t c = 0; c < active.size(); ++c)
-    C.template block<3, 1>(3 * active[c], static_cast<Index>(c)) = normals[static_cast<std::size_t>(active[c])];
-  return C;
+template <class Problem>
+bool hasFriction(const Problem& p, int k) {
+  return p.pair[static_cast<std::size_t>(k)].friction > 0;
 }
 
-template <class S, class Bar>
-void addNormalColumns(const MatrixOf<S>& C_bar, const Contacts& active, Bar& bar) {
-  for (std::size_t c = 0; c < active.size(); ++c)
-    bar.normal[static_cast<std::size_t>(active[c])] += C_bar.template block<3, 1>(3 * active[c], static_cast<Index>(c));
+// Directions of the impulses of a list of contacts: their normals; all three of contacts with friction that `stick`.
+template <class S, class Problem>
+MatrixOf<S> directionsOf(const Problem& p, const Contacts& list, bool stick) {
+  MatrixOf<S> C = MatrixOf<S>::Zero(p.u.size(), 3 * static_cast<Index>(list.size()));
+  Index at = 0;
+  for (int k : list) {
+    if (stick && hasFriction(p, k)) {
+      C.template block<3, 3>(3 * k, at).setIdentity();
+      at += 3;
+    } else {
+      C.template block<3, 1>(3 * k, at++) = p.normal[static_cast<std::size_t>(k)];
+    }
+  }
+  return C.leftCols(at);
+}
+
+// Its adjoint.
+template <class S, class Problem, class Bar>
+void addDirections(const Problem& p, const Contacts& list, bool stick, const MatrixOf<S>& C_bar, Bar& bar) {
+  Index at = 0;
+  for (int k : list) {
+    const bool whole = stick && hasFriction(p, k);
+    if (!whole) bar.normal[static_cast<std::size_t>(k)] += C_bar.template block<3, 1>(3 * k, at);
+    at += whole ? 3 : 1;
+  }
 }
 
 // The branch of the law with its three solves.
@@ -69,11 +87,11 @@ struct Branch {
     const int n = static_cast<int>(p.normal.size());
     Contacts all(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k) all[static_cast<std::size_t>(k)] = k;
-    const MatrixOf<S> N = normalColumns<S>(p.normal, all);
+    const MatrixOf<S> N = directionsOf<S>(p, all, false);
     const MatrixOf<S> A = N.transpose() * p.K * N;
     const VectorOf<S> u_n = N.transpose() * p.u;
     normal_active = activeContactsOf<T>(valuesOf(A), valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n))), !p.driven);
-    solves.emplace_back(p, normalColumns<S>(p.normal, normal_active), share(p, normal_active));
+    solves.emplace_back(p, directionsOf<S>(p, normal_active, false), share(p, normal_active));
     P_N = solves[0].impulse();
     d = VectorOf<S>::Zero(3 * n);
     P_N_gain = p.K * P_N;
@@ -85,8 +103,8 @@ struct Branch {
     plastic_active = activeContactsOf<T>(valuesOf(A), valuesOf(u_n), !p.driven);
     std::set_union(normal_active.begin(), normal_active.end(), plastic_active.begin(), plastic_active.end(),
                    std::back_inserter(directions));
-    solves.emplace_back(p, normalColumns<S>(p.normal, plastic_active), ones(plastic_active.size()));
-    const MatrixOf<S> C = stickColumns(p, p.normal);
+    solves.emplace_back(p, directionsOf<S>(p, plastic_active, false), ones(plastic_active.size()));
+    const MatrixOf<S> C = directionsOf<S>(p, directions, true);
     solves.emplace_back(p, C, ones(static_cast<std::size_t>(C.cols())));
     d = solves[2].impulse() - solves[1].impulse();
     d_gain = p.K * d;
@@ -187,42 +205,11 @@ struct Branch {
     return s;
   }
   template <class Problem>
-  bool sticks(const Problem& p, int k) const {
-    return p.pair[static_cast<std::size_t>(k)].friction > 0;
-  }
-
-  // Whole 3x3 blocks for contacts with friction, the normal for those without.
-  template <class Problem>
-  MatrixOf<S> stickColumns(const Problem& p, const std::vector<V3<S>>& normals) const {
-    Index columns = 0;
-    for (int k : directions) columns += sticks(p, k) ? 3 : 1;
-    MatrixOf<S> C = MatrixOf<S>::Zero(3 * static_cast<Index>(p.normal.size()), columns);
-    Index at = 0;
-    for (int k : directions) {
-      if (sticks(p, k)) {
-        C.template block<3, 3>(3 * k, at).setIdentity();
-        at += 3;
-      } else {
-        C.template block<3, 1>(3 * k, at++) = normals[static_cast<std::size_t>(k)];
-      }
-    }
-    return C;
-  }
-  template <class Problem, class Bar>
-  void addStickColumns(const Problem& p, const MatrixOf<S>& C_bar, Bar& bar) const {
-    Index at = 0;
-    for (int k : directions) {
-      if (!sticks(p, k)) bar.normal[static_cast<std::size_t>(k)] += C_bar.template block<3, 1>(3 * k, at);
-      at += sticks(p, k) ? 3 : 1;
-    }
-  }
-
-  template <class Problem>
   void cutBack(const Problem& p) {
     kappa = 2;
     for (int k : directions) {
       const S bound = 1 + p.pair[static_cast<std::size_t>(k)].tangential_elasticity;
-      if (sticks(p, k) && (lowest_e_t < 0 || bound < kappa)) kappa = bound, lowest_e_t = k;
+      if (hasFriction(p, k) && (lowest_e_t < 0 || bound < kappa)) kappa = bound, lowest_e_t = k;
     }
     if (lowest_e_t < 0) kappa = 0;
     for (int k : directions) {
@@ -292,12 +279,12 @@ void jointPullback(const Problem& p, const VectorOf<S>& P_bar, Bar& bar) {
     else if (b.lowest_e_t >= 0)
       bar.pair[static_cast<std::size_t>(b.lowest_e_t)].tangential_elasticity += kappa_bar;
     b.solves[1].pullback(p, VectorOf<S>(-d_bar), bar, C_bar, share_bar);
-    addNormalColumns<S>(C_bar, b.plastic_active, bar);
+    addDirections<S>(p, b.plastic_active, false, C_bar, bar);
     b.solves[2].pullback(p, d_bar, bar, C_bar, share_bar);
-    b.addStickColumns(p, C_bar, bar);
+    addDirections<S>(p, b.directions, true, C_bar, bar);
   }
   b.solves[0].pullback(p, P_N_bar, bar, C_bar, share_bar);
-  addNormalColumns<S>(C_bar, b.normal_active, bar);
+  addDirections<S>(p, b.normal_active, false, C_bar, bar);
   for (std::size_t c = 0; c < b.normal_active.size(); ++c)
     bar.pair[static_cast<std::size_t>(b.normal_active[c])].elasticity += share_bar[static_cast<Index>(c)];
 }

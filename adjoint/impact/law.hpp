@@ -57,39 +57,10 @@ struct ContactProblemOf {
   PairCoefficientsOf<S> pair;
 };
 using ContactProblem = ContactProblemOf<double>;
-struct ContactSolution {
-  Vec3 P;
-  ImpactMode mode = ImpactMode::frictionless;
-  double stick_slip_margin = 1;
-};
-ContactSolution solveContact(const ContactProblem& problem);  ///< 4.1 or 4.2
-
-/// Of a contact without friction: how far it is from where the impulse has no derivative by the coefficient of friction
-/// at 0, because a body that does not slip there sticks with the least friction. |P_t|/P_n of the untruncated impulse.
-double frictionFromZeroMargin(const ContactProblem& problem);
-
 /// The only contact of a problem.
 template <class S>
 ContactProblemOf<S> onlyContact(const ImpactProblemOf<S>& p) {
   return {p.K, p.u, p.normal[0], p.pair[0]};
-}
-
-/// One row of the table of impact laws. tangent and pullback differentiate the branch that solve takes.
-struct ImpactLaw {
-  const char* name;
-  ImpactSolution (*solve)(const ImpactProblem&);
-  Eigen::VectorXd (*tangent)(const ImpactProblem&, const ImpactProblemDerivative& dproblem);
-  void (*pullback)(const ImpactProblem&, const Eigen::VectorXd& P_bar, ImpactProblemDerivative& problem_bar);
-};
-
-extern const ImpactLaw kFrictionlessLaw;  ///< 4.1, one contact, friction 0
-extern const ImpactLaw kFrictionLaw;      ///< 4.2, one contact
-extern const ImpactLaw kJointLaw;         ///< 4.3, several contacts
-
-/// The law that a problem falls under.
-inline const ImpactLaw& lawFor(const ImpactProblem& problem) {
-  if (problem.contacts() > 1) return kJointLaw;
-  return lawOf(problem.pair[0]) == Law::friction ? kFrictionLaw : kFrictionlessLaw;
 }
 
 }  // namespace carom::adjoint_detail

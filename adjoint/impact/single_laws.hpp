@@ -98,14 +98,18 @@ struct FrictionTerms {
     const S P_n = e1 * n.dot(P_I) + et1 * d_n;
     const T P_t = abs(valueOf(et1)) * s_now;
     slides = P_t > valueOf(mu * P_n);
+    kappa = et1;
     margin = rounded(abs(valueOf(mu * P_n) - P_t) / ((1 + valueOf(mu)) * abs(valueOf(P_n))));
     if (slides) {
       s = d_t.norm();
       slope = s - mu * d_n;  // > mu e1 n.P_I / et1 > 0, because the stick impulse lies outside the cone
       kappa = mu * e1 * n.dot(P_I) / slope;
-    } else {
-      kappa = et1;
     }
+  }
+  /// From now on the impulse before the friction cone cuts it back: the contact sticks where it lies in the cone.
+  void stick() {
+    slides = false;
+    kappa = et1;
   }
   M3<S> K;
   V3<S> u, n;

@@ -26,8 +26,4 @@ double tiltMargin(const Vec3& n, bool a, bool b) {
   return std::min(of_a, of_b);
 }
 
-Eigen::Matrix<double, 3, 7> tiltedNormalJacobian(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b) {
-  return tiltJacobian<double>(n, tilt_a, tilt_b);
-}
-
 }  // namespace carom::adjoint_detail

@@ -19,7 +19,4 @@ Vec2 tiltOf(const Scene& scene, int entry);
 /// `a` has a tilt) and of -n (where `b` has one). Derivatives by n grow with its inverse.
 double tiltMargin(const Vec3& n, bool a, bool b);
 
-/// d n' by (n, tilt_a, tilt_b): 3 x 7.
-Eigen::Matrix<double, 3, 7> tiltedNormalJacobian(const Vec3& n, const Vec2& tilt_a, const Vec2& tilt_b);
-
 }  // namespace carom::adjoint_detail

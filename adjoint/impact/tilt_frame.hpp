@@ -42,6 +42,7 @@ struct TiltFrame {
   V3<S> t1, t2;
 };
 
+/// d of tiltedNormal by (n, tilt_a, tilt_b).
 template <class S>
 Eigen::Matrix<S, 3, 7> tiltJacobian(const V3<S>& n, const V2<S>& tilt_a, const V2<S>& tilt_b) {
   const TiltFrame<S> a(n), b(-n);

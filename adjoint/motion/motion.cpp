@@ -5,6 +5,7 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/errors.h"
+#include "adjoint/base/names.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
 namespace carom {
@@ -12,37 +13,12 @@ namespace carom {
 using namespace adjoint_detail;
 
 const char* nameOf(ImpactMode mode) {
-  switch (mode) {
-    case ImpactMode::frictionless:
-      return "frictionless";
-    case ImpactMode::stick:
-      return "stick";
-    case ImpactMode::slide:
-      return "slide";
-    case ImpactMode::joint:
-      return "joint";
-  }
-  return "";
+  return nameIn({"frictionless", "stick", "slide", "joint"}, mode);
 }
 
 const char* nameOf(MotionStatus status) {
-  switch (status) {
-    case MotionStatus::complete:
-      return "complete";
-    case MotionStatus::impact_limit:
-      return "impact_limit";
-    case MotionStatus::cascade:
-      return "cascade";
-    case MotionStatus::unresolved_impact:
-      return "unresolved_impact";
-    case MotionStatus::not_computable:
-      return "not_computable";
-    case MotionStatus::step_limit:
-      return "step_limit";
-    case MotionStatus::stopped:
-      return "stopped";
-  }
-  return "";
+  return nameIn({"complete", "impact_limit", "cascade", "unresolved_impact", "not_computable", "step_limit", "stopped"},
+                status);
 }
 
 const Participant* Event::find(int body) const {

@@ -37,6 +37,11 @@ struct PairRules {
         tangential(combined(Combine::average, of_a.tangential_elasticity, of_b.tangential_elasticity)) {}
 
   PairCoefficientsOf<S> values() const { return {elasticity.value, friction.value, tangential.value}; }
+  PairCoefficientsOf<S> tangent(const MaterialDerivativeOf<S>& da, const MaterialDerivativeOf<S>& db) const {
+    return {elasticity.by_a * da.elasticity + elasticity.by_b * db.elasticity,
+            friction.by_a * da.friction + friction.by_b * db.friction,
+            tangential.by_a * da.tangential_elasticity + tangential.by_b * db.tangential_elasticity};
+  }
   void pullback(const PairCoefficientsOf<S>& pair_bar, MaterialDerivativeOf<S>& a_bar,
                 MaterialDerivativeOf<S>& b_bar) const {
     a_bar.elasticity += elasticity.by_a * pair_bar.elasticity;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/motion/inertia_change.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 
 namespace carom {
@@ -13,45 +14,30 @@ using namespace adjoint_detail;
 
 PairCoefficients combine(const Material& a, const Material& b) { return rulesOf(a, b).values(); }
 
-PairCoefficients combineTangent(const Material& a, const Material& b, const MaterialDerivative& da,
-                                const MaterialDerivative& db) {
-  const PairRules<double> r = rulesOf(a, b);
-  return {r.elasticity.by_a * da.elasticity + r.elasticity.by_b * db.elasticity,
-          r.friction.by_a * da.friction + r.friction.by_b * db.friction,
-          r.tangential.by_a * da.tangential_elasticity + r.tangential.by_b * db.tangential_elasticity};
-}
-
-void combinePullback(const Material& a, const Material& b, const PairCoefficients& pair_bar, MaterialDerivative& a_bar,
-                     MaterialDerivative& b_bar) {
-  rulesOf(a, b).pullback(pair_bar, a_bar, b_bar);
+InertiaChange adjoint_detail::inertiaChange(const std::vector<SolidRate>& rates, const BodyModel& model) {
+  InertiaChange change;
+  const int axis = symmetryAxis(model.inertia);
+  for (const SolidRate& rate : rates) {
+    const Mat3 dJ = model.R_BG * rate.unit_inertia * model.R_BG.transpose();
+    const double rounding = 1e-12 * dJ.cwiseAbs().maxCoeff();
+    const auto differ = [&](int i, int j) { return std::abs(dJ(i, i) - dJ(j, j)) > rounding; };
+    if (std::max({std::abs(dJ(1, 2)), std::abs(dJ(0, 2)), std::abs(dJ(0, 1))}) > rounding)
+      change.keeps_symmetry = change.keeps_axes = false;
+    if (axis == -1 && (differ(0, 1) || differ(1, 2))) change.keeps_symmetry = false;
+    if (axis >= 0 && axis < 3 && differ((axis + 1) % 3, (axis + 2) % 3)) change.keeps_symmetry = false;
+  }
+  return change;
 }
 
 Law lawOf(const PairCoefficients& pair) { return pair.friction > 0 ? Law::friction : Law::frictionless; }
 
 namespace {
 
-// How the inertia tensor can change, in principal axes, when the scene varies.
-struct InertiaChange {
-  bool keeps_symmetry = true;  // moments that are equal stay equal
-  bool keeps_axes = true;      // no products of inertia
-};
-
 // Written moments vary one by one. Derived ones follow mass and dimensions: a mass changes them in proportion, a
 // dimension as the rates of the shape say.
-InertiaChange inertiaChange(const Body& body, const BodyModel& model, int symmetry_axis) {
+InertiaChange inertiaChange(const Body& body, const BodyModel& model) {
   if (body.inertia.source != Inertia::Source::derived) return {false, true};
-  InertiaChange change;
-  for (const SolidRate& rate : kindOf(body.shape).properties(body.shape).rates) {
-    const Mat3 dJ = model.R_BG * rate.unit_inertia * model.R_BG.transpose();
-    const double rounding = 1e-12 * dJ.cwiseAbs().maxCoeff();
-    const auto differ = [&](int i, int j) { return std::abs(dJ(i, i) - dJ(j, j)) > rounding; };
-    if (std::max({std::abs(dJ(1, 2)), std::abs(dJ(0, 2)), std::abs(dJ(0, 1))}) > rounding)
-      change.keeps_symmetry = change.keeps_axes = false;
-    if (symmetry_axis == -1 && (differ(0, 1) || differ(1, 2))) change.keeps_symmetry = false;
-    if (symmetry_axis >= 0 && symmetry_axis < 3 && differ((symmetry_axis + 1) % 3, (symmetry_axis + 2) % 3))
-      change.keeps_symmetry = false;
-  }
-  return change;
+  return adjoint_detail::inertiaChange(kindOf(body.shape).properties(body.shape).rates, model);
 }
 
 BodyPlan planBody(const Body& body, const Asked& asked) {
@@ -62,7 +48,7 @@ BodyPlan planBody(const Body& body, const Asked& asked) {
   }
   const BodyModel model = modelOf(body);
   const int axis = symmetryAxis(model.inertia);
-  const InertiaChange change = asked.inertia ? inertiaChange(body, model, axis) : InertiaChange{};
+  const InertiaChange change = asked.inertia ? inertiaChange(body, model) : InertiaChange{};
   const bool uniform_ball = std::holds_alternative<Sphere>(body.shape) && axis == -1 && model.center.isZero(0);
   if (uniform_ball && change.keeps_symmetry && !asked.orientation)
     return {Tier::none, Tier::none, false, "a uniform ball whose orientation is not asked for: nothing depends on it",

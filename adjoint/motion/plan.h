@@ -33,12 +33,6 @@ struct PairCoefficientsOf {
 using PairCoefficients = PairCoefficientsOf<double>;  ///< of a motion
 /// The coefficients of two materials in contact, by the rules that they name.
 PairCoefficients combine(const Material& a, const Material& b);
-/// Its tangent.
-PairCoefficients combineTangent(const Material& a, const Material& b, const MaterialDerivative& da,
-                                const MaterialDerivative& db);
-/// Its adjoint; adds to those of the materials.
-void combinePullback(const Material& a, const Material& b, const PairCoefficients& pair_bar, MaterialDerivative& a_bar,
-                     MaterialDerivative& b_bar);
 
 /// How one body is computed, and why.
 struct BodyPlan {

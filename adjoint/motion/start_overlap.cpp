@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/motion/start_overlap.h"
 
-#include <sstream>
-
 #include "adjoint/base/arguments.hpp"
-#include "adjoint/base/errors.h"
+#include "adjoint/base/refuse.hpp"
 
 namespace carom {
 
@@ -16,32 +14,26 @@ const std::string& nameAt(const Scene& scene, int body) {
   return scene.bodies[checkedIndex("an overlap", "body", body, scene.bodies.size())].name;
 }
 
+std::string bodiesAndDepth(const Scene& scene, const StartOverlap& overlap, const char* overlapping) {
+  return textOf(6, "'", nameAt(scene, overlap.a), "' and '", nameAt(scene, overlap.b), "' ", overlapping, " by ",
+                overlap.depth, " m at the start");
+}
+
 }  // namespace
 
 void refuseOverlap(const Scene& scene, const StartOverlap& overlap) {
-  std::ostringstream text;
-  text << "found '" << nameAt(scene, overlap.a) << "' and '" << nameAt(scene, overlap.b) << "' overlapping by "
-       << overlap.depth << " m at the start, expected bodies apart or touching";
-  throw InputError("/bodies/" + std::to_string(overlap.b), text.str());
+  throw InputError("/bodies/" + std::to_string(overlap.b),
+                   "found " + bodiesAndDepth(scene, overlap, "overlapping") + ", expected bodies apart or touching");
 }
 
 std::string describeOverlapAtStart(const Scene& scene, const StartOverlap& overlap) {
-  std::ostringstream text;
-  text << "'" << nameAt(scene, overlap.a) << "' and '" << nameAt(scene, overlap.b) << "' overlap by " << overlap.depth
-       << " m at the start: they do not collide until they have parted";
-  return text.str();
+  return bodiesAndDepth(scene, overlap, "overlap") + ": they do not collide until they have parted";
 }
 
 std::string describeOverlap(const Scene& scene, const StartOverlap& overlap) {
-  std::ostringstream text;
-  text << "'" << nameAt(scene, overlap.a) << "' and '" << nameAt(scene, overlap.b) << "' overlap by " << overlap.depth
-       << " m at the start and ";
-  if (overlap.parted) {
-    text << "part at t = " << *overlap.parted << " s: until then they do not collide";
-  } else {
-    text << "do not part: they do not collide";
-  }
-  return text.str();
+  return bodiesAndDepth(scene, overlap, "overlap") +
+         (overlap.parted ? textOf(6, " and part at t = ", *overlap.parted, " s: until then they do not collide")
+                         : " and do not part: they do not collide");
 }
 
 }  // namespace carom

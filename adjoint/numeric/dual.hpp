@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <type_traits>
 
 #include "adjoint/numeric/elementary.hpp"
@@ -25,6 +26,11 @@ struct Dual {
   template <class U>
     requires std::is_convertible_v<U, T>
   Dual(const U& v) : value(v) {}  // NOLINT: a constant is a number
+  /// The same with values and rates of another kind.
+  template <class U>
+  explicit Dual(const Dual<N, U>& o) : value(static_cast<T>(o.value)) {
+    for (std::size_t i = 0; i < N; ++i) rate[i] = static_cast<T>(o.rate[i]);
+  }
 
   Dual& operator+=(const Dual& o) {
     value += o.value;
@@ -82,12 +88,8 @@ struct Dual {
   friend Dual operator*(double a, const Dual& b) { return b.chain(a * b.value, a); }
   friend Dual operator/(const Dual& a, double b) { return a.chain(a.value / b, 1 / b); }
 
-  friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
-  friend bool operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
-  friend bool operator<=(const Dual& a, const Dual& b) { return a.value <= b.value; }
-  friend bool operator>=(const Dual& a, const Dual& b) { return a.value >= b.value; }
+  friend auto operator<=>(const Dual& a, const Dual& b) { return a.value <=> b.value; }
   friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
-  friend bool operator!=(const Dual& a, const Dual& b) { return a.value != b.value; }
 
   friend Dual sqrt(const Dual& a) {
     using std::sqrt;

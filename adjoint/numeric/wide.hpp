@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <compare>
 #include <limits>
 
 #include "adjoint/numeric/elementary/two_parts.hpp"
@@ -46,12 +47,7 @@ struct Wide {
   Wide& operator*=(const Wide& o) { return *this = *this * o; }
   Wide& operator/=(const Wide& o) { return *this = *this / o; }
 
-  friend bool operator==(const Wide& a, const Wide& b) { return a.high == b.high && a.low == b.low; }
-  friend bool operator!=(const Wide& a, const Wide& b) { return !(a == b); }
-  friend bool operator<(const Wide& a, const Wide& b) { return a.high < b.high || (a.high == b.high && a.low < b.low); }
-  friend bool operator>(const Wide& a, const Wide& b) { return b < a; }
-  friend bool operator<=(const Wide& a, const Wide& b) { return a < b || a == b; }
-  friend bool operator>=(const Wide& a, const Wide& b) { return b <= a; }
+  friend auto operator<=>(const Wide&, const Wide&) = default;  // by the high parts, then by the low ones
 
   friend bool isfinite(const Wide& a) { return std::isfinite(a.high); }
   friend bool isinf(const Wide& a) { return std::isinf(a.high); }

@@ -6,6 +6,7 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/numeric/two_part.hpp"
+#include "adjoint/numeric/wide.hpp"
 
 namespace carom {
 
@@ -76,7 +77,7 @@ struct Moments {
 };
 
 Moments momentsAbout(const Surface& s, const Vec3& o) {
-  TwoPart volumes, firsts[3];  // of many triangles plain sums would be some roundings off
+  Wide volumes, firsts[3];  // of many triangles plain sums would be some roundings off
   Mat3 second = Mat3::Zero();
   for (const Surface::Face& f : s.faces) {
     const auto corner = [&](int i) -> const Vec3& {
@@ -86,12 +87,12 @@ Moments momentsAbout(const Surface& s, const Vec3& o) {
     for (int i = 1; i + 1 < f.count; ++i) {
       const Vec3 b = corner(i) - o, c = corner(i + 1) - o, sum = a + b + c;
       const double volume = tripleProduct(o, corner(0), corner(i), corner(i + 1)) / 6;
-      volumes = volumes + TwoPart{volume, 0};
-      for (int k = 0; k < 3; ++k) firsts[k] = firsts[k] + TwoPart{volume / 4 * sum[k], 0};
+      volumes += volume;
+      for (int k = 0; k < 3; ++k) firsts[k] += volume / 4 * sum[k];
       second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
     }
   }
-  return {volumes.value(), {firsts[0].value(), firsts[1].value(), firsts[2].value()}, second};
+  return {volumes.high, {firsts[0].high, firsts[1].high, firsts[2].high}, second};
 }
 
 // The moments are taken about the vertices' mean and then about the centre found, so that nothing cancels for a surface

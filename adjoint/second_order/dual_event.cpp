@@ -12,141 +12,144 @@
 namespace carom::adjoint_detail {
 namespace {
 
-std::vector<DualState> statesBefore(const Lanes& lanes, int index) {
-  std::vector<DualState> out;
-  for (const Participant& p : lanes.motion().events[static_cast<std::size_t>(index)].participants)
-    out.push_back(
-        lanes.stateAt(p.body, p.arc, lanes.eventTime(index), p.before, lanes.tape().arc(p.body, p.arc)));
-  return out;
-}
+using Part = ContactPart<Num>;
+
+class EventMaker {
+ public:
+  EventMaker(const Lanes& lanes, int event)
+      : lanes_(lanes), event_(lanes.motion().events[static_cast<std::size_t>(event)]) {
+    for (const Participant& p : event_.participants)
+      before_.push_back(
+          lanes.stateAt(p.body, p.arc, lanes.eventTime(event), p.before, lanes.tape().arc(p.body, p.arc)));
+  }
+
+  DualEvent take() {
+    EventPass<Num> pass = passOf();
+    return {std::move(before_), std::move(pass)};
+  }
+
+ private:
+  EventPass<Num> passOf() const {
+    ImpactInputs<Num> inputs;
+    std::vector<StateBar> rate_before, rate_after;
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      const Participant& p = event_.participants[i];
+      const DualModel& m = lanes_.model(p.body);
+      const DualState& s = before_[i];
+      inputs.bodies.push_back({m.kinematic, m.kinematic ? Num(0) : m.inverse_mass, s.R, m.A, s.x, s.v, s.L});
+      rate_before.push_back(lanes_.rate(p.body, s));
+      rate_after.push_back(lanes_.rate(p.body, lanes_.startOf(p.body, p.arc + 1)));
+    }
+    std::vector<Part> parts;
+    const std::vector<double> weights = guardWeights(event_);
+    for (std::size_t k = 0; k < weights.size(); ++k) parts.push_back(partOf(event_.contacts[k], weights[k], inputs));
+    return {event_,           usesWide(event_, *lanes_.motion().models), std::move(inputs),
+            std::move(parts), std::move(rate_before),                    std::move(rate_after)};
+  }
+
+  // Rates of the poses at the time of the event, which moves along.
+  PairTangent pairTangent(const Part& part, std::size_t lane) const {
+    PairTangent t;
+    const auto& scene_bodies = lanes_.direction(lane).scene.bodies;
+    const auto fill = [&](const Part::Side& side, Eigen::Index at, Eigen::VectorXd& size) {
+      const BodyDerivative& written = scene_bodies[static_cast<std::size_t>(side.body)];
+      size = written.size;
+      if (side.participant < 0) {
+        t.pose.segment<3>(at) = written.position;
+        t.pose.segment<3>(at + 3) = written.orientation;
+        return;
+      }
+      const DualState& s = before_[static_cast<std::size_t>(side.participant)];
+      t.pose.segment<3>(at) = ratesOf(s.x, lane);
+      t.pose.segment<3>(at + 3) = 0.5 * unskew(Mat3(ratesOf(s.R, lane) * valuesOf(s.R).transpose()));
+    };
+    fill(part.a, 0, t.size_a);
+    fill(part.b, 6, t.size_b);
+    return t;
+  }
+
+  ContactPart<Num> partOf(const Contact& c, double weight, ImpactInputs<Num>& inputs) const {
+    const Motion& motion = lanes_.motion();
+    Part part;
+    part.a = {c.a, participantOf(event_, c.a)};
+    part.b = {c.b, participantOf(event_, c.b)};
+    part.weight = weight;
+    part.material_a = materialIndexOf(*motion.scene, c.a);
+    part.material_b = materialIndexOf(*motion.scene, c.b);
+    part.rules = rulesOf(c, part);
+    const Pose A = poseBefore(motion, event_, c.a), B = poseBefore(motion, event_, c.b);
+    const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, A, B);
+    std::vector<PairTangent> along;
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) along.push_back(pairTangent(part, lane));
+    const std::vector<ContactJacobian> dJ = motion.geometry->jacobianRates(c.a, c.b, c.features, A, B, along);
+    part.pose = J.pose.cast<Num>();
+    part.size_a = J.size_a.cast<Num>();
+    part.size_b = J.size_b.cast<Num>();
+    Eigen::Matrix<Num, 7, 1> at;
+    at << Num(c.at.gap), constant(c.at.normal), constant(c.at.point);
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+      setRates(part.pose, dJ[lane].pose, lane);
+      setRates(part.size_a, dJ[lane].size_a, lane);
+      setRates(part.size_b, dJ[lane].size_b, lane);
+      Eigen::Matrix<double, 7, 1> d = J.pose * along[lane].pose;
+      if (J.size_a.cols() > 0) d += J.size_a * along[lane].size_a;
+      if (J.size_b.cols() > 0) d += J.size_b * along[lane].size_b;
+      setRates(at, d, lane);
+    }
+    const NVec normal = tiltNormal(c, at.segment<3>(1), part);
+    inputs.contacts.push_back({part.a.participant, part.b.participant, at.tail<3>(), normal, part.rules.values()});
+    return part;
+  }
+
+  // The normal of the impulse.
+  NVec tiltNormal(const Contact& c, const NVec& normal, Part& part) const {
+    part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
+    if (!part.tilted) return normal;
+    const auto tiltOf = [&](int t) {
+      V2<Num> tilt = V2<Num>::Zero();
+      if (t < 0) return tilt;
+      const auto tt = static_cast<std::size_t>(t);
+      tilt = lanes_.motion().scene->tilts[tt].value.cast<Num>();
+      for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
+        setRates(tilt, lanes_.direction(lane).scene.tilts[tt], lane);
+      return tilt;
+    };
+    const V2<Num> tilt_a = tiltOf(c.tilt_a), tilt_b = tiltOf(c.tilt_b);
+    part.tilt = tiltJacobian<Num>(normal, tilt_a, tilt_b);
+    const Eigen::Matrix<double, 3, 7> J = valuesOf(part.tilt);
+    NVec tilted = constant(c.impulse_normal);
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+      Eigen::Matrix<double, 7, 1> by;
+      by << ratesOf(normal, lane), ratesOf(tilt_a, lane), ratesOf(tilt_b, lane);
+      setRates(tilted, Vec3(J * by), lane);
+    }
+    return tilted;
+  }
+
+  PairRules<Num> rulesOf(const Contact& c, const Part& part) const {
+    const Scene& scene = *lanes_.motion().scene;
+    const auto coefficients = [&](const Material& material, int m) {
+      MaterialDerivativeOf<Num> out{material.elasticity, material.friction, material.tangential_elasticity};
+      for (std::size_t lane = 0; m >= 0 && lane < lanes_.size(); ++lane) {
+        const MaterialDerivative& d = lanes_.direction(lane).scene.materials[static_cast<std::size_t>(m)];
+        out.elasticity.rate[lane] = d.elasticity;
+        out.friction.rate[lane] = d.friction;
+        out.tangential_elasticity.rate[lane] = d.tangential_elasticity;
+      }
+      return out;
+    };
+    const Material &a = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
+                   &b = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.b)]);
+    return {a, b, coefficients(a, part.material_a), coefficients(b, part.material_b)};
+  }
+
+  const Lanes& lanes_;
+  const Event& event_;
+  std::vector<DualState> before_;  // of the participants
+};
 
 }  // namespace
 
-DualEvent::DualEvent(const Lanes& lanes, int index)
-    : lanes_(lanes),
-      index_(index),
-      event_(lanes.motion().events[static_cast<std::size_t>(index)]),
-      before_(statesBefore(lanes, index)),
-      pass_(passOf()) {}
-
-EventPass<Num> DualEvent::passOf() const {
-  ImpactInputs<Num> inputs;
-  std::vector<StateBar> rate_before, rate_after;
-  for (std::size_t i = 0; i < before_.size(); ++i) {
-    const Participant& p = event_.participants[i];
-    const DualModel& m = lanes_.model(p.body);
-    const DualState& s = before_[i];
-    inputs.bodies.push_back({m.kinematic, m.kinematic ? Num(0) : m.inverse_mass, s.R, m.A, s.x, s.v, s.L});
-    rate_before.push_back(lanes_.rate(p.body, s));
-    rate_after.push_back(lanes_.rate(p.body, lanes_.startOf(p.body, p.arc + 1)));
-  }
-  std::vector<Part> parts;
-  const std::vector<double> weights = guardWeights(event_);
-  for (std::size_t k = 0; k < weights.size(); ++k) parts.push_back(partOf(event_.contacts[k], weights[k], inputs));
-  return Pass(event_, usesWide(event_, *lanes_.motion().models), std::move(inputs), std::move(parts),
-              std::move(rate_before), std::move(rate_after));
-}
-
-// Rates of the poses at the time of the event, which moves along.
-PairTangent DualEvent::pairTangent(const Part& part, std::size_t lane) const {
-  PairTangent t;
-  const auto& scene_bodies = lanes_.direction(lane).scene.bodies;
-  const auto fill = [&](const Part::Side& side, Eigen::Index at, Eigen::VectorXd& size) {
-    const BodyDerivative& written = scene_bodies[static_cast<std::size_t>(side.body)];
-    size = written.size;
-    if (side.participant < 0) {
-      t.pose.segment<3>(at) = written.position;
-      t.pose.segment<3>(at + 3) = written.orientation;
-      return;
-    }
-    const DualState& s = before_[static_cast<std::size_t>(side.participant)];
-    t.pose.segment<3>(at) = ratesOf(s.x, lane);
-    t.pose.segment<3>(at + 3) = 0.5 * unskew(Mat3(ratesOf(s.R, lane) * valuesOf(s.R).transpose()));
-  };
-  fill(part.a, 0, t.size_a);
-  fill(part.b, 6, t.size_b);
-  return t;
-}
-
-ContactPart<Num> DualEvent::partOf(const Contact& c, double weight, ImpactInputs<Num>& inputs) const {
-  const Motion& motion = lanes_.motion();
-  Part part;
-  part.a = {c.a, participantOf(event_, c.a)};
-  part.b = {c.b, participantOf(event_, c.b)};
-  part.weight = weight;
-  part.material_a = materialIndexOf(*motion.scene, c.a);
-  part.material_b = materialIndexOf(*motion.scene, c.b);
-  part.rules = rulesOf(c, part);
-  const Pose A = poseBefore(motion, event_, c.a), B = poseBefore(motion, event_, c.b);
-  const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, A, B);
-  std::vector<PairTangent> along;
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) along.push_back(pairTangent(part, lane));
-  const std::vector<ContactJacobian> dJ = motion.geometry->jacobianRates(c.a, c.b, c.features, A, B, along);
-  part.pose = J.pose.cast<Num>();
-  part.size_a = J.size_a.cast<Num>();
-  part.size_b = J.size_b.cast<Num>();
-  Pass::Vec7 at;
-  at << Num(c.at.gap), constant(c.at.normal), constant(c.at.point);
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-    setRates(part.pose, dJ[lane].pose, lane);
-    setRates(part.size_a, dJ[lane].size_a, lane);
-    setRates(part.size_b, dJ[lane].size_b, lane);
-    Eigen::Matrix<double, 7, 1> d = J.pose * along[lane].pose;
-    if (J.size_a.cols() > 0) d += J.size_a * along[lane].size_a;
-    if (J.size_b.cols() > 0) d += J.size_b * along[lane].size_b;
-    setRates(at, d, lane);
-  }
-  const NVec normal = tiltNormal(c, at.segment<3>(1), part);
-  inputs.contacts.push_back({part.a.participant, part.b.participant, at.tail<3>(), normal, part.rules.values()});
-  return part;
-}
-
-// The normal of the impulse.
-NVec DualEvent::tiltNormal(const Contact& c, const NVec& normal, Part& part) const {
-  part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
-  if (!part.tilted) return normal;
-  const auto tiltOf = [&](int t) {
-    V2<Num> tilt = V2<Num>::Zero();
-    if (t < 0) return tilt;
-    const auto tt = static_cast<std::size_t>(t);
-    tilt = lanes_.motion().scene->tilts[tt].value.cast<Num>();
-    for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
-      setRates(tilt, lanes_.direction(lane).scene.tilts[tt], lane);
-    return tilt;
-  };
-  const V2<Num> tilt_a = tiltOf(c.tilt_a), tilt_b = tiltOf(c.tilt_b);
-  part.tilt = tiltJacobian<Num>(normal, tilt_a, tilt_b);
-  const Eigen::Matrix<double, 3, 7> J = valuesOf(part.tilt);
-  NVec tilted = constant(c.impulse_normal);
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-    Eigen::Matrix<double, 7, 1> by;
-    by << ratesOf(normal, lane), ratesOf(tilt_a, lane), ratesOf(tilt_b, lane);
-    setRates(tilted, Vec3(J * by), lane);
-  }
-  return tilted;
-}
-
-PairRules<Num> DualEvent::rulesOf(const Contact& c, const Part& part) const {
-  const Scene& scene = *lanes_.motion().scene;
-  const auto coefficients = [&](const Material& material, int m) {
-    MaterialDerivativeOf<Num> out{material.elasticity, material.friction, material.tangential_elasticity};
-    for (std::size_t lane = 0; m >= 0 && lane < lanes_.size(); ++lane) {
-      const MaterialDerivative& d = lanes_.direction(lane).scene.materials[static_cast<std::size_t>(m)];
-      out.elasticity.rate[lane] = d.elasticity;
-      out.friction.rate[lane] = d.friction;
-      out.tangential_elasticity.rate[lane] = d.tangential_elasticity;
-    }
-    return out;
-  };
-  const Material &a = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
-                 &b = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.b)]);
-  return {a, b, coefficients(a, part.material_a), coefficients(b, part.material_b)};
-}
-
-std::vector<StateBar> DualEvent::pullback(const std::vector<StateBar>& after_bar, const std::vector<StateBar>& read_bar,
-                                          const Num& time_bar, SceneBar& scene_bar,
-                                          std::vector<ModelBar>& model_bar) const {
-  return pass_.pullback(after_bar, read_bar, time_bar, scene_bar, model_bar);
-}
+DualEvent dualEvent(const Lanes& lanes, int event) { return EventMaker(lanes, event).take(); }
 
 }  // namespace carom::adjoint_detail

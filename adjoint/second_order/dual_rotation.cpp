@@ -1,61 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/second_order/dual_rotation.hpp"
 
-#include <cmath>
-
-#include "adjoint/numeric/elementary.hpp"
+#include "adjoint/numeric/so3_rates.hpp"
 
 namespace carom::adjoint_detail {
-namespace {
-
-// c_k(x) = sum over j of (-x)^j/(k + 2j)!, k = 0 to 5: with x = a^2 they are cos a, sin a / a, (1 - cos a)/a^2,
-// (a - sin a)/a^3, and so on. Their slopes are of the same family: c_k' = (k c_(k+2) - c_(k+1))/2.
-std::array<double, 6> stumpff(double x) {
-  std::array<double, 6> c;
-  if (x < 1) {
-    double factorial = 1;
-    for (int k = 0; k < 6; ++k) {
-      factorial *= k > 0 ? k : 1;
-      double sum = 1;
-      for (int j = 10; j >= 1; --j) sum = 1 - x / ((k + 2 * j - 1) * (k + 2 * j)) * sum;
-      c[static_cast<std::size_t>(k)] = sum / factorial;
-    }
-    return c;
-  }
-  const double a = std::sqrt(x), half_sine = elementary::sin(0.5 * a);
-  const auto [sine, cosine] = elementary::sincos(a);
-  c[0] = cosine;
-  c[1] = sine / a;
-  c[2] = 2 * half_sine * half_sine / x;
-  c[3] = (a - sine) / (a * x);
-  c[4] = (0.5 - c[2]) / x;
-  c[5] = (1.0 / 6 - c[3]) / x;
-  return c;
-}
-
-// exp([a]x) = 1 + c_1 [a]x + c_2 [a]x^2, and the left Jacobian 1 + c_2 [a]x + c_3 [a]x^2.
-struct Turn {
-  NMat E, J;
-  explicit Turn(const NVec& a) {
-    const Num x = a.squaredNorm();
-    const std::array<double, 6> c = stumpff(x.value);
-    const Num c1 = x.chain(c[1], 0.5 * (c[3] - c[2])), c2 = x.chain(c[2], c[4] - 0.5 * c[3]),
-              c3 = x.chain(c[3], 0.5 * (3 * c[5] - c[4]));
-    const NMat U = skew(a), U2 = U * U;
-    E = NMat::Identity() + c1 * U + c2 * U2;
-    J = NMat::Identity() + c2 * U + c3 * U2;
-  }
-};
-
-}  // namespace
-
 // The formulae of flight_symmetric.cpp. Those stay in doubles: they are called for every step of a derivative, and
 // their small angles are tuned for one number.
 
 DualSensitivity sphericalSensitivity(const Stretch& s) {
   const Num I = s.model.J.trace() / 3.0;
   const NVec a = s.start.L * (s.elapsed / I);
-  const Turn turn(a);
+  const DualTurn<Num> turn(a);
   DualSensitivity S;
   S.dtheta_dtheta = turn.E;
   S.dtheta_dL = turn.J * (s.elapsed / I);
@@ -69,7 +24,7 @@ DualSensitivity symmetricSensitivity(const Stretch& s, int axis) {
   const Num perp = 0.5 * (s.model.J(i, i) + s.model.J(j, j)), par = s.model.J(axis, axis);
   const Num c = (1.0 / par - 1.0 / perp) * s.elapsed;
   const NVec &L = s.start.L, a = L * (s.elapsed / perp), n = s.start.R.col(axis);
-  const Turn turn(a);
+  const DualTurn<Num> turn(a);
   const NVec En = turn.E * n, nL = n.cross(L);
   const Num Ln = L.dot(n);
   DualSensitivity S;

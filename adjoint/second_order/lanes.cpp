@@ -15,11 +15,11 @@ std::vector<const SceneTangent*> scenesOf(std::span<const ReadingDirection> dire
 Lanes::Lanes(DerivativeTape& tape, std::span<const ReadingDirection> directions)
     : tape_(tape),
       directions_(directions),
-      reach_(tape.motion(), scenesOf(directions)),
+      influence_(tape.motion(), scenesOf(directions)),
       gravity_(constant(tape.motion().scene->gravity)) {
   for (const BodyModel& model : *motion().models) models_.push_back(dualModel(model));
   for (std::size_t lane = 0; lane < directions.size(); ++lane) {
-    tangents_.push_back(carom::tangent(tape, directions[lane].scene, &reach_));
+    tangents_.push_back(carom::tangent(tape, directions[lane].scene, &influence_));
     setRates(gravity_, directions[lane].scene.gravity, lane);
     for (std::size_t b = 0; b < models_.size(); ++b)
       setRates(models_[b], tangents_.back().model(static_cast<int>(b)), lane);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/derivative/reach.hpp"
+#include "adjoint/derivative/influence.hpp"
 #include "adjoint/derivative/tangent.h"
 #include "adjoint/second_order/dual_state.hpp"
 #include "adjoint/second_order/reading_direction.h"
@@ -18,11 +18,16 @@ class Lanes {
   const Motion& motion() const { return tape_.motion(); }
   const ReadingDirection& direction(std::size_t lane) const { return directions_[lane]; }
   const MotionTangent& tangent(std::size_t lane) const { return tangents_[lane]; }
-  /// How far any of the directions comes.
-  const Reach& reach() const { return reach_; }
+  /// What any of the directions influences.
+  const Influence& influence() const { return influence_; }
   const DualModel& model(int body) const { return models_[static_cast<std::size_t>(body)]; }
   std::vector<const BodyDerivative*> ofBody(std::size_t body) const;
 
+  /// How fast the time of a seed that is read at a given time moves.
+  double timeRate(std::size_t lane, std::size_t seed) const {
+    const Eigen::VectorXd& time = directions_[lane].time;
+    return time.size() > 0 ? time[static_cast<Eigen::Index>(seed)] : 0;
+  }
   Num eventTime(int event) const;
   /// When arc k of a body starts.
   Num startTime(int body, int k) const;
@@ -40,7 +45,7 @@ class Lanes {
 
   DerivativeTape& tape_;
   std::span<const ReadingDirection> directions_;
-  Reach reach_;
+  Influence influence_;
   std::vector<MotionTangent> tangents_;
   std::vector<DualModel> models_;
   NVec gravity_;

@@ -11,6 +11,7 @@
 #include "adjoint/derivative/waiting_bars.hpp"
 #include "adjoint/flight/flight_pass.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/motion/inertia_change.hpp"
 #include "adjoint/second_order/dual_event.hpp"
 #include "adjoint/second_order/dual_rotation.hpp"
 
@@ -46,7 +47,7 @@ bool hasRates(const DualSeed& s) {
          hasRates(s.center_of_mass) || hasRates(s.time);
 }
 
-// The reverse pass of adjoint.cpp in dual numbers. It leaves out what is out of the directions' reach and has no
+// The reverse pass of adjoint.cpp in dual numbers. It leaves out what the directions do not influence and has no
 // rates, as its sums have none either; a `whole` pass leaves out nothing, and the values of its sums are right too.
 class DualPass {
  public:
@@ -63,8 +64,8 @@ class DualPass {
   // Adds the rates of the seed's time derivative to `time_rate`, where its time is given.
   void plant(const StateSeed& seed, const DualSeed& weights, const Num& time, const ReadPlace& place,
              std::array<double, kLanes>& time_rate) {
-    const bool reached = reaches(seed.body, place.arc) || (seed.at.event >= 0 && lanes_.reach().event(seed.at.event));
-    if (!reached && !hasRates(time) && !hasRates(weights)) return;
+    const bool event_influenced = seed.at.event >= 0 && lanes_.influence().event(seed.at.event);
+    if (!influenced(seed.body, place.arc) && !event_influenced && !hasRates(time) && !hasRates(weights)) return;
     const auto b = static_cast<std::size_t>(seed.body);
     const DualState state =
         lanes_.stateAt(seed.body, place.arc, time, place.state, plainSensitivity(seed.body, place.arc, place.time));
@@ -101,18 +102,10 @@ class DualPass {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
       const Eigen::VectorXd& size = lanes_.direction(lane).scene.bodies[b].size;
       if (size.isZero(0)) continue;
-      const SolidProperties change = kindOf(body.shape).propertiesRate(body.shape, size);
-      const Mat3& R = lanes_.model(static_cast<int>(b)).R_BG;
-      for (const SolidRate& rate : change.rates) {
-        const Mat3 d = R * rate.unit_inertia * R.transpose();
-        const double rounding = 1e-12 * d.cwiseAbs().maxCoeff();
-        const int axis = symmetryAxis((*motion_.models)[b].inertia);
-        const auto differ = [&](int i, int j) { return std::abs(d(i, i) - d(j, j)) > rounding; };
-        if (Vec3(d(1, 2), d(0, 2), d(0, 1)).cwiseAbs().maxCoeff() > rounding) out = {Tier::triaxial, true};
-        if ((axis == -1 && (differ(0, 1) || differ(1, 2))) ||
-            (axis >= 0 && axis < 3 && differ((axis + 1) % 3, (axis + 2) % 3)))
-          out.tier = Tier::triaxial;
-      }
+      const InertiaChange change =
+          inertiaChange(kindOf(body.shape).propertiesRate(body.shape, size).rates, (*motion_.models)[b]);
+      if (!change.keeps_symmetry) out.tier = Tier::triaxial;
+      if (!change.keeps_axes) out.products = true;
     }
     return out;
   }
@@ -145,7 +138,7 @@ class DualPass {
   }
 
   void throughFlight(int body, int k, const Num& t, const DualState& end, const StateBar& bar) {
-    if (!reaches(body, k) && !hasRates(t) && !hasRates(bar)) return;
+    if (!influenced(body, k) && !hasRates(t) && !hasRates(bar)) return;
     const auto b = static_cast<std::size_t>(body);
     StateBar d = bar;
     if (const DualModel& model = lanes_.model(body); model.moving) {
@@ -159,15 +152,15 @@ class DualPass {
 
   void throughEvent(int index, const Bars::AtEvent& at) {
     const Event& event = motion_.events[static_cast<std::size_t>(index)];
-    const DualEvent dual(lanes_, index);
-    const std::vector<StateBar> before = dual.pullback(at.after, at.before, at.time, bars_.scene, bars_.model);
+    const DualEvent dual = dualEvent(lanes_, index);
+    const std::vector<StateBar> before = dual.pass.pullback(at.after, at.before, at.time, bars_.scene, bars_.model);
     for (std::size_t i = 0; i < before.size(); ++i) {
       const Participant& p = event.participants[i];
-      if (!before[i].isZero()) throughFlight(p.body, p.arc, lanes_.eventTime(index), dual.before(i), before[i]);
+      if (!before[i].isZero()) throughFlight(p.body, p.arc, lanes_.eventTime(index), dual.before[i], before[i]);
     }
   }
 
-  bool reaches(int body, int k) const { return whole_ || lanes_.reach().arc(body, k); }
+  bool influenced(int body, int k) const { return whole_ || lanes_.influence().arc(body, k); }
 
   const Lanes& lanes_;
   bool whole_;
@@ -204,8 +197,7 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
   for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
     std::vector<BodyStateRate> rates;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      const double dtime =
-          lanes.direction(lane).time.size() > 0 ? lanes.direction(lane).time[static_cast<Eigen::Index>(i)] : 0;
+      const double dtime = lanes.timeRate(lane, i);
       rates.push_back(lanes.tangent(lane).at(seeds[i].body, seeds[i].at));
       if (seeds[i].at.event < 0 && dtime != 0) addFlow(motion, seeds[i].body, seeds[i].at, dtime, rates.back());
     }
@@ -254,8 +246,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
       const ReadPlace place = readPlace(motion, seeds[i].body, seeds[i].at);
       Num time = seeds[i].at.event >= 0 ? lanes.eventTime(seeds[i].at.event) : Num(place.time);
       for (std::size_t lane = 0; lane < lanes.size() && seeds[i].at.event < 0; ++lane)
-        if (lanes.direction(lane).time.size() > 0)
-          time.rate[lane] = lanes.direction(lane).time[static_cast<Eigen::Index>(i)];
+        time.rate[lane] = lanes.timeRate(lane, i);
       std::array<double, kLanes> time_rate{};
       pass.plant(seeds[i], weights[i], time, place, time_rate);
       for (std::size_t lane = 0; lane < lanes.size(); ++lane)

@@ -23,7 +23,16 @@ class EventQueue {
   int body() const { return bodyOf(tree_[1]); }
 
   /// Sets the time of a body; kNever takes the body out.
-  void set(int body, double time, bool is_horizon);
+  void set(int body, double time, bool is_horizon) {
+    const auto b = static_cast<std::uint32_t>(body);
+    std::size_t i = leaves_ + b;
+    tree_[i] = {time, is_horizon ? b | kHorizon : b};
+    while ((i /= 2) > 0) {
+      const Entry &left = tree_[2 * i], &right = tree_[2 * i + 1];
+      const Entry* earlier = right < left ? &right : &left;
+      tree_[i] = *earlier;
+    }
+  }
 
   /// Calls f(body) for every entry up to a finite time, in increasing order of bodies.
   template <class F>

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 #include "adjoint/base/arguments.hpp"
-#include "adjoint/base/errors.h"
+#include "adjoint/base/refuse.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/motion/guard.hpp"
@@ -22,41 +21,6 @@ using namespace adjoint_detail;
 namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-/// Follows the events of a motion, one after another.
-class Follower {
- public:
-  Follower(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry, double duration);
-  Replay run();
-
- private:
-  // What became of an impact.
-  enum class Outcome { found, late, failed };
-
-  void start();
-  Outcome follow(const Event& was);
-  double guess(const Event& was) const;
-  void markLate(const Event& was);
-  GuardValue guardAt(const Event& was, double time);
-  bool meetInOneInstant() const;
-  void place(double time);
-  void commit(const Event& was, const std::vector<State>& after);
-  void orderByTime();
-  void extendLast(std::size_t body);
-  Outcome fail(const Event& was, const std::string& why);
-
-  Arc& arcOf(int body) { return motion_.world_lines[index(body)].arcs.back(); }
-  const Arc& arcOf(int body) const { return motion_.world_lines[index(body)].arcs.back(); }
-
-  const Motion& like_;
-  const Scene& scene_;
-  MotionBuilder builder_;
-  Motion& motion_;
-  Replay replay_;             // but for its motion
-  std::vector<bool> late_;  // a body each: its next impact comes after the duration
-  std::vector<double> weights_;  // of the gaps of the event that is followed
-  Event event_;                  // being worked out
-};
 
 void requireSameParts(const Scene& was, const Scene& scene) {
   const auto same = [](std::size_t found, std::size_t expected, const char* what) {
@@ -84,193 +48,215 @@ Plan planFor(const Motion& like, const Scene& scene, const std::vector<BodyModel
   return plan;
 }
 
-Follower::Follower(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,
-                   double duration)
-    : like_(like), scene_(scene), builder_(scene, duration), motion_(builder_.motion), late_(scene.bodies.size(), false) {
-  motion_.plan = planFor(like, scene, *motion_.models);
-  motion_.geometry = std::move(geometry);
-  motion_.overlaps = like.overlaps;
-}
+/// Follows the events of a motion, one after another.
+class Follower {
+ public:
+  Follower(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry, double duration)
+      : like_(like),
+        scene_(scene),
+        builder_(scene, duration),
+        motion_(builder_.motion),
+        late_(scene.bodies.size(), false) {
+    motion_.plan = planFor(like, scene, *motion_.models);
+    motion_.geometry = std::move(geometry);
+    motion_.overlaps = like.overlaps;
+  }
 
-Replay Follower::run() {
-  start();
-  motion_.end = motion_.duration;
-  motion_.message = "complete";
-  Outcome outcome = Outcome::found;
-  for (const Event& was : like_.events) {
-    try {
-      outcome = follow(was);
-    } catch (const NotComputable& error) {
-      outcome = fail(was, error.what());
+  Replay run() {
+    start();
+    motion_.end = motion_.duration;
+    motion_.message = "complete";
+    Outcome outcome = Outcome::found;
+    for (const Event& was : like_.events) {
+      try {
+        outcome = follow(was);
+      } catch (const NotComputable& error) {
+        outcome = fail(was, error.what());
+      }
+      if (outcome == Outcome::late) ++replay_.left_out;
+      if (outcome == Outcome::failed) break;
     }
-    if (outcome == Outcome::late) ++replay_.left_out;
-    if (outcome == Outcome::failed) break;
+    replay_.complete = outcome != Outcome::failed;
+    // what is followed may end early; then its last impact says how much later this one does
+    if (replay_.complete && like_.status != MotionStatus::complete && replay_.left_out == 0 &&
+        !motion_.events.empty()) {
+      motion_.status = like_.status;
+      motion_.end = std::min(motion_.duration, like_.end + (motion_.events.back().time - like_.events.back().time));
+      motion_.message = like_.message;
+    }
+    orderByTime();
+    for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) extendLast(b);
+    replay_.motion = std::move(motion_);
+    return std::move(replay_);
   }
-  replay_.complete = outcome != Outcome::failed;
-  // what is followed may end early; then its last impact says how much later this one does
-  if (replay_.complete && like_.status != MotionStatus::complete && replay_.left_out == 0 && !motion_.events.empty()) {
-    motion_.status = like_.status;
-    motion_.end = std::min(motion_.duration, like_.end + (motion_.events.back().time - like_.events.back().time));
-    motion_.message = like_.message;
+
+ private:
+  // What became of an impact.
+  enum class Outcome { found, late, failed };
+
+  void extendLast(std::size_t body) {
+    Arc& arc = motion_.world_lines[body].arcs.back();
+    try {
+      arc.extendTo(motion_.end);
+    } catch (const NotComputable& error) {
+      motion_.end = std::min(motion_.end, arc.availableUntil());
+      builder_.endFlight(body, error);
+      replay_.complete = false;
+      replay_.why_not = motion_.message;
+    }
   }
-  orderByTime();
-  for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) extendLast(b);
-  replay_.motion = std::move(motion_);
-  return std::move(replay_);
-}
 
-void Follower::extendLast(std::size_t body) {
-  Arc& arc = motion_.world_lines[body].arcs.back();
-  try {
-    arc.extendTo(motion_.end);
-  } catch (const NotComputable& error) {
-    motion_.end = std::min(motion_.end, arc.reach());
-    builder_.endFlight(body, error);
-    replay_.complete = false;
-    replay_.why_not = motion_.message;
+  void start() {
+    motion_.events.reserve(like_.events.size());
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      motion_.world_lines[b].arcs.reserve(like_.world_lines[b].arcs.size());
+      motion_.world_lines[b].events.reserve(like_.world_lines[b].events.size());
+    }
+    builder_.start();
   }
-}
 
-void Follower::start() {
-  motion_.events.reserve(like_.events.size());
-  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-    motion_.world_lines[b].arcs.reserve(like_.world_lines[b].arcs.size());
-    motion_.world_lines[b].events.reserve(like_.world_lines[b].events.size());
+  Outcome follow(const Event& was) {
+    const auto isLate = [&](const Participant& p) { return late_[index(p.body)]; };
+    if (std::ranges::any_of(was.participants, isLate)) {
+      markLate(was);
+      return Outcome::late;
+    }
+    event_ = was;
+    weights_ = guardWeights(was);
+    for (Contact& c : event_.contacts) c.pair = builder_.pairOf(c.a, c.b);
+    double from = 0, flight = was.time;
+    for (const Participant& p : was.participants) {
+      from = std::max(from, arcOf(p.body).start());
+      flight = std::min(flight, was.time - like_.world_lines[index(p.body)].arcs[index(p.arc)].start());
+    }
+    RootSearch search;
+    search.from = from;
+    search.until = motion_.duration;
+    search.guess = guess(was);
+    search.stride = std::max(flight, kInstant);
+    const GuardRoot root = descendingRoot(search, [&](double t) { return guardAt(was, t); });
+    if (root.outcome == GuardRoot::Outcome::late) {
+      markLate(was);
+      return Outcome::late;
+    }
+    if (root.outcome != GuardRoot::Outcome::found) return fail(was, root.why());
+    place(root.time);
+    if (!meetInOneInstant()) return fail(was, "its contacts no longer meet in one instant");
+
+    std::vector<State> after;
+    solveImpact(event_, *motion_.models, after);
+    if (builder_.notParted(event_, after)) return fail(was, "its impulse does not part the bodies");
+    commit(was, after);
+    return Outcome::found;
   }
-  builder_.start();
-}
 
-Follower::Outcome Follower::follow(const Event& was) {
-  const auto isLate = [&](const Participant& p) { return late_[index(p.body)]; };
-  if (std::any_of(was.participants.begin(), was.participants.end(), isLate)) {
-    markLate(was);
-    return Outcome::late;
+  // What strikes a body later goes another way without the impact; a kinematic body goes on.
+  void markLate(const Event& was) {
+    for (const Participant& p : was.participants)
+      if (!(*motion_.models)[index(p.body)].kinematic) late_[index(p.body)] = true;
   }
-  event_ = was;
-  weights_ = guardWeights(was);
-  for (Contact& c : event_.contacts) c.pair = builder_.pairOf(c.a, c.b);
-  double from = 0, flight = was.time;
-  for (const Participant& p : was.participants) {
-    from = std::max(from, arcOf(p.body).start());
-    flight = std::min(flight, was.time - like_.world_lines[index(p.body)].arcs[index(p.arc)].start());
+
+  // Where it was, moved as the last impact of its bodies was.
+  double guess(const Event& was) const {
+    double latest = 0, shift = 0;
+    for (const Participant& p : was.participants) {
+      const double start = like_.world_lines[index(p.body)].arcs[index(p.arc)].start();
+      if (start < latest) continue;
+      latest = start;
+      shift = arcOf(p.body).start() - start;
+    }
+    return was.time + shift;
   }
-  RootSearch search;
-  search.from = from;
-  search.until = motion_.duration;
-  search.guess = guess(was);
-  search.stride = std::max(flight, kInstant);
-  const GuardRoot root = descendingRoot(search, [&](double t) { return guardAt(was, t); });
-  if (root.outcome == GuardRoot::Outcome::late) {
-    markLate(was);
-    return Outcome::late;
+
+  // States, contact points and approach of event_ at a time.
+  void place(double time) {
+    event_.time = time;
+    for (Participant& p : event_.participants) {
+      Arc& arc = arcOf(p.body);
+      arc.extendTo(time);
+      p.before = arc.stateAt(time);
+    }
+    const auto kinematics = [&](int body) {
+      const Participant* p = event_.find(body);
+      return arcOf(body).kinematicsOf(p ? p->before : arcOf(body).startState());
+    };
+    for (Contact& c : event_.contacts) builder_.place(c, kinematics(c.a), kinematics(c.b));
   }
-  if (root.outcome != GuardRoot::Outcome::found) return fail(was, root.why());
-  place(root.time);
-  if (!meetInOneInstant()) return fail(was, "its contacts no longer meet in one instant");
 
-  std::vector<State> after;
-  solveImpact(event_, *motion_.models, after);
-  if (builder_.notParted(event_, after)) return fail(was, "its impulse does not part the bodies");
-  commit(was, after);
-  return Outcome::found;
-}
-
-// What strikes a body later goes another way without the impact; a kinematic body goes on.
-void Follower::markLate(const Event& was) {
-  for (const Participant& p : was.participants)
-    if (!(*motion_.models)[index(p.body)].kinematic) late_[index(p.body)] = true;
-}
-
-// Where it was, moved as the last impact of its bodies was.
-double Follower::guess(const Event& was) const {
-  double latest = 0, shift = 0;
-  for (const Participant& p : was.participants) {
-    const double start = like_.world_lines[index(p.body)].arcs[index(p.arc)].start();
-    if (start < latest) continue;
-    latest = start;
-    shift = arcOf(p.body).start() - start;
+  // The mean gap of the contacts, less what it was in `like`: contacts of one instant need not touch to the last bit.
+  GuardValue guardAt(const Event& was, double time) {
+    place(time);
+    GuardValue guard;
+    for (std::size_t k = 0; k < event_.contacts.size(); ++k) {
+      const Contact& c = event_.contacts[k];
+      guard.gap += weights_[k] * (was.contacts.size() > 1 ? c.at.gap - was.contacts[k].at.gap : c.at.gap);
+      guard.rate += weights_[k] * c.approach;
+      guard.size = std::max(guard.size, c.at.point.cwiseAbs().maxCoeff());
+    }
+    for (const Participant& p : event_.participants) {
+      const Arc& arc = arcOf(p.body);
+      guard.size += p.before.x.cwiseAbs().maxCoeff();
+      guard.speed += p.before.v.norm() + arc.spinBound() * (event_.contacts[0].at.point - p.before.x).norm();
+    }
+    return guard;
   }
-  return was.time + shift;
-}
 
-// States, contact points and approach of event_ at a time.
-void Follower::place(double time) {
-  event_.time = time;
-  for (Participant& p : event_.participants) {
-    Arc& arc = arcOf(p.body);
-    arc.extendTo(time);
-    p.before = arc.stateAt(time);
+  bool meetInOneInstant() const {
+    if (event_.contacts.size() == 1) return true;
+    return std::ranges::all_of(event_.contacts, [](const Contact& c) {
+      return std::abs(c.at.gap) <= 2 * kInstant * std::abs(c.approach) + kLowestBounce;
+    });
   }
-  const auto kinematics = [&](int body) {
-    const Participant* p = event_.find(body);
-    return arcOf(body).kinematicsOf(p ? p->before : arcOf(body).startState());
-  };
-  for (Contact& c : event_.contacts) builder_.place(c, kinematics(c.a), kinematics(c.b));
-}
 
-// The mean gap of the contacts, less what it was in `like`: contacts of one instant need not touch to the last bit.
-GuardValue Follower::guardAt(const Event& was, double time) {
-  place(time);
-  GuardValue guard;
-  for (std::size_t k = 0; k < event_.contacts.size(); ++k) {
-    const Contact& c = event_.contacts[k];
-    guard.gap += weights_[k] * (was.contacts.size() > 1 ? c.at.gap - was.contacts[k].at.gap : c.at.gap);
-    guard.rate += weights_[k] * c.approach;
-    guard.size = std::max(guard.size, c.at.point.cwiseAbs().maxCoeff());
+  void commit(const Event& was, const std::vector<State>& after) {
+    if (branchOf(event_.mode) != branchOf(was.mode)) replay_.mode_changed = true;
+    std::vector<Arc> arcs;
+    for (std::size_t i = 0; i < after.size(); ++i)
+      arcs.push_back(builder_.flight(event_.participants[i].body, event_.time, after[i]));
+    builder_.add(std::move(event_), std::move(arcs));
   }
-  for (const Participant& p : event_.participants) {
-    const Arc& arc = arcOf(p.body);
-    guard.size += p.before.x.cwiseAbs().maxCoeff();
-    guard.speed += p.before.v.norm() + arc.spinBound() * (event_.contacts[0].at.point - p.before.x).norm();
+
+  void orderByTime() {
+    const auto earlier = [](const Event& a, const Event& b) { return a.time < b.time; };
+    if (std::ranges::is_sorted(motion_.events, earlier)) return;
+    replay_.order_changed = true;
+    std::vector<int> order(motion_.events.size()), place_of(motion_.events.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](int e) { return motion_.events[index(e)].time; });
+    std::vector<Event> sorted;
+    sorted.reserve(order.size());
+    for (int e : order) {
+      place_of[index(e)] = static_cast<int>(sorted.size());
+      sorted.push_back(std::move(motion_.events[index(e)]));
+    }
+    motion_.events = std::move(sorted);
+    for (WorldLine& line : motion_.world_lines)
+      for (int& e : line.events) e = place_of[index(e)];
   }
-  return guard;
-}
 
-bool Follower::meetInOneInstant() const {
-  if (event_.contacts.size() == 1) return true;
-  return std::all_of(event_.contacts.begin(), event_.contacts.end(), [](const Contact& c) {
-    return std::abs(c.at.gap) <= 2 * kInstant * std::abs(c.approach) + kLowestBounce;
-  });
-}
-
-void Follower::commit(const Event& was, const std::vector<State>& after) {
-  if (branchOf(event_.mode) != branchOf(was.mode)) replay_.mode_changed = true;
-  std::vector<Arc> arcs;
-  for (std::size_t i = 0; i < after.size(); ++i)
-    arcs.push_back(builder_.flight(event_.participants[i].body, event_.time, after[i]));
-  builder_.add(std::move(event_), std::move(arcs));
-}
-
-void Follower::orderByTime() {
-  const auto earlier = [](const Event& a, const Event& b) { return a.time < b.time; };
-  if (std::is_sorted(motion_.events.begin(), motion_.events.end(), earlier)) return;
-  replay_.order_changed = true;
-  std::vector<int> order(motion_.events.size()), place_of(motion_.events.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return earlier(motion_.events[index(a)], motion_.events[index(b)]); });
-  std::vector<Event> sorted;
-  sorted.reserve(order.size());
-  for (int e : order) {
-    place_of[index(e)] = static_cast<int>(sorted.size());
-    sorted.push_back(std::move(motion_.events[index(e)]));
+  Outcome fail(const Event& was, const std::string& why) {
+    motion_.end = motion_.duration;
+    for (const Participant& p : was.participants) motion_.end = std::min(motion_.end, arcOf(p.body).start());
+    const Contact& c = was.contacts[0];
+    replay_.why_not = motion_.message =
+        textOf(6, "the impact of '", scene_.bodies[index(c.a)].name, "' and '", scene_.bodies[index(c.b)].name,
+               "' that was at t = ", was.time, " s does not follow: ", why);
+    motion_.status = MotionStatus::unresolved_impact;
+    return Outcome::failed;
   }
-  motion_.events = std::move(sorted);
-  for (WorldLine& line : motion_.world_lines)
-    for (int& e : line.events) e = place_of[index(e)];
-}
 
-Follower::Outcome Follower::fail(const Event& was, const std::string& why) {
-  motion_.end = motion_.duration;
-  for (const Participant& p : was.participants) motion_.end = std::min(motion_.end, arcOf(p.body).start());
-  std::ostringstream text;
-  const Contact& c = was.contacts[0];
-  text << "the impact of '" << scene_.bodies[index(c.a)].name << "' and '" << scene_.bodies[index(c.b)].name
-       << "' that was at t = " << was.time << " s does not follow: " << why;
-  replay_.why_not = motion_.message = text.str();
-  motion_.status = MotionStatus::unresolved_impact;
-  return Outcome::failed;
-}
+  Arc& arcOf(int body) { return motion_.world_lines[index(body)].arcs.back(); }
+  const Arc& arcOf(int body) const { return motion_.world_lines[index(body)].arcs.back(); }
+
+  const Motion& like_;
+  const Scene& scene_;
+  MotionBuilder builder_;
+  Motion& motion_;
+  Replay replay_;                // but for its motion
+  std::vector<bool> late_;       // a body each: its next impact comes after the duration
+  std::vector<double> weights_;  // of the gaps of the event that is followed
+  Event event_;                  // being worked out
+};
 
 }  // namespace
 

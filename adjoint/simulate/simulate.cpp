@@ -90,10 +90,7 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
   in_draft_.assign(n, -1);
   outlook_.resize(n);
   for (std::size_t i = 0; i < scene.tilts.size(); ++i)
-    tilts_.push_back({bodyIndex(scene, scene.tilts[i].body), scene.tilts[i].impact, static_cast<int>(i)});
-  std::stable_sort(tilts_.begin(), tilts_.end(), [](const TiltOfImpact& a, const TiltOfImpact& b) {
-    return a.body != b.body ? a.body < b.body : a.impact < b.impact;
-  });
+    tilts_.try_emplace({bodyIndex(scene, scene.tilts[i].body), scene.tilts[i].impact}, static_cast<int>(i));
 }
 
 void Simulator::start() {
@@ -145,23 +142,21 @@ void Simulator::contactsOfInstant(const Prediction& first) {
   addTouching(first.time, first.a, first.b, first.features);
   bodies_ = {first.a, first.b};
   const auto shares = [&](const Prediction& p) {
-    return std::any_of(bodies_.begin(), bodies_.end(),
-                       [&](int b) { return (b == p.a || b == p.b) && isMoved(b); });
+    return std::ranges::any_of(bodies_, [&](int b) { return (b == p.a || b == p.b) && isMoved(b); });
   };
-  for (auto next = std::find_if(same_.begin(), same_.end(), shares); next != same_.end();
-       next = std::find_if(same_.begin(), same_.end(), shares)) {
+  for (auto next = same_.begin(); (next = std::ranges::find_if(same_, shares)) != same_.end();) {
     if (inDraft(next->a, next->b, next->features) || meetsThere(*next, first.time)) {
       addTouching(first.time, next->a, next->b, next->features);
       for (int b : {next->a, next->b})
-        if (std::find(bodies_.begin(), bodies_.end(), b) == bodies_.end()) bodies_.push_back(b);
+        if (std::ranges::find(bodies_, b) == bodies_.end()) bodies_.push_back(b);
     }
     same_.erase(next);
   }
 }
 
 bool Simulator::inDraft(int a, int b, const FeaturePair& features) const {
-  return std::any_of(draft_.event.contacts.begin(), draft_.event.contacts.end(),
-                     [&](const Contact& c) { return c.a == a && c.b == b && c.features == features; });
+  return std::ranges::any_of(draft_.event.contacts,
+                             [&](const Contact& c) { return c.a == a && c.b == b && c.features == features; });
 }
 
 // The contact at the given features, and whatever else of the pair touches within the instant and was not separating.
@@ -208,11 +203,8 @@ Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& fea
 }
 
 int Simulator::tiltOf(int body, int impact) const {
-  const auto at = std::lower_bound(tilts_.begin(), tilts_.end(), TiltOfImpact{body, impact, 0},
-                                   [](const TiltOfImpact& a, const TiltOfImpact& b) {
-                                     return a.body != b.body ? a.body < b.body : a.impact < b.impact;
-                                   });
-  return at != tilts_.end() && at->body == body && at->impact == impact ? at->tilt : -1;
+  const auto at = tilts_.find({body, impact});
+  return at == tilts_.end() ? -1 : at->second;
 }
 
 // Participants, impulses and the arcs that follow.

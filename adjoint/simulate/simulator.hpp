@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -79,9 +80,6 @@ class Simulator {
     State state;
     Kinematics k;
   };
-  struct TiltOfImpact {
-    int body, impact, tilt;
-  };
 
   void start();
   void runToEnd();
@@ -122,6 +120,7 @@ class Simulator {
   void endOverlaps(double end);
 
   // simulator_endings.cpp: outcomes that end a motion early
+  std::string namesOf(int a, int b) const;  // "'a' and 'b'"
   bool isExplained(const Prediction& next);
   bool separates();
   bool accumulates();
@@ -132,7 +131,7 @@ class Simulator {
   void endWork(bool stopped);
   void extendAll();
   void extend(Arc& arc, double until);
-  void endAtReach(const Arc& arc);
+  void endWith(const Arc& arc);
   void forgetAfter(double end);
   void finish(MotionStatus status, double end, std::string message);
 
@@ -161,7 +160,7 @@ class Simulator {
   EventQueue queue_;
 
   std::vector<double> overlaps_until_;  // of motion_.overlaps: known to overlap up to here
-  std::vector<TiltOfImpact> tilts_;                     // in order
+  std::map<std::pair<int, int>, int> tilts_;            // by body and impact
   std::unordered_map<std::uint64_t, int> low_bounces_;  // in a row, of a pair
   Draft draft_;
   std::vector<Snapshot> snapshots_;

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "adjoint/base/refuse.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 // The outcomes that end a motion before its duration, each a status and a sentence.
 
 namespace carom::adjoint_detail {
 
+std::string Simulator::namesOf(int a, int b) const {
+  return "'" + scene_.bodies[index(a)].name + "' and '" + scene_.bodies[index(b)].name + "'";
+}
+
 // Bodies may come to overlap where no features say how they meet.
 bool Simulator::isExplained(const Prediction& next) {
   if (next.explained()) return true;
-  std::ostringstream text;
-  text << "'" << scene_.bodies[index(next.a)].name << "' and '" << scene_.bodies[index(next.b)].name
-       << "' meet at t = " << next.time << " s where no face, edge, rim or vertex of theirs gives the contact a normal";
-  finish(MotionStatus::unresolved_impact, next.time, text.str());
+  finish(MotionStatus::unresolved_impact, next.time,
+         textOf(6, namesOf(next.a, next.b), " meet at t = ", next.time,
+                " s where no face, edge, rim or vertex of theirs gives the contact a normal"));
   return false;
 }
 
@@ -23,10 +26,9 @@ bool Simulator::isExplained(const Prediction& next) {
 bool Simulator::separates() {
   const Contact* c = builder_.notParted(draft_.event, draft_.after);
   if (!c) return true;
-  std::ostringstream text;
-  text << "the tilted normal at the impact of '" << scene_.bodies[index(c->a)].name << "' and '"
-       << scene_.bodies[index(c->b)].name << "' at t = " << draft_.event.time << " s does not part the bodies";
-  finish(MotionStatus::unresolved_impact, draft_.event.time, text.str());
+  finish(MotionStatus::unresolved_impact, draft_.event.time,
+         textOf(6, "the tilted normal at the impact of ", namesOf(c->a, c->b), " at t = ", draft_.event.time,
+                " s does not part the bodies"));
   return false;
 }
 
@@ -68,22 +70,18 @@ bool Simulator::accumulates() {
     if (!(next->features == c.features) && ++low_bounces_[pair] < kRattles) continue;
     // gaps shrink by e each, so the rest of the cascade takes gap / (1 - e)
     const double gap = next->time - event.time, e = c.pair.elasticity;
-    std::ostringstream text;
-    text.precision(10);
-    text << "'" << scene_.bodies[index(c.a)].name << "' and '" << scene_.bodies[index(c.b)].name
-         << "' stay in contact from t = " << event.time + (e < 1 ? gap / (1 - e) : gap) << " s on, at ("
-         << c.at.point.x() << ", " << c.at.point.y() << ", " << c.at.point.z() << "), after " << motion_.impacts + 1
-         << " impacts; lasting contact is not modelled, so the motion ends there";
-    finish(MotionStatus::cascade, event.time, text.str());
+    finish(MotionStatus::cascade, event.time,
+           textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.time + (e < 1 ? gap / (1 - e) : gap),
+                  " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
+                  motion_.impacts + 1, " impacts; lasting contact is not modelled, so the motion ends there"));
     return true;
   }
   for (const Participant& p : event.participants) {
     if (!isMoved(p.body) || !stalls(p.body)) continue;
-    std::ostringstream text;
-    text << "impacts accumulate at t = " << event.time << " s, at (" << event.contacts[0].at.point.transpose()
-         << "): " << kStallEvents << " of '" << scene_.bodies[index(p.body)].name << "' within " << kStall
-         << " s; the motion ends there";
-    finish(MotionStatus::cascade, event.time, text.str());
+    finish(MotionStatus::cascade, event.time,
+           textOf(6, "impacts accumulate at t = ", event.time, " s, at (", event.contacts[0].at.point.transpose(),
+                  "): ", kStallEvents, " of '", scene_.bodies[index(p.body)].name, "' within ", kStall,
+                  " s; the motion ends there"));
     return true;
   }
   return false;
@@ -98,10 +96,8 @@ void Simulator::requireFlight(int body, const Arc& arc) const {
   for (const Vec3& v : {s.x, s.v, arc.positionAt(end), arc.velocityAt(end)})
     furthest = std::max(furthest, v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   const auto refuseFlight = [&](const std::string& what) {
-    std::ostringstream text;
-    text << "the flight of '" << scene_.bodies[index(body)].name << "' from t = " << arc.start()
-         << " s on cannot be computed: " << what;
-    throw NotComputable(text.str());
+    throw NotComputable(textOf(6, "the flight of '", scene_.bodies[index(body)].name, "' from t = ", arc.start(),
+                               " s on cannot be computed: ", what));
   };
   if (!(furthest <= kFurthest && s.q.coeffs().allFinite()))
     refuseFlight("its place or its velocity is beyond the range of doubles");
@@ -111,10 +107,8 @@ void Simulator::requireFlight(int body, const Arc& arc) const {
 }
 
 void Simulator::giveUp(const char* what, int a, int b, double time, const NotComputable& why) const {
-  std::ostringstream text;
-  text << "the " << what << " of '" << scene_.bodies[index(std::min(a, b))].name << "' and '"
-       << scene_.bodies[index(std::max(a, b))].name << "' at t = " << time << " s cannot be computed: " << why.what();
-  throw NotComputable(text.str());
+  throw NotComputable(textOf(6, "the ", what, " of ", namesOf(std::min(a, b), std::max(a, b)), " at t = ", time,
+                             " s cannot be computed: ", why.what()));
 }
 
 // Makes the last arcs available to the end of the motion, which comes sooner where one of them cannot be followed.
@@ -126,24 +120,24 @@ void Simulator::extendAll() {
       extend(arc, motion_.end);
     } catch (const NotComputable& error) {
       builder_.endFlight(b, error);
-      endAtReach(arc);
+      endWith(arc);
     } catch (const WorkEnded&) {
       if (!work_ended_) throw;
-      endAtReach(arc);
+      endWith(arc);
     }
   }
 }
 
 void Simulator::extend(Arc& arc, double until) {
-  if (!(arc.reach() < until)) return;
+  if (!(arc.availableUntil() < until)) return;
   work_.step();
   const std::size_t series = arc.series();
   arc.extendTo(until);
   work_.step(arc.series() - series);
 }
 
-void Simulator::endAtReach(const Arc& arc) {
-  motion_.end = std::min(motion_.end, arc.reach());
+void Simulator::endWith(const Arc& arc) {
+  motion_.end = std::min(motion_.end, arc.availableUntil());
   forgetAfter(motion_.end);
 }
 
@@ -156,11 +150,8 @@ void Simulator::endWork(bool stopped) {
   work_.allowMore(kStepsToEnd);
   finish(stopped ? MotionStatus::stopped : MotionStatus::step_limit, now_, "");
   if (motion_.status == MotionStatus::not_computable) return;
-  std::ostringstream text;
-  text.precision(10);
-  text << "stopped at t = " << motion_.end << " s after " << steps
-       << (stopped ? ", as was asked for" : ", the limit that was set");
-  motion_.message = text.str();
+  motion_.message = textOf(10, "stopped at t = ", motion_.end, " s after ", steps,
+                           stopped ? ", as was asked for" : ", the limit that was set");
 }
 
 void Simulator::forgetAfter(double end) {

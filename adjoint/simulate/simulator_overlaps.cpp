@@ -16,9 +16,8 @@ void Simulator::startOverlaps() {
 
 StartOverlap* Simulator::overlapOf(int a, int b) {
   if (motion_.overlaps.empty()) return nullptr;
-  const auto at = std::lower_bound(
-      motion_.overlaps.begin(), motion_.overlaps.end(), std::pair(a, b),
-      [](const StartOverlap& o, const std::pair<int, int>& pair) { return std::pair(o.a, o.b) < pair; });
+  const auto at = std::ranges::lower_bound(motion_.overlaps, std::pair(a, b), {},
+                                           [](const StartOverlap& o) { return std::pair(o.a, o.b); });
   return at != motion_.overlaps.end() && at->a == a && at->b == b ? &*at : nullptr;
 }
 

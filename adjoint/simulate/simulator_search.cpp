@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "adjoint/base/refuse.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 // Who will meet whom next: searches of one body's future against its neighbours.
@@ -92,12 +92,10 @@ bool Simulator::takeNext(Prediction& next) {
       next = first;
       return true;
     }
-    if (++searches_ > kMostSearches) {
-      std::ostringstream text;
-      text << "'" << scene_.bodies[index(body)].name << "' flies so fast at t = " << now_
-           << " s that its neighbours cannot be kept: more than " << kMostSearches << " searches without an impact";
-      throw NotComputable(text.str());
-    }
+    if (++searches_ > kMostSearches)
+      throw NotComputable(textOf(6, "'", scene_.bodies[index(body)].name, "' flies so fast at t = ", now_,
+                                 " s that its neighbours cannot be kept: more than ", kMostSearches,
+                                 " searches without an impact"));
     predictBody(body, queue_.time());
   }
   return false;

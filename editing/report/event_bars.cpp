@@ -2,7 +2,6 @@
 #include "editing/report/event_bars.hpp"
 
 #include "adjoint/derivative/adjoint.h"
-#include "adjoint/impact/event_pass.hpp"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom::editing_detail {
@@ -13,7 +12,7 @@ EventBars::EventBars(DerivativeTape& tape, int event)
     : tape_(tape),
       motion_(tape.motion()),
       event_(motion_.events[static_cast<std::size_t>(event)]),
-      pass_(tape.event(event).pass()),
+      pass_(tape.event(event)),
       problem_(static_cast<int>(event_.contacts.size())),
       contacts_(event_.contacts.size(), Eigen::Matrix<double, 7, 1>::Zero()),
       direct_(*motion_.scene) {

@@ -5,7 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "adjoint/impact/untruncated.hpp"
+#include "adjoint/impact/law.hpp"
+#include "adjoint/impact/single_laws.hpp"
 #include "adjoint/motion/body_geometry.h"
 #include "adjoint/numeric/elementary.hpp"
 #include "editing/detail/messages.hpp"
@@ -148,13 +149,14 @@ class MarginReader {
     margins_.push_back(std::move(m));
   }
 
-  // Gradient of direction . P, P the untruncated impulse, with the part along the normal taken off when it is
+  // Gradient of direction . P, P the impulse of `terms`, with the part along the normal taken off when it is
   // tangential: w.dP - P_n w.dn.
-  Eigen::VectorXd impulseGradient(int event, const ContactProblem& problem, const Vec3& direction,
+  Eigen::VectorXd impulseGradient(int event, const FrictionTerms<double>& terms, const Vec3& direction,
                                   const Vec3& normal_bar) {
-    const ContactProblemBar bar = untruncatedImpulsePullback(problem, direction);
+    ImpactProblemDerivative bar(1);
+    terms.pullback(direction, bar);
     EventBars bars(tape_, event);
-    bars.addLaw(0, bar.K, bar.normal + normal_bar, bar.pair);
+    bars.addLaw(0, bar.K, bar.normal[0] + normal_bar, bar.pair[0]);
     bars.addVelocity(0, bar.u);
     return gradientOf(bars);
   }
@@ -163,16 +165,18 @@ class MarginReader {
     const Event& e = eventAt(event);
     const Contact& c = e.contacts[0];
     const EventBars nothing(tape_, event);
-    const ContactProblem problem{nothing.matrixAt(0), nothing.velocityAt(0), c.impulse_normal, c.pair};
-    const Vec3 n = problem.normal, P = untruncatedImpulse(problem);
+    FrictionTerms<double> terms(
+        ContactProblem{nothing.matrixAt(0), nothing.velocityAt(0), c.impulse_normal, c.pair});
+    terms.stick();
+    const Vec3 n = terms.n, P = terms.impulse();
     const double P_n = n.dot(P), mu = c.pair.friction;
     const Vec3 P_t = P - P_n * n, t1 = P_t.norm() > 0 ? P_t.normalized() : n.unitOrthogonal(), t2 = n.cross(t1);
     EventBars friction(tape_, event);
     friction.addLaw(0, Mat3::Zero(), Vec3::Zero(), {0, P_n, 0});
     const Eigen::VectorXd by_friction = gradientOf(friction);
     if (e.mode == ImpactMode::frictionless && by_friction.isZero(0)) return;  // it stays without
-    const Eigen::VectorXd along_n = impulseGradient(event, problem, n, P),
-                          along_1 = impulseGradient(event, problem, t1, -P_n * t1);
+    const Eigen::VectorXd along_n = impulseGradient(event, terms, n, P),
+                          along_1 = impulseGradient(event, terms, t1, -P_n * t1);
     const Eigen::VectorXd cone = mu * along_n + by_friction;
 
     const bool slides = branchOf(e.mode) == ImpactMode::slide;
@@ -181,7 +185,7 @@ class MarginReader {
     m.gradient = cone - along_1;
     m.what = name(event, 0) + (slides ? " sticks" : " starts to slide");
     if (e.mode == ImpactMode::stick) {
-      const Eigen::VectorXd along_2 = impulseGradient(event, problem, t2, -P_n * t2);
+      const Eigen::VectorXd along_2 = impulseGradient(event, terms, t2, -P_n * t2);
       nearestDirection(mu * P_n, P_t.norm(), cone, along_1, along_2, m);
     }
     margins_.push_back(std::move(m));

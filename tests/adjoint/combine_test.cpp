@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "adjoint/motion/plan.h"
+#include "adjoint/motion/pair_rules.hpp"
 
 namespace carom {
+
+using namespace adjoint_detail;
+
 namespace {
 
 constexpr Combine kRules[] = {Combine::average, Combine::minimum, Combine::maximum, Combine::multiply};
@@ -46,10 +49,11 @@ TEST(CombineRules, HaveTheDerivativesOfTheRuleThatHolds) {
       const auto by = [&](double da, double db) {
         return (asTheTextSays(p, q, 0.3 + h * da, 0.7 + h * db) - asTheTextSays(p, q, 0.3 - h * da, 0.7 - h * db)) / (2 * h);
       };
-      EXPECT_NEAR(combineTangent(a, b, {0, 1, 0}, {}).friction, by(1, 0), 1e-9);
-      EXPECT_NEAR(combineTangent(a, b, {}, {0, 1, 0}).friction, by(0, 1), 1e-9);
+      const PairRules<double> rules = rulesOf(a, b);
+      EXPECT_NEAR(rules.tangent({0, 1, 0}, {}).friction, by(1, 0), 1e-9);
+      EXPECT_NEAR(rules.tangent({}, {0, 1, 0}).friction, by(0, 1), 1e-9);
       MaterialDerivative a_bar, b_bar;
-      combinePullback(a, b, {0, 1, 0}, a_bar, b_bar);
+      rules.pullback({0, 1, 0}, a_bar, b_bar);
       EXPECT_NEAR(a_bar.friction, by(1, 0), 1e-9);
       EXPECT_NEAR(b_bar.friction, by(0, 1), 1e-9);
     }

@@ -47,12 +47,11 @@ TEST(Invariant, AdjointTimesRateIsKeptByEvents) {
       std::vector<BodyModelDerivative> model_bar(s.bodies.size());
       const auto before = event.pullback(after, none, 0, scene_bar, model_bar);
       double sum_after = 0, sum_before = 0, size = 0;
-      for (int i = 0; i < static_cast<int>(n); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        sum_after += after[k].dot(event.rateAfter(i));
-        sum_before += before[k].dot(event.rateBefore(i));
-        for (const auto& [bar, rate] :
-             {std::pair(after[k], event.rateAfter(i)), std::pair(before[k], event.rateBefore(i))})
+      for (std::size_t k = 0; k < n; ++k) {
+        const StateDerivative &rate_after = event.rateAfter()[k], &rate_before = event.rateBefore()[k];
+        sum_after += after[k].dot(rate_after);
+        sum_before += before[k].dot(rate_before);
+        for (const auto& [bar, rate] : {std::pair(after[k], rate_after), std::pair(before[k], rate_before)})
           size += bar.x.cwiseAbs().dot(rate.x.cwiseAbs()) + bar.theta.cwiseAbs().dot(rate.theta.cwiseAbs()) +
                   bar.v.cwiseAbs().dot(rate.v.cwiseAbs());
       }

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/impact/law.hpp"
+#include "adjoint/impact/impact_pass.hpp"
 #include "tests/support/scenes.h"
 
 namespace carom {
@@ -169,7 +169,7 @@ TEST(Kinematic, JointImpactsPartEveryContact) {
       for (int l = 0; l < n; ++l)
         p.K.block<3, 3>(3 * k, 3 * l) =
             Mat3::Identity() / heavy - skew(arms[static_cast<std::size_t>(k)]) * A * skew(arms[static_cast<std::size_t>(l)]);
-    const ImpactSolution solution = lawFor(p).solve(p);
+    const ImpactSolution solution = solveLaw(p);
     const Eigen::VectorXd after = p.u + p.K * solution.P;
     for (int k = 0; k < n; ++k) {
       const auto kk = static_cast<std::size_t>(k);
@@ -189,7 +189,7 @@ TEST(Kinematic, WhatIsSqueezedIsNotComputable) {
   p.pair = {{0.5, 0, 0}, {0.5, 0, 0}};
   p.K.resize(6, 6);
   p.K << Mat3::Identity(), Mat3::Identity(), Mat3::Identity(), Mat3::Identity();
-  EXPECT_THROW(lawFor(p).solve(p), NotComputable);
+  EXPECT_THROW(solveLaw(p), NotComputable);
 }
 
 }  // namespace

@@ -6,8 +6,9 @@
 
 #include <cmath>
 
-#include "adjoint/impact/law.hpp"
+#include "adjoint/impact/laws.hpp"
 #include "adjoint/impact/tilt.hpp"
+#include "adjoint/impact/tilt_frame.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -22,8 +23,43 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// A law in doubles; its tangent is the law in dual numbers, its pullback is written by hand.
+struct TestedLaw {
+  const char* name;
+  ImpactSolution (*solve)(const ImpactProblem&);
+  VectorXd (*tangent)(const ImpactProblem&, const ImpactProblemDerivative& dproblem);
+  void (*pullback)(const ImpactProblem&, const VectorXd& P_bar, ImpactProblemDerivative& problem_bar);
+};
+
+template <class Law>
+VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
+  using Rate = Dual<1>;
+  const auto along = [](double value, double rate) {
+    Rate both(value);
+    both.rate[0] = rate;
+    return both;
+  };
+  ImpactProblemOf<Rate> both{p.K.cast<Rate>(), p.u.cast<Rate>(), {}, {}, p.driven};
+  setRates(both.K, d.K, 0);
+  setRates(both.u, d.u, 0);
+  for (std::size_t k = 0; k < p.normal.size(); ++k) {
+    both.normal.push_back(p.normal[k].cast<Rate>());
+    setRates(both.normal[k], d.normal[k], 0);
+    both.pair.push_back({along(p.pair[k].elasticity, d.pair[k].elasticity), along(p.pair[k].friction, d.pair[k].friction),
+                         along(p.pair[k].tangential_elasticity, d.pair[k].tangential_elasticity)});
+  }
+  return ratesOf(Law::solve(both).P, 0);
+}
+
+template <class Law>
+constexpr TestedLaw tested(const char* name) {
+  return {name, &Law::template solve<double>, &tangentOf<Law>, &Law::template pullback<double>};
+}
+const TestedLaw kFrictionlessLaw = tested<FrictionlessLaw>("frictionless"),
+                kFrictionLaw = tested<FrictionLaw>("friction"), kJointLaw = tested<JointLaw>("joint");
+
 struct LawRow {
-  const ImpactLaw* law;
+  const TestedLaw* law;
   int fewest, most;  // contacts
   bool friction;
 };
@@ -195,7 +231,7 @@ TEST(Tilt, JacobianIsTheLimitOfDifferences) {
     const auto at = [&](double t) { return tiltedNormal((n + t * dn).normalized(), a + t * da, b + t * db); };
     Eigen::Matrix<double, 7, 1> d;
     d << dn, da, db;
-    expectEntries(tiltedNormalJacobian(n, a, b) * d, (at(h) - at(-h)) / (2 * h), 1e-8, "dn'", 1 + d.norm());
+    expectEntries(tiltJacobian<double>(n, a, b) * d, (at(h) - at(-h)) / (2 * h), 1e-8, "dn'", 1 + d.norm());
     expectEntries(at(0).norm(), 1, 1e-15, "length");
   }
 }

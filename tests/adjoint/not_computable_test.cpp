@@ -151,8 +151,8 @@ TEST(NotComputable, ARotationThatTakesTooManySeries) {
     rotation.extendTo(1e9);
   } catch (const NotComputable& error) {
     EXPECT_NE(std::string(error.what()).find("100000 series"), std::string::npos);
-    EXPECT_TRUE(rotation.reach() > 0 && rotation.reach() < 1e9);
-    EXPECT_NO_THROW(rotation.orientationAt(rotation.reach()));
+    EXPECT_TRUE(rotation.availableUntil() > 0 && rotation.availableUntil() < 1e9);
+    EXPECT_NO_THROW(rotation.orientationAt(rotation.availableUntil()));
   }
 }
 

@@ -4,6 +4,7 @@
 // Orientation is a world rotation vector u applied on the left of the written orientation: R = exp([u]x) R_written. Its
 // start is 0. A change of u turns the body by theta = J_l(u) du, so that the derivative by u is J_l(u)^T theta_bar.
 
+#include "adjoint/numeric/so3.hpp"
 #include "adjoint/numeric/so3_rates.hpp"
 #include "editing/problem/controls/control_families.hpp"
 #include "editing/problem/controls/natural_scales.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editing/problem/rows/quantities.hpp"
 
+#include "adjoint/numeric/so3.hpp"
 #include "adjoint/numeric/so3_rates.hpp"
 
 namespace carom::editing_detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/derivative/reach.hpp"
+#include "adjoint/derivative/influence.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -18,7 +18,7 @@ bool isZero(const MaterialDerivative& d) {
 
 }  // namespace
 
-Reach::Reach(const Motion& motion, const std::vector<const SceneTangent*>& directions)
+Influence::Influence(const Motion& motion, const std::vector<const SceneTangent*>& directions)
     : first_arc_(motion.world_lines.size(), std::numeric_limits<int>::max()), events_(motion.events.size()) {
   const Scene& scene = *motion.scene;
   const auto changed = [&](auto&& changes) {
@@ -41,15 +41,15 @@ Reach::Reach(const Motion& motion, const std::vector<const SceneTangent*>& direc
   const auto at = [](const auto& of, int body) { return of[static_cast<std::size_t>(body)]; };
   for (std::size_t e = 0; e < motion.events.size(); ++e) {
     const Event& event = motion.events[e];
-    const bool reached = std::any_of(event.participants.begin(), event.participants.end(),
+    const bool influenced = std::any_of(event.participants.begin(), event.participants.end(),
                                      [&](const Participant& p) { return arc(p.body, p.arc); }) ||
                          std::any_of(event.contacts.begin(), event.contacts.end(), [&](const Contact& c) {
                            // a fixed body takes no part, and has one arc
                            return arc(c.a, 0) || arc(c.b, 0) || at(surface, c.a) || at(surface, c.b) ||
                                   tilted(c.tilt_a) || tilted(c.tilt_b);
                          });
-    events_[e] = reached;
-    if (!reached) continue;
+    events_[e] = influenced;
+    if (!influenced) continue;
     for (const Participant& p : event.participants) {
       int& first = first_arc_[static_cast<std::size_t>(p.body)];
       first = std::min(first, p.arc + 1);
