@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ode_bridge/rounding.hpp"
+#include "ode_bridge/time_to.hpp"
 
 namespace carom::ode_bridge_detail {
 namespace {
@@ -67,30 +68,14 @@ BallImpact ballPlaneImpact(const FlightPath& ball, const Vec3& g, const Vec3& no
   const double a = normal.dot(g);
   const double touch = kTouch * std::max({1.0, ball.positionAt(from, g).cwiseAbs().maxCoeff(), ball.radius});
   const double still = kStill * ball.velocityAt(from, g).norm();
-  double s;
   if (h <= touch && std::abs(v) <= std::max(still, std::sqrt(2 * std::abs(a) * touch))) {
     if (v >= 0 && a > 0) return {};  // it parts
     return {BallImpact::Found::undecided, from};
   }
-  if (h <= 0) {
-    if (v < 0) {
-      s = 0;
-    } else if (a < 0) {
-      s = (v + std::sqrt(std::max(0.0, v * v - 2 * a * h))) / -a;  // up and down again
-    } else {
-      return {};
-    }
-  } else {
-    const double D = v * v - 2 * a * h;
-    if (!(D >= 0)) return {};
-    const double root = std::sqrt(D);
-    if (v < 0) {
-      s = 2 * h / (root - v);
-    } else if (a < 0) {
-      s = (v + root) / -a;
-    } else {
-      return {};
-    }
+  double s = h > 0 ? timeTo(h, -v, -a) : 0;
+  if (h <= 0 && v >= 0) {
+    if (!(a < 0)) return {};
+    s = (v + std::sqrt(std::max(0.0, v * v - 2 * a * h))) / -a;  // up and down again
   }
   if (!(from + s <= until)) return {};
   const double time = polish(gap_at, from, from + s);

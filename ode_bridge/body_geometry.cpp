@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/motion/body_geometry.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "adjoint/base/arguments.hpp"
-#include "ode_bridge/feature_limits.hpp"
 #include "ode_bridge/gaps.hpp"
 #include "ode_bridge/overlap.hpp"
 
@@ -10,6 +12,123 @@ namespace carom {
 
 using namespace adjoint_detail;
 using namespace ode_bridge_detail;
+
+namespace {
+
+struct Limits {
+  const Solid& solid;
+  double sign;
+  int body;
+  std::vector<FeatureLimit>& out;
+
+  // weight . (p - border) >= 0; the border moves with the part that `of` belongs to
+  void point(const Vec3& weight, const Vec3& border, const Feature& of, std::string beyond) const {
+    FeatureLimit limit;
+    limit.body = body;
+    limit.point_weight = weight;
+    limit.border = border;
+    Feature moving = of;
+    moving.point = border;
+    limit.border_rates = ratesOf(solid, moving).point;
+    limit.beyond = std::move(beyond);
+    out.push_back(std::move(limit));
+  }
+
+  // weight . outward >= 0
+  void normal(const Vec3& weight, std::string beyond, const Eigen::Matrix3Xd& rates = {}) const {
+    FeatureLimit limit;
+    limit.body = body;
+    limit.normal_weight = sign * weight;
+    limit.normal_rates = sign * rates;
+    limit.beyond = std::move(beyond);
+    out.push_back(std::move(limit));
+  }
+
+  const Feature& vertexAt(int v) const { return solid.vertices[static_cast<std::size_t>(v)]; }
+};
+
+// All neighbours lie behind the vertex as the normal sees it.
+void ofVertex(const Limits& limits, int v) {
+  const Solid& solid = limits.solid;
+  const auto at = static_cast<std::size_t>(v);
+  if (at + 1 >= solid.neighbour_first.size()) return;
+  for (int i = solid.neighbour_first[at]; i < solid.neighbour_first[at + 1]; ++i) {
+    const int other = solid.neighbours[static_cast<std::size_t>(i)];
+    const Vec3 to = limits.vertexAt(other).point - limits.vertexAt(v).point;
+    if (to.norm() > 0) limits.normal(-to.normalized(), nameOf(solid, Family::vertex, other));
+  }
+}
+
+// Between the ends, with a normal between those of the two faces.
+void ofEdge(const Limits& limits, int e) {
+  const Solid& solid = limits.solid;
+  const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
+  const std::string end = "the end of " + nameOf(solid, Family::edge, e);
+  for (const double side : {-1.0, 1.0})
+    limits.point(-side * edge.direction, edge.point + side * edge.half_length * edge.direction, edge, end);
+  const auto face = [&](int f, double along) {
+    if (f < 0) return;
+    const Vec3 into = along * solid.faces[static_cast<std::size_t>(f)].direction.cross(edge.direction);
+    limits.normal(-into.normalized(), nameOf(solid, Family::face, f));
+  };
+  face(edge.left, 1);
+  face(edge.right, -1);
+}
+
+void ofFace(const Limits& limits, int f, const Vec3& point) {
+  const Solid& solid = limits.solid;
+  const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
+  const std::string border = "the border of " + nameOf(solid, Family::face, f);
+  if (face.disc > 0) {
+    const Vec3 to = point - face.point, across = to - face.direction.dot(to) * face.direction;
+    if (across.norm() == 0) return;
+    const Vec3 out = across.normalized();
+    limits.point(-out, face.point + face.disc * out, face, border);
+    return;
+  }
+  for (int i = 0; i < face.count; ++i) {
+    const Vec3 &from = solid.corner(face, i), along = solid.corner(face, i + 1) - from;
+    limits.point(-along.cross(face.direction).normalized(), from, face, border);
+  }
+}
+
+// Along the line of the side that ends at the rim's point: (rho u + 2 apex d)/|..|, u across the axis to that point. As
+// the point moves u turns along the rim, which no normal of a contact there has a part along: only rho and apex count.
+void ofSideOfCone(const Limits& limits, const Feature& rim, const SolidEdge& side, const Vec3& u, std::string beyond) {
+  const Vec3 along = rim.rim * u + 2 * side.apex * rim.direction, w = along.normalized();
+  const Eigen::Matrix3Xd rates =
+      u * ratesOf(limits.solid, rim).rim + 2 * rim.direction * ratesOf(limits.solid, side).apex;
+  limits.normal(w, std::move(beyond), (rates - w * (w.transpose() * rates)) / along.norm());
+}
+
+// The contact is at the outermost point of the rim, on the side of the cap.
+void ofRim(const Limits& limits, int r, const Vec3& point) {
+  const Feature& rim = limits.solid.rims[static_cast<std::size_t>(r)];
+  const std::string name = nameOf(limits.solid, Family::rim, r);
+  const Vec3 to = point - rim.point, across = to - rim.direction.dot(to) * rim.direction;
+  const auto& edges = limits.solid.edges;
+  const auto side = std::find_if(edges.begin(), edges.end(), [&](const SolidEdge& e) { return e.part == rim.part && e.apex > 0; });
+  if (side == edges.end() || across.norm() == 0) {
+    limits.normal(rim.direction, "the side of " + name);
+  } else {
+    ofSideOfCone(limits, rim, *side, across.normalized(), "the side of " + name);
+  }
+  if (across.norm() > 0) limits.normal(across.normalized(), "the cap of " + name);
+}
+
+// Adds the conditions under which a contact stays with one feature of a solid (see FeatureLimit). `point` is the contact
+// point in the solid's axes; `sign` is 1 where the normal of the contact points out of this solid (it is body b of the
+// pair) and -1 where it points into it (body a).
+void addFeatureLimits(const Solid& solid, Family family, int index, const Vec3& point, double sign, int body,
+                      std::vector<FeatureLimit>& out) {
+  const Limits limits{solid, sign, body, out};
+  if (family == Family::vertex) ofVertex(limits, index);
+  if (family == Family::edge) ofEdge(limits, index);
+  if (family == Family::face) ofFace(limits, index, point);
+  if (family == Family::rim) ofRim(limits, index, point);
+}
+
+}  // namespace
 
 double FeatureGeometry::boundingRadius(int body) const {
   return solids_[checkedIndex("boundingRadius", "body", body, solids_.size())].bound();

@@ -118,7 +118,7 @@ void BoxGrid::move(int body, const std::vector<Bounds>& boxes) {
 
 void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>& out) const {
   const Bounds& box = boxes[static_cast<std::size_t>(body)];
-  const double reach = half_ * (1 + 1e-9);
+  const double margin = half_ * (1 + 1e-9);
   for (int other : large_)
     if (other != body && meet(box, boxes[static_cast<std::size_t>(other)])) out.push_back(other);
   const Filed mine = filed(body, box);
@@ -126,7 +126,7 @@ void BoxGrid::find(int body, const std::vector<Bounds>& boxes, std::vector<int>&
     return mine.low[0] <= f.high[0] && f.low[0] <= mine.high[0] && mine.low[1] <= f.high[1] &&
            f.low[1] <= mine.high[1] && mine.low[2] <= f.high[2] && f.low[2] <= mine.high[2];
   };
-  const Cell low = cellAt(box.low.array() - reach), high = cellAt(box.high.array() + reach);
+  const Cell low = cellAt(box.low.array() - margin), high = cellAt(box.high.array() + margin);
   // each row of cells lies together, the rows all over the memory: they are fetched side by side
   const auto forEachRow = [&](const auto& f) {
     for (int z = low[2]; z <= high[2]; ++z)

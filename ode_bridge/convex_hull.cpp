@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "ode_bridge/convex_hull.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "adjoint/base/refuse.hpp"
-#include "adjoint/scene/weld.hpp"
+#include "adjoint/scene/polygons.hpp"
 #include "ode_bridge/qhull_facets.hpp"
 
 namespace carom {
@@ -18,22 +18,11 @@ using namespace ode_bridge_detail;
 
 namespace {
 
-using Polygons = std::vector<std::vector<int>>;
-
-constexpr double kLargest = 1e9;     // m, as for every number of a scene
 constexpr double kFlattest = 1e-9;   // least thickness of the points, of their size
 constexpr double kAbove = 1e-12;     // how far a vertex may be above a face, of the size
 constexpr double kShortest = 1e-13;  // least length of an edge, of the size: below, its direction is rounding
 constexpr double kReflex = 1e-14;    // how far an edge may be sunk in, of the size
 constexpr std::size_t kAllPairs = 100'000'000;  // points times faces up to which every point is held against every face
-
-// A number that was computed, to three digits.
-std::string about(double value) {
-  std::ostringstream out;
-  out.precision(3);
-  out << value;
-  return out.str();
-}
 
 const Vec3& at(const std::vector<Vec3>& points, int i) { return points[static_cast<std::size_t>(i)]; }
 
@@ -41,23 +30,23 @@ void checkNumbers(const std::vector<Vec3>& points) {
   if (points.size() < 4) refuse("", "found a hull of ", points.size(), " points, expected four or more");
   if (points.size() > std::size_t{100'000'000})
     refuse("", "found a hull of ", points.size(), " points, expected at most 100000000");
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (int k = 0; k < 3; ++k)
-      if (!(std::abs(points[i][k]) <= kLargest))
-        refuse("point " + std::to_string(i), "found ", points[i][k],
-               ", expected a finite coordinate of magnitude at most 1e9");
+  checkCoordinates(points, "point");
+}
+
+Eigen::AlignedBox3d boxAround(const std::vector<Vec3>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : points) box.extend(p);
+  return box;
 }
 
 /// Size of the points; throws when they do not span a volume.
 double checkSpread(const std::vector<Vec3>& points) {
-  Vec3 low = points[0], high = low;
-  for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const double size = (high - low).stableNorm();
+  const double size = boxAround(points).sizes().stableNorm();
   const auto expected = ", expected points that span a volume";
   if (!(size > 0)) refuse("", "found all ", points.size(), " points of a hull at one place", expected);
   if (!(size >= kLeastLength))
-    refuse("", "found points of a hull within ", about(size), " m of each other, expected an extent of at least ",
-           about(kLeastLength), " m");
+    refuse("", "found points of a hull within ", about(size, 3), " m of each other, expected an extent of at least ",
+           about(kLeastLength, 3), " m");
   const auto farthest = [&](auto&& measure) {
     return *std::max_element(points.begin(), points.end(),
                              [&](const Vec3& a, const Vec3& b) { return measure(a) < measure(b); });
@@ -73,16 +62,14 @@ double checkSpread(const std::vector<Vec3>& points) {
   const auto fromPlane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
   const double thickness = fromPlane(farthest(fromPlane));
   if (!(thickness > kFlattest * size))
-    refuse("", "found all ", points.size(), " points of a hull in one plane (within ", about(thickness), " m)",
+    refuse("", "found all ", points.size(), " points of a hull in one plane (within ", about(thickness, 3), " m)",
            expected);
   return size;
 }
 
 /// Moved to the origin and divided by a power of two, so that the library's tolerances are relative to the size.
 std::vector<Vec3> normalized(const std::vector<Vec3>& points, double size) {
-  Vec3 low = points[0], high = low;
-  for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Vec3 middle = 0.5 * (low + high);
+  const Vec3 middle = boxAround(points).center();
   const int exponent = -std::ilogb(size);
   std::vector<Vec3> moved;
   moved.reserve(points.size());
@@ -146,30 +133,12 @@ bool closesOnce(const Polygons& polygons) {
   return vertices.size() + polygons.size() == sides.size() / 2 + 2;
 }
 
-/// Numbers the vertices in the order of the points, leaving out those that no polygon has.
-std::vector<Vec3> keepUsed(Polygons& polygons, const std::vector<Vec3>& points) {
-  std::vector<int> place(points.size(), -1);
-  for (const auto& polygon : polygons)
-    for (int v : polygon) place[static_cast<std::size_t>(v)] = 0;
-  std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (place[i] == 0) place[i] = static_cast<int>(kept.size()), kept.push_back(points[i]);
-  for (auto& polygon : polygons)
-    for (int& v : polygon) v = place[static_cast<std::size_t>(v)];
-  return kept;
-}
-
 /// Largest height of a point over a face's plane, or distance of a face's corner from its own.
 double unevenness(const Surface& s, const std::vector<Vec3>& points) {
   double worst = 0;
-  const auto height = [&](const Surface::Face& f, const Vec3& p) {
-    return f.normal.dot(p - at(s.vertices, s.corners[static_cast<std::size_t>(f.first)]));
-  };
-  const auto corner = [&](const Surface::Face& f, int i) -> const Vec3& {
-    return at(s.vertices, s.corners[static_cast<std::size_t>(f.first + i)]);
-  };
+  const auto height = [&](const Surface::Face& f, const Vec3& p) { return f.normal.dot(p - s.corner(f, 0)); };
   for (const Surface::Face& f : s.faces)
-    for (int i = 0; i < f.count; ++i) worst = std::max(worst, std::abs(height(f, corner(f, i))));
+    for (int i = 0; i < f.count; ++i) worst = std::max(worst, std::abs(height(f, s.corner(f, i))));
   if (s.faces.size() <= kAllPairs / points.size()) {
     for (const Surface::Face& f : s.faces)
       for (const Vec3& p : points) worst = std::max(worst, height(f, p));
@@ -178,7 +147,7 @@ double unevenness(const Surface& s, const std::vector<Vec3>& points) {
   for (const Surface::Edge& e : s.edges)
     for (const auto& [face, other] : {std::pair{e.left, e.right}, std::pair{e.right, e.left}}) {
       const Surface::Face &f = s.faces[static_cast<std::size_t>(face)], &g = s.faces[static_cast<std::size_t>(other)];
-      for (int i = 0; i < g.count; ++i) worst = std::max(worst, height(f, corner(g, i)));
+      for (int i = 0; i < g.count; ++i) worst = std::max(worst, height(f, s.corner(g, i)));
     }
   return worst;
 }

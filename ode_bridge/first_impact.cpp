@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
-#include "ode_bridge/refine.hpp"
+#include "ode_bridge/rounding.hpp"
 #include "ode_bridge/touching.hpp"
 
 namespace carom::ode_bridge_detail {
@@ -44,6 +44,54 @@ struct Pending {
     return node_a != o.node_a ? node_a > o.node_a : node_b > o.node_b;
   }
 };
+
+// An approach along n slower than this cannot be told from none. What a body spins by about n moves nothing along n, but
+// for its rounding.
+double stillSpeed(const Placed& a, const Placed& b, const Vec3& n) {
+  double speed = a.k.v.norm() + b.k.v.norm(), spinning = 0;
+  for (const Placed* p : {&a, &b}) {
+    if (!(p->spin > 0)) continue;
+    speed += n.cross(p->k.w).norm() * p->solid->bound();
+    spinning += p->spin * p->solid->bound();
+  }
+  return kStill * speed + 32 * kEps * spinning;
+}
+
+double gapRate(const Placed& a, const Placed& b, const ContactPoint& c) {
+  return c.normal.dot(a.k.v + a.k.w.cross(c.point - a.k.x) - b.k.v - b.k.w.cross(c.point - b.k.x));
+}
+
+struct Root {
+  double time = 0;
+  bool approaching = false;
+};
+
+// Newton on the gap of frozen features from a time t at which it is within rounding of zero, where the bodies are `a0`
+// and `b0`; never before `from`.
+Root refineRoot(const PairMotion& pair, const FeaturePair& features, double from, double t, const Placed& a0,
+                const Placed& b0) {
+  const auto contact = [&](const Placed& a, const Placed& b) {
+    return pair.geometry.contact(pair.a, pair.b, features, {a.k.x, a.k.R}, {b.k.x, b.k.R});
+  };
+  ContactPoint c = contact(a0, b0);
+  double rate = gapRate(a0, b0, c);
+  if (!(rate < -stillSpeed(a0, b0, c.normal))) return {t, false};
+  double best = std::abs(c.gap);
+  for (int round = 0; round < 6; ++round) {
+    const double next = std::max(from, t - c.gap / rate);
+    if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {next, true};
+    pair.arc_a.extendTo(next);
+    pair.arc_b.extendTo(next);
+    const Placed a(*a0.solid, pair.arc_a, next), b(*b0.solid, pair.arc_b, next);
+    c = contact(a, b);
+    const double new_rate = gapRate(a, b, c);
+    if (!(std::abs(c.gap) < best) || !(new_rate < 0)) return {std::abs(c.gap) <= best ? next : t, true};
+    best = std::abs(c.gap);
+    rate = new_rate;
+    t = next;
+  }
+  return {t, true};
+}
 
 class Search {
  public:
@@ -176,9 +224,9 @@ class Search {
 
   // Takes over the earliest impact among the features that touch, if any of them approaches.
   bool impactAtTouch(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance) {
-    const double reach = std::max(4 * tolerance, std::min(2 * std::abs(witness.separation), kDeepest * tolerance));
+    const double room = std::max(4 * tolerance, std::min(2 * std::abs(witness.separation), kDeepest * tolerance));
     touching_.clear();
-    addTouching(a, b, witness, reach, touching_);
+    addTouching(a, b, witness, room, touching_);
     bool found = false;
     for (const FeaturePair& f : touching_) {
       const Root root = refineRoot(pair_, f, from_, now_.time, a_, b_);

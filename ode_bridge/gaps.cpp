@@ -53,20 +53,6 @@ constexpr std::array<std::array<std::int16_t, 4>, 4> kKinds = [] {
 
 const GapRow& rowOf(std::int16_t kind) { return kGaps[static_cast<std::size_t>(kind)]; }
 
-std::size_t countOf(const Solid& solid, Family family) {
-  switch (family) {
-    case Family::vertex:
-      return solid.vertices.size();
-    case Family::edge:
-      return solid.edges.size();
-    case Family::face:
-      return solid.faces.size();
-    case Family::rim:
-      return solid.rims.size();
-  }
-  return 0;
-}
-
 // What a frozen pair of features stands for, once it is known to stand for something.
 struct FoundPair {
   const GapRow& row;
@@ -75,7 +61,7 @@ struct FoundPair {
 };
 
 const Feature& featureOf(const Solid& solid, Family family, int index) {
-  checkedIndex("a feature pair", "feature", index, countOf(solid, family));
+  checkedIndex("a feature pair", "feature", index, solid.count(family));
   return solid.feature(family, index);
 }
 

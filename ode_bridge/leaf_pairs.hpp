@@ -8,15 +8,15 @@
 
 namespace carom::ode_bridge_detail {
 
-/// Visits the pairs of pieces of two bodies whose balls are at most `reach` apart: visit(PlacedPiece, PlacedPiece).
+/// Visits the pairs of pieces of two bodies whose balls are at most `distance` apart: visit(PlacedPiece, PlacedPiece).
 template <class Visit>
-void eachLeafPair(const Placed& a, const Placed& b, double reach, const Visit& visit) {
+void eachLeafPair(const Placed& a, const Placed& b, double distance, const Visit& visit) {
   std::vector<std::pair<int, int>> open{{0, 0}};
   while (!open.empty()) {
     const auto [i, j] = open.back();
     open.pop_back();
     const Node &na = a.solid->nodes[static_cast<std::size_t>(i)], &nb = b.solid->nodes[static_cast<std::size_t>(j)];
-    if (separationOf({&a, &na}, {&b, &nb}) > reach) continue;
+    if (separationOf({&a, &na}, {&b, &nb}) > distance) continue;
     const bool leaf_a = na.piece >= 0, leaf_b = nb.piece >= 0;
     if (leaf_a && leaf_b) {
       visit(PlacedPiece{&a, &a.solid->pieces[static_cast<std::size_t>(na.piece)]},

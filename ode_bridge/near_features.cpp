@@ -8,12 +8,6 @@
 namespace carom::ode_bridge_detail {
 namespace {
 
-template <class Visit>
-void each(const Solid& solid, const Piece::Range& range, const Visit& visit) {
-  for (int i = range.first; i < range.first + range.count; ++i)
-    visit(solid.piece_features[static_cast<std::size_t>(i)]);
-}
-
 bool nearEdge(const SolidEdge& edge, const Vec3& p, double distance) {
   const Vec3 to = p - edge.point;
   const double along = std::clamp(edge.direction.dot(to), -edge.half_length, edge.half_length);
@@ -32,24 +26,26 @@ double outsideSide(const Piece& piece, double along, double out_of_axis) {
   return ((out_of_axis - middle) * rise + along * fall) / std::sqrt(rise * rise + fall * fall);
 }
 
-void nearFrustum(const Solid& solid, const Piece& piece, const Vec3& p, double distance, NearFeatures& out) {
+NearFeatures nearFrustum(const Solid& solid, const Piece& piece, const Vec3& p, double distance) {
+  NearFeatures out;
   const Vec3 to = p - piece.center;
   const double along = piece.axis.dot(to), out_of_axis = (to - along * piece.axis).norm();
-  each(solid, piece.faces, [&](int f) {
+  for (int f : solid.featuresOf(piece, Family::face)) {
     if (nearFace(solid, solid.faces[static_cast<std::size_t>(f)], p, distance)) out.add(Family::face, f);
-  });
-  each(solid, piece.vertices, [&](int v) {
+  }
+  for (int v : solid.featuresOf(piece, Family::vertex)) {
     const Feature& apex = solid.vertices[static_cast<std::size_t>(v)];
     if (!apex.mark && (apex.point - p).squaredNorm() <= distance * distance) out.add(Family::vertex, v);
-  });
-  if (std::abs(outsideSide(piece, along, out_of_axis)) > distance) return;
+  }
+  if (std::abs(outsideSide(piece, along, out_of_axis)) > distance) return out;
   if (std::abs(along) <= piece.half_length + distance)
-    each(solid, piece.edges, [&](int e) { out.add(Family::edge, e); });
-  each(solid, piece.rims, [&](int r) {
+    for (int e : solid.featuresOf(piece, Family::edge)) out.add(Family::edge, e);
+  for (int r : solid.featuresOf(piece, Family::rim)) {
     const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
     if (std::abs(rim.direction.dot(p - rim.point)) <= distance && std::abs(out_of_axis - rim.rim) <= distance)
       out.add(Family::rim, r);
-  });
+  }
+  return out;
 }
 
 }  // namespace
@@ -61,33 +57,26 @@ double outsideFace(const Solid& solid, const SolidFace& face, const Vec3& p) {
   }
   double outside = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < face.count; ++i) {
-    const auto corner = [&](int k) -> const Vec3& {
-      const int v = solid.corners[static_cast<std::size_t>(face.first + k % face.count)];
-      return solid.vertices[static_cast<std::size_t>(v)].point;
-    };
-    const Vec3 &from = corner(i), along = corner(i + 1) - from;
+    const Vec3 &from = solid.corner(face, i), along = solid.corner(face, i + 1) - from;
     outside = std::max(outside, along.cross(face.direction).dot(p - from) / along.norm());
   }
   return outside;
 }
 
 NearFeatures featuresNear(const Solid& solid, const Piece& piece, const Vec3& p, double distance) {
+  if (piece.core == Piece::Core::frustum) return nearFrustum(solid, piece, p, distance);
   NearFeatures near;
-  if (piece.core == Piece::Core::frustum) {
-    nearFrustum(solid, piece, p, distance, near);
-    return near;
-  }
   const bool few = piece.core != Piece::Core::polytope && piece.core != Piece::Core::triangle;
-  each(solid, piece.faces, [&](int f) {
+  for (int f : solid.featuresOf(piece, Family::face)) {
     if (few || nearFace(solid, solid.faces[static_cast<std::size_t>(f)], p, distance)) near.add(Family::face, f);
-  });
-  each(solid, piece.edges, [&](int e) {
+  }
+  for (int e : solid.featuresOf(piece, Family::edge)) {
     if (few || nearEdge(solid.edges[static_cast<std::size_t>(e)], p, distance)) near.add(Family::edge, e);
-  });
-  each(solid, piece.vertices, [&](int v) {
+  }
+  for (int v : solid.featuresOf(piece, Family::vertex)) {
     if (few || (solid.vertices[static_cast<std::size_t>(v)].point - p).squaredNorm() <= distance * distance)
       near.add(Family::vertex, v);
-  });
+  }
   return near;
 }
 

@@ -7,21 +7,23 @@
 
 namespace carom::ode_bridge_detail {
 
+/// A feature of a solid.
+struct FeatureName {
+  Family family;
+  int index;
+};
+
 /// The few features of a piece that pass near a point.
 struct NearFeatures {
-  struct Entry {
-    Family family;
-    int index;
-  };
   static constexpr int kMost = 64;
   int count = 0;
-  std::array<Entry, kMost> all;
+  std::array<FeatureName, kMost> all;
 
   void add(Family family, int index) {
     if (count < kMost) all[static_cast<std::size_t>(count++)] = {family, index};
   }
-  const Entry* begin() const { return all.data(); }
-  const Entry* end() const { return all.data() + count; }
+  const FeatureName* begin() const { return all.data(); }
+  const FeatureName* end() const { return all.data() + count; }
 };
 
 /// Features that come within `distance` of p, in the solid's axes. Every one of a ball, a capsule or a half space.

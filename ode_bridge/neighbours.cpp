@@ -15,7 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kListLength = 14;
 // All boxes are laid anew after about this many single ones a body.
 constexpr double kRenewals = 16;
-// Of the reach of a body in its box, the share that it gets on its present path; the rest is room for when it is
+// Of the range of a body in its box, the share that it gets on its present path; the rest is room for when it is
 // struck.
 constexpr double kAhead = 0.7;
 
@@ -49,7 +49,7 @@ void Neighbours::begin(std::vector<BodyExtent> extents, const Vec3& gravity, std
   half_spaces_.clear();
   moving_ = 0;
   all_until_ = -kNever;
-  span_ = reach_ = 0;
+  span_ = range_ = 0;
   broad_phase_.reset(n);
   for (std::size_t i = 0; i < n; ++i) {
     const BodyExtent& e = extents_[i];
@@ -110,14 +110,14 @@ void Neighbours::list(int body, std::vector<int>& out) {
     if (other != body && (few() ? touches(body, other) : classes_.collide(body, other))) out.push_back(other);
 }
 
-// The box for the path from t on, up to where it has used its share of the reach. Returns the time for which that is.
+// The box for the path from t on, up to where it has used its share of the range. Returns the time for which that is.
 double Neighbours::layBox(int body, double t) {
   const FlightPath& path = paths_[at(body)];
   const Vec3 gravity = accelerationOf(body), x = path.positionAt(t, gravity);
-  const Bounds cube{x.array() - kAhead * reach_, x.array() + kAhead * reach_};
+  const Bounds cube{x.array() - kAhead * range_, x.array() + kAhead * range_};
   const double leaves = std::max(leavingTime(path, gravity, t, cube), std::nextafter(t, kNever));
   const Bounds centre = sweptCentre(path, gravity, t, std::min(leaves, std::max(end_, t)));
-  const double room = (1 - kAhead) * reach_, rounding = 2 * roundingRoom(grown(centre, room + path.radius));
+  const double room = (1 - kAhead) * range_, rounding = 2 * roundingRoom(grown(centre, room + path.radius));
   boxes_[at(body)] = grown(centre, room + path.radius + rounding);
   const Bounds inner = grown(boxes_[at(body)], -path.radius - roundingRoom(boxes_[at(body)]));
   until_[at(body)] = std::min(all_until_, std::max(leavingTime(path, gravity, t, inner), std::nextafter(t, kNever)));
@@ -176,7 +176,7 @@ void Neighbours::pairs(std::vector<std::pair<int, int>>& out) {
 }
 
 void Neighbours::renewAll(double t) {
-  chooseReach(t);
+  chooseRange(t);
   // the mean rate at which boxes will be left says how long it takes to make so many single renewals
   double rate = 0;
   all_until_ = kNever;
@@ -211,13 +211,13 @@ void Neighbours::renewAll(double t) {
   grid_.rebuild(boxes_, 0.55 * *ordinary);
 }
 
-// How far boxes reach: from the room that a body has at the start, later from the length that the lists turned out to
+// How far a body may get in its box: from the room that a body has at the start, later from the length that the lists turned out to
 // have.
-void Neighbours::chooseReach(double t) {
+void Neighbours::chooseRange(double t) {
   double radius = 0;
   for (const BodyExtent& e : extents_) radius += e.moving ? e.radius : 0;
   radius /= static_cast<double>(moving_);
-  if (reach_ == 0) {
+  if (range_ == 0) {
     Bounds all{Vec3::Constant(kNever), Vec3::Constant(-kNever)};
     for (std::size_t i = 0; i < extents_.size(); ++i) {
       if (!extents_[i].moving) continue;
@@ -226,16 +226,16 @@ void Neighbours::chooseReach(double t) {
     }
     const Vec3 size = (all.high - all.low).cwiseMax(2 * radius);
     const double spacing = elementary::cbrt(size.prod() / static_cast<double>(moving_));
-    // a box of half size h has about (4 h / spacing)^3 neighbours; on the mean half of the reach is in use
-    reach_ = std::max(2 * (0.6 * spacing - radius), 0.25 * radius);
+    // a box of half size h has about (4 h / spacing)^3 neighbours; on the mean half of the range is in use
+    range_ = std::max(2 * (0.6 * spacing - radius), 0.25 * radius);
     return;
   }
   std::size_t total = 0;
   for (std::size_t i = 0; i < extents_.size(); ++i) total += lists_[i].size();
   const double length = static_cast<double>(total) / static_cast<double>(moving_);
-  // a list is as long as a box of about reach + radius is large
+  // a list is as long as a box of about range + radius is large
   const double factor = std::clamp(elementary::cbrt(kListLength / std::max(length, 0.1)), 0.5, 2.0);
-  reach_ = std::max(factor * (reach_ + radius) - radius, 0.1 * radius);
+  range_ = std::max(factor * (range_ + radius) - radius, 0.1 * radius);
 }
 
 }  // namespace carom::ode_bridge_detail

@@ -65,7 +65,7 @@ class Neighbours {
   void renewAll(double t);
   void renew(int body, double t);
   double layBox(int body, double t);
-  void chooseReach(double t);
+  void chooseRange(double t);
   void relist(int body);
 
   std::size_t few_ = kFew;
@@ -81,7 +81,7 @@ class Neighbours {
   double end_ = 0;                         // of all paths
   double all_until_ = 0;                   // when all boxes are laid anew
   double span_ = 0;                        // between such times
-  double reach_ = 0;                       // how far a body may get from the middle of its box
+  double range_ = 0;                       // how far a body may get from the middle of its box
   std::size_t moving_ = 0, renewals_ = 0;  // single ones since all boxes were laid
   BroadPhase broad_phase_;
   BoxGrid grid_;

@@ -247,12 +247,12 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
 }
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
-                                               double reach) {
-  for (double number : {t, reach}) checkedNumber("touching", "the time or the reach", number);
+                                               double tolerance) {
+  for (double number : {t, tolerance}) checkedNumber("touching", "the time or the tolerance", number);
   const auto quick = [&](int body) { return isQuick(state_->quick[state_->checkedBody("touching", body)]); };
   if (quick(a) && quick(b)) return {};  // one contact at the most
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
-  return touchingFeatures(placed_a, placed_b, std::max(reach, 4 * touchTolerance(placed_a, placed_b)));
+  return touchingFeatures(placed_a, placed_b, std::max(tolerance, 4 * touchTolerance(placed_a, placed_b)));
 }
 
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }

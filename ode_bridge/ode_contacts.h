@@ -29,7 +29,8 @@ class OdeContacts final : public ContactSource {
   double window(int body, double t) override;
   void neighbours(int body, std::vector<int>& out) override;
   std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
-  std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t, double reach) override;
+  std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
+                                    double tolerance) override;
   std::shared_ptr<const ContactGeometry> geometry() const override;
   std::unique_ptr<ContactSource> another() const override;
 

@@ -14,14 +14,9 @@ namespace {
 // What the distance of two pieces that overlap costs.
 constexpr std::size_t kStepsOfPieces = 8;
 
-const Vec3& vertexOf(const Solid& solid, int corner) {
-  return solid.vertices[static_cast<std::size_t>(solid.corners[static_cast<std::size_t>(corner)])].point;
-}
-
 // Solid angle of a triangle seen from p (van Oosterom and Strackee, 1983).
 double solidAngle(const Solid& solid, const SolidFace& face, const Vec3& p) {
-  const Vec3 a = vertexOf(solid, face.first) - p, b = vertexOf(solid, face.first + 1) - p,
-             c = vertexOf(solid, face.first + 2) - p;
+  const Vec3 a = solid.corner(face, 0) - p, b = solid.corner(face, 1) - p, c = solid.corner(face, 2) - p;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2 * elementary::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
@@ -31,7 +26,7 @@ bool inside(const Solid& solid, const Vec3& p) {
   double sum = 0;
   for (const Piece& piece : solid.pieces) {
     if (piece.core != Piece::Core::triangle) continue;
-    const auto f = static_cast<std::size_t>(solid.piece_features[static_cast<std::size_t>(piece.faces.first)]);
+    const auto f = static_cast<std::size_t>(solid.featuresOf(piece, Family::face)[0]);
     if (!solid.faces[f].open) sum += solidAngle(solid, solid.faces[f], p);
   }
   return std::abs(sum) > 2 * std::numbers::pi;
@@ -45,7 +40,7 @@ double depthOf(const Solid& solid, const Vec3& p) {
 }
 
 std::optional<double> insideMesh(const Placed& a, const Placed& mesh) {
-  if (!mesh.solid->closed_mesh || a.solid->plane) return std::nullopt;
+  if (!mesh.solid->closed_mesh) return std::nullopt;
   std::optional<double> deepest;
   int part = -1;
   for (const Feature& v : a.solid->vertices) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "adjoint/base/errors.h"
 #include "ode_bridge/overlap.hpp"
@@ -19,10 +18,7 @@ constexpr int kMostSteps = 1'000'000;
 class Pair {
  public:
   Pair(const Solid& a, const Solid& b, Arc& arc_a, Arc& arc_b, WorkCount* work)
-      : a_(a), b_(b), arc_a_(arc_a), arc_b_(arc_b), work_(work) {
-    size_ = std::min(a.plane ? std::numeric_limits<double>::infinity() : a.bound(),
-                     b.plane ? std::numeric_limits<double>::infinity() : b.bound());
-  }
+      : a_(a), b_(b), arc_a_(arc_a), arc_b_(arc_b), work_(work), size_(std::min(a.bound(), b.bound())) {}
 
   // How deep they overlap; none when they do not.
   std::optional<double> depthAt(double t) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "ode_bridge/separation.hpp"
+#include "ode_bridge/time_to.hpp"
 
 // Along a direction n(t), from b to a, the separation at t + h is at least
 //   g(h) = c + c' h + min_A (n + m_A h).r - max_B (n + m_B h).r - 1/2 bend h^2,
@@ -50,11 +50,7 @@ struct Gap {
 };
 
 // First root of c + rate h - bend h^2/2, c > 0.
-double firstRoot(double c, double rate, double bend) {
-  const double root = std::sqrt(rate * rate + 2 * bend * c);
-  if (rate < 0) return 2 * c / (root - rate);
-  return bend > 0 ? (rate + root) / bend : std::numeric_limits<double>::infinity();
-}
+double firstRoot(double c, double rate, double bend) { return timeTo(c, -rate, bend); }
 
 constexpr int kMostStepRounds = 40;
 
@@ -122,19 +118,19 @@ struct Mover {
   const Placed* body;
   const Piece* piece;  ///< or the single point `center`
   Vec3 center;
-  double reach;  ///< furthest point of the core from the body's origin, m
+  double radius;  ///< furthest point of the core from the body's origin, m
   bool half_space;
   Vec3 w = Vec3::Zero();           ///< angular velocity of the points, world axes
   double spin = 0, spin_rate = 0;  ///< bounds on it and its rate over the flight
 
   explicit Mover(const PlacedPiece& p)
-      : body(p.body), piece(p.piece), center(p.piece->center), reach(p.coreReach()), half_space(p.halfSpace()) {
+      : body(p.body), piece(p.piece), center(p.piece->center), radius(p.coreRadius()), half_space(p.halfSpace()) {
     turnWithBody();
     if (!(spin > 0) || !body->arc) return;
     if (const auto axis = axisOfRevolution(p)) turnWithAxis(*axis);
   }
   explicit Mover(const PlacedNode& p)
-      : body(p.body), piece(nullptr), center(p.node->center), reach(center.norm()), half_space(p.body->solid->plane) {
+      : body(p.body), piece(nullptr), center(p.node->center), radius(center.norm()), half_space(p.body->solid->plane) {
     turnWithBody();
   }
 
@@ -154,8 +150,8 @@ struct Mover {
   /// Bound on |n . d2r/dt2| for points r of the core over such a window: with n x w and w x r in
   /// n . (w x (w x r)) = (n x w) . (w x r), what spins about n itself does not count.
   double bendAlong(double across, double turn, double window) const {
-    if (half_space || reach == 0) return 0;
-    return (acrossSpin(across, turn, window) * spin + spin_rate) * reach;
+    if (half_space || radius == 0) return 0;
+    return (acrossSpin(across, turn, window) * spin + spin_rate) * radius;
   }
   /// The same with all of its body's spin.
   Mover withBody() const {
@@ -214,7 +210,7 @@ double stepInWorld(const Mover& a, const Mover& b, const Vec3& n, double lift, d
   // a bound that grows with the window is worth a shorter one where the direction is nearly that of the spin
   const auto grows = [](const Mover& m, double across) { return m.spin_rate > 0 && across < 0.25 * m.spin; };
   if (!grows(a, across_a) && !grows(b, across_b)) return step(limit);
-  const double room = gap.front(0).at, speed = std::abs(gap.rate) + a.spin * a.reach + b.spin * b.reach;
+  const double room = gap.front(0).at, speed = std::abs(gap.rate) + a.spin * a.radius + b.spin * b.radius;
   return bestWindow(limit, room / speed, step);
 }
 
@@ -234,10 +230,10 @@ double stepInFrameOfB(const Mover& a, const Mover& b, const Vec3& n, double room
   const double across_frame = frame.acrossSpin(n), across_a = a.acrossSpin(n);
   // relative, Coriolis and centrifugal parts, each at its largest within the window; n turns at |w_b x n|, which only a
   // change of w_b changes
-  return bestWindow(limit, room / (speed + a.spin * a.reach), [&](double window) {
+  return bestWindow(limit, room / (speed + a.spin * a.radius), [&](double window) {
     const double turn = frame.acrossSpin(across_frame, 0, window);
-    const double fastest = speed + gravity * window + a.spin * a.reach;
-    const double furthest = distance + (speed + gravity * window) * window + a.reach;
+    const double fastest = speed + gravity * window + a.spin * a.radius;
+    const double furthest = distance + (speed + gravity * window) * window + a.radius;
     const double frame_bend = 2 * turn * fastest + (turn * spin + spin_rate) * furthest;
     const double bend = gravity + a.bendAlong(across_a, turn, window) + frame_bend;
     return firstTouch(gap, bend, window);
@@ -259,11 +255,11 @@ double stepAcrossEdges(const Mover& a, const Mover& b, const Witness& w, double 
   const double n1 = W / s, n2 = Z / s + 3 * n1 * n1;
   const double longest = W > 0 ? std::min(limit, s / W) : limit;
   const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
-  return bestWindow(longest, room / (speed + a.spin * a.reach + b.spin * b.reach), [&](double window) {
-    const double fastest = speed + gravity * window + a.spin * a.reach;
-    const double furthest = distance + (speed + gravity * window) * window + a.reach;
-    const double bend_a = n2 * furthest + 2 * n1 * fastest + a.turning() * a.reach + gravity;
-    const double bend_b = (n2 + 2 * n1 * b.spin + b.turning()) * b.reach;
+  return bestWindow(longest, room / (speed + a.spin * a.radius + b.spin * b.radius), [&](double window) {
+    const double fastest = speed + gravity * window + a.spin * a.radius;
+    const double furthest = distance + (speed + gravity * window) * window + a.radius;
+    const double bend_a = n2 * furthest + 2 * n1 * fastest + a.turning() * a.radius + gravity;
+    const double bend_b = (n2 + 2 * n1 * b.spin + b.turning()) * b.radius;
     return firstTouch(gap, bend_a + bend_b, window);
   });
 }

@@ -27,9 +27,10 @@ struct PlacedPiece {
   const Piece* piece;
 
   const Solid& solid() const { return *body->solid; }
+  std::span<const int> featuresOf(Family family) const { return solid().featuresOf(*piece, family); }
   bool halfSpace() const { return piece->core == Piece::Core::half_space; }
   /// Radius about the solid's origin that holds the core.
-  double coreReach() const { return piece->center.norm() + piece->reach; }
+  double coreRadius() const { return piece->center.norm() + piece->core_radius; }
 };
 
 /// The point of a core that lies furthest along a direction, both in the solid's axes. `index` is that of the support

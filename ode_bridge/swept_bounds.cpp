@@ -2,8 +2,9 @@
 #include "ode_bridge/swept_bounds.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "ode_bridge/time_to.hpp"
 
 namespace carom::ode_bridge_detail {
 
@@ -27,26 +28,12 @@ double roundingRoom(const Bounds& b) {
   return 1e-9 * std::max({1.0, b.low.cwiseAbs().maxCoeff(), b.high.cwiseAbs().maxCoeff()});
 }
 
-namespace {
-
-// The first s > 0 with v s + a s^2/2 = c, for c >= 0.
-double timeTo(double c, double v, double a) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (!(c > 0)) return 0;
-  const double discriminant = v * v + 2 * a * c;
-  if (!(discriminant >= 0)) return kNever;
-  const double root = std::sqrt(discriminant);
-  if (v > 0) return 2 * c / (v + root);
-  return a > 0 ? (root - v) / a : kNever;
-}
-
-}  // namespace
-
 double leavingTime(const FlightPath& path, const Vec3& g, double from, const Bounds& bounds) {
   const Vec3 p = path.positionAt(from, g), v = path.velocityAt(from, g);
+  const auto across = [](double room, double speed, double pull) { return room > 0 ? timeTo(room, speed, pull) : 0; };
   double s = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k)
-    s = std::min({s, timeTo(bounds.high[k] - p[k], v[k], g[k]), timeTo(p[k] - bounds.low[k], -v[k], -g[k])});
+    s = std::min({s, across(bounds.high[k] - p[k], v[k], g[k]), across(p[k] - bounds.low[k], -v[k], -g[k])});
   return from + s;
 }
 

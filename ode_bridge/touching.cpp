@@ -18,11 +18,6 @@ constexpr double kSame = 1e-9;
 // angle have no normal.
 constexpr double kParallel = 1e-6;
 
-struct FacingFeature {
-  Family family;
-  int index;
-};
-
 struct Touching {
   const PlacedPiece &a, &b;
   const Witness& witness;
@@ -31,46 +26,38 @@ struct Touching {
   double scale;
   std::vector<FeaturePair>& found;
 
-  template <class Visit>
-  void each(const PlacedPiece& p, const Piece::Range& range, const Visit& visit) const {
-    for (int i = range.first; i < range.first + range.count; ++i)
-      visit(p.solid().piece_features[static_cast<std::size_t>(i)]);
-  }
-
   // The features of a piece that lie, as a whole, within tolerance of its furthest extent along a direction (of a rim:
   // one point of it). The marks of a rim count where it stands flat.
-  std::vector<FacingFeature> frontOf(const PlacedPiece& p, const Vec3& direction) const {
-    std::vector<FacingFeature> front;
+  std::vector<FeatureName> frontOf(const PlacedPiece& p, const Vec3& direction) const {
+    std::vector<FeatureName> front;
     const Solid& solid = p.solid();
     if (p.halfSpace()) return {{Family::face, 0}};
     const Vec3 d = p.body->k.R.transpose() * direction;
     const double furthest = d.dot(supportOf(solid, *p.piece, d).at) - level;
     const auto vertex = [&](int v) { return solid.vertices[static_cast<std::size_t>(v)].point.dot(d) >= furthest; };
     int marks = 0;
-    each(p, p.piece->vertices, [&](int v) {
-      if (!vertex(v)) return;
+    for (int v : p.featuresOf(Family::vertex)) {
+      if (!vertex(v)) continue;
       front.push_back({Family::vertex, v});
       if (isMark(solid, front.back())) ++marks;
-    });
-    each(p, p.piece->edges, [&](int e) {
+    }
+    for (int e : p.featuresOf(Family::edge)) {
       const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
-      const bool lies = edge.from >= 0 ? vertex(edge.from) && vertex(edge.to)
-                                       : liesInFront(edge, d);
-      if (lies) front.push_back({Family::edge, e});
-    });
-    each(p, p.piece->faces, [&](int f) {
+      if (edge.from >= 0 ? vertex(edge.from) && vertex(edge.to) : liesInFront(edge, d)) front.push_back({Family::edge, e});
+    }
+    for (int f : p.featuresOf(Family::face)) {
       const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
       if (liesInFront(solid, face, d, vertex)) front.push_back({Family::face, f});
-    });
-    if (marks < 3) std::erase_if(front, [&](const FacingFeature& f) { return isMark(solid, f); });
-    each(p, p.piece->rims, [&](int r) {
+    }
+    if (marks < 3) std::erase_if(front, [&](const FeatureName& f) { return isMark(solid, f); });
+    for (int r : p.featuresOf(Family::rim)) {
       const Feature& rim = solid.rims[static_cast<std::size_t>(r)];
       if (rim.point.dot(d) + rim.rim * rim.direction.cross(d).norm() >= furthest) front.push_back({Family::rim, r});
-    });
+    }
     return front;
   }
 
-  static bool isMark(const Solid& solid, const FacingFeature& f) {
+  static bool isMark(const Solid& solid, const FeatureName& f) {
     return f.family == Family::vertex && solid.vertices[static_cast<std::size_t>(f.index)].mark;
   }
 
@@ -95,7 +82,7 @@ struct Touching {
 
   // Whether the normal n (from b to a) is one that a sharp feature of `p` can push along: the surface near the feature
   // falls away from the contact. `outward` is n for b, -n for a.
-  bool inCone(const PlacedPiece& p, const FacingFeature& f, const Vec3& outward) const {
+  bool inCone(const PlacedPiece& p, const FeatureName& f, const Vec3& outward) const {
     const Solid& solid = p.solid();
     const Vec3 n = p.body->k.R.transpose() * outward;
     const auto at = static_cast<std::size_t>(f.index);
@@ -120,7 +107,7 @@ struct Touching {
   }
 
   // Whether the foot of the contact is on the feature itself, not on its continuation.
-  bool onFeature(const PlacedPiece& p, const FacingFeature& f, const FacingFeature& other, const Vec3& point) const {
+  bool onFeature(const PlacedPiece& p, const FeatureName& f, const FeatureName& other, const Vec3& point) const {
     const Solid& solid = p.solid();
     const Vec3 local = p.body->k.R.transpose() * (point - p.body->k.x);
     if (f.family == Family::face) {
@@ -145,13 +132,13 @@ struct Touching {
   std::vector<ContactPoint> points;  // of `found`
   std::size_t known_before = 0;
 
-  ContactPoint contactNow(GapKind kind, const FacingFeature& f, const FacingFeature& g, int sign) const {
+  ContactPoint contactNow(GapKind kind, const FeatureName& f, const FeatureName& g, int sign) const {
     return contactOf(kind, placeFeature(a.solid().feature(f.family, f.index), {a.body->k.x, a.body->k.R}),
                      placeFeature(b.solid().feature(g.family, g.index), {b.body->k.x, b.body->k.R}), sign);
   }
 
   // Unit tangent of a rim or an edge at a point of it.
-  static Vec3 tangentAt(const PlacedPiece& p, const FacingFeature& f, const Vec3& point) {
+  static Vec3 tangentAt(const PlacedPiece& p, const FeatureName& f, const Vec3& point) {
     const Feature& feature = p.solid().feature(f.family, f.index);
     const Vec3 along = p.body->k.R * feature.direction;
     if (f.family == Family::edge) return along;
@@ -159,9 +146,9 @@ struct Touching {
   }
 
   // Two sharp curves, at least one a rim, that meet at a point have a normal there if they cross.
-  bool crossAt(const FacingFeature& f, const FacingFeature& g, const Vec3& point) const {
-    const auto curve = [](const FacingFeature& h) { return h.family == Family::rim || h.family == Family::edge; };
-    const auto swept = [](const PlacedPiece& p, const FacingFeature& h) {
+  bool crossAt(const FeatureName& f, const FeatureName& g, const Vec3& point) const {
+    const auto curve = [](const FeatureName& h) { return h.family == Family::rim || h.family == Family::edge; };
+    const auto swept = [](const PlacedPiece& p, const FeatureName& h) {
       return isSwept(p.solid().feature(h.family, h.index));
     };
     if (!curve(f) || !curve(g) || swept(a, f) || swept(b, g)) return true;
@@ -169,14 +156,14 @@ struct Touching {
   }
 
   // The sides of a cone and of what it touches have a point in common only if their lines there cross.
-  bool linesCross(const FacingFeature& f, const FacingFeature& g, const Vec3& n) const {
+  bool linesCross(const FeatureName& f, const FeatureName& g, const Vec3& n) const {
     if (f.family != Family::edge || g.family != Family::edge) return true;
     const Feature &fa = a.solid().feature(f.family, f.index), &fb = b.solid().feature(g.family, g.index);
     if (fa.apex == 0 && fb.apex == 0) return true;
     return std::abs(n.dot((a.body->k.R * fa.direction).cross(b.body->k.R * fb.direction))) >= kParallel;
   }
 
-  bool tryPair(const FacingFeature& f, const FacingFeature& g, int sign) {
+  bool tryPair(const FeatureName& f, const FeatureName& g, int sign) {
     const GapKind kind = gapKind(f.family, g.family);
     const ContactPoint c = contactNow(kind, f, g, sign);
     if (!(std::abs(c.gap) <= tolerance) || !c.point.allFinite() || !c.normal.allFinite()) return false;
@@ -189,7 +176,7 @@ struct Touching {
     return true;
   }
 
-  bool canMeet(const FacingFeature& f, const FacingFeature& g) const {
+  bool canMeet(const FeatureName& f, const FeatureName& g) const {
     if (!hasKind(f.family, g.family)) return false;
     const Feature &fa = a.solid().feature(f.family, f.index), &fb = b.solid().feature(g.family, g.index);
     const bool face = f.family == Family::face || g.family == Family::face;
@@ -207,12 +194,12 @@ struct Touching {
     return 2 * std::max(fa.rim, fb.rim) * sine <= level;
   }
 
-  void run() {
-    const std::vector<FacingFeature> of_a = frontOf(a, -witness.n), of_b = frontOf(b, witness.n);
+  void run(const Vec3& n) {
+    const std::vector<FeatureName> of_a = frontOf(a, -n), of_b = frontOf(b, n);
     // faces before edges and edges before vertices, so that a contact on a border is the face's
     for (const int wanted : {0, 1, 2})
-      for (const FacingFeature& f : of_a)
-        for (const FacingFeature& g : of_b) {
+      for (const FeatureName& f : of_a)
+        for (const FeatureName& g : of_b) {
           const bool face = f.family == Family::face || g.family == Family::face;
           const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
           if ((face ? 0 : vertex ? 2 : 1) != wanted || !canMeet(f, g)) continue;
@@ -225,11 +212,18 @@ struct Touching {
         }
   }
 
-  bool isOpen(const FacingFeature& f, const FacingFeature& g) const {
+  bool isOpen(const FeatureName& f, const FeatureName& g) const {
     if (f.family == Family::face) return a.solid().faces[static_cast<std::size_t>(f.index)].open;
     return b.solid().faces[static_cast<std::size_t>(g.index)].open;
   }
 };
+
+// Of a triangle, on the side that n points to.
+Vec3 normalOf(const PlacedPiece& triangle, const Vec3& n) {
+  const auto face = static_cast<std::size_t>(triangle.featuresOf(Family::face)[0]);
+  const Vec3 normal = triangle.body->k.R * triangle.solid().faces[face].direction;
+  return normal.dot(n) < 0 ? Vec3(-normal) : normal;
+}
 
 }  // namespace
 
@@ -246,7 +240,7 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
     found.push_back(witness.features);
     return;
   }
-  const double size = a.halfSpace() ? b.piece->reach : b.halfSpace() ? a.piece->reach : a.piece->reach + b.piece->reach;
+  const double size = a.halfSpace() ? b.piece->core_radius : b.halfSpace() ? a.piece->core_radius : a.piece->core_radius + b.piece->core_radius;
   const double scale = size + a.piece->radius + b.piece->radius;
   Touching touching{a, b, witness, tolerance, tolerance, scale, found, {}, 0};
   for (const FeaturePair& f : found)
@@ -254,15 +248,18 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
                                                   {familyOfFirst(static_cast<GapKind>(f.kind)), f.a},
                                                   {familyOfSecond(static_cast<GapKind>(f.kind)), f.b}, f.sign));
   touching.known_before = found.size();
-  touching.run();
+  touching.run(witness.n);
+  const auto sheet = [](const PlacedPiece& p) { return p.piece->core == Piece::Core::triangle; };
+  // what stands on the edge between two triangles of a plane is soonest parted from each by a direction that leans
+  for (const PlacedPiece* p : {&a, &b})
+    if (sheet(*p) && found.size() == touching.known_before) touching.run(normalOf(*p, witness.n));
   if (found.size() > touching.known_before || witness.distance > tolerance) return;
   // on a border by less than rounding: look again with room for it
   touching.level = std::max(tolerance, kSame * scale);
-  touching.run();
-  const auto sheet = [](const PlacedPiece& p) { return p.piece->core == Piece::Core::triangle; };
+  touching.run(witness.n);
   if (!found.empty() || sheet(a) || sheet(b) || witness.features.kind < 0) return;
   const auto kind = static_cast<GapKind>(witness.features.kind);
-  const FacingFeature f{familyOfFirst(kind), witness.features.a}, g{familyOfSecond(kind), witness.features.b};
+  const FeatureName f{familyOfFirst(kind), witness.features.a}, g{familyOfSecond(kind), witness.features.b};
   const ContactPoint c = touching.contactNow(kind, f, g, witness.features.sign);
   if (std::abs(c.gap) <= tolerance && c.point.allFinite() && c.normal.allFinite() &&
       touching.onFeature(a, f, g, c.point) && touching.onFeature(b, g, f, c.point))

@@ -29,31 +29,25 @@ FeaturePair pairOf(GapKind kind, int a, int b, int sign) {
   return {static_cast<std::int16_t>(kind), a, b, static_cast<std::int16_t>(sign)};
 }
 
-// The vertex of a cone that is no mark: its last.
-int apexOf(const PlacedPiece& p) {
-  const Piece::Range& own = p.piece->vertices;
-  return p.solid().piece_features[static_cast<std::size_t>(own.first + own.count - 1)];
-}
-
 // The vertex that a support point is; on a frustum the rim, or the apex that takes its place.
-FeaturePair facing(const PlacedPiece& p, const Vec3& direction, GapKind with_vertex, GapKind with_rim, int face,
-                   int sign, bool piece_is_a) {
+FeaturePair facing(const PlacedPiece& p, const Vec3& direction, int face, int sign, bool piece_is_a) {
   const Vec3 local = p.body->k.R.transpose() * direction;
-  GapKind kind = with_vertex;
+  Family family = Family::vertex;
   int feature;
   if (p.piece->core == Piece::Core::frustum) {
     const bool high = furthestEnd(*p.piece, local) > 0;
     if (high && p.piece->rho_high == 0) {
-      feature = apexOf(p);
+      feature = p.featuresOf(Family::vertex).back();  // the vertex of a cone that is no mark
     } else {
-      kind = with_rim;
-      feature = p.solid().piece_features[static_cast<std::size_t>(p.piece->rims.first + (high ? 1 : 0))];
+      family = Family::rim;
+      feature = p.featuresOf(Family::rim)[high ? 1 : 0];
     }
   } else {
     const int point = supportOf(p.solid(), *p.piece, local).index - p.piece->points.first;
-    feature = p.solid().piece_features[static_cast<std::size_t>(p.piece->vertices.first + point)];
+    feature = p.featuresOf(Family::vertex)[static_cast<std::size_t>(point)];
   }
-  return piece_is_a ? pairOf(kind, feature, face, sign) : pairOf(kind, face, feature, sign);
+  return piece_is_a ? pairOf(gapKind(family, Family::face), feature, face, sign)
+                    : pairOf(gapKind(Family::face, family), face, feature, sign);
 }
 
 class WitnessSearch {
@@ -64,7 +58,7 @@ class WitnessSearch {
 
   Witness run() {
     const CoreDistance points = nearestPoints();
-    const double radii = a_.piece->radius + b_.piece->radius, size = a_.piece->reach + b_.piece->reach;
+    const double radii = a_.piece->radius + b_.piece->radius, size = a_.piece->core_radius + b_.piece->core_radius;
     scale_ = size + points.at_a.norm() + points.at_b.norm();
     if (points.upper - radii <= kNear * size) {
       for (const double around : {kAround, kFurtherAround, kEverywhere}) {
@@ -143,35 +137,30 @@ class WitnessSearch {
   void byFeatures(const CoreDistance& points, double around, double further) {
     const auto near = [&](const PlacedPiece& p, const Vec3& at) {
       const Vec3 local = p.body->k.R.transpose() * (at - (p.body->k.x - b_.body->k.x));
-      return featuresNear(p.solid(), *p.piece, local, around * p.piece->reach + further);
+      return featuresNear(p.solid(), *p.piece, local, around * p.piece->core_radius + further);
     };
     const NearFeatures of_a = near(a_, points.at_a), of_b = near(b_, points.at_b);
     for (const auto& g : of_b)
-      if (g.family == Family::face) faceOfB(g.index);
+      if (g.family == Family::face) face(b_, a_, g.index);
     for (const auto& f : of_a)
-      if (f.family == Family::face) faceOfA(f.index);
+      if (f.family == Family::face) face(a_, b_, f.index);
     for (const auto& f : of_a)
       for (const auto& g : of_b)
         if (f.family != Family::face && g.family != Family::face) crossing(f, g);
   }
 
-  void faceOfB(int f) {
-    const SolidFace& face = b_.solid().faces[static_cast<std::size_t>(f)];
+  void face(const PlacedPiece& of, const PlacedPiece& other, int f) {
+    const bool of_b = &of == &b_;
+    const SolidFace& face = of.solid().faces[static_cast<std::size_t>(f)];
     for (int sign = 1; sign >= (face.open ? -1 : 1); sign -= 2) {
-      const Vec3 n = sign * (b_.body->k.R * face.direction);
-      if (offer(n, Witness::Frame::body_b)) best_.features = facing(a_, -n, kPointPlane, kRimPlane, f, sign, true);
-    }
-  }
-  void faceOfA(int f) {
-    const SolidFace& face = a_.solid().faces[static_cast<std::size_t>(f)];
-    for (int sign = 1; sign >= (face.open ? -1 : 1); sign -= 2) {
-      const Vec3 n = -sign * (a_.body->k.R * face.direction);
-      if (offer(n, Witness::Frame::body_a)) best_.features = facing(b_, n, kPlanePoint, kPlaneRim, f, sign, false);
+      const Vec3 outward = sign * (of.body->k.R * face.direction);
+      if (offer(of_b ? outward : Vec3(-outward), of_b ? Witness::Frame::body_b : Witness::Frame::body_a))
+        best_.features = facing(other, -outward, f, sign, of_b);
     }
   }
 
   // Edges, rims and swept vertices.
-  void crossing(const NearFeatures::Entry& f, const NearFeatures::Entry& g) {
+  void crossing(const FeatureName& f, const FeatureName& g) {
     if (!hasKind(f.family, g.family)) return;
     const Feature &fa = a_.solid().feature(f.family, f.index), &fb = b_.solid().feature(g.family, g.index);
     const bool vertex = f.family == Family::vertex || g.family == Family::vertex;
@@ -179,7 +168,7 @@ class WitnessSearch {
     const GapKind kind = gapKind(f.family, g.family);
     const WorldFeature wa = placeFeature(fa, {a_.body->k.x, a_.body->k.R}),
                        wb = placeFeature(fb, {b_.body->k.x, b_.body->k.R});
-    const double scale = a_.piece->reach + b_.piece->reach + (wa.point - wb.point).norm();
+    const double scale = a_.piece->core_radius + b_.piece->core_radius + (wa.point - wb.point).norm();
     const bool tapered = fa.apex > 0 || fb.apex > 0;
     double handicap = 0;
     const bool edges = f.family == Family::edge && g.family == Family::edge;
@@ -219,14 +208,15 @@ Witness againstPlane(const PlacedPiece& a, const PlacedPiece& plane) {
   w.frame = Witness::Frame::body_b;
   w.n = plane.body->k.R * plane.solid().faces[0].direction;
   w.separation = w.distance = separationAlong(a, plane, w.n);
-  w.features = facing(a, -w.n, kPointPlane, kRimPlane, 0, 1, true);
+  w.features = facing(a, -w.n, 0, 1, true);
   return w;
 }
 
 Witness swapped(Witness w) {
   w.n = -w.n;
   w.frame = w.frame == Witness::Frame::body_b ? Witness::Frame::body_a : w.frame;
-  w.features.kind = static_cast<std::int16_t>(w.features.kind == kPointPlane ? kPlanePoint : kPlaneRim);
+  const auto kind = static_cast<GapKind>(w.features.kind);
+  w.features.kind = gapKind(familyOfSecond(kind), familyOfFirst(kind));
   std::swap(w.features.a, w.features.b);
   return w;
 }
@@ -237,10 +227,7 @@ Witness ballBall(const PlacedPiece& a, const PlacedPiece& b) {
   const double distance = D.norm();
   w.n = distance > 0 ? Vec3(D / distance) : Vec3::UnitZ();
   w.separation = w.distance = distance - a.piece->radius - b.piece->radius;
-  const auto vertex = [](const PlacedPiece& p) {
-    return p.solid().piece_features[static_cast<std::size_t>(p.piece->vertices.first)];
-  };
-  w.features = pairOf(kPointPoint, vertex(a), vertex(b), 1);
+  w.features = pairOf(kPointPoint, a.featuresOf(Family::vertex)[0], b.featuresOf(Family::vertex)[0], 1);
   return w;
 }
 

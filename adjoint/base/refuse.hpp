@@ -23,4 +23,12 @@ template <class... Parts>
   throw InputError(where, textOf(17, parts...));
 }
 
+/// A number that was computed, to so many digits.
+inline std::string about(double value, int digits = 6) {
+  std::ostringstream out;
+  out.precision(digits);
+  out << value;
+  return out.str();
+}
+
 }  // namespace carom::adjoint_detail

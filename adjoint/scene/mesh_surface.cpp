@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/numeric/two_part.hpp"
+#include "adjoint/scene/polygons.hpp"
 #include "adjoint/scene/surface.h"
-#include "adjoint/scene/weld.hpp"
 
 namespace carom {
 
@@ -18,16 +18,8 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-constexpr double kLargest = 1e9;     // m, as for every number of a scene
 constexpr double kFlattest = 1e-12;  // least (twice the area) / (longest side)^2: below, the normal has few digits left
 constexpr double kThinnest = 1e-12;  // least volume / (area x extent) of a closed mesh: below, its sign is rounding
-
-// A number that was computed, to six digits.
-std::string about(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 std::string nameOf(const char* item, std::size_t i) { return std::string(item) + " " + std::to_string(i); }
 
@@ -37,18 +29,14 @@ void checkNumbers(const std::vector<Vec3>& vertices, const std::vector<Triangle>
            " triangles, expected a triangle or more");
   if (triangles.size() > std::size_t{100'000'000})
     refuse("", "found a mesh of ", triangles.size(), " triangles, expected at most 100000000");
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    for (int k = 0; k < 3; ++k)
-      if (!(std::abs(vertices[i][k]) <= kLargest))
-        refuse(nameOf("vertex", i), "found ", vertices[i][k],
-               ", expected a finite coordinate of magnitude at most 1e9");
+  checkCoordinates(vertices, "vertex");
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (int v : triangles[t])
       if (v < 0 || static_cast<std::size_t>(v) >= vertices.size())
         refuse(nameOf("triangle", t), "found vertex ", v, ", expected 0 to ", vertices.size() - 1);
 }
 
-void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const Triangle& triangle) {
+void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const std::vector<int>& triangle) {
   const auto at = [&](int k) -> const Vec3& {
     return vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])];
   };
@@ -70,30 +58,16 @@ void checkTriangle(std::size_t t, const std::vector<Vec3>& vertices, const Trian
 }
 
 // Vertices are named by the numbers they were written with.
-void checkEdges(const std::vector<Triangle>& triangles) {
-  struct Side {
-    int low, high;
-    bool forward;
-    std::size_t triangle;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int from = triangles[t][k], to = triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), from < to, t});
-    }
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const Side& a, const Side& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+void checkEdges(const Polygons& triangles) {
+  const std::vector<HalfEdge> sides = halfEdges(triangles);
   for (std::size_t i = 1; i < sides.size(); ++i) {
-    const Side &a = sides[i - 1], &b = sides[i];
-    if (a.low != b.low || a.high != b.high) continue;
+    const HalfEdge &a = sides[i - 1], &b = sides[i];
+    if (!a.beside(b)) continue;
     const std::string edge = "edge from vertex " + std::to_string(a.low) + " to " + std::to_string(a.high);
-    if (i + 1 < sides.size() && sides[i + 1].low == a.low && sides[i + 1].high == a.high)
-      refuse(edge, "found it in triangles ", a.triangle, ", ", b.triangle, " and ", sides[i + 1].triangle,
-             ", expected at most two");
+    if (i + 1 < sides.size() && sides[i + 1].beside(a))
+      refuse(edge, "found it in triangles ", a.face, ", ", b.face, " and ", sides[i + 1].face, ", expected at most two");
     if (a.forward == b.forward)
-      refuse(edge, "found triangles ", a.triangle, " and ", b.triangle,
+      refuse(edge, "found triangles ", a.face, " and ", b.face,
              " both running along it in one direction, expected opposite ones (corners counter-clockwise seen from "
              "outside)");
   }
@@ -103,12 +77,7 @@ void checkEdges(const std::vector<Triangle>& triangles) {
 struct Piece {
   std::size_t first_triangle = 0;
   double volume = 0, area = 0;
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-
-  double extent() const { return (high - low).norm(); }
-  bool within(const Piece& other) const {
-    return (low.array() >= other.low.array()).all() && (high.array() <= other.high.array()).all();
-  }
+  Eigen::AlignedBox3d box;
 };
 
 // For each face the least one that it is joined to.
@@ -136,19 +105,14 @@ std::vector<Piece> piecesOf(const Surface& s) {
   std::vector<Piece> pieces;
   std::vector<std::size_t> number(s.faces.size());
   for (std::size_t f = 0; f < s.faces.size(); ++f) {
-    const auto corner = [&](std::size_t face, int k) -> const Vec3& {
-      return s.vertices[static_cast<std::size_t>(s.corners[static_cast<std::size_t>(s.faces[face].first + k)])];
-    };
+    const auto corner = [&](std::size_t face, int k) -> const Vec3& { return s.corner(s.faces[face], k); };
     const auto root = static_cast<std::size_t>(least[f]);
     const Vec3& origin = corner(root, 0);
-    if (root == f) number[f] = pieces.size(), pieces.push_back({f, 0, 0, origin, origin});
+    if (root == f) number[f] = pieces.size(), pieces.push_back({f, 0, 0, {}});
     Piece& piece = pieces[number[root]];
     piece.volume += tripleProduct(origin, corner(f, 0), corner(f, 1), corner(f, 2)) / 6;
     piece.area += crossProduct(corner(f, 0), corner(f, 1), corner(f, 2)).norm() / 2;
-    for (int k = 0; k < 3; ++k) {
-      piece.low = piece.low.cwiseMin(corner(f, k));
-      piece.high = piece.high.cwiseMax(corner(f, k));
-    }
+    for (int k = 0; k < 3; ++k) piece.box.extend(corner(f, k));
   }
   return pieces;
 }
@@ -159,10 +123,10 @@ void checkVolume(const Surface& s) {
   for (const Piece& piece : pieces) {
     const std::string where =
         pieces.size() > 1 ? nameOf("triangle", piece.first_triangle) + " and those joined to it" : "";
-    const double least = kThinnest * piece.area * piece.extent();
+    const double least = kThinnest * piece.area * piece.box.sizes().norm();
     if (std::abs(piece.volume) <= least)
       refuse(where, "found a closed mesh without volume (", about(piece.volume), " m^3), expected one > 0");
-    const auto around = [&](const Piece& p) { return p.volume > -piece.volume && piece.within(p); };
+    const auto around = [&](const Piece& p) { return p.volume > -piece.volume && p.box.contains(piece.box); };
     if (piece.volume < 0 && std::none_of(pieces.begin(), pieces.end(), around))
       refuse(where, "found a closed mesh inside out (volume ", about(piece.volume),
              " m^3), expected corners counter-clockwise seen from outside");
@@ -178,27 +142,16 @@ void checkVolume(const Surface& s) {
 std::shared_ptr<const Surface> meshSurface(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
   checkNumbers(vertices, triangles);
   const std::vector<int> first = firstOfEqual(vertices);
-  std::vector<Triangle> joined = triangles;
-  std::vector<char> used(vertices.size(), 0);
-  for (std::size_t t = 0; t < joined.size(); ++t) {
-    for (int& v : joined[t]) v = first[static_cast<std::size_t>(v)];
-    checkTriangle(t, vertices, joined[t]);
-    for (int v : joined[t]) used[static_cast<std::size_t>(v)] = 1;
+  Polygons joined;
+  joined.reserve(triangles.size());
+  for (const Triangle& corners : triangles) {
+    std::vector<int>& triangle = joined.emplace_back();
+    for (int v : corners) triangle.push_back(first[static_cast<std::size_t>(v)]);
+    checkTriangle(joined.size() - 1, vertices, triangle);
   }
   checkEdges(joined);
-
-  // Vertices that no triangle uses are left out, the others keep their order.
-  std::vector<Vec3> kept;
-  std::vector<int> place(vertices.size(), -1);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (used[i]) place[i] = static_cast<int>(kept.size()), kept.push_back(vertices[i]);
-  std::vector<std::vector<int>> polygons;
-  polygons.reserve(joined.size());
-  for (const Triangle& t : joined) {
-    std::vector<int>& polygon = polygons.emplace_back();
-    for (int v : t) polygon.push_back(place[static_cast<std::size_t>(v)]);
-  }
-  auto surface = std::make_shared<Surface>(assembleSurface(std::move(kept), polygons));
+  std::vector<Vec3> kept = keepUsed(joined, vertices);
+  auto surface = std::make_shared<Surface>(assembleSurface(std::move(kept), joined));
   if (surface->closed) checkVolume(*surface);
   return surface;
 }

@@ -10,15 +10,10 @@
 #include "adjoint/base/required.h"
 #include "adjoint/base/types.h"
 #include "adjoint/scene/shapes/cone.h"
+#include "adjoint/scene/shapes/kind_of.h"
 #include "adjoint/scene/surface.h"
 
 namespace carom {
-
-namespace shapes {
-/// Stands for a kind of shape where a row is chosen (adjoint/scene/shape_kinds/table.hpp).
-template <class S>
-struct KindOf {};
-}  // namespace shapes
 
 /// Ball about the shape's origin.
 struct Sphere {
@@ -78,20 +73,25 @@ struct CompoundPart {
   Quat orientation = Quat::Identity();  ///< part to compound, unit
 };
 
-/// Rates of SolidProperties by one dimension of the shape.
-struct SolidRate {
-  double volume = 0;                 ///< m^3
-  Vec3 center = Vec3::Zero();        ///< m
-  Mat3 unit_inertia = Mat3::Zero();  ///< m^2
+/// Rates of SolidPropertiesOf by one dimension of the shape.
+template <class S>
+struct SolidRateOf {
+  S volume = 0;                                                         ///< m^3
+  Eigen::Matrix<S, 3, 1> center = Eigen::Matrix<S, 3, 1>::Zero();        ///< m
+  Eigen::Matrix<S, 3, 3> unit_inertia = Eigen::Matrix<S, 3, 3>::Zero();  ///< m^2
 };
 
 /// Mass properties at uniform density, in the shape's axes.
-struct SolidProperties {
-  double volume = 0;                 ///< m^3
-  Vec3 center = Vec3::Zero();        ///< centre of mass, m
-  Mat3 unit_inertia = Mat3::Zero();  ///< about the centre of mass, per unit mass, symmetric, m^2
-  std::vector<SolidRate> rates;      ///< by dimension, in the order of ShapeKind::dimensions
+template <class S>
+struct SolidPropertiesOf {
+  S volume = 0;                                                    ///< m^3
+  Eigen::Matrix<S, 3, 1> center = Eigen::Matrix<S, 3, 1>::Zero();  ///< centre of mass, m
+  /// About the centre of mass, per unit mass, symmetric, m^2.
+  Eigen::Matrix<S, 3, 3> unit_inertia = Eigen::Matrix<S, 3, 3>::Zero();
+  std::vector<SolidRateOf<S>> rates;  ///< by dimension, in the order of ShapeKind::dimensions
 };
+using SolidRate = SolidRateOf<double>;              ///< in doubles
+using SolidProperties = SolidPropertiesOf<double>;  ///< in doubles
 
 namespace validation {
 struct ShapeCheck;  // adjoint/scene/validation.hpp
@@ -102,7 +102,9 @@ struct ShapeCheck;  // adjoint/scene/validation.hpp
 /// throws InputError where it has not one number a dimension. Collision detection and documents have tables of their
 /// own, in ode_bridge/solids/ and formats/shapes/.
 struct ShapeKind {
-  const char* name;  ///< word in the scene document
+  const char* name;      ///< word in the scene document
+  bool endless = false;  ///< a half space: it cannot move, nor be a part of a compound
+  bool of_parts = false;  ///< a compound: its centre of mass and principal axes follow no single dimension evenly
   /// Throws InputError for members that no such shape can have.
   Required<void(const Shape&, const validation::ShapeCheck&)> check;
   /// Words of the `size` control: "radius"; "x", "y", "z"; "scale"; of a part of a compound "0.radius".

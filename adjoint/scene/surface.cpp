@@ -7,6 +7,7 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/numeric/two_part.hpp"
 #include "adjoint/numeric/wide.hpp"
+#include "adjoint/scene/polygons.hpp"
 
 namespace carom {
 
@@ -16,44 +17,17 @@ namespace {
 
 // Twice the vector area of a polygon.
 Vec3 doubleArea(const Surface& s, const Surface::Face& f) {
-  const auto corner = [&](int i) -> const Vec3& {
-    return s.vertices[static_cast<std::size_t>(s.corners[static_cast<std::size_t>(f.first + i)])];
-  };
   Vec3 sum = Vec3::Zero();
-  for (int i = 1; i + 1 < f.count; ++i) sum += crossProduct(corner(0), corner(i), corner(i + 1));
+  for (int i = 1; i + 1 < f.count; ++i) sum += crossProduct(s.corner(f, 0), s.corner(f, i), s.corner(f, i + 1));
   return sum;
 }
 
-// One side of an edge: `face` runs from `from` to `to`.
-struct HalfEdge {
-  int low, high, face;
-  bool forward;  // from low to high
-};
-
-std::vector<HalfEdge> halfEdges(const Surface& s) {
-  std::vector<HalfEdge> halves;
-  halves.reserve(s.corners.size());
-  for (std::size_t f = 0; f < s.faces.size(); ++f)
-    for (int i = 0; i < s.faces[f].count; ++i) {
-      const auto corner = [&](int k) {
-        return s.corners[static_cast<std::size_t>(s.faces[f].first + k % s.faces[f].count)];
-      };
-      const int from = corner(i), to = corner(i + 1);
-      halves.push_back({std::min(from, to), std::max(from, to), static_cast<int>(f), from < to});
-    }
-  std::stable_sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
-  return halves;
-}
-
-void addEdges(Surface& s) {
-  const std::vector<HalfEdge> halves = halfEdges(s);
+void addEdges(Surface& s, const std::vector<HalfEdge>& halves) {
   s.closed = true;
   for (std::size_t i = 0; i < halves.size(); ++i) {
     const HalfEdge& h = halves[i];
     Surface::Edge e{h.forward ? h.low : h.high, h.forward ? h.high : h.low, h.face, -1, 0};
-    if (i + 1 < halves.size() && halves[i + 1].low == h.low && halves[i + 1].high == h.high) {
+    if (i + 1 < halves.size() && halves[i + 1].beside(h)) {
       assert(halves[i + 1].forward != h.forward);
       e.right = halves[++i].face;
       const Vec3 along = s.vertices[static_cast<std::size_t>(e.to)] - s.vertices[static_cast<std::size_t>(e.from)];
@@ -80,13 +54,11 @@ Moments momentsAbout(const Surface& s, const Vec3& o) {
   Wide volumes, firsts[3];  // of many triangles plain sums would be some roundings off
   Mat3 second = Mat3::Zero();
   for (const Surface::Face& f : s.faces) {
-    const auto corner = [&](int i) -> const Vec3& {
-      return s.vertices[static_cast<std::size_t>(s.corners[static_cast<std::size_t>(f.first + i)])];
-    };
-    const Vec3 a = corner(0) - o;
+    const Vec3& first = s.corner(f, 0);
+    const Vec3 a = first - o;
     for (int i = 1; i + 1 < f.count; ++i) {
-      const Vec3 b = corner(i) - o, c = corner(i + 1) - o, sum = a + b + c;
-      const double volume = tripleProduct(o, corner(0), corner(i), corner(i + 1)) / 6;
+      const Vec3 b = s.corner(f, i) - o, c = s.corner(f, i + 1) - o, sum = a + b + c;
+      const double volume = tripleProduct(o, first, s.corner(f, i), s.corner(f, i + 1)) / 6;
       volumes += volume;
       for (int k = 0; k < 3; ++k) firsts[k] += volume / 4 * sum[k];
       second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
@@ -114,7 +86,7 @@ void addIntegrals(Surface& s) {
 
 }  // namespace
 
-Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& polygons) {
+Surface assembleSurface(std::vector<Vec3> vertices, const Polygons& polygons) {
   Surface s;
   s.vertices = std::move(vertices);
   s.faces.reserve(polygons.size());
@@ -127,7 +99,7 @@ Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vecto
     f.normal = doubleArea(s, f).stableNormalized();
     s.faces.push_back(f);
   }
-  addEdges(s);
+  addEdges(s, halfEdges(polygons));
   if (s.closed) addIntegrals(s);
   return s;
 }

@@ -37,6 +37,11 @@ struct Surface {
   double volume = 0;                 ///< m^3
   Vec3 center = Vec3::Zero();        ///< m
   Mat3 unit_inertia = Mat3::Zero();  ///< about the centre, per unit mass, m^2
+
+  /// Corner i of a face, m.
+  const Vec3& corner(const Face& face, int i) const {
+    return vertices[static_cast<std::size_t>(corners[static_cast<std::size_t>(face.first + i)])];
+  }
 };
 
 /// Least length of a side of a mesh and of the extent of a hull, m: the fifth powers in the integrals and the squares

@@ -98,7 +98,7 @@ class DualPass {
     RotationPlan out{plan.derivative_tier, plan.derivative_products};
     const Body& body = motion_.scene->bodies[b];
     const bool derived = body.inertia.source == Inertia::Source::derived && !body.immovable();
-    if (out.tier == Tier::none || !derived || !std::holds_alternative<Compound>(body.shape)) return out;
+    if (out.tier == Tier::none || !derived || !kindOf(body.shape).of_parts) return out;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
       const Eigen::VectorXd& size = lanes_.direction(lane).scene.bodies[b].size;
       if (size.isZero(0)) continue;

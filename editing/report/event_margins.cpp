@@ -131,6 +131,8 @@ class MarginReader {
       bars.addContact(k, contact);
       bars.addPose(limit.body, -w, w.cross(r) + l.cross(c.at.normal));
       if (limit.border_rates.cols() > 0) bars.addSize(limit.body, -limit.border_rates.transpose() * limit.point_weight);
+      if (limit.normal_rates.cols() > 0)
+        bars.addSize(limit.body, limit.normal_rates.transpose() * (pose.R.transpose() * c.at.normal));
       EventMargin m = start(Way::leaves, event);
       m.value = w.dot(r) - limit.point_weight.dot(limit.border) + l.dot(c.at.normal);
       m.gradient = gradientOf(bars);

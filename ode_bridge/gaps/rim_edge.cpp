@@ -59,15 +59,15 @@ double minimumFrom(const LineBeforeRim<double>& line, double s, double side) {
 double minimum(const LineBeforeRim<double>& line, int branch) {
   const double kappa2 = line.kappa2, k2 = line.k2, rho = line.rho;
   if (kappa2 == 0) return 0;
-  const double kappa = std::sqrt(kappa2), k = std::sqrt(k2), reach = rho * kappa, middle = -line.y0 / kappa2;
+  const double kappa = std::sqrt(kappa2), k = std::sqrt(k2), outside = rho * kappa, middle = -line.y0 / kappa2;
   double half = 0, drop = 0;
   if (rho * kappa2 > k) {
     const double a = elementary::cbrt(rho * kappa2 * k2);
     half = std::sqrt(std::max(0.0, a * a - k2)) / kappa;
-    drop = a > 0 ? rho * kappa2 * half / a : reach;
+    drop = a > 0 ? rho * kappa2 * half / a : outside;
   }
   const bool before = middle + drop - half > 0, after = !before || middle - drop + half <= 0;
-  return before && (branch == 1 || !after) ? minimumFrom(line, -reach, -1) : minimumFrom(line, reach, 1);
+  return before && (branch == 1 || !after) ? minimumFrom(line, -outside, -1) : minimumFrom(line, outside, 1);
 }
 
 template <class S>

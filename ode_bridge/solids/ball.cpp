@@ -18,6 +18,8 @@ void addBall(PartMaker& part, const Sphere& s) {
 
 }  // namespace
 
-SolidKind solidRow(KindOf<Sphere>) { return {.add = addPart<Sphere, addBall>, .name = [](Family, int) -> std::string { return "ball"; }}; }
+SolidKind solidRow(KindOf<Sphere>) {
+  return {.add = addPart<Sphere, addBall>, .name = [](Family, int) -> std::string { return "ball"; }, .whole = &Solid::ball};
+}
 
 }  // namespace carom::solids

@@ -20,7 +20,7 @@ Vec3 boxPoint(const Vec3& half, int v) { return {sign(v & 1) * half[0], sign(v &
 // Corners of a face in the order of its two other axes, counter-clockwise about +k; the face -k sees them the other way
 // round.
 void addFace(PartMaker& part, const Vec3& half, int face) {
-  const int k = face / 2, side = face % 2, first = part.part().first_vertex;
+  const int k = face / 2, side = face % 2, first = part.part().first(Family::vertex);
   const Vec3 normal = sign(side) * Vec3::Unit(k);
   part.face(half[k] * normal, normal);
   constexpr int kBits[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -36,12 +36,12 @@ void addEdge(PartMaker& part, const Vec3& half, int edge) {
   middle[u] = sign(bit_u) * half[u];
   middle[v] = sign(bit_v) * half[v];
   SolidEdge& e = part.edge(middle, Vec3::Unit(k), half[k]);
-  e.from = part.part().first_vertex + (onAxis(u, bit_u) | onAxis(v, bit_v));
+  e.from = part.part().first(Family::vertex) + (onAxis(u, bit_u) | onAxis(v, bit_v));
   e.to = e.from + onAxis(k, 1);
   // n x e_k points into a face with normal n on the left: for n = +-e_u that is -+e_v, into it where v has the same
   // sign
-  e.left = part.part().first_face + (bit_u == bit_v ? 2 * u + bit_u : 2 * v + bit_v);
-  e.right = part.part().first_face + (bit_u == bit_v ? 2 * v + bit_v : 2 * u + bit_u);
+  e.left = part.part().first(Family::face) + (bit_u == bit_v ? 2 * u + bit_u : 2 * v + bit_v);
+  e.right = part.part().first(Family::face) + (bit_u == bit_v ? 2 * v + bit_v : 2 * u + bit_u);
 }
 
 void addBox(PartMaker& part, const Box& s) {
@@ -65,6 +65,6 @@ std::string boxName(Family family, int i) {
 
 }  // namespace
 
-SolidKind solidRow(KindOf<Box>) { return {.add = addPart<Box, addBox>, .name = boxName}; }
+SolidKind solidRow(KindOf<Box>) { return {.add = addPart<Box, addBox>, .name = boxName, .whole = &Solid::box}; }
 
 }  // namespace carom::solids

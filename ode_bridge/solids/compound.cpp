@@ -23,13 +23,14 @@ void addCompound(Solid& solid, const Shape& shape, const Placement& at, const So
 
 SolidKind solidRow(KindOf<Compound>) { return {.add = addCompound, .name = numberedName}; }
 
-void addShape(Solid& solid, const Shape& shape, const Placement& at) {
+const SolidKind& rowOf(const Shape& shape) {
   static const auto kinds = shapes::tableOf([](auto kind) {
     static_assert(requires { solidRow(kind); }, "a shape without a row: see ode_bridge/solids/parts.hpp");
     return solidRow(kind);
   });
-  const SolidKind& kind = kinds[shape.index()];
-  kind.add(solid, shape, at, kind);
+  return kinds[shape.index()];
 }
+
+void addShape(Solid& solid, const Shape& shape, const Placement& at) { rowOf(shape).add(solid, shape, at, rowOf(shape)); }
 
 }  // namespace carom::solids

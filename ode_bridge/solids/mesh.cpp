@@ -44,20 +44,15 @@ void addTriangle(PartMaker& part, int face, const int* corners, const std::array
   const Part& own = part.part();
   std::array<Vec3, 3> p;
   for (std::size_t i = 0; i < 3; ++i)
-    p[i] = solid.vertices[static_cast<std::size_t>(own.first_vertex + corners[i])].point;
+    p[i] = solid.vertices[static_cast<std::size_t>(own.first(Family::vertex) + corners[i])].point;
   Piece& piece = part.piece(Piece::Core::triangle, Vec3::Zero());
   piece.center = middleOf(p);
   piece.points = {static_cast<int>(solid.points.size()), 3};
   solid.points.insert(solid.points.end(), p.begin(), p.end());
-  const int first = static_cast<int>(solid.piece_features.size());
-  for (std::size_t i = 0; i < 3; ++i) solid.piece_features.push_back(own.first_vertex + corners[i]);
-  for (std::size_t i = 0; i < 3; ++i) solid.piece_features.push_back(own.first_edge + edges[i]);
-  solid.piece_features.push_back(own.first_face + face);
-  piece.vertices = {first, 3};
-  piece.edges = {first + 3, 3};
-  piece.faces = {first + 6, 1};
-  piece.rims = {first + 7, 0};
-  piece.reach = coreReach(solid, piece, piece.center);
+  for (std::size_t i = 0; i < 3; ++i) part.take(piece, Family::vertex, own.first(Family::vertex) + corners[i]);
+  for (std::size_t i = 0; i < 3; ++i) part.take(piece, Family::edge, own.first(Family::edge) + edges[i]);
+  part.take(piece, Family::face, own.first(Family::face) + face);
+  piece.core_radius = coreRadius(solid, piece, piece.center);
 }
 
 // A piece is a triangle; triangles share vertices and edges.
@@ -65,8 +60,8 @@ void addMesh(PartMaker& part, const Mesh& s) {
   const Surface& surface = *s.surface;
   Solid& solid = part.solid();
   addSurface(part, surface, s.scale);
-  const auto first_edge = static_cast<std::size_t>(part.part().first_edge);
-  const auto first_face = static_cast<std::size_t>(part.part().first_face);
+  const auto first_edge = static_cast<std::size_t>(part.part().first(Family::edge));
+  const auto first_face = static_cast<std::size_t>(part.part().first(Family::face));
   for (std::size_t e = 0; e < surface.edges.size(); ++e)
     solid.edges[first_edge + e].convex = surface.edges[e].right < 0 || surface.edges[e].bend > kFlat;
   for (std::size_t f = first_face; f < solid.faces.size(); ++f) solid.faces[f].open = !surface.closed;

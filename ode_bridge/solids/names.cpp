@@ -5,24 +5,6 @@ namespace carom {
 
 using namespace ode_bridge_detail;
 
-namespace {
-
-int firstOf(const Part& part, Family family) {
-  switch (family) {
-    case Family::vertex:
-      return part.first_vertex;
-    case Family::edge:
-      return part.first_edge;
-    case Family::face:
-      return part.first_face;
-    case Family::rim:
-      return part.first_rim;
-  }
-  return 0;
-}
-
-}  // namespace
-
 std::string solids::signedAxis(int positive, int axis) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
   return std::string(positive ? "+" : "-") + kAxes[axis];
@@ -35,7 +17,7 @@ std::string solids::numberedName(Family family, int index) {
 
 std::string ode_bridge_detail::nameOf(const Solid& solid, Family family, int index) {
   const Part& part = solid.parts[static_cast<std::size_t>(solid.feature(family, index).part)];
-  return part.name + part.row->name(family, index - firstOf(part, family));
+  return part.name + part.row->name(family, index - part.first(family));
 }
 
 }  // namespace carom

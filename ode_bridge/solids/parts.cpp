@@ -7,10 +7,7 @@ using namespace ode_bridge_detail;
 
 namespace {
 
-template <class T>
-int count(const std::vector<T>& v) {
-  return static_cast<int>(v.size());
-}
+int count(const auto& v) { return static_cast<int>(v.size()); }
 
 }  // namespace
 
@@ -22,10 +19,7 @@ PartMaker::PartMaker(Solid& solid, const Placement& at, const char* kind, const 
   part.name = at.name;
   part.kind = kind;
   part.row = &row;
-  part.first_vertex = count(solid.vertices);
-  part.first_edge = count(solid.edges);
-  part.first_face = count(solid.faces);
-  part.first_rim = count(solid.rims);
+  for (std::size_t f = 0; f < kFamilies.size(); ++f) part.firsts[f] = static_cast<int>(solid.count(kFamilies[f]));
   solid.parts.push_back(std::move(part));
 }
 
@@ -81,24 +75,22 @@ Piece& PartMaker::piece(Piece::Core core, const Vec3& middle) {
   return p;
 }
 
-Piece::Range PartMaker::list(int first, int number) {
-  const Piece::Range range{count(solid_.piece_features), number};
+void PartMaker::take(Piece& p, Family family, int first, int number) {
+  Piece::Range& range = p.features[static_cast<std::size_t>(family)];
+  if (range.count == 0) range.first = count(solid_.piece_features);
+  range.count += number;
   for (int i = 0; i < number; ++i) solid_.piece_features.push_back(first + i);
-  return range;
 }
 
 void PartMaker::takeAll(Piece& p) {
   const Part& own = part();
-  p.vertices = list(own.first_vertex, count(solid_.vertices) - own.first_vertex);
-  p.edges = list(own.first_edge, count(solid_.edges) - own.first_edge);
-  p.faces = list(own.first_face, count(solid_.faces) - own.first_face);
-  p.rims = list(own.first_rim, count(solid_.rims) - own.first_rim);
+  for (const Family f : kFamilies) take(p, f, own.first(f), static_cast<int>(solid_.count(f)) - own.first(f));
   if (p.core != Piece::Core::frustum && p.core != Piece::Core::half_space) {
-    p.points = {count(solid_.points), p.vertices.count};
-    for (std::size_t v = static_cast<std::size_t>(own.first_vertex); v < solid_.vertices.size(); ++v)
-      solid_.points.push_back(solid_.vertices[v].point);
+    const std::span<const int> vertices = solid_.featuresOf(p, Family::vertex);
+    p.points = {count(solid_.points), count(vertices)};
+    for (int v : vertices) solid_.points.push_back(solid_.vertices[static_cast<std::size_t>(v)].point);
   }
-  p.reach = coreReach(solid_, p, p.center);
+  p.core_radius = coreRadius(solid_, p, p.center);
 }
 
 }  // namespace carom::solids

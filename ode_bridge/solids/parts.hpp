@@ -43,12 +43,12 @@ class PartMaker {
   /// Corner of the face added last.
   void corner(int vertex);
 
-  /// A piece about `middle`, without features, core and reach.
+  /// A piece about `middle`, without features and the radius of its core.
   Piece& piece(Piece::Core core, const Vec3& middle);
   /// Gives the piece all features of the part, and its vertices as support points.
   void takeAll(Piece& piece);
-  /// Indices that a piece refers to.
-  Piece::Range list(int first, int count);
+  /// Gives the piece `count` features more of a family, from this index on.
+  void take(Piece& piece, Family family, int first, int count = 1);
 
   /// First features of the part.
   const Part& part() const { return solid_.parts.back(); }
@@ -70,6 +70,7 @@ struct SolidKind {
   Required<void(Solid&, const Shape&, const Placement&, const SolidKind& row)> add;
   /// What describe() calls feature `index` of a family, counted from the first of the part: "edge 12", "rim +z".
   Required<std::string(Family family, int index)> name;
+  bool Solid::*whole = nullptr;  ///< set of a solid that is one such shape about its origin
 };
 
 // The table: a row each, which stands with its features in the file of that name.
@@ -97,11 +98,14 @@ std::string numberedName(Family family, int index);
 /// Vertices, faces and edges of a surface, for hull and mesh.
 void addSurface(PartMaker& part, const Surface& surface, double scale);
 
+/// The row of a shape.
+const SolidKind& rowOf(const Shape& shape);
+
 /// A shape of any kind; the parts of a compound one after another, depth first, as its dimensions are counted.
 void addShape(Solid& solid, const Shape& shape, const Placement& at);
 
 /// Radius about `center` that holds the core of a piece; never less than it is, for all rounding. m
-double coreReach(const Solid& solid, const Piece& piece, const Vec3& center);
+double coreRadius(const Solid& solid, const Piece& piece, const Vec3& center);
 
 /// Solid::neighbours from the edges.
 void addNeighbours(Solid& solid);

@@ -21,18 +21,20 @@ const Feature& Solid::feature(Family family, int index) const {
   return vertices[i];
 }
 
+std::size_t Solid::count(Family family) const {
+  return std::array{vertices.size(), edges.size(), faces.size(), rims.size()}[static_cast<std::size_t>(family)];
+}
+
 Solid solidOf(const Body& body) {
   Solid solid;
   const Vec3 center = centerOfMass(body);
   solid.center_rates = centerOfMassRates(body);
-  const bool uneven = std::holds_alternative<Compound>(body.shape) && !body.fixed && !body.center_of_mass;
-  if (uneven) solid.uneven = std::make_shared<const Shape>(body.shape);
+  if (kindOf(body.shape).of_parts && !body.fixed && !body.center_of_mass)
+    solid.uneven = std::make_shared<const Shape>(body.shape);
   solids::addShape(solid, body.shape, {Mat3::Identity(), Vec3::Zero() - center, 0, ""});
-  const bool centred = center.isZero(0);
-  solid.ball = centred && std::holds_alternative<Sphere>(body.shape);
-  solid.box = centred && std::holds_alternative<Box>(body.shape);
-  solid.plane = std::holds_alternative<Plane>(body.shape);
-  if (solid.box) solid.half = 0.5 * std::get<Box>(body.shape).size;
+  const auto whole = solids::rowOf(body.shape).whole;
+  if (whole && center.isZero(0)) solid.*whole = true;
+  if (solid.box) solid.half = solid.vertices.back().point;
   solids::addNeighbours(solid);
   solids::addTree(solid);
   return solid;

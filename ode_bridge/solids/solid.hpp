@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@ struct SolidKind;  // ode_bridge/solids/parts.hpp
 namespace carom::ode_bridge_detail {
 
 enum class Family : std::uint8_t { vertex, edge, face, rim };
+inline constexpr std::array kFamilies{Family::vertex, Family::edge, Family::face, Family::rim};
 
 /// A vertex, edge, face or rim of a solid, in the solid's axes: the shape's axes, from the centre of mass of a moving
 /// body or from the shape's origin of a fixed one. Vertices and edges are swept by a ball of `radius`: a sphere is a
@@ -74,13 +77,13 @@ struct Piece {
   Core core = Core::point;
   double radius = 0;           ///< swept radius, m
   Vec3 center = Vec3::Zero();  ///< near the middle of the core, solid's axes
-  double reach = 0;            ///< radius about `center` that holds the core, without `radius`
+  double core_radius = 0;      ///< radius about `center` that holds the core, without `radius`
   Vec3 axis = Vec3::UnitZ();   ///< frustum: from its low to its high end, unit
   double half_length = 0;      ///< frustum, m
   double rho = 0;              ///< frustum, m
   double rho_high = 0;         ///< frustum: the same for a cylinder, 0 for a cone, m
   Range points;  ///< in Solid::points: the core's support points (point 1, segment 2, polytope, triangle 3)
-  Range vertices, edges, faces, rims;  ///< in Solid::piece_features: indices of the solid's features
+  std::array<Range, 4> features;  ///< by Family, in Solid::piece_features: indices of the solid's features
 };
 
 /// A ball that holds a subtree of pieces, swept radii included.
@@ -107,7 +110,9 @@ struct Part {
   std::string name;  ///< how describe() calls it: empty for a simple shape, "part 3 " in a compound
   const char* kind = "";  ///< word of the shape: "box"
   const solids::SolidKind* row = nullptr;  ///< names its features
-  int first_vertex = 0, first_edge = 0, first_face = 0, first_rim = 0;  ///< where the part's features begin
+  std::array<int, 4> firsts{};  ///< where the part's features begin, by Family
+
+  int first(Family family) const { return firsts[static_cast<std::size_t>(family)]; }
 };
 
 /// A shape as collision sees it: exact double geometry, from which everything about a contact is decided. Convex or
@@ -133,7 +138,18 @@ struct Solid {
   bool plane = false;                   ///< a half space
   bool closed_mesh = false;             ///< has parts that are closed meshes: what is inside without touching overlaps
 
+  std::size_t count(Family family) const;
   const Feature& feature(Family family, int index) const;
+  /// Of a piece.
+  std::span<const int> featuresOf(const Piece& piece, Family family) const {
+    const Piece::Range& range = piece.features[static_cast<std::size_t>(family)];
+    return {piece_features.data() + range.first, static_cast<std::size_t>(range.count)};
+  }
+  /// Corner i of a face, the first one after the last.
+  const Vec3& corner(const SolidFace& face, int i) const {
+    const int v = corners[static_cast<std::size_t>(face.first + i % face.count)];
+    return vertices[static_cast<std::size_t>(v)].point;
+  }
   /// Radius about the origin that holds all of it; infinite for a half space.
   double bound() const { return nodes[0].radius; }
 };

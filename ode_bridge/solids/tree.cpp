@@ -20,7 +20,7 @@ struct Ball {
   double radius;
 };
 
-double ballRadius(const Piece& p) { return p.radius > 0 ? kUp * (p.reach + p.radius) : p.reach; }
+double ballRadius(const Piece& p) { return p.radius > 0 ? kUp * (p.core_radius + p.radius) : p.core_radius; }
 
 // The smallest ball about two others.
 Vec3 middleOf(const Ball& a, const Ball& b) {
@@ -93,8 +93,8 @@ class TreeMaker {
     };
     Vec3 low = Vec3::Constant(kInfinity), high = -low;
     for (std::size_t i = first; i < last; ++i) {
-      const Vec3 reach = Vec3::Constant(ballRadius(piece(i)));
-      low = low.cwiseMin(piece(i).center - reach), high = high.cwiseMax(piece(i).center + reach);
+      const Vec3 radius = Vec3::Constant(ballRadius(piece(i)));
+      low = low.cwiseMin(piece(i).center - radius), high = high.cwiseMax(piece(i).center + radius);
     }
     const Vec3 between = middleOf(child(node.left), child(node.right)), of_box = 0.5 * (low + high);
     const double radius = radiusAbout(between, first, last), box_radius = radiusAbout(of_box, first, last);
@@ -104,8 +104,8 @@ class TreeMaker {
   double radiusAbout(const Vec3& center, std::size_t first, std::size_t last) const {
     double largest = 0;
     for (std::size_t i = first; i < last; ++i) {
-      const double reach = coreReach(solid_, piece(i), center), radius = piece(i).radius;
-      largest = std::max(largest, reach > 0 && radius > 0 ? kUp * (reach + radius) : reach + radius);
+      const double core = coreRadius(solid_, piece(i), center), radius = piece(i).radius;
+      largest = std::max(largest, core > 0 && radius > 0 ? kUp * (core + radius) : core + radius);
     }
     return largest;
   }
@@ -116,7 +116,7 @@ class TreeMaker {
 
 }  // namespace
 
-double coreReach(const Solid& solid, const Piece& piece, const Vec3& center) {
+double coreRadius(const Solid& solid, const Piece& piece, const Vec3& center) {
   if (piece.core == Piece::Core::half_space) return kInfinity;
   if (piece.core == Piece::Core::frustum) {
     const Vec3 to = piece.center - center;

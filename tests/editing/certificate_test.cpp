@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -77,6 +78,22 @@ TEST(EventMargins, GradientsOfAThrownBoxByEveryControl) {
   for (const auto way :
        {EventMargin::Way::grazes, EventMargin::Way::leaves, EventMargin::Way::order, EventMargin::Way::is_read})
     EXPECT_TRUE(seen.count(way)) << static_cast<int>(way);
+}
+
+// The rim of a cone, whose side leans by an angle that its size decides.
+TEST(EventMargins, GradientsOfAThrownConeByEveryControl) {
+  Scene scene = thrownBox();
+  scene.bodies[1].shape = Cone{0.2, 0.35};
+  OdeContacts contacts(scene);
+  const EditProblem problem(scene, contacts, 0.8, everyControl(), {});
+  const Motion motion = simulate(problem.controls.startScene(), contacts, 0.8);
+  ASSERT_GE(motion.events.size(), 2u);
+  const auto on_rim = [&](const Event& event) {
+    const Contact& c = event.contacts[0];
+    return motion.geometry->describe(c.a, c.b, c.features).find("rim") != std::string::npos;
+  };
+  ASSERT_TRUE(std::any_of(motion.events.begin(), motion.events.end(), on_rim));
+  expectGradients(problem, motion.events.size(), {{-1, 0.75}}, nullptr);
 }
 
 /// Two boxes that meet in the air, edges and corners on faces.

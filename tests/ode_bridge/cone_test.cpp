@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "adjoint/motion/body_geometry.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -61,6 +63,34 @@ TEST(Cone, TurnsAboutTheCentreOfMassWhenItsRimStrikes) {
     const BodyState after = motion.stateAt(0, t * (1 + 1e-12));
     expectEntries(after.angular_velocity, Vec3(0, -x * P / inertia, 0), 1e-9, "spin");
     expectEntries(after.velocity, Vec3(0, 0, -v + P / m), 1e-9, "velocity of the centre of mass");
+  }
+}
+
+// The side leans by b from the axis, tan b = r/h. Before a floor under which the cone is tilted by a the side is below
+// the rim where cos(a - b) > 0, and that changes by r and h as b does.
+TEST(Cone, LimitOfItsRimAndItsRatesBySize) {
+  for (const double a : {0.2, 0.7, -0.4, 1.2, 1.9}) {
+    SCOPED_TRACE("tilt " + std::to_string(a));
+    const Motion motion = play(falling(turnedAbout(Vec3::UnitY(), a), 2), 1, 1);
+    ASSERT_EQ(motion.events.size(), 1u);
+    const Contact& c = motion.events[0].contacts[0];
+    const auto bodies = std::dynamic_pointer_cast<const BodyGeometry>(motion.geometry);
+    ASSERT_TRUE(bodies);
+    const BodyState at = motion.stateAt(0, motion.events[0].time);
+    const Mat3 R = at.orientation.toRotationMatrix();
+    const Pose cone{at.position - kHeight / 4 * R.col(2), R}, floor{Vec3::Zero(), Mat3::Identity()};
+    const std::vector<FeatureLimit> limits = bodies->limits(c.a, c.b, c.features, cone, floor);
+    const auto side = std::find_if(limits.begin(), limits.end(), [](const FeatureLimit& limit) {
+      return limit.beyond.find("side") != std::string::npos;
+    });
+    ASSERT_TRUE(side != limits.end());
+    const double square = kRadius * kRadius + kHeight * kHeight, b = std::atan2(kRadius, kHeight);
+    const Vec3 n = cone.R.transpose() * c.at.normal;
+    expectEntries(side->normal_weight.dot(n), std::cos(std::abs(a) - b), 1e-14, "value");
+    ASSERT_EQ(side->normal_rates.cols(), 2);
+    expectEntries(Vec2(side->normal_rates.transpose() * n),
+                  Vec2(std::sin(std::abs(a) - b) / square * Vec2(kHeight, -kRadius)), 1e-13, "rates by radius and height");
+    expectEntries(Vec2(side->normal_rates.transpose() * side->normal_weight), Vec2::Zero().eval(), 1e-14, "it stays unit");
   }
 }
 

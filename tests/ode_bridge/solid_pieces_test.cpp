@@ -109,21 +109,21 @@ TEST(SolidPieces, PiecesListTheirFeatures) {
     const Solid solid = solidOf(row.body);
     std::set<int> vertices, edges, faces, rims;
     for (const Piece& p : solid.pieces) {
-      const auto index = [&](const Piece::Range& r, int i) { return solid.piece_features[at(r.first + i)]; };
-      for (int i = 0; i < p.vertices.count; ++i) vertices.insert(index(p.vertices, i));
-      for (int i = 0; i < p.edges.count; ++i) edges.insert(index(p.edges, i));
-      for (int i = 0; i < p.faces.count; ++i) faces.insert(index(p.faces, i));
-      for (int i = 0; i < p.rims.count; ++i) rims.insert(index(p.rims, i));
+      const auto index = [&](Family family, int i) { return solid.featuresOf(p, family)[at(i)]; };
+      for (int v : solid.featuresOf(p, Family::vertex)) vertices.insert(v);
+      for (int e : solid.featuresOf(p, Family::edge)) edges.insert(e);
+      for (int f : solid.featuresOf(p, Family::face)) faces.insert(f);
+      for (int r : solid.featuresOf(p, Family::rim)) rims.insert(r);
       for (int i = 0; i < p.points.count; ++i) {
         const Vec3& point = solid.points[at(p.points.first + i)];
-        EXPECT_EQ(point, solid.vertices[at(index(p.vertices, i))].point);
-        EXPECT_LE((point - p.center).norm(), p.reach);
+        EXPECT_EQ(point, solid.vertices[at(index(Family::vertex, i))].point);
+        EXPECT_LE((point - p.center).norm(), p.core_radius);
       }
       if (p.core != Piece::Core::triangle) continue;
       for (int i = 0; i < 3; ++i) {
-        const SolidEdge& e = solid.edges[at(index(p.edges, i))];
-        EXPECT_EQ((std::set<int>{e.from, e.to}), (std::set<int>{index(p.vertices, i), index(p.vertices, (i + 1) % 3)}));
-        EXPECT_TRUE(e.left == index(p.faces, 0) || e.right == index(p.faces, 0));
+        const SolidEdge& e = solid.edges[at(index(Family::edge, i))];
+        EXPECT_EQ((std::set<int>{e.from, e.to}), (std::set<int>{index(Family::vertex, i), index(Family::vertex, (i + 1) % 3)}));
+        EXPECT_TRUE(e.left == index(Family::face, 0) || e.right == index(Family::face, 0));
       }
     }
     EXPECT_EQ(vertices.size(), solid.vertices.size());
@@ -134,16 +134,16 @@ TEST(SolidPieces, PiecesListTheirFeatures) {
 }
 
 TEST(SolidPieces, BallsAboutTriangles) {
-  const auto reach = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto radius = [](const Vec3& a, const Vec3& b, const Vec3& c) {
     Body body = fixedBody(makeBall("triangle", 1, {0, 0, 0}));
     body.shape = Mesh{meshSurface({a, b, c}, {{0, 1, 2}}), 2, ""};
-    return solidOf(body).pieces[0].reach;
+    return solidOf(body).pieces[0].core_radius;
   };
   const double h = std::sqrt(3) / 2;
-  expectEntries(reach({-0.5, 0, 0}, {0.5, 0, 0}, {0, h, 0}), 4 * h / 3, 1e-14, "equal sides");
-  expectEntries(reach({0, 0, 0}, {3, 0, 0}, {0, 0, 4}), 5, 1e-14, "right angle");
-  expectEntries(reach({0, 0, 0}, {0.1, 0.2, 0}, {0, 2, 0}), 2, 1e-14, "wide angle");
-  expectEntries(reach({-1e-6, 0, 0}, {1e-6, 0, 0}, {0, 1, 0}), 1, 1e-9, "sliver");
+  expectEntries(radius({-0.5, 0, 0}, {0.5, 0, 0}, {0, h, 0}), 4 * h / 3, 1e-14, "equal sides");
+  expectEntries(radius({0, 0, 0}, {3, 0, 0}, {0, 0, 4}), 5, 1e-14, "right angle");
+  expectEntries(radius({0, 0, 0}, {0.1, 0.2, 0}, {0, 2, 0}), 2, 1e-14, "wide angle");
+  expectEntries(radius({-1e-6, 0, 0}, {1e-6, 0, 0}, {0, 1, 0}), 1, 1e-9, "sliver");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bits of ten long motions of different kinds, as hashes: the same in every build type and on every machine.
+// The bits of eleven long motions of different kinds, as hashes: the same in every build type and on every machine.
 // Nothing here calls a function of the C library whose last digit may differ, in the scenes neither.
 //
 // A change of the arithmetic of motions (another order of sums, another series) changes the hashes of the motions that
@@ -136,6 +136,8 @@ std::vector<Row> rows() {
       {"stones", pen(8, {stone()}, 0.97, 0.2), 100, 250, 0xcec6439b3e80fcb3},
       {"stars", pen(4, {star()}, 0.97, 0.1), 100, 150, 0x6690b92dae17691d},
       {"hammers", pen(6, {hammer(), Sphere{0.09}}, 0.97, 0.2), 100, 200, 0x75b0bf2c41898ba0},
+      {"cones", pen(8, {Cone{0.09, 0.14}, Box{{0.12, 0.1, 0.1}}, Cone{0.06, 0.18}}, 0.97, 0.2), 100, 200,
+       0xd8db8d47e7bd6789},
       {"triaxial spin", spinning({0.3, 0.2, 0.1}, {0.2, 7, 0.1}), 5000, 10, 0xdba312752931f131},
       {"spin near the separatrix", spinning({0.3, 0.2, 0.1}, {1e-7, 5, 1e-8}), 500, 10, 0xe142d74632eaa94b},
   };

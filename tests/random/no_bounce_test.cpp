@@ -16,13 +16,15 @@ constexpr int kScenes = 800;
 
 Shape randomShape(Random& random) {
   const double size = random.in(0.05, 0.2);
-  switch (random.below(5)) {
+  switch (random.below(6)) {
     case 0:
       return Sphere{size};
     case 1:
       return Capsule{0.3 * size, 3 * size};
     case 2:
       return Cylinder{size, random.in(0.1, 0.5)};
+    case 3:
+      return Cone{1.2 * size, random.in(0.1, 0.4)};
     default:
       return Box{Vec3(size, random.in(0.1, 0.4), random.in(0.1, 0.4))};
   }

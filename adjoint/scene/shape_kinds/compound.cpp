@@ -2,9 +2,7 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/numeric/dual.hpp"
 #include "adjoint/scene/shape_kinds/kinds.hpp"
-#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 
@@ -49,61 +47,41 @@ bool solid(const Shape& s) {
                                           [](const CompoundPart& p) { return kindOf(p.shape).solid(p.shape); });
 }
 
-template <class S>
-using Numbers3 = V3<S>;
-template <class S>
-using Matrix3 = M3<S>;
-
 // R I R^T. What is the same about every axis (a ball) or about the axis of the turn stays so exactly.
 template <class S>
-Matrix3<S> turned(const Mat3& R, const Matrix3<S>& I) {
+M3<S> turned(const Mat3& R, const M3<S>& I) {
   if (R.isIdentity(0)) return I;
-  const Matrix3<S> same = I(0, 0) * Matrix3<S>::Identity();
-  const Matrix3<S> rest = R * (I - same) * R.transpose();
+  const M3<S> same = I(0, 0) * M3<S>::Identity();
+  const M3<S> rest = R * (I - same) * R.transpose();
   return same + 0.5 * (rest + rest.transpose());
 }
 
 // Parallel axes: |d|^2 1 - d d^T, and its rate by d along e.
 template <class S>
-Matrix3<S> shifted(const Numbers3<S>& d) {
-  return d.squaredNorm() * Matrix3<S>::Identity() - d * d.transpose();
+M3<S> shifted(const V3<S>& d) {
+  return d.squaredNorm() * M3<S>::Identity() - d * d.transpose();
 }
 template <class S>
-Matrix3<S> shiftedRate(const Numbers3<S>& d, const Numbers3<S>& e) {
-  return 2 * d.dot(e) * Matrix3<S>::Identity() - d * e.transpose() - e * d.transpose();
+M3<S> shiftedRate(const V3<S>& d, const V3<S>& e) {
+  return 2 * d.dot(e) * M3<S>::Identity() - d * e.transpose() - e * d.transpose();
 }
-
-// SolidProperties of another kind of number.
-template <class S>
-struct RateOf {
-  S volume;
-  Numbers3<S> center;
-  Matrix3<S> unit_inertia;
-};
-template <class S>
-struct SolidOf {
-  S volume = 0;
-  Numbers3<S> center = Numbers3<S>::Zero();
-  Matrix3<S> unit_inertia = Matrix3<S>::Zero();
-  std::vector<RateOf<S>> rates;
-};
 
 // V = sum V_i, c = sum w_i c_i, I = sum w_i (R_i I_i R_i^T + S(c_i - c)), with shares w_i = V_i/V and S(d) = |d|^2 1 -
 // d d^T. By a dimension of part i (the parts' shares change and so does c, but sum w_j (c_j - c) = 0):
 //   dc = dV_i/V (c_i - c) + w_i R_i dc_i
 //   dI = dV_i/V (R_i I_i R_i^T + S(c_i - c) - I) + w_i (R_i dI_i R_i^T + dS(c_i - c; R_i dc_i))
 template <class S, class OfPart>
-SolidOf<S> combined(const Shape& s, const OfPart& of_part) {
+SolidPropertiesOf<S> combined(const Shape& s, const OfPart& of_part) {
   struct Part {
-    SolidOf<S> solid;
+    SolidPropertiesOf<S> solid;
     Mat3 R;
-    Numbers3<S> center;
-    Matrix3<S> inertia;  // of the part about the compound's centre, per unit mass of the part
+    V3<S> center;
+    M3<S> inertia;  // of the part about the compound's centre, per unit mass of the part
   };
   if (parts(s).empty())
     throw InputError("found the mass properties of a compound without parts asked for, expected parts");
   std::vector<Part> all;
-  SolidOf<S> p;
+  SolidPropertiesOf<S> p;
   for (const CompoundPart& part : parts(s)) {
     Part& a = all.emplace_back();
     a.solid = of_part(part.shape);
@@ -118,9 +96,9 @@ SolidOf<S> combined(const Shape& s, const OfPart& of_part) {
   }
   for (const Part& a : all) {
     const S share = a.solid.volume / p.volume;
-    for (const RateOf<S>& rate : a.solid.rates) {
+    for (const SolidRateOf<S>& rate : a.solid.rates) {
       const S dshare = rate.volume / p.volume;
-      const Numbers3<S> d = a.center - p.center, dcenter = a.R * rate.center;
+      const V3<S> d = a.center - p.center, dcenter = a.R * rate.center;
       p.rates.push_back({rate.volume, dshare * d + share * dcenter,
                          dshare * (a.inertia - p.unit_inertia) +
                              share * (turned<S>(a.R, rate.unit_inertia) + shiftedRate<S>(d, dcenter))});
@@ -130,56 +108,40 @@ SolidOf<S> combined(const Shape& s, const OfPart& of_part) {
 }
 
 SolidProperties compoundProperties(const Shape& s) {
-  const SolidOf<double> sum = combined<double>(s, [](const Shape& part) {
-    const SolidProperties solid = kindOf(part).properties(part);
-    SolidOf<double> out{solid.volume, solid.center, solid.unit_inertia, {}};
-    for (const SolidRate& r : solid.rates) out.rates.push_back({r.volume, r.center, r.unit_inertia});
-    return out;
-  });
-  SolidProperties p{sum.volume, sum.center, sum.unit_inertia, {}};
-  for (const RateOf<double>& r : sum.rates) p.rates.push_back({r.volume, r.center, r.unit_inertia});
-  return p;
+  return combined<double>(s, [](const Shape& part) { return kindOf(part).properties(part); });
 }
 
-using Number = Dual<1>;
-
-template <class To, class From>
-To withRates(const From& values, const From& rates) {
-  To out = values.template cast<Number>();
-  setRates(out, rates, 0);
-  return out;
-}
-Number withRate(double value, double rate) {
+// A number, a vector or a matrix that carries rates.
+Number carrying(double value, double rate) {
   Number n = value;
   n.rate[0] = rate;
   return n;
+}
+template <class Matrix>
+auto carrying(const Matrix& values, const Matrix& rates) {
+  auto out = values.template cast<Number>().eval();
+  setRates(out, rates, 0);
+  return out;
 }
 
 SolidProperties compoundPropertiesRate(const Shape& s, const Eigen::VectorXd& dimension_rates) {
   requireDimensions(dimension_rates, dimensions(s).size());
   Eigen::Index first = 0;
-  const SolidOf<Number> sum = combined<Number>(s, [&](const Shape& part) {
-    const SolidProperties a = kindOf(part).properties(part);
-    const Eigen::Index count = kindOf(part).dimensions(part).size();
-    const SolidProperties da = kindOf(part).propertiesRate(part, dimension_rates.segment(first, count));
+  return carriedBy(combined<Number>(s, [&](const Shape& part) {
+    const ShapeKind& kind = kindOf(part);
+    const SolidProperties a = kind.properties(part);
+    const Eigen::Index count = kind.dimensions(part).size();
+    const SolidProperties da = kind.propertiesRate(part, dimension_rates.segment(first, count));
     first += count;
-    using V = Numbers3<Number>;
-    using M = Matrix3<Number>;
-    SolidOf<Number> out{withRate(a.volume, da.volume),
-                        withRates<V>(a.center, da.center),
-                        withRates<M>(a.unit_inertia, da.unit_inertia),
-                        {}};
-    for (std::size_t i = 0; i < a.rates.size(); ++i) {
-      const SolidRate &r = a.rates[i], &dr = da.rates[i];
-      out.rates.push_back({withRate(r.volume, dr.volume), withRates<V>(r.center, dr.center),
-                           withRates<M>(r.unit_inertia, dr.unit_inertia)});
-    }
+    const auto joined = [](const auto& x, const auto& dx) {
+      return SolidRateOf<Number>{carrying(x.volume, dx.volume), carrying(x.center, dx.center),
+                                 carrying(x.unit_inertia, dx.unit_inertia)};
+    };
+    const auto [volume, center, unit_inertia] = joined(a, da);
+    SolidPropertiesOf<Number> out{volume, center, unit_inertia, {}};
+    for (std::size_t i = 0; i < a.rates.size(); ++i) out.rates.push_back(joined(a.rates[i], da.rates[i]));
     return out;
-  });
-  const auto rate = [](const auto& m) { return ratesOf(m, 0); };
-  SolidProperties p{sum.volume.rate[0], rate(sum.center), rate(sum.unit_inertia), {}};
-  for (const RateOf<Number>& r : sum.rates) p.rates.push_back({r.volume.rate[0], rate(r.center), rate(r.unit_inertia)});
-  return p;
+  }));
 }
 
 double boundingRadius(const Shape& s) {
@@ -200,7 +162,7 @@ void checkCompound(const Shape& s, const validation::ShapeCheck& at) {
     const CompoundPart& part = parts(s)[i];
     const ShapeKind& kind = kindOf(part.shape);
     const validation::Place here = where / i, inner = here / kind.name;
-    if (std::holds_alternative<Plane>(part.shape)) validation::fail(inner, "a plane", "a part of finite extent");
+    if (kind.endless) validation::fail(inner, std::string("a ") + kind.name, "a part of finite extent");
     kind.check(part.shape, {.where = inner, .derived = at.derived, .depth = at.depth + 1});
     validation::requireFinite(here / "position", part.position);
     validation::requireUnit(here / "orientation", part.orientation);
@@ -212,6 +174,7 @@ void checkCompound(const Shape& s, const validation::ShapeCheck& at) {
 ShapeKind kindRow(KindOf<Compound>) {
   return {
       .name = "compound",
+      .of_parts = true,
       .check = checkCompound,
       .dimension_names = names,
       .dimensions = dimensions,

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "adjoint/numeric/elementary.hpp"
 #include "adjoint/scene/shape_kinds/kinds.hpp"
-#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 
@@ -13,53 +11,31 @@ using namespace adjoint_detail;
 
 namespace {
 
-// V = pi r^2 h, I_x = I_y = r^2/4 + h^2/12, I_z = r^2/2
-SolidProperties cylinderProperties(const Shape& s) {
-  constexpr double pi = std::numbers::pi;
-  const double r = as<Cylinder>(s).radius, h = as<Cylinder>(s).height, x = r * r / 4 + h * h / 12;
-  SolidProperties p;
-  p.volume = pi * r * r * h;
-  p.unit_inertia = diagonal(x, x, r * r / 2);
-  p.rates = {{2 * pi * r * h, Vec3::Zero(), diagonal(r / 2, r / 2, r)},
-             {pi * r * r, Vec3::Zero(), diagonal(h / 6, h / 6, 0)}};
-  return p;
-}
+struct CylinderRow {
+  using Kind = Cylinder;
+  static constexpr const char* name = "cylinder";
+  static constexpr std::array words{"radius", "height"};
+  static auto numbers(auto& s) { return std::tie(s.radius, s.height); }
 
-SolidProperties cylinderPropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
-  requireDimensions(d, 2);
-  constexpr double pi = std::numbers::pi;
-  const double r = as<Cylinder>(s).radius, h = as<Cylinder>(s).height, dr = d[0], dh = d[1], dx = r * dr / 2 + h * dh / 6;
-  SolidProperties p;
-  p.volume = pi * r * (2 * dr * h + r * dh);
-  p.unit_inertia = diagonal(dx, dx, r * dr);
-  p.rates = {{2 * pi * (dr * h + r * dh), Vec3::Zero(), diagonal(dr / 2, dr / 2, dr)},
-             {2 * pi * r * dr, Vec3::Zero(), diagonal(dh / 6, dh / 6, 0)}};
-  return p;
-}
+  // V = pi r^2 h, I_x = I_y = r^2/4 + h^2/12, I_z = r^2/2
+  template <class S>
+  static SolidPropertiesOf<S> solid(const Cylinder&, const std::array<S, 2>& numbers) {
+    constexpr double pi = std::numbers::pi;
+    const auto& [r, h] = numbers;
+    const S x = r * r / 4 + h * h / 12;
+    SolidPropertiesOf<S> p;
+    p.volume = pi * r * r * h;
+    p.unit_inertia = diagonal<S>(x, x, r * r / 2);
+    p.rates = {{2 * pi * r * h, V3<S>::Zero(), diagonal<S>(r / 2, r / 2, r)},
+               {pi * r * r, V3<S>::Zero(), diagonal<S>(h / 6, h / 6, 0)}};
+    return p;
+  }
+  static double outer(const Cylinder& s) { return elementary::hypot(s.radius, s.height / 2); }
+  static double inner(const Cylinder& s) { return std::min(s.radius, 0.5 * s.height); }
+};
 
 }  // namespace
 
-ShapeKind kindRow(KindOf<Cylinder>) {
-  return {
-      .name = "cylinder",
-      .check =
-          [](const Shape& s, const validation::ShapeCheck& at) {
-            validation::requireLength(at.where / "radius", as<Cylinder>(s).radius);
-            validation::requireLength(at.where / "height", as<Cylinder>(s).height);
-          },
-      .dimension_names = [](const Shape&) -> std::vector<std::string> { return {"radius", "height"}; },
-      .dimensions = [](const Shape& s) { return dimensionsOf({as<Cylinder>(s).radius, as<Cylinder>(s).height}); },
-      .setDimensions =
-          [](Shape& s, const Eigen::VectorXd& d) {
-            requireDimensions(d, 2);
-            std::get<Cylinder>(s) = {.radius = d[0], .height = d[1]};
-          },
-      .solid = alwaysSolid,
-      .properties = cylinderProperties,
-      .propertiesRate = cylinderPropertiesRate,
-      .boundingRadius = [](const Shape& s) { return elementary::hypot(as<Cylinder>(s).radius, as<Cylinder>(s).height / 2); },
-      .innerRadius = [](const Shape& s) { return std::min(as<Cylinder>(s).radius, 0.5 * as<Cylinder>(s).height); },
-  };
-}
+ShapeKind kindRow(KindOf<Cylinder>) { return sizedRow<CylinderRow>(); }
 
 }  // namespace carom::shapes

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/scene/shape_kinds/kinds.hpp"
 #include "adjoint/scene/shape_kinds/scaled_surface.hpp"
-#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 
@@ -27,30 +25,12 @@ void checkMesh(const Shape& shape, const validation::ShapeCheck& at) {
                      "a closed mesh, or \"mass\" and \"inertia\" both written, or \"fixed\": true");
 }
 
+struct MeshRow : ScaledRow<Mesh> {
+  static constexpr const char* name = "mesh";
+};
+
 }  // namespace
 
-ShapeKind kindRow(KindOf<Mesh>) {
-  return {
-      .name = "mesh",
-      .check = checkMesh,
-      .dimension_names = [](const Shape&) -> std::vector<std::string> { return {"scale"}; },
-      .dimensions = [](const Shape& s) { return dimensionsOf({as<Mesh>(s).scale}); },
-      .setDimensions =
-          [](Shape& s, const Eigen::VectorXd& d) {
-            requireDimensions(d, 1);
-            std::get<Mesh>(s).scale = d[0];
-          },
-      .solid = [](const Shape& s) { return as<Mesh>(s).surface && as<Mesh>(s).surface->closed; },
-      .properties =
-          [](const Shape& s) { return scaledProperties(as<Mesh>(s).surface.get(), as<Mesh>(s).scale, "mesh"); },
-      .propertiesRate =
-          [](const Shape& s, const Eigen::VectorXd& rates) {
-            requireDimensions(rates, 1);
-            return scaledPropertiesRate(as<Mesh>(s).surface.get(), as<Mesh>(s).scale, rates[0], "mesh");
-          },
-      .boundingRadius = [](const Shape& s) { return scaledRadius(as<Mesh>(s).surface.get(), as<Mesh>(s).scale); },
-      .innerRadius = [](const Shape&) { return 0.0; },
-  };
-}
+ShapeKind kindRow(KindOf<Mesh>) { return scaledRow<MeshRow>(checkMesh); }
 
 }  // namespace carom::shapes

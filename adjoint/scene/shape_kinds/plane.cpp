@@ -4,7 +4,6 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/scene/shape_kinds/kinds.hpp"
-#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 
@@ -28,6 +27,7 @@ void checkPlane(const Shape& s, const validation::ShapeCheck& at) {
 ShapeKind kindRow(KindOf<Plane>) {
   return {
       .name = "plane",
+      .endless = true,
       .check = checkPlane,
       .dimension_names = [](const Shape&) { return std::vector<std::string>{}; },
       .dimensions = [](const Shape&) { return Eigen::VectorXd(0); },

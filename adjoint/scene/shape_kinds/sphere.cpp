@@ -2,7 +2,6 @@
 #include <numbers>
 
 #include "adjoint/scene/shape_kinds/kinds.hpp"
-#include "adjoint/scene/validation.hpp"
 
 namespace carom::shapes {
 
@@ -10,46 +9,30 @@ using namespace adjoint_detail;
 
 namespace {
 
-// V = 4/3 pi r^3, I = 2/5 r^2 about every axis
-SolidProperties sphereProperties(const Shape& s) {
-  const double r = as<Sphere>(s).radius, area = 4 * std::numbers::pi * r * r;
-  SolidProperties p;
-  p.volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
-  p.unit_inertia = 0.4 * r * r * Mat3::Identity();
-  p.rates = {{area, Vec3::Zero(), 0.8 * r * Mat3::Identity()}};
-  return p;
-}
+struct SphereRow {
+  using Kind = Sphere;
+  static constexpr const char* name = "sphere";
+  static constexpr std::array words{"radius"};
+  static auto numbers(auto& s) { return std::tie(s.radius); }
 
-SolidProperties spherePropertiesRate(const Shape& s, const Eigen::VectorXd& d) {
-  requireDimensions(d, 1);
-  const double r = as<Sphere>(s).radius, dr = d[0];
-  SolidProperties p;
-  p.volume = 4 * std::numbers::pi * r * r * dr;
-  p.unit_inertia = 0.8 * r * dr * Mat3::Identity();
-  p.rates = {{8 * std::numbers::pi * r * dr, Vec3::Zero(), 0.8 * dr * Mat3::Identity()}};
-  return p;
-}
+  // V = 4/3 pi r^3, I = 2/5 r^2 about every axis
+  template <class S>
+  static SolidPropertiesOf<S> solid(const Sphere&, const std::array<S, 1>& numbers) {
+    constexpr double pi = std::numbers::pi;
+    const auto& [r] = numbers;
+    const S I = 0.4 * r * r, I_r = 0.8 * r;
+    SolidPropertiesOf<S> p;
+    p.volume = 4.0 / 3.0 * pi * r * r * r;
+    p.unit_inertia = diagonal<S>(I, I, I);
+    p.rates = {{4 * pi * r * r, V3<S>::Zero(), diagonal<S>(I_r, I_r, I_r)}};
+    return p;
+  }
+  static double outer(const Sphere& s) { return s.radius; }
+  static double inner(const Sphere& s) { return s.radius; }
+};
 
 }  // namespace
 
-ShapeKind kindRow(KindOf<Sphere>) {
-  return {
-      .name = "sphere",
-      .check = [](const Shape& s,
-                  const validation::ShapeCheck& at) { validation::requireLength(at.where / "radius", as<Sphere>(s).radius); },
-      .dimension_names = [](const Shape&) -> std::vector<std::string> { return {"radius"}; },
-      .dimensions = [](const Shape& s) { return dimensionsOf({as<Sphere>(s).radius}); },
-      .setDimensions =
-          [](Shape& s, const Eigen::VectorXd& d) {
-            requireDimensions(d, 1);
-            std::get<Sphere>(s).radius = d[0];
-          },
-      .solid = alwaysSolid,
-      .properties = sphereProperties,
-      .propertiesRate = spherePropertiesRate,
-      .boundingRadius = [](const Shape& s) { return as<Sphere>(s).radius; },
-      .innerRadius = [](const Shape& s) { return as<Sphere>(s).radius; },
-  };
-}
+ShapeKind kindRow(KindOf<Sphere>) { return sizedRow<SphereRow>(); }
 
 }  // namespace carom::shapes

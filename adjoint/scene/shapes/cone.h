@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "adjoint/scene/shapes/kind_of.h"
+
 namespace carom {
 
 /// Round cone about z, its base at -height/2 and its apex at height/2; the centre of mass lies height/4 above the base.
@@ -8,5 +10,10 @@ struct Cone {
   double radius = 0.5;  ///< of the base, m
   double height = 1;    ///< m
 };
+
+namespace shapes {
+/// The row of the cone in the table of shapes.
+ShapeKind kindRow(KindOf<Cone>);
+}  // namespace shapes
 
 }  // namespace carom
