@@ -43,8 +43,7 @@ RotationSensitivity symmetricSensitivity(const Vec3& inertia, int axis, const Qu
   const Vec3 by_perp = -a / perp + En * (L.dot(n) * t / (perp * perp));
   const Vec3 by_par = -En * (L.dot(n) * t / (par * par));
   S.dtheta_dI.col(axis) = by_par;
-  S.dtheta_dI.col((axis + 1) % 3) = 0.5 * by_perp;
-  S.dtheta_dI.col((axis + 2) % 3) = 0.5 * by_perp;
+  S.dtheta_dI.col((axis + 1) % 3) = S.dtheta_dI.col((axis + 2) % 3) = 0.5 * by_perp;
   return S;
 }
 

@@ -22,9 +22,8 @@ const char* nameOf(MotionStatus status) {
 }
 
 const Participant* Event::find(int body) const {
-  for (const Participant& p : participants)
-    if (p.body == body) return &p;
-  return nullptr;
+  const auto p = std::ranges::find(participants, body, &Participant::body);
+  return p == participants.end() ? nullptr : &*p;
 }
 
 bool Event::touches(int body, int with) const {

@@ -40,10 +40,8 @@ void joinEqualMoments(Vec3& I) {
 
 void setInertiaTensor(const Mat3& J, BodyModel& model) {
   const double products = std::max({std::abs(J(1, 2)), std::abs(J(0, 2)), std::abs(J(0, 1))});
-  if (products <= kDiagonal * J.diagonal().maxCoeff()) {
-    model.inertia = J.diagonal();
-  } else if (!J.allFinite()) {
-    model.inertia = J.diagonal();  // for validate to refuse
+  if (products <= kDiagonal * J.diagonal().maxCoeff() || !J.allFinite()) {
+    model.inertia = J.diagonal();  // what is not finite is for validate to refuse
   } else {
     const Inertia inertia = Inertia::fromMatrix(J);
     model.inertia = inertia.moments;

@@ -21,7 +21,6 @@ using namespace adjoint_detail;
 
 namespace {
 
-
 // A seed with the rates of its weights.
 struct DualSeed {
   NVec position, orientation, velocity, angular_velocity, center_of_mass;
@@ -30,12 +29,6 @@ struct DualSeed {
 
 // Responses of arcs, shared by all directions; by body, arc, time, directions of the response and products.
 using Responses = std::map<std::tuple<int, int, double, int, bool>, BodyResponse>;
-
-// What the second derivative of a flight of a body needs.
-struct RotationPlan {
-  Tier tier;
-  bool products;
-};
 
 bool hasRates(const Num& n) {
   return std::any_of(n.rate.begin(), n.rate.end(), [](double r) { return r != 0; });
@@ -93,19 +86,18 @@ class DualPass {
   using Bars = WaitingBars<Num>;
 
   // A compound may keep its symmetry to first order and not to second; then all moments and products are carried.
-  RotationPlan planOf(std::size_t b) const {
-    const BodyPlan& plan = motion_.plan.bodies[b];
-    RotationPlan out{plan.derivative_tier, plan.derivative_products};
+  BodyPlan planOf(std::size_t b) const {
+    BodyPlan out = motion_.plan.bodies[b];
     const Body& body = motion_.scene->bodies[b];
     const bool derived = body.inertia.source == Inertia::Source::derived && !body.immovable();
-    if (out.tier == Tier::none || !derived || !kindOf(body.shape).of_parts) return out;
+    if (out.derivative_tier == Tier::none || !derived || !kindOf(body.shape).of_parts) return out;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
       const Eigen::VectorXd& size = lanes_.direction(lane).scene.bodies[b].size;
       if (size.isZero(0)) continue;
       const InertiaChange change =
           inertiaChange(kindOf(body.shape).propertiesRate(body.shape, size).rates, (*motion_.models)[b]);
-      if (!change.keeps_symmetry) out.tier = Tier::triaxial;
-      if (!change.keeps_axes) out.products = true;
+      if (!change.keeps_symmetry) out.derivative_tier = Tier::triaxial;
+      if (!change.keeps_axes) out.derivative_products = true;
     }
     return out;
   }
@@ -113,16 +105,16 @@ class DualPass {
   DualSensitivity dualSensitivity(int body, int k, const Num& t, const DualState& start, const DualState& end) {
     const auto b = static_cast<std::size_t>(body);
     const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
-    const RotationPlan& plan = plans_[b];
+    const BodyPlan& plan = plans_[b];
     const DualModel& model = lanes_.model(body);
     const Stretch stretch{model, start, end.R, t - lanes_.startTime(body, k)};
-    if (plan.tier == Tier::none) return {};
-    if (plan.tier == Tier::spherical) return sphericalSensitivity(stretch);
-    if (plan.tier == Tier::symmetric) return symmetricSensitivity(stretch, symmetryAxis(arc.model().inertia));
-    ResponseWanted wanted{3, inertia_varies_[b], inertia_varies_[b] && plan.products};
+    if (plan.derivative_tier == Tier::none) return {};
+    if (plan.derivative_tier == Tier::spherical) return sphericalSensitivity(stretch);
+    if (plan.derivative_tier == Tier::symmetric) return symmetricSensitivity(stretch, symmetryAxis(arc.model().inertia));
+    ResponseWanted wanted{3, inertia_varies_[b], inertia_varies_[b] && plan.derivative_products};
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
       const Mat3 dJ = ratesOf(model.J, lane);
-      if (!dJ.isZero(0)) wanted.lanes = std::max(wanted.lanes, plan.products && !dJ.isDiagonal(0) ? 9 : 6);
+      if (!dJ.isZero(0)) wanted.lanes = std::max(wanted.lanes, plan.derivative_products && !dJ.isDiagonal(0) ? 9 : 6);
     }
     const auto [at, made] = responses_.try_emplace({body, k, t.value, wanted.lanes, wanted.products});
     if (made) at->second = bodyResponse(arc, t.value - arc.start(), wanted);
@@ -167,7 +159,7 @@ class DualPass {
   const Motion& motion_;
   Responses& responses_;
   const std::vector<bool>& inertia_varies_;
-  std::vector<RotationPlan> plans_;
+  std::vector<BodyPlan> plans_;
   Bars bars_;
   RotationSensitivity until_;
 };

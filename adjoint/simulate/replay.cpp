@@ -63,7 +63,12 @@ class Follower {
   }
 
   Replay run() {
-    start();
+    motion_.events.reserve(like_.events.size());
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      motion_.world_lines[b].arcs.reserve(like_.world_lines[b].arcs.size());
+      motion_.world_lines[b].events.reserve(like_.world_lines[b].events.size());
+    }
+    builder_.start();
     motion_.end = motion_.duration;
     motion_.message = "complete";
     Outcome outcome = Outcome::found;
@@ -106,15 +111,6 @@ class Follower {
     }
   }
 
-  void start() {
-    motion_.events.reserve(like_.events.size());
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-      motion_.world_lines[b].arcs.reserve(like_.world_lines[b].arcs.size());
-      motion_.world_lines[b].events.reserve(like_.world_lines[b].events.size());
-    }
-    builder_.start();
-  }
-
   Outcome follow(const Event& was) {
     const auto isLate = [&](const Participant& p) { return late_[index(p.body)]; };
     if (std::ranges::any_of(was.participants, isLate)) {
@@ -129,11 +125,8 @@ class Follower {
       from = std::max(from, arcOf(p.body).start());
       flight = std::min(flight, was.time - like_.world_lines[index(p.body)].arcs[index(p.arc)].start());
     }
-    RootSearch search;
-    search.from = from;
-    search.until = motion_.duration;
-    search.guess = guess(was);
-    search.stride = std::max(flight, kInstant);
+    const RootSearch search{
+        .from = from, .until = motion_.duration, .guess = guess(was), .stride = std::max(flight, kInstant)};
     const GuardRoot root = descendingRoot(search, [&](double t) { return guardAt(was, t); });
     if (root.outcome == GuardRoot::Outcome::late) {
       markLate(was);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/base/names.hpp"
 #include "adjoint/base/types.h"
 
 namespace carom::adjoint_detail {
@@ -20,20 +21,9 @@ double roundingOf(const GuardValue& g, double t) { return 4 * kEps * (g.size + g
 }  // namespace
 
 const char* GuardRoot::why() const {
-  switch (outcome) {
-    case Outcome::early:
-      return "it would come before the impact that precedes it";
-    case Outcome::none:
-      return "the bodies pass without touching";
-    case Outcome::undefined:
-      return "the gap of its features is not defined";
-    case Outcome::unresolved:
-      return "its time was not found";
-    case Outcome::found:
-    case Outcome::late:
-      break;
-  }
-  return "";
+  return nameIn({"", "", "it would come before the impact that precedes it", "the bodies pass without touching",
+                 "the gap of its features is not defined", "its time was not found"},
+                outcome);
 }
 
 namespace {

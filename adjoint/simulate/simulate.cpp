@@ -18,11 +18,10 @@ namespace {
 // Eigen cuts products of large matrices into blocks by the caches that it finds, and so orders their sums. Everything
 // that is computed with begins with a motion; from then on the caches are these ones.
 void fixMatrixBlocks() {
-  static const bool fixed = [] {
+  [[maybe_unused]] static const bool fixed = [] {
     Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
     return true;
   }();
-  static_cast<void>(fixed);
 }
 
 }  // namespace
