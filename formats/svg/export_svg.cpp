@@ -2,9 +2,7 @@
 #include "formats/svg/export_svg.h"
 
 #include <algorithm>
-#include <filesystem>
 
-#include "formats/base/write_file.hpp"
 #include "formats/svg/layout.hpp"
 
 namespace carom {
@@ -139,10 +137,6 @@ std::string svgText(const std::string& heading, const Document& document, const 
   }
   legend.draw(canvas, {kSideMargin, legend_top}, legend_width);
   return canvas.finish();
-}
-
-void exportSvg(const std::string& path, const Document& document, const Motion& motion, const Motion* before) {
-  writeFile(path, svgText(std::filesystem::path(path).stem().string(), document, motion, before));
 }
 
 }  // namespace carom
