@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "formats/drawing/motion_extent.hpp"
 #include "formats/svg/layout.hpp"
 
 namespace carom {
@@ -50,11 +51,6 @@ void addLayer(const Layer& layer, const Picture& picture, const std::vector<View
     legend.merge(entries);
     return;
   }
-}
-
-std::size_t movingCount(const Scene& scene) {
-  return static_cast<std::size_t>(
-      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return !body.fixed; }));
 }
 
 std::string subtitleOf(const Picture& picture) {
