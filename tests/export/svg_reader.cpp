@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "formats/export/export_motion.h"
+#include "formats/svg/export_svg.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {
