@@ -65,8 +65,6 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
     return EditProblem(scene, loaded.contacts, document.duration, document.controls, document.constraints);
   });
   ScenePlan plan;
-  plan.name = document.name, plan.notes = document.notes;
-  plan.duration = document.duration;
   plan.controls = problem.controls.size();
   plan.rows = problem.constraints.size();
   const bool edits = plan.controls > 0 && plan.rows > 0;
@@ -164,16 +162,18 @@ Exit describeScene(const std::string& path, Output& out) {
   Loaded loaded(out, path);
   const ScenePlan plan = planOf(out, loaded);
   if (out.json()) {
-    out.document(infoJson(loaded.document.scene, plan));
+    out.document(infoJson(loaded.document, plan));
     return Exit::done;
   }
-  out.text() << loaded.path << ": " << (plan.name.empty() ? "" : quotedText(plan.name) + ", ") << out.number(plan.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
+  const Document& document = loaded.document;
+  out.text() << loaded.path << ": " << (document.name.empty() ? "" : quotedText(document.name) + ", ")
+             << out.number(document.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
              << counted(plan.rows, "number") << " held\n";
-  printNotes(out, loaded.document);
-  printShapes(out, loaded.document.scene);
-  printBodies(out, loaded.document.scene, plan);
-  printPairs(out, loaded.document.scene, plan);
-  printOverlaps(out, loaded.document.scene, plan);
+  printNotes(out, document);
+  printShapes(out, document.scene);
+  printBodies(out, document.scene, plan);
+  printPairs(out, document.scene, plan);
+  printOverlaps(out, document.scene, plan);
   return Exit::done;
 }
 

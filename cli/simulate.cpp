@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // carom simulate: every impact, and states at the times asked for.
 #include <CLI/App.hpp>
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "cli/options.h"
 #include "cli/table.h"
 #include "formats/answers/result_json.hpp"
+#include "formats/drawing/motion_extent.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom::cli {
@@ -29,11 +29,6 @@ struct SimulateArguments {
 
 constexpr std::size_t kMostStates = 50;  // of bodies, at the end of a motion that was not asked for
 
-std::size_t movingBodies(const Scene& scene) {
-  return static_cast<std::size_t>(
-      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return !body.fixed; }));
-}
-
 void printStates(Output& out, const Motion& motion, double time) {
   out.text() << "\nState at " << out.number(time) << " s:\n";
   Table table({"body", "position [m]", "orientation w, x, y, z", "velocity [m/s]", "angular velocity [rad/s]"});
@@ -49,7 +44,7 @@ void printStates(Output& out, const Motion& motion, double time) {
 }
 
 void printEnd(Output& out, const Motion& motion) {
-  const std::size_t moving = movingBodies(*motion.scene);
+  const std::size_t moving = movingCount(*motion.scene);
   if (moving <= kMostStates) return printStates(out, motion, motion.end);
   out.text() << "--at " << numberText(motion.end) << " prints the state of the " << moving
              << " moving bodies at the end.\n";

@@ -47,15 +47,16 @@ void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
 
 }  // namespace
 
-std::string infoJson(const Scene& scene, const ScenePlan& plan) {
+std::string infoJson(const Document& document, const ScenePlan& plan) {
+  const Scene& scene = document.scene;
   const auto names = [&](const auto& pair) {
     const auto name = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].name; };
     return std::array{name(pair.a), name(pair.b)};
   };
   JsonWriter out;
   out.beginObject();
-  out.members("name", textOrNone(plan.name), "notes", textOrNone(plan.notes));
-  out.members("duration", plan.duration, "asked", plan.asked);
+  out.members("name", textOrNone(document.name), "notes", textOrNone(document.notes));
+  out.members("duration", document.duration, "asked", plan.asked);
   std::size_t i = 0;
   out.objects("bodies", scene.bodies, Layout::block,
               [&](const Body& body) { writeBody(out, body, plan.plan.bodies[i++]); });

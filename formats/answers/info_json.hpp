@@ -6,7 +6,7 @@
 
 #include "adjoint/motion/plan.h"
 #include "adjoint/motion/start_overlap.h"
-#include "adjoint/scene/scene.h"
+#include "formats/base/document.h"
 
 namespace carom::formats_detail {
 
@@ -22,9 +22,6 @@ struct ScenePlan {
     std::string elasticity_why;     ///< how the materials' elasticities were combined
     std::string friction_why;       ///< how their frictions were combined
   };
-  std::string name;     ///< of the document
-  std::string notes;    ///< of the document
-  double duration = 0;  ///< s
   std::string asked;  ///< what the tiers are chosen for: "edit" or "simulate"
   Plan plan;                ///< of the bodies
   std::vector<Pair> pairs;  ///< that can touch
@@ -37,6 +34,6 @@ struct ScenePlan {
 /// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
 /// principal moments (kg m^2), of those that differ kinematic, gravity_factor and collision_filter, tier, why,
 /// derivative_tier, derivative_why}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
-std::string infoJson(const Scene& scene, const ScenePlan& plan);
+std::string infoJson(const Document& document, const ScenePlan& plan);
 
 }  // namespace carom::formats_detail

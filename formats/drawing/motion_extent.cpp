@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "formats/drawing/motion_extent.hpp"
 
+#include <algorithm>
+
 #include "adjoint/base/arguments.hpp"
 
 namespace carom::formats_detail {
 
 using namespace adjoint_detail;
+
+std::size_t movingCount(const Scene& scene) {
+  const auto moves = [](const Body& body) { return !body.fixed; };
+  return static_cast<std::size_t>(std::count_if(scene.bodies.begin(), scene.bodies.end(), moves));
+}
 
 double arcEnd(const Motion& motion, int body, int k) {
   const auto& arcs = motion.world_lines[checkedIndex("arcEnd", "body", body, motion.world_lines.size())].arcs;

@@ -6,6 +6,9 @@
 
 namespace carom::formats_detail {
 
+/// Bodies of a scene that are not fixed.
+std::size_t movingCount(const Scene& scene);
+
 /// The time at which arc k of a body ends: the start of the next one, or the end of the motion.
 double arcEnd(const Motion& motion, int body, int k);
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include "formats/base/write_file.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
@@ -94,11 +93,6 @@ std::string blenderText(const Document& document, const Motion& motion, const Gl
   script += kBody;
   script += "GLB = '''\n" + inLines(encoded) + "'''\n\nshow()\n";
   return script;
-}
-
-void exportBlender(const std::string& path, const Document& document, const Motion& motion,
-                   const GltfOptions& options) {
-  writeFile(path, blenderText(document, motion, options));
 }
 
 }  // namespace carom

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
-#include "formats/base/write_file.hpp"
 
 namespace carom {
 
@@ -125,10 +124,6 @@ std::string csvText(const Motion& motion, double rate) {
   std::string out = kColumns;
   for (const CsvRow& row : rowsOf(motion, rate)) appendRow(out, motion, row);
   return out;
-}
-
-void exportCsv(const std::string& path, const Document&, const Motion& motion, double rate) {
-  writeFile(path, csvText(motion, rate));
 }
 
 }  // namespace carom

@@ -4,17 +4,12 @@
 #include <string>
 
 #include "adjoint/motion/motion.h"
-#include "formats/base/document.h"
 
 namespace carom {
 
-/// Writes the motion as a table, one row a (time, moving body): at k / rate seconds, at the end of the motion, and
-/// twice at each impact of the body (`kind` before and after). Columns and units stand in the header row; numbers have
-/// 17 significant digits; text is quoted as in RFC 4180. Throws InputError when the rate [1/s] is not positive or the
-/// file cannot be written (naming the path).
-void exportCsv(const std::string& path, const Document& document, const Motion& motion, double rate = 60);
-
-/// The same as a text.
+/// The motion as a table, one row a (time, moving body): at k / rate seconds, at the end of the motion, and twice at
+/// each impact of the body (`kind` before and after). Columns and units stand in the header row; numbers have 17
+/// significant digits; text is quoted as in RFC 4180. Throws InputError when the rate [1/s] is not positive.
 std::string csvText(const Motion& motion, double rate = 60);
 
 }  // namespace carom

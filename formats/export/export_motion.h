@@ -10,7 +10,7 @@ namespace carom {
 
 /// Options of all formats.
 struct ExportOptions {
-  GltfOptions gltf;                ///< .glb, .gltf and .py, a script for Blender
+  GltfOptions gltf = {};           ///< .glb, .gltf and .py, a script for Blender
   double csv_rate = 60;            ///< rows a second
   const Motion* before = nullptr;  ///< drawn behind the motion in pictures
 };

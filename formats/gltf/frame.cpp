@@ -2,11 +2,6 @@
 #include "formats/gltf/frame.hpp"
 
 namespace carom::gltf {
-namespace {
-
-bool isMultipleOfIdentity(const Mat3& m) { return m == Mat3(m(0, 0) * Mat3::Identity()); }
-
-}  // namespace
 
 Frame inside(const Frame& outer, const PhysicsNode& node) {
   Frame frame;
@@ -14,7 +9,8 @@ Frame inside(const Frame& outer, const PhysicsNode& node) {
   frame.rotation = product(outer.rotation, node.rotation);
   const Mat3 R = matrixOf(node.rotation);
   // outer.rotation S R = (outer.rotation R) (R^T S R)
-  const Mat3 stretch = isMultipleOfIdentity(outer.stretch) ? outer.stretch : Mat3(R.transpose() * outer.stretch * R);
+  const bool even = outer.stretch == Mat3(outer.stretch(0, 0) * Mat3::Identity());
+  const Mat3 stretch = even ? outer.stretch : Mat3(R.transpose() * outer.stretch * R);
   frame.stretch = stretch * node.scale.asDiagonal();
   return frame;
 }

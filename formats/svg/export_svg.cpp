@@ -2,9 +2,8 @@
 #include "formats/svg/export_svg.h"
 
 #include <algorithm>
-#include <filesystem>
 
-#include "formats/base/write_file.hpp"
+#include "formats/drawing/motion_extent.hpp"
 #include "formats/svg/layout.hpp"
 
 namespace carom {
@@ -55,11 +54,6 @@ void addLayer(const Layer& layer, const Picture& picture, const std::vector<View
     legend.merge(entries);
     return;
   }
-}
-
-std::size_t movingCount(const Scene& scene) {
-  return static_cast<std::size_t>(
-      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return !body.fixed; }));
 }
 
 std::string subtitleOf(const Picture& picture) {
@@ -142,10 +136,6 @@ std::string svgText(const std::string& heading, const Document& document, const 
   }
   legend.draw(canvas, {kSideMargin, legend_top}, legend_width);
   return canvas.finish();
-}
-
-void exportSvg(const std::string& path, const Document& document, const Motion& motion, const Motion* before) {
-  writeFile(path, svgText(std::filesystem::path(path).stem().string(), document, motion, before));
 }
 
 }  // namespace carom

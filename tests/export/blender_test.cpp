@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "formats/documents/scene_json.h"
-#include "formats/export/export_blender.h"
+#include "formats/export/export_motion.h"
 #include "tests/export/hand_motion.h"
 #include "tests/export/players.h"
 #include "tests/test_paths.h"
@@ -55,7 +55,7 @@ TEST_P(BlenderScenes, ShowsEveryBodyInItsPlaceAndAxes) {
   const Document document = example(GetParam());
   const Motion motion = simulated(document);
   const std::string path = temporaryPath("m.glb");
-  exportGltf(path, document, motion);
+  exportMotion(path, document, motion);
   const int steps = 4;
   const json answer = imported(path, steps, lastWhole(motion));
   expectPlays({answer.at("poses"), 1.0 / (24 * steps), false, steps}, motion,
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, BlenderScenes, testing::ValuesIn(exampleScene
 TEST_F(Blender, BodiesStandAloneAndUpright) {
   const Document document = handDocument();
   const std::string path = temporaryPath("m.glb");
-  exportGltf(path, document, handMotion());
+  exportMotion(path, document, handMotion());
   const json answer = imported(path, 1, 0);
   EXPECT_EQ(answer.at("objects").size(), document.scene.bodies.size());
   for (const Body& body : document.scene.bodies) {
@@ -93,7 +93,7 @@ TEST_F(Blender, TheScriptSetsFramesAndCamera) {
   for (const double fps : {24.0, 60.0, 29.97}) {
     options.frames_per_second = fps;
     const std::string path = temporaryPath("m.py");
-    exportBlender(path, handDocument(), motion, options);
+    exportMotion(path, handDocument(), motion, {options});
     const json answer = imported(path, 1, static_cast<int>(motion.end * fps));
     EXPECT_NEAR(answer.at("fps").get<double>(), fps, 1e-5);
     EXPECT_EQ(answer.at("range"), (json{0, lastFrame(motion.end, fps)}));
@@ -111,7 +111,7 @@ TEST_F(Blender, CubicKeysAreNotForIt) {
   const Document document = example("book-on-shelf");
   const Motion motion = simulated(document);
   const std::string path = temporaryPath("m.glb");
-  exportGltf(path, document, motion, {GltfKeys::cubic});
+  exportMotion(path, document, motion, {{GltfKeys::cubic}});
   const json answer = imported(path, 1, lastWhole(motion));
   double worst = 0;
   int frame = 0;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "adjoint/base/errors.h"
-#include "formats/export/export_csv.h"
+#include "formats/export/export_motion.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {
@@ -36,7 +36,7 @@ BodyState expected(const Motion& motion, const Cells& row) {
 TEST(ExportCsv, EveryNumberIsReadBackExactly) {
   const Motion motion = handMotion();
   const std::string path = temporaryPath("m.csv");
-  exportCsv(path, handDocument(), motion, 50);
+  exportMotion(path, handDocument(), motion, {.csv_rate = 50});
   const auto rows = rowsOf(contentOf(path));
   ASSERT_GT(rows.size(), 100u);
   ASSERT_EQ(rows[0].size(), 17u);
@@ -60,7 +60,7 @@ TEST(ExportCsv, EveryNumberIsReadBackExactly) {
 TEST(ExportCsv, EachImpactHasOneRowBeforeAndOneAfter) {
   const Motion motion = handMotion();
   const std::string path = temporaryPath("m.csv");
-  exportCsv(path, handDocument(), motion);
+  exportMotion(path, handDocument(), motion);
   std::map<std::string, int> seen;
   for (const Cells& row : rowsOf(contentOf(path)))
     if (row.size() > 3 && !row[3].empty()) ++seen[row[2] + row[3]];
@@ -74,13 +74,14 @@ TEST(ExportCsv, NamesWithCommasAndQuotesAreQuoted) {
   Document document = handDocument();
   document.scene.bodies[4].name = "a, \"b\"";
   const std::string path = temporaryPath("m.csv");
-  exportCsv(path, document, handMotion(document.scene, 0.1, {}));
+  exportMotion(path, document, handMotion(document.scene, 0.1, {}));
   EXPECT_NE(contentOf(path).find(",\"a, \"\"b\"\"\",sample,"), std::string::npos);
 }
 
 TEST(ExportCsv, RefusesARateThatIsNoRate) {
   for (const double rate : {0.0, -1.0, any, 1e300})
-    EXPECT_THROW(exportCsv(temporaryPath("m.csv"), handDocument(), handMotion(), rate), InputError) << rate;
+    EXPECT_THROW(exportMotion(temporaryPath("m.csv"), handDocument(), handMotion(), {.csv_rate = rate}), InputError)
+        << rate;
   EXPECT_FALSE(std::filesystem::exists(temporaryPath("m.csv")));
 }
 

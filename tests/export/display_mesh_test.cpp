@@ -6,7 +6,7 @@
 #include <cstring>
 #include <map>
 
-#include "formats/gltf/write/export_gltf.h"
+#include "formats/export/export_motion.h"
 #include "tests/export/all_shapes.h"
 #include "tests/export/hand_motion.h"
 #include "tests/support/compare.h"
@@ -59,7 +59,7 @@ class DisplayMesh : public testing::TestWithParam<NamedShape> {
   void SetUp() override {
     const Document document = documentOfAllShapes(false);
     const std::string path = temporaryPath("all.glb");
-    exportGltf(path, document, handMotion(document.scene, document.duration, {}));
+    exportMotion(path, document, handMotion(document.scene, document.duration, {}));
     std::string error, warning;
     ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model_, &error, &warning, path)) << error;
     triangles_ = trianglesOf(model_, GetParam().name);
@@ -123,7 +123,7 @@ TEST(DisplayMesh, TheOriginFollowsItsPathAboutTheCentreOfMass) {
   const Document document = documentOfAllShapes(false);
   const Motion motion = handMotion(document.scene, document.duration, {});
   const std::string path = temporaryPath("all.glb");
-  exportGltf(path, document, motion, {GltfKeys::cubic});
+  exportMotion(path, document, motion, {{GltfKeys::cubic}});
   tinygltf::Model model;
   std::string error, warning;
   ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, path)) << error;
@@ -169,7 +169,7 @@ TEST(DisplayMesh, EqualBodiesShareTheirTriangles) {
       document.scene.bodies.push_back(body);
     }
     const std::string path = temporaryPath("balls.glb");
-    exportGltf(path, document, handMotion(document.scene, 0.1, {}));
+    exportMotion(path, document, handMotion(document.scene, 0.1, {}));
     tinygltf::Model model;
     std::string error, warning;
     ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, path)) << error;

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "adjoint/base/errors.h"
-#include "formats/gltf/write/export_gltf.h"
+#include "formats/export/export_motion.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {
@@ -26,7 +26,7 @@ tinygltf::Model load(const std::string& path) {
 
 tinygltf::Model exported(const std::string& name, const GltfOptions& options = {}) {
   const std::string path = temporaryPath(name);
-  exportGltf(path, handDocument(), handMotion(), options);
+  exportMotion(path, handDocument(), handMotion(), {options});
   return load(path);
 }
 
@@ -188,7 +188,7 @@ TEST(ExportGltf, SmallBodiesHaveMoreKeysAndStraightFlightsHaveTwo) {
   document.scene.bodies[2].angular_velocity.setZero();
   const Motion motion = handMotion(document.scene, 1, {});
   const std::string path = temporaryPath("m.glb");
-  exportGltf(path, document, motion);
+  exportMotion(path, document, motion);
   const tinygltf::Model small = load(path);
   const Track track = trackOf(small, "book", "translation");
   for (int i = 0; i <= kSamples; ++i) {
@@ -196,7 +196,7 @@ TEST(ExportGltf, SmallBodiesHaveMoreKeysAndStraightFlightsHaveTwo) {
     EXPECT_TRUE((translationAt(track, t) - motion.stateAt("book", t).position).norm() <= 0.005 * 0.001 + 5e-7) << t;
   }
   document.scene.gravity.setZero();
-  exportGltf(path, document, handMotion(document.scene, 1, {}));
+  exportMotion(path, document, handMotion(document.scene, 1, {}));
   EXPECT_EQ(trackOf(load(path), "book", "translation").times.size(), 2u);
 }
 
@@ -301,7 +301,7 @@ TEST(ExportGltf, PhysicsIsWrittenButNotRequired) {
 
 TEST(ExportGltf, TheEditTravelsInExtras) {
   const std::string path = temporaryPath("m.gltf");
-  exportGltf(path, handDocument(), handMotion());
+  exportMotion(path, handDocument(), handMotion());
   const tinygltf::Model model = load(path);
   const auto& edit = model.scenes.at(0).extras.Get("carom");
   EXPECT_EQ(edit.Get("controls").ArrayLen(), 2u);
@@ -317,33 +317,33 @@ TEST(ExportGltf, OddMotionsAreWritten) {
   Document document = handDocument();
   document.constraints.clear(), document.controls.clear();
   const std::string path = temporaryPath("m.glb");
-  exportGltf(path, document, handMotion(document.scene, 0, {}));  // no time passes
+  exportMotion(path, document, handMotion(document.scene, 0, {}));  // no time passes
   EXPECT_TRUE(load(path).animations.empty());
   // Two impacts that a float cannot tell apart.
-  exportGltf(
+  exportMotion(
       path, document,
       handMotion(document.scene, 1, {{0.5, 2, 0, {1, 0, 1}, {1, 2, 3}}, {0.5 + 1e-9, 2, 0, {0, 0, 2}, {3, 2, 1}}}),
-      {GltfKeys::cubic});
+      {{GltfKeys::cubic}});
   const Track track = trackOf(load(path), "book", "translation");
   ASSERT_EQ(track.times.size(), 3u);
   EXPECT_EQ(vectorAt(track, 5), Vec3(0, 0, 2));  // the last one counts
   document.scene.gravity.setZero();
   document.scene.bodies.resize(2);
-  exportGltf(path, document, handMotion(document.scene, 1, {}));  // nothing moves
+  exportMotion(path, document, handMotion(document.scene, 1, {}));  // nothing moves
   EXPECT_EQ(load(path).meshes.size(), 2u);
 }
 
 TEST(ExportGltf, NumbersThatDoNotFitAreRefused) {
   Document document = handDocument();
   document.scene.bodies[2].angular_velocity = {1e7, 2e7, 3e7};
-  const auto write = [&] { exportGltf(temporaryPath("m.glb"), document, handMotion(document.scene, 10, {})); };
+  const auto write = [&] { exportMotion(temporaryPath("m.glb"), document, handMotion(document.scene, 10, {})); };
   document.scene.bodies[2].shape = Sphere{0.1};
   EXPECT_THROW(write(), InputError);  // more rotation keys than anybody wants
   document.scene.bodies[2].angular_velocity.setZero();
   document.scene.bodies[2].position.x() = 1e39;
   EXPECT_THROW(write(), InputError);  // beyond floats
   const auto refuses = [](const GltfOptions& options) {
-    EXPECT_THROW(exportGltf(temporaryPath("m.glb"), handDocument(), handMotion(), options), InputError);
+    EXPECT_THROW(exportMotion(temporaryPath("m.glb"), handDocument(), handMotion(), {options}), InputError);
   };
   for (const double bad : {0.0, -24.0, any, 1e300}) {
     GltfOptions frames, tolerance, light, ghosts;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "formats/svg/export_svg.h"
+#include "formats/export/export_motion.h"
 #include "tests/export/all_shapes.h"
 #include "tests/export/hand_motion.h"
 #include "tests/support/compare.h"
@@ -19,7 +19,7 @@ using Polygon = std::vector<Vec2>;
 
 std::string svgOf(const Document& document) {
   const std::string path = temporaryPath("m.svg");
-  exportSvg(path, document, handMotion(document.scene, document.duration, {}));
+  exportMotion(path, document, handMotion(document.scene, document.duration, {}));
   return contentOf(path);
 }
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "formats/drawing/motion_extent.hpp"
-#include "formats/gltf/write/export_gltf.h"
+#include "formats/export/export_motion.h"
 #include "tests/export/hand_motion.h"
 
 namespace carom::export_tests {
@@ -19,7 +19,7 @@ namespace {
 
 tinygltf::Model staged(const Document& document, const Motion& motion, const GltfOptions& options) {
   const std::string path = temporaryPath("m.glb");
-  exportGltf(path, document, motion, options);
+  exportMotion(path, document, motion, {options});
   tinygltf::Model model;
   std::string error, warning;
   EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, path)) << error;

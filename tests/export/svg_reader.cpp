@@ -8,6 +8,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "formats/export/export_motion.h"
 #include "formats/svg/export_svg.h"
 #include "tests/export/hand_motion.h"
 
@@ -258,7 +259,7 @@ std::vector<std::vector<Vec2>> pathPoints(const std::string& data, int pieces) {
 
 std::string drawnSvg(const Document& document, const Motion& motion, const Motion* before) {
   const std::string path = temporaryPath("m.svg");
-  exportSvg(path, document, motion, before);
+  exportMotion(path, document, motion, {.before = before});
   return contentOf(path);
 }
 

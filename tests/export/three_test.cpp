@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "formats/documents/scene_json.h"
-#include "formats/gltf/write/export_gltf.h"
+#include "formats/export/export_motion.h"
 #include "formats/json/json_writer.hpp"
 #include "tests/export/all_shapes.h"
 #include "tests/export/hand_motion.h"
@@ -55,7 +55,7 @@ class ThreeJs : public Node, public testing::WithParamInterface<std::string> {};
 void playsInThree(const Document& document, const Motion& motion, const GltfOptions& options, const PlayBounds& bounds,
                   Runner run) {
   const std::string path = temporaryPath("m.glb");
-  exportGltf(path, document, motion, options);
+  exportMotion(path, document, motion, {options});
   const double step = 1 / (options.frames_per_second * kStepsAFrame);
   const auto count = static_cast<int>(std::floor(motion.end / step));
   const json answer = run("poses.mjs", quoted(path) + " " + numberText(step) + " " + std::to_string(count));
@@ -87,9 +87,9 @@ TEST_F(Node, ThreeJsPlaysImpactsOutOfStepWithFrames) {
 void isValid(const Document& document, const Motion& motion, Runner run) {
   GltfOptions all{GltfKeys::linear}, cubic{GltfKeys::cubic};
   all.camera = all.nails = true, all.light = 2000, all.ghosts = 0.3;
-  exportGltf(temporaryPath("linear.glb"), document, motion);
-  exportGltf(temporaryPath("cubic.glb"), document, motion, cubic);
-  exportGltf(temporaryPath("all.gltf"), document, motion, all);
+  exportMotion(temporaryPath("linear.glb"), document, motion);
+  exportMotion(temporaryPath("cubic.glb"), document, motion, {cubic});
+  exportMotion(temporaryPath("all.gltf"), document, motion, {all});
   const json answer = run("validate.mjs", quoted(temporaryPath("linear.glb")) + " " +
                                               quoted(temporaryPath("cubic.glb")) + " " +
                                               quoted(temporaryPath("all.gltf")));

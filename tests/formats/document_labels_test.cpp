@@ -9,7 +9,7 @@
 #include "formats/documents/journal_json.h"
 #include "formats/documents/scene_json.h"
 #include "formats/gltf/read/import_gltf.h"
-#include "formats/gltf/write/export_gltf.h"
+#include "formats/export/export_motion.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/formats/scene_documents.h"
 
@@ -87,7 +87,7 @@ TEST_F(DocumentLabels, nothingIsWrittenWhereThereIsNothing) {
 TEST_F(DocumentLabels, throughGltfAndBack) {
   const Document d = parseDocument(kLabelled, "labelled", path("scenes"));
   OdeContacts contacts(d.scene);
-  exportGltf(path("drop.glb"), d, simulate(d.scene, contacts, d.duration));
+  exportMotion(path("drop.glb"), d, simulate(d.scene, contacts, d.duration));
   const Imported back = importGltf(path("drop.glb"));
   expectNotes(back.document);
   EXPECT_EQ(back.document.schema, "");  // a file name would mean nothing beside the glTF file

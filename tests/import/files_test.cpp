@@ -9,7 +9,7 @@
 #include "editing/problem/jacobian.hpp"
 #include "formats/documents/save_with_meshes.h"
 #include "formats/documents/scene_json.h"
-#include "formats/gltf/write/export_gltf.h"
+#include "formats/export/export_motion.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/import/gltf_files.h"
 #include "tests/import/same_scene.h"
@@ -87,7 +87,7 @@ TEST_P(EveryFile, ComesBackFromAnExport) {
   const Document document = saved();
   OdeContacts contacts(document.scene);
   const std::string path = temporaryPath("exported.glb");
-  exportGltf(path, document, simulate(document.scene, contacts, 1));
+  exportMotion(path, document, simulate(document.scene, contacts, 1));
   const Imported again = importGltf(path);
   EXPECT_TRUE(again.report.warnings.empty()) << listOf(again.report);
   expectSameScene(again.document.scene, document.scene);

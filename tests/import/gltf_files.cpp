@@ -133,7 +133,7 @@ void exportFreeFlight(const std::string& path, const Document& document, const G
                                             startState(scene.bodies[i], (*models)[i]));
     motion.world_lines[i].arcs.back().extendTo(motion.end);
   }
-  exportGltf(path, document, motion, options);
+  exportMotion(path, document, motion, {options});
 }
 
 std::string messageOf(const std::function<void()>& function) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/gltf/read/import_gltf.h"
-#include "formats/gltf/write/export_gltf.h"
+#include "formats/export/export_motion.h"
 
 namespace carom::import_tests {
 

@@ -60,10 +60,27 @@ Moving readMotion(const JsonPlace& motion) {
   return out;
 }
 
+std::set<int> animatedNodes(const JsonPlace& document) {
+  std::set<int> nodes;
+  const auto animations = document.find("animations");
+  for (std::size_t i = 0; animations && i < animations->size(); ++i) {
+    const auto channels = animations->at(i).find("channels");
+    for (std::size_t k = 0; channels && k < channels->size(); ++k)
+      if (const auto target = channels->at(k).find("target"))
+        if (const auto node = target->find("node"); node && node->value.is_number_unsigned())
+          nodes.insert(node->value.get<int>());
+  }
+  return nodes;
+}
+
 class NodeReader {
  public:
-  NodeReader(const JsonPlace& document, const ShapeList& shapes, const DocumentParts& parts, ImportReport& report)
-      : document_(document), shapes_(shapes), parts_(parts), report_(report) {
+  NodeReader(const JsonPlace& document, std::size_t materials, ImportReport& report)
+      : document_(document),
+        shapes_(document),
+        materials_(materials),
+        animated_(animatedNodes(document)),
+        report_(report) {
     if (const auto nodes = document_.find("nodes")) count_ = nodes->size();
   }
 
@@ -73,7 +90,7 @@ class NodeReader {
     PhysicsNode node;
     node.index = index;
     node.name = place.textOr("name", "");
-    node.animated = carried || parts_.animated.count(index) > 0;
+    node.animated = carried || animated_.count(index) > 0;
     reached_.insert(index);
     if (const auto matrix = place.find("matrix")) {
       setMatrix(node, *matrix);
@@ -124,7 +141,7 @@ class NodeReader {
     if (!shape) return;
     node.collider = Collider{*shape, -1, filter};
     if (const auto material = collider.find("physicsMaterial"))
-      node.collider->material = material->index(parts_.materials, "physicsMaterials");
+      node.collider->material = material->index(materials_, "physicsMaterials");
   }
 
   void reportOthers(const PhysicsNode& node, const JsonPlace& place) {
@@ -146,25 +163,13 @@ class NodeReader {
   }
 
   JsonPlace document_;
-  const ShapeList& shapes_;
-  const DocumentParts& parts_;
+  const ShapeList shapes_;
+  const std::size_t materials_;
+  const std::set<int> animated_;  // nodes
   ImportReport& report_;
   std::size_t count_ = 0;
   std::set<int> reached_;
 };
-
-std::set<int> animatedNodes(const JsonPlace& document) {
-  std::set<int> nodes;
-  const auto animations = document.find("animations");
-  for (std::size_t i = 0; animations && i < animations->size(); ++i) {
-    const auto channels = animations->at(i).find("channels");
-    for (std::size_t k = 0; channels && k < channels->size(); ++k)
-      if (const auto target = channels->at(k).find("target"))
-        if (const auto node = target->find("node"); node && node->value.is_number_unsigned())
-          nodes.insert(node->value.get<int>());
-  }
-  return nodes;
-}
 
 /// Indices of the root nodes of the default scene; of all nodes without a parent where there is no scene.
 std::vector<int> rootNodes(const JsonPlace& document) {
@@ -228,9 +233,7 @@ PhysicsFile readPhysics(const Json& json, ImportReport& report) {
   reportRequired(document, report);
   file.materials = readMaterials(document, report);
   file.gravity = readGravity(document);
-  const DocumentParts parts{file.materials.size(), animatedNodes(document)};
-  const ShapeList shapes(document);
-  NodeReader reader(document, shapes, parts, report);
+  NodeReader reader(document, file.materials.size(), report);
   for (const int root : rootNodes(document)) file.roots.push_back(reader.read(root));
   reader.finish();
   return file;

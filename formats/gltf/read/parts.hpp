@@ -2,20 +2,12 @@
 // Private to formats/*.cpp: the parts of readPhysics.
 #pragma once
 
-#include <set>
-
 #include "formats/gltf/nodes.hpp"
 #include "formats/json/json_place.hpp"
 
 namespace carom::gltf {
 
 using namespace formats_detail;
-
-/// What nodes refer to.
-struct DocumentParts {
-  std::size_t materials = 0;
-  std::set<int> animated;  ///< nodes
-};
 
 /// The scene that is shown first; none when the document has no scenes.
 std::optional<JsonPlace> defaultScene(const JsonPlace& document);

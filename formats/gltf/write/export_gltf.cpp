@@ -9,8 +9,6 @@
 #include <variant>
 
 #include "adjoint/base/errors.h"
-#include "formats/base/short_text.hpp"
-#include "formats/base/write_file.hpp"
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/gltf/axes.hpp"
 #include "formats/gltf/physics_nodes.hpp"
@@ -229,10 +227,6 @@ std::string gltfText(const Document& document, const Motion& motion, const GltfO
   if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, true, binary))
     throw InputError("glTF", "the scene cannot be written");
   return std::move(out).str();
-}
-
-void exportGltf(const std::string& path, const Document& document, const Motion& motion, const GltfOptions& options) {
-  writeFile(path, gltfText(document, motion, options, extensionOf(path) == ".glb"));
 }
 
 }  // namespace carom

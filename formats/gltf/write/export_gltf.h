@@ -31,19 +31,14 @@ struct GltfOptions {
   bool nails = false;                    ///< marks of the constraints: nailed places and poses, regions
 };
 
-/// Writes scene and motion as glTF 2.0: binary for ".glb", otherwise JSON with embedded buffers. Metres, seconds; z up
-/// becomes y up, (x, y, z) -> (x, z, -y), for the axes of bodies too, so that a program with z up that turns them back
-/// (Blender) has every body's axes as they are here. Rotations are sampled, and within 1e-3 rad of the motion between
-/// keys. Carries KHR_physics_rigid_bodies, KHR_implicit_shapes and OMI_physics_gravity (used, not required), and the
-/// scene document with the edit (controls, constraints) in the scene's `extras`; importGltf reads them back without
-/// loss. `extras` have `carom_playback` beside it: `frames_per_second`, `last_frame`. A moving body's node is at the
-/// origin of its shape; scaled surfaces and parts have nodes below it. Camera, light, ghosts and nails have no physics.
-/// Throws InputError when a number does not fit (naming the body or the option) or the file cannot be written (naming
-/// the path).
-void exportGltf(const std::string& path, const Document& document, const Motion& motion,
-                const GltfOptions& options = {});
-
-/// The same as a text: a .glb file when `binary`, else a .gltf file.
+/// Scene and motion as glTF 2.0: a .glb file when `binary`, else a .gltf file, JSON with embedded buffers. Metres,
+/// seconds; z up becomes y up, (x, y, z) -> (x, z, -y), for the axes of bodies too, so that a program with z up that
+/// turns them back (Blender) has every body's axes as they are here. Rotations are sampled, and within 1e-3 rad of the
+/// motion between keys. Carries KHR_physics_rigid_bodies, KHR_implicit_shapes and OMI_physics_gravity (used, not
+/// required), and the scene document with the edit (controls, constraints) in the scene's `extras`; importGltf reads
+/// them back without loss. `extras` have `carom_playback` beside it: `frames_per_second`, `last_frame`. A moving body's
+/// node is at the origin of its shape; scaled surfaces and parts have nodes below it. Camera, light, ghosts and nails
+/// have no physics. Throws InputError when a number does not fit (naming the body or the option).
 std::string gltfText(const Document& document, const Motion& motion, const GltfOptions& options, bool binary);
 
 /// The last frame that a motion of this length needs, the first being 0 at its start.

@@ -57,7 +57,7 @@ double rateOfSwings(const Arc& arc) {
 
 void requireFew(double keys, const Motion& motion, int body) {
   const auto& bodies = motion.scene->bodies;
-  const auto moving = std::count_if(bodies.begin(), bodies.end(), [](const Body& b) { return !b.fixed; });
+  const std::size_t moving = movingCount(*motion.scene);
   const bool few_alone = keys <= kMaxKeys;
   if (few_alone && keys * static_cast<double>(moving) <= kMaxKeysOfAll) return;
   const double most = few_alone ? std::floor(kMaxKeysOfAll / static_cast<double>(moving)) : kMaxKeys;

@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "formats/base/short_text.hpp"
+#include "formats/drawing/motion_extent.hpp"
 #include "formats/drawing/nail_marks.hpp"
 #include "formats/gltf/write/stage.hpp"
 #include "formats/json/json_writer.hpp"
@@ -45,8 +46,7 @@ int addRegion(tinygltf::Model& model, GltfLook& look, const RegionMark& region) 
 
 std::vector<int> addGhosts(tinygltf::Model& model, GltfLook& look, const Motion& motion, double interval) {
   const auto& bodies = motion.scene->bodies;
-  double moving = 0;
-  for (const Body& body : bodies) moving += body.fixed ? 0 : 1;
+  const auto moving = static_cast<double>(movingCount(*motion.scene));
   const double times = std::floor(motion.end / interval * (1 + 1e-12)) + 1;
   if (!(times * moving <= kMaxGhosts))
     throw InputError("ghosts", "found " + numberText(interval) + " s between ghosts, which makes " +
