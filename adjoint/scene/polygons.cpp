@@ -6,14 +6,14 @@
 #include <numeric>
 
 #include "adjoint/base/refuse.hpp"
-#include "adjoint/scene/validation.hpp"
 
 namespace carom::adjoint_detail {
 
 void checkCoordinates(const std::vector<Vec3>& points, const char* item) {
+  constexpr double kLargest = 1e9;  // m, as for every number of a scene
   for (std::size_t i = 0; i < points.size(); ++i)
     for (double x : points[i])
-      if (!(std::abs(x) <= validation::kLargest))
+      if (!(std::abs(x) <= kLargest))
         refuse(item + (" " + std::to_string(i)), "found ", x, ", expected a finite coordinate of magnitude at most 1e9");
 }
 
