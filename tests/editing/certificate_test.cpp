@@ -87,7 +87,6 @@ TEST(EventMargins, GradientsOfAThrownConeByEveryControl) {
   OdeContacts contacts(scene);
   const EditProblem problem(scene, contacts, 0.8, everyControl(), {});
   const Motion motion = simulate(problem.controls.startScene(), contacts, 0.8);
-  ASSERT_GE(motion.events.size(), 2u);
   const auto on_rim = [&](const Event& event) {
     const Contact& c = event.contacts[0];
     return motion.geometry->describe(c.a, c.b, c.features).find("rim") != std::string::npos;
