@@ -240,20 +240,46 @@ double stepInFrameOfB(const Mover& a, const Mover& b, const Vec3& n, double room
   });
 }
 
-double stepAcrossEdges(const Mover& a, const Mover& b, const Witness& w, double room, double lift, double limit) {
-  const Vec3 c = w.edge_a.cross(w.edge_b), D = apart(a, b), V = velocity(a, b), wa = a.w, wb = b.w;
+// A direction that turns with both bodies: its rate now, and bounds on its derivatives over a window.
+struct TurningNormal {
+  Vec3 rate;
+  double first = 0, second = 0, longest = 0;
+};
+
+// n along c = edge_a x edge_b.
+TurningNormal acrossEdges(const Mover& a, const Mover& b, const Witness& w, double limit) {
+  const Vec3 c = w.edge_a.cross(w.edge_b);
   const double sine = c.norm(), sign = c.dot(w.n) >= 0 ? 1 : -1;
-  const Vec3 dc = wa.cross(w.edge_a).cross(w.edge_b) + w.edge_a.cross(wb.cross(w.edge_b));
-  const Vec3 dn = sign / sine * (dc - w.n * w.n.dot(dc));
-  Gap gap;
-  gap.at = w.n.dot(D) + lift;
-  gap.rate = dn.dot(D) + w.n.dot(V);
-  gap.a = a.side(w.n, dn + w.n.cross(wa));
-  gap.b = b.side(w.n, dn + w.n.cross(wb));
+  const Vec3 dc = a.w.cross(w.edge_a).cross(w.edge_b) + w.edge_a.cross(b.w.cross(w.edge_b));
   // |c'| <= W, |c''| <= Z, and |c| >= sine/2 within the window, so |n'| <= W/s, |n''| <= Z/s + 3 W^2/s^2
-  const double W = a.spin + b.spin, Z = W * W + a.spin_rate + b.spin_rate, s = 0.5 * sine;
-  const double n1 = W / s, n2 = Z / s + 3 * n1 * n1;
-  const double longest = W > 0 ? std::min(limit, s / W) : limit;
+  const double W = a.spin + b.spin, Z = W * W + a.spin_rate + b.spin_rate, s = 0.5 * sine, n1 = W / s;
+  return {sign / sine * (dc - w.n * w.n.dot(dc)), n1, Z / s + 3 * n1 * n1, W > 0 ? std::min(limit, s / W) : limit};
+}
+
+// n keeps its angles to both axes, so that seen from b it turns about edge_b at the rate p:
+//   p D = -n . d',  D = (edge_b x n) . edge_a,  d' the rate of edge_a seen from b.
+TurningNormal betweenTapered(const Mover& a, const Mover& b, const Witness& w, double limit) {
+  const Vec3 about = w.edge_b.cross(w.n);
+  const double D = about.dot(w.edge_a), s = 0.5 * std::abs(D);
+  if (!(s > 1e-9)) return {Vec3::Zero()};  // hardly decided by the axes
+  const double now = -w.n.dot((a.w - b.w).cross(w.edge_a)) / D;
+  // |d'| <= W, |d''| <= Z and |D'| <= p + W; |D| >= s within the window
+  const double W = a.spin + b.spin, Z = W * W + a.spin_rate + b.spin_rate + a.spin * b.spin, p = W / s;
+  const double dp = (p * (p + W) + p * W + Z) / s;
+  return {b.w.cross(w.n) + now * about, b.spin + p, dp + p * p + 2 * b.spin * p + b.turning(),
+          W > 0 ? std::min(limit, s / (p + W)) : limit};
+}
+
+double stepWithNormal(const Mover& a, const Mover& b, const Vec3& n, const TurningNormal& turning, double room,
+                      double lift) {
+  if (!(turning.longest > 0)) return 0;
+  const Vec3 D = apart(a, b), V = velocity(a, b), dn = turning.rate;
+  Gap gap;
+  gap.at = n.dot(D) + lift;
+  gap.rate = dn.dot(D) + n.dot(V);
+  gap.a = a.side(n, dn + n.cross(a.w));
+  gap.b = b.side(n, dn + n.cross(b.w));
+  const double n1 = turning.first, n2 = turning.second, longest = turning.longest;
   const double gravity = gravityOf(a, b), speed = V.norm(), distance = D.norm();
   return bestWindow(longest, room / (speed + a.spin * a.radius + b.spin * b.radius), [&](double window) {
     const double fastest = speed + gravity * window + a.spin * a.radius;
@@ -279,7 +305,11 @@ double safeStep(const PlacedPiece& a, const PlacedPiece& b, const Witness& w, do
       return stepInFrameOfB(mb, ma, -w.n, room, lift, limit);
     case Witness::Frame::crossed:
       // nearly parallel edges turn their common normal fast: the direction as it is may serve longer
-      return std::max(stepAcrossEdges(ma, mb, w, room, lift, limit), stepInWorld(ma, mb, w.n, lift, limit));
+      return std::max(stepWithNormal(ma, mb, w.n, acrossEdges(ma, mb, w, limit), room, lift),
+                      stepInWorld(ma, mb, w.n, lift, limit));
+    case Witness::Frame::tapered:
+      return std::max(stepWithNormal(ma, mb, w.n, betweenTapered(ma, mb, w, limit), room, lift),
+                      stepInWorld(ma, mb, w.n, lift, limit));
   }
   return 0;
 }

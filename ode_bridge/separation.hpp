@@ -13,13 +13,14 @@ struct Witness {
     body_a,   ///< it turns with a
     body_b,   ///< it turns with b
     crossed,  ///< it stays normal to an edge of a and an edge of b
+    tapered,  ///< it keeps its angles to an edge of a and an edge of b
   };
   Frame frame = Frame::world;
   Vec3 n = Vec3::UnitZ();                             ///< unit, from b to a
   double separation = 0;                              ///< along n, m; negative when they overlap along it
   double distance = 0;                                ///< an upper bound on their distance, by two points of them, m
   FeaturePair features;                               ///< facing each other; kind -1 where n comes from points alone
-  Vec3 edge_a = Vec3::Zero(), edge_b = Vec3::Zero();  ///< crossed: directions of the two edges
+  Vec3 edge_a = Vec3::Zero(), edge_b = Vec3::Zero();  ///< crossed, tapered: directions of the two edges
 };
 
 /// The direction of largest separation of two pieces among those that decide: face normals, crossed edges and rims,

@@ -184,13 +184,13 @@ class WitnessSearch {
         if (edges && tapered) handicap = kEdgeRounding * scale / std::abs(crossed.dot(c.normal));
         if (!std::isfinite(c.gap) || !offer(c.normal, frameOf(f.family, g.family, tapered), handicap)) continue;
         best_.features = pairOf(kind, f.index, g.index, sign);
-        if (best_.frame == Witness::Frame::crossed) best_.edge_a = wa.direction, best_.edge_b = wb.direction;
+        if (edges) best_.edge_a = wa.direction, best_.edge_b = wb.direction;
       }
   }
 
-  // What is normal to two edges stays so as they turn, but for tapered ones, whose normal is not across them.
+  // What is normal to two edges stays so as they turn; to tapered ones it keeps its angles.
   static Witness::Frame frameOf(Family a, Family b, bool tapered) {
-    if (a == Family::edge && b == Family::edge) return tapered ? Witness::Frame::world : Witness::Frame::crossed;
+    if (a == Family::edge && b == Family::edge) return tapered ? Witness::Frame::tapered : Witness::Frame::crossed;
     if (b == Family::edge) return Witness::Frame::body_b;
     if (a == Family::edge) return Witness::Frame::body_a;
     return Witness::Frame::world;

@@ -36,6 +36,7 @@ struct Standing {
   double disc = 0;                       ///< largest radius of a disc among them
   bool symmetric = true;                 ///< a half turn about the vertical through the origin changes nothing
   Quat stands = Quat::Identity();        ///< turns the shape's axes so that it stands
+  Vec2 center = Vec2::Zero();            ///< the centre of mass, from above
 };
 
 Outline rectangle(double x, double y, const Vec2& at = Vec2::Zero()) {
@@ -77,9 +78,11 @@ Standing coneOnItsApex(Random& random) {
 /// On its side, which leans by b from the axis: the apex along -x, the rim's highest point above.
 Standing lyingCone(Random& random) {
   const double r = size(random), h = size(random), b = std::atan2(r, h), cosine = std::cos(b), sine = std::sin(b);
-  const Outline line{{-h / 2 * cosine, 0}, {std::hypot(r, h) - h / 2 * cosine, 0}}, point{{h / 2 * cosine - r * sine, 0}};
+  const double apex = -h / 2 * cosine, end = apex + std::hypot(r, h);
+  const Outline line{{apex, 0}, {end, 0}}, point{{-apex - r * sine, 0}};
   const Quat down(Eigen::AngleAxisd(-std::numbers::pi / 2 - b, Vec3::UnitY()));
-  return {"lying cone", Cone{r, h}, h / 2 * sine, h / 2 * sine + r * cosine, {line}, {point}, 0, false, down};
+  return {"lying cone", Cone{r, h}, h / 2 * sine, h / 2 * sine + r * cosine, {line}, {point}, 0, false, down,
+          Vec2(h / 4 * cosine, 0)};
 }
 Quat lyingDown() { return Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX())); }  // z comes to lie along -y
 Standing lyingCylinder(Random& random) {
@@ -214,12 +217,14 @@ struct Drop {
   }
   static Quat about(double angle) { return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())); }
 
-  /// Corners of what both outlines have in common, seen from the upper body's centre.
+  /// Corners of what both outlines have in common, seen from the upper body's centre of mass.
   std::vector<Vec2> support() const {
+    const Vec2 center = at + Eigen::Rotation2Dd(angle) * upper.center;
     std::vector<Vec2> points;
     for (const Outline& a : upper.bottom)
       for (const Outline& b : lower.top)
-        for (const Vec2& p : common(placed(a, angle, at), placed(b, other_angle, Vec2::Zero()))) points.push_back(p - at);
+        for (const Vec2& p : common(placed(a, angle, at), placed(b, other_angle, Vec2::Zero())))
+          points.push_back(p - center);
     return points;
   }
   bool symmetric() const { return at.isZero(0) && upper.symmetric && lower.symmetric; }
@@ -309,16 +314,6 @@ std::string judge(const Drop& drop, DropTally& tally) {
   return "";
 }
 
-/// A line that comes to lie on the side of a cone rattles there, so does a mesh with an edge between two triangles on the
-/// apex, and a search may need more steps than it has (left to do in docs/progress.md).
-bool rattlesOnCone(const Drop& drop) {
-  const auto mesh = [](const Standing& s) { return std::holds_alternative<Mesh>(s.shape); };
-  const auto line = [](const std::vector<Outline>& outlines) { return outlines[0].size() == 2; };
-  const auto is_cone = [](const Standing& s) { return std::holds_alternative<Cone>(s.shape); };
-  return ((line(drop.upper.bottom) || mesh(drop.upper)) && is_cone(drop.lower)) ||
-         ((line(drop.lower.top) || mesh(drop.lower)) && is_cone(drop.upper));
-}
-
 TEST(FlatDrops, OfEveryKindOnEveryOther) {
   const int each = scaled(91);
   DropTally all;
@@ -328,13 +323,14 @@ TEST(FlatDrops, OfEveryKindOnEveryOther) {
       for (int i = 1; i <= each && failures < kMostFailures; ++i) {
         const auto seed = static_cast<std::uint64_t>(i);
         const Drop drop(above, below, seed);
-        if (rattlesOnCone(drop)) break;
         std::string what;
         try {
           what = judge(drop, all);
         } catch (const std::exception& error) {
           what = error.what();
         }
+        const bool point_on_point = above == coneOnItsApex && below == cone;  // no direction is normal to both
+        if (point_on_point && what.ends_with("gives the contact a normal")) continue;
         EXPECT_EQ(what, "") << drop.upper.name << " on " << drop.lower.name << ", seed " << seed << ", tilt "
                             << drop.tilt;
         failures += !what.empty();
