@@ -128,9 +128,8 @@ Exit exportScene(const ExportArguments& options, Output& out) {
     out.document(exportJson(options.output, bytes, motion));
   else
     sayWritten(out, options.output,
-               " (" + out.number(motion.end) + " s, " +
-                   counted(motion.events.size(), "impact") + ", " + std::to_string(bytes) +
-                   " bytes)");
+               " (" + out.number(motion.end) + " s, " + counted(motion.events.size(), "impact") + ", " +
+                   std::to_string(bytes) + " bytes)");
   return Exit::done;
 }
 

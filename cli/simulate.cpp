@@ -52,8 +52,7 @@ void printEnd(Output& out, const Motion& motion) {
 
 void printMotion(Output& out, const Motion& motion, const SimulateArguments& arguments,
                  const std::vector<double>& times) {
-  out.text() << counted(motion.events.size(), "impact") << " in " << out.number(motion.end)
-             << " s";
+  out.text() << counted(motion.events.size(), "impact") << " in " << out.number(motion.end) << " s";
   if (motion.status != MotionStatus::complete)
     out.text() << "; " << out.styled(Look::warning, "the motion ends there") << " (" << nameOf(motion.status)
                << "): " << motion.message;

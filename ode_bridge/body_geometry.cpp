@@ -107,7 +107,8 @@ void ofRim(const Limits& limits, int r, const Vec3& point) {
   const std::string name = nameOf(limits.solid, Family::rim, r);
   const Vec3 to = point - rim.point, across = to - rim.direction.dot(to) * rim.direction;
   const auto& edges = limits.solid.edges;
-  const auto side = std::find_if(edges.begin(), edges.end(), [&](const SolidEdge& e) { return e.part == rim.part && e.apex > 0; });
+  const auto side =
+      std::find_if(edges.begin(), edges.end(), [&](const SolidEdge& e) { return e.part == rim.part && e.apex > 0; });
   if (side == edges.end() || across.norm() == 0) {
     limits.normal(rim.direction, "the side of " + name);
   } else {
@@ -116,9 +117,9 @@ void ofRim(const Limits& limits, int r, const Vec3& point) {
   if (across.norm() > 0) limits.normal(across.normalized(), "the cap of " + name);
 }
 
-// Adds the conditions under which a contact stays with one feature of a solid (see FeatureLimit). `point` is the contact
-// point in the solid's axes; `sign` is 1 where the normal of the contact points out of this solid (it is body b of the
-// pair) and -1 where it points into it (body a).
+// Adds the conditions under which a contact stays with one feature of a solid (see FeatureLimit). `point` is the
+// contact point in the solid's axes; `sign` is 1 where the normal of the contact points out of this solid (it is body b
+// of the pair) and -1 where it points into it (body a).
 void addFeatureLimits(const Solid& solid, Family family, int index, const Vec3& point, double sign, int body,
                       std::vector<FeatureLimit>& out) {
   const Limits limits{solid, sign, body, out};

@@ -45,8 +45,8 @@ struct Pending {
   }
 };
 
-// An approach along n slower than this cannot be told from none. What a body spins by about n moves nothing along n, but
-// for its rounding.
+// An approach along n slower than this cannot be told from none. What a body spins by about n moves nothing along n,
+// but for its rounding.
 double stillSpeed(const Placed& a, const Placed& b, const Vec3& n) {
   double speed = a.k.v.norm() + b.k.v.norm(), spinning = 0;
   for (const Placed* p : {&a, &b}) {

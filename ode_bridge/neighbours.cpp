@@ -211,8 +211,8 @@ void Neighbours::renewAll(double t) {
   grid_.rebuild(boxes_, 0.55 * *ordinary);
 }
 
-// How far a body may get in its box: from the room that a body has at the start, later from the length that the lists turned out to
-// have.
+// How far a body may get in its box: from the room that a body has at the start, later from the length that the lists
+// turned out to have.
 void Neighbours::chooseRange(double t) {
   double radius = 0;
   for (const BodyExtent& e : extents_) radius += e.moving ? e.radius : 0;

@@ -43,7 +43,8 @@ struct Touching {
     }
     for (int e : p.featuresOf(Family::edge)) {
       const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
-      if (edge.from >= 0 ? vertex(edge.from) && vertex(edge.to) : liesInFront(edge, d)) front.push_back({Family::edge, e});
+      if (edge.from >= 0 ? vertex(edge.from) && vertex(edge.to) : liesInFront(edge, d))
+        front.push_back({Family::edge, e});
     }
     for (int f : p.featuresOf(Family::face)) {
       const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
@@ -240,7 +241,9 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
     found.push_back(witness.features);
     return;
   }
-  const double size = a.halfSpace() ? b.piece->core_radius : b.halfSpace() ? a.piece->core_radius : a.piece->core_radius + b.piece->core_radius;
+  const double size = a.halfSpace()   ? b.piece->core_radius
+                      : b.halfSpace() ? a.piece->core_radius
+                                      : a.piece->core_radius + b.piece->core_radius;
   const double scale = size + a.piece->radius + b.piece->radius;
   Touching touching{a, b, witness, tolerance, tolerance, scale, found, {}, 0};
   for (const FeaturePair& f : found)

@@ -28,14 +28,15 @@ double tiltMarginOf(const Event& event) {
 }
 
 std::string sentenceOf(const Motion& motion, int index) {
-  return textOf(6, "the impact ", motion.describeEvent(index), " at t = ",
-                motion.events[static_cast<std::size_t>(index)].time, " s ");
+  return textOf(6, "the impact ", motion.describeEvent(index),
+                " at t = ", motion.events[static_cast<std::size_t>(index)].time, " s ");
 }
 
 // Why the derivative through an event cannot be trusted; empty, and made of nothing, where it can.
 std::string doubtOf(const Event& event, double tilt) {
   if (event.mode == ImpactMode::joint) return "joins several contacts: the derivative is that of the joint law";
-  if (event.margins.grazing < kReliableMargin) return textOf(6, "is nearly grazing (margin ", event.margins.grazing, ")");
+  if (event.margins.grazing < kReliableMargin)
+    return textOf(6, "is nearly grazing (margin ", event.margins.grazing, ")");
   if (event.margins.stick_slip < kReliableMargin)
     return textOf(6, "is at the boundary of stick and slide (margin ", event.margins.stick_slip,
                   "): one-sided derivative");

@@ -29,12 +29,11 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
   part.size_b = std::move(J.size_b);
   part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
   if (part.tilted)
-    part.tilt = tiltJacobian<double>(c.at.normal, tiltOf(*motion.scene, c.tilt_a),
-                                             tiltOf(*motion.scene, c.tilt_b));
+    part.tilt = tiltJacobian<double>(c.at.normal, tiltOf(*motion.scene, c.tilt_a), tiltOf(*motion.scene, c.tilt_b));
   part.material_a = materialIndexOf(*motion.scene, c.a);
   part.material_b = materialIndexOf(*motion.scene, c.b);
   part.rules = rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
-                               materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.b)]));
+                       materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.b)]));
   return part;
 }
 
@@ -50,8 +49,12 @@ Pass passOf(const Motion& motion, const Event& event) {
     rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rate(p.before));
     rate_after.push_back(next.rate(next.startState()));
   }
-  return {event, usesWide(event, *motion.models), impactInputs(event, *motion.models), std::move(parts),
-          std::move(rate_before), std::move(rate_after)};
+  return {event,
+          usesWide(event, *motion.models),
+          impactInputs(event, *motion.models),
+          std::move(parts),
+          std::move(rate_before),
+          std::move(rate_after)};
 }
 
 // d(gap, normal, point)

@@ -42,12 +42,12 @@ Influence::Influence(const Motion& motion, const std::vector<const SceneTangent*
   for (std::size_t e = 0; e < motion.events.size(); ++e) {
     const Event& event = motion.events[e];
     const bool influenced = std::any_of(event.participants.begin(), event.participants.end(),
-                                     [&](const Participant& p) { return arc(p.body, p.arc); }) ||
-                         std::any_of(event.contacts.begin(), event.contacts.end(), [&](const Contact& c) {
-                           // a fixed body takes no part, and has one arc
-                           return arc(c.a, 0) || arc(c.b, 0) || at(surface, c.a) || at(surface, c.b) ||
-                                  tilted(c.tilt_a) || tilted(c.tilt_b);
-                         });
+                                        [&](const Participant& p) { return arc(p.body, p.arc); }) ||
+                            std::any_of(event.contacts.begin(), event.contacts.end(), [&](const Contact& c) {
+                              // a fixed body takes no part, and has one arc
+                              return arc(c.a, 0) || arc(c.b, 0) || at(surface, c.a) || at(surface, c.b) ||
+                                     tilted(c.tilt_a) || tilted(c.tilt_b);
+                            });
     events_[e] = influenced;
     if (!influenced) continue;
     for (const Participant& p : event.participants) {

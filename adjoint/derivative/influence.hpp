@@ -7,9 +7,9 @@
 
 namespace carom::adjoint_detail {
 
-/// Which arcs and events a change of the scene along some directions influences: a body that one of them changes carries it from its
-/// start, and an event of such bodies, or of such surfaces, hands it on to all that take part. What it does not influence
-/// stays exactly as it is, to every order.
+/// Which arcs and events a change of the scene along some directions influences: a body that one of them changes
+/// carries it from its start, and an event of such bodies, or of such surfaces, hands it on to all that take part. What
+/// it does not influence stays exactly as it is, to every order.
 class Influence {
  public:
   Influence(const Motion& motion, const std::vector<const SceneTangent*>& directions);

@@ -39,7 +39,8 @@ class MotionTangent {
   double eventTime(int event) const;
 
  private:
-  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const adjoint_detail::Influence* influence);
+  friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction,
+                               const adjoint_detail::Influence* influence);
   DerivativeTape* tape_ = nullptr;
   Vec3 dgravity_ = Vec3::Zero();
   std::vector<BodyModelDerivative> dmodels_;

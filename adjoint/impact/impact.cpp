@@ -42,9 +42,8 @@ Rate along(double value, double rate) {
 }
 
 ImpactInputs<Rate> along(const ImpactInputs<double>& in, const std::vector<StateDerivative>& dbefore,
-                                 const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
-                                 const std::vector<PairCoefficients>& dpair,
-                                 const std::vector<BodyModelDerivative>& dmodel) {
+                         const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
+                         const std::vector<PairCoefficients>& dpair, const std::vector<BodyModelDerivative>& dmodel) {
   ImpactInputs<Rate> both;
   for (std::size_t i = 0; i < in.bodies.size(); ++i) {
     const auto& b = in.bodies[i];

@@ -7,8 +7,8 @@
 /// The tilted normal of tilt.hpp for any number.
 namespace carom::adjoint_detail {
 
-/// m of tilt.hpp: the frame is smooth but at -m, which is 27 degrees or more from all axes and diagonals of the world, and
-/// 16 from the planes of the axes.
+/// m of tilt.hpp: the frame is smooth but at -m, which is 27 degrees or more from all axes and diagonals of the world,
+/// and 16 from the planes of the axes.
 inline Vec3 tiltCentre() { return Vec3(0.282, -0.367, 0.886).normalized(); }
 
 /// a of tilt.hpp: at right angles to m, and such that t1 of a level floor is the y axis.

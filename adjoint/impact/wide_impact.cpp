@@ -34,6 +34,6 @@ bool needsWide(const Event& event, const std::vector<BodyModel>& models) {
 
 template adjoint_detail::ImpactOutcome<double> adjoint_detail::wideImpact(const ImpactInputs<double>&);
 template adjoint_detail::ImpactBars<double> adjoint_detail::wideImpactPullback(const ImpactInputs<double>&,
-                                                               const std::vector<StateDerivative>&);
+                                                                               const std::vector<StateDerivative>&);
 
 }  // namespace carom::adjoint_detail

@@ -12,9 +12,7 @@ namespace carom {
 
 using namespace adjoint_detail;
 
-const char* nameOf(ImpactMode mode) {
-  return nameIn({"frictionless", "stick", "slide", "joint"}, mode);
-}
+const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 
 const char* nameOf(MotionStatus status) {
   return nameIn({"complete", "impact_limit", "cascade", "unresolved_impact", "not_computable", "step_limit", "stopped"},

@@ -26,11 +26,11 @@ struct Dual {
   template <class U>
     requires std::is_convertible_v<U, T>
   Dual(const U& v) : value(v) {}  // NOLINT: a constant is a number
-  /// The same with values and rates of another kind.
-  template <class U>
-  explicit Dual(const Dual<N, U>& o) : value(static_cast<T>(o.value)) {
-    for (std::size_t i = 0; i < N; ++i) rate[i] = static_cast<T>(o.rate[i]);
-  }
+    /// The same with values and rates of another kind.
+    template <class U>
+    explicit Dual(const Dual<N, U>& o) : value(static_cast<T>(o.value)) {
+      for (std::size_t i = 0; i < N; ++i) rate[i] = static_cast<T>(o.rate[i]);
+    }
 
   Dual& operator+=(const Dual& o) {
     value += o.value;

@@ -135,8 +135,8 @@ void modelPullback(const Body& body, const BodyModel& model, const BodyModelDeri
                    BodyDerivative& body_bar) {
   if (body.fixed) return;
   const bool by_size = !body.center_of_mass || (!body.kinematic && (body.density || isDerived(body)));
-  modelPullbackOf(body, model, body.density.value_or(0), by_size ? propertiesOf(body) : SolidProperties{},
-                          model_bar, body_bar);
+  modelPullbackOf(body, model, body.density.value_or(0), by_size ? propertiesOf(body) : SolidProperties{}, model_bar,
+                  body_bar);
 }
 
 State startState(const Body& body, const BodyModel& model) {
@@ -178,8 +178,8 @@ StateDerivative startTangent(const Body& body, const BodyModel& model, const Bod
 
 void startPullback(const Body& body, const BodyModel& model, const StateDerivative& state_bar, BodyDerivative& body_bar,
                    BodyModelDerivative& model_bar) {
-  startPullbackOf<double>(model, body.orientation.normalized().toRotationMatrix(), body.angular_velocity,
-                                  state_bar, body_bar, model_bar);
+  startPullbackOf<double>(model, body.orientation.normalized().toRotationMatrix(), body.angular_velocity, state_bar,
+                          body_bar, model_bar);
 }
 
 }  // namespace carom

@@ -65,7 +65,8 @@ void checkEdges(const Polygons& triangles) {
     if (!a.beside(b)) continue;
     const std::string edge = "edge from vertex " + std::to_string(a.low) + " to " + std::to_string(a.high);
     if (i + 1 < sides.size() && sides[i + 1].beside(a))
-      refuse(edge, "found it in triangles ", a.face, ", ", b.face, " and ", sides[i + 1].face, ", expected at most two");
+      refuse(edge, "found it in triangles ", a.face, ", ", b.face, " and ", sides[i + 1].face,
+             ", expected at most two");
     if (a.forward == b.forward)
       refuse(edge, "found triangles ", a.face, " and ", b.face,
              " both running along it in one direction, expected opposite ones (corners counter-clockwise seen from "

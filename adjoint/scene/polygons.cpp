@@ -14,7 +14,8 @@ void checkCoordinates(const std::vector<Vec3>& points, const char* item) {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (double x : points[i])
       if (!(std::abs(x) <= kLargest))
-        refuse(item + (" " + std::to_string(i)), "found ", x, ", expected a finite coordinate of magnitude at most 1e9");
+        refuse(item + (" " + std::to_string(i)), "found ", x,
+               ", expected a finite coordinate of magnitude at most 1e9");
 }
 
 std::vector<int> firstOfEqual(const std::vector<Vec3>& points) {

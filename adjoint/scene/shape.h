@@ -76,7 +76,7 @@ struct CompoundPart {
 /// Rates of SolidPropertiesOf by one dimension of the shape.
 template <class S>
 struct SolidRateOf {
-  S volume = 0;                                                         ///< m^3
+  S volume = 0;                                                          ///< m^3
   Eigen::Matrix<S, 3, 1> center = Eigen::Matrix<S, 3, 1>::Zero();        ///< m
   Eigen::Matrix<S, 3, 3> unit_inertia = Eigen::Matrix<S, 3, 3>::Zero();  ///< m^2
 };
@@ -102,8 +102,8 @@ struct ShapeCheck;  // adjoint/scene/validation.hpp
 /// throws InputError where it has not one number a dimension. Collision detection and documents have tables of their
 /// own, in ode_bridge/solids/ and formats/shapes/.
 struct ShapeKind {
-  const char* name;      ///< word in the scene document
-  bool endless = false;  ///< a half space: it cannot move, nor be a part of a compound
+  const char* name;       ///< word in the scene document
+  bool endless = false;   ///< a half space: it cannot move, nor be a part of a compound
   bool of_parts = false;  ///< a compound: its centre of mass and principal axes follow no single dimension evenly
   /// Throws InputError for members that no such shape can have.
   Required<void(const Shape&, const validation::ShapeCheck&)> check;

@@ -43,8 +43,12 @@ class EventMaker {
     std::vector<Part> parts;
     const std::vector<double> weights = guardWeights(event_);
     for (std::size_t k = 0; k < weights.size(); ++k) parts.push_back(partOf(event_.contacts[k], weights[k], inputs));
-    return {event_,           usesWide(event_, *lanes_.motion().models), std::move(inputs),
-            std::move(parts), std::move(rate_before),                    std::move(rate_after)};
+    return {event_,
+            usesWide(event_, *lanes_.motion().models),
+            std::move(inputs),
+            std::move(parts),
+            std::move(rate_before),
+            std::move(rate_after)};
   }
 
   // Rates of the poses at the time of the event, which moves along.

@@ -110,7 +110,8 @@ class DualPass {
     const Stretch stretch{model, start, end.R, t - lanes_.startTime(body, k)};
     if (plan.derivative_tier == Tier::none) return {};
     if (plan.derivative_tier == Tier::spherical) return sphericalSensitivity(stretch);
-    if (plan.derivative_tier == Tier::symmetric) return symmetricSensitivity(stretch, symmetryAxis(arc.model().inertia));
+    if (plan.derivative_tier == Tier::symmetric)
+      return symmetricSensitivity(stretch, symmetryAxis(arc.model().inertia));
     ResponseWanted wanted{3, inertia_varies_[b], inertia_varies_[b] && plan.derivative_products};
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
       const Mat3 dJ = ratesOf(model.J, lane);

@@ -25,13 +25,9 @@ EventBars::EventBars(DerivativeTape& tape, int event)
 
 Pose EventBars::poseOf(int body) const { return poseBefore(motion_, event_, body); }
 
-Vec3 EventBars::velocityAt(int contact) const {
-  return pass_.impact().problem().u.segment<3>(3 * contact);
-}
+Vec3 EventBars::velocityAt(int contact) const { return pass_.impact().problem().u.segment<3>(3 * contact); }
 
-Mat3 EventBars::matrixAt(int contact) const {
-  return pass_.impact().problem().K.block<3, 3>(3 * contact, 3 * contact);
-}
+Mat3 EventBars::matrixAt(int contact) const { return pass_.impact().problem().K.block<3, 3>(3 * contact, 3 * contact); }
 
 void EventBars::addPose(int body, const Vec3& x_bar, const Vec3& theta_bar) {
   const int i = participantOf(event_, body);

@@ -167,8 +167,7 @@ class MarginReader {
     const Event& e = eventAt(event);
     const Contact& c = e.contacts[0];
     const EventBars nothing(tape_, event);
-    FrictionTerms<double> terms(
-        ContactProblem{nothing.matrixAt(0), nothing.velocityAt(0), c.impulse_normal, c.pair});
+    FrictionTerms<double> terms(ContactProblem{nothing.matrixAt(0), nothing.velocityAt(0), c.impulse_normal, c.pair});
     terms.stick();
     const Vec3 n = terms.n, P = terms.impulse();
     const double P_n = n.dot(P), mu = c.pair.friction;

@@ -11,8 +11,8 @@ namespace carom::editing_detail {
 /// Why a search must end early.
 enum class Halt { none, out_of_time, cancelled };
 
-/// How much an edit, or an update of a session, may still do: counted, so that it is the same everywhere, and watched by
-/// the clock and a stop token. Internal to editing/.
+/// How much an edit, or an update of a session, may still do: counted, so that it is the same everywhere, and watched
+/// by the clock and a stop token. Internal to editing/.
 class Budget {
  public:
   /// `limit`: in steps of a solver, or in simulations of the whole scene.

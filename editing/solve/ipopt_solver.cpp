@@ -64,8 +64,7 @@ const IpoptLibrary& ipoptLibrary() {
 /// A NonlinearProgram as Ipopt sees it; the functions below are given to it with the adapter as their last argument.
 class Adapter {
  public:
-  explicit Adapter(NonlinearProgram& program)
-      : program_(program), n_(program.variables()), m_(program.constraints()) {}
+  explicit Adapter(NonlinearProgram& program) : program_(program), n_(program.variables()), m_(program.constraints()) {}
 
   std::exception_ptr thrown() const { return thrown_; }
   int iterations() const { return iterations_; }

@@ -21,8 +21,8 @@ void writeEntry(JsonWriter& out, const EditProblem& problem, const DerivativeChe
   }
   out.beginObject(Layout::line);
   out.members("row", entry.row, "column", entry.column);
-  out.members("name", problem.constraints.describeRow(entry.row) + " by " +
-                          problem.controls.describeVariable(entry.column));
+  out.members("name",
+              problem.constraints.describeRow(entry.row) + " by " + problem.controls.describeVariable(entry.column));
   out.members("adjoint", check.by_adjoint(entry.row, entry.column), other_name, other(entry.row, entry.column));
   out.members("disagreement", entry.disagreement);
   out.endObject();

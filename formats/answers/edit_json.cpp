@@ -87,9 +87,7 @@ void writeSequenceChanges(JsonWriter& out, const std::vector<SequenceChange>& ch
 
 std::string editJson(const EditResult& result, const std::vector<std::string>& outputs) {
   std::size_t solution = 0;
-  const auto next_output = [&] {
-    return solution < outputs.size() ? textOrNone(outputs[solution++]) : std::nullopt;
-  };
+  const auto next_output = [&] { return solution < outputs.size() ? textOrNone(outputs[solution++]) : std::nullopt; };
   JsonWriter out;
   out.beginObject();
   out.members("status", nameOf(result.status), "message", result.message);

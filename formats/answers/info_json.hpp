@@ -22,18 +22,19 @@ struct ScenePlan {
     std::string elasticity_why;     ///< how the materials' elasticities were combined
     std::string friction_why;       ///< how their frictions were combined
   };
-  std::string asked;  ///< what the tiers are chosen for: "edit" or "simulate"
-  Plan plan;                ///< of the bodies
-  std::vector<Pair> pairs;  ///< that can touch
+  std::string asked;                   ///< what the tiers are chosen for: "edit" or "simulate"
+  Plan plan;                           ///< of the bodies
+  std::vector<Pair> pairs;             ///< that can touch
   std::vector<StartOverlap> overlaps;  ///< at the start, without when they part
-  int controls = 0;  ///< numbers that may vary
-  int rows = 0;      ///< numbers that are held
+  int controls = 0;                    ///< numbers that may vary
+  int rows = 0;                        ///< numbers that are held
 };
 
 /// The answer of `carom info S.json --json`: name and notes (null where the document has none), duration, asked, bodies
 /// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
 /// principal moments (kg m^2), of those that differ kinematic, gravity_factor and collision_filter, tier, why,
-/// derivative_tier, derivative_why}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity, friction, tangential_elasticity}, controls, rows.
+/// derivative_tier, derivative_why}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity, friction,
+/// tangential_elasticity}, controls, rows.
 std::string infoJson(const Document& document, const ScenePlan& plan);
 
 }  // namespace carom::formats_detail

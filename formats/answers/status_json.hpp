@@ -33,11 +33,11 @@ struct ProgramInfo {
     std::string name;     ///< as it is called
     std::string version;  ///< as it says itself
   };
-  std::string version;             ///< of carom
-  std::string build;               ///< "Release", "Debug", ...
-  std::string compiler;            ///< name and version
-  std::vector<Library> libraries;  ///< of the build
-  int scene_format = 1;            ///< version of scene documents
+  std::string version;               ///< of carom
+  std::string build;                 ///< "Release", "Debug", ...
+  std::string compiler;              ///< name and version
+  std::vector<Library> libraries;    ///< of the build
+  int scene_format = 1;              ///< version of scene documents
   std::vector<std::string> exports;  ///< extensions
 };
 /// The answer of `carom info --json` without a scene.

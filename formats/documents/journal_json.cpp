@@ -58,8 +58,7 @@ SessionOptions readOptions(const Json& document) {
 Constraint readOneConstraint(const Json& value, const Document& scene, const std::string& where) {
   Json alone;
   alone["constraints"] = Json::array({value});
-  return readAt("/constraints/0", where,
-                [&] { return readConstraints(alone, scene.scene, scene.duration).at(0); });
+  return readAt("/constraints/0", where, [&] { return readConstraints(alone, scene.scene, scene.duration).at(0); });
 }
 
 std::vector<Control> readControlList(const Json& value, const Document& scene, const std::string& where) {
@@ -72,8 +71,7 @@ std::vector<Control> readControlList(const Json& value, const Document& scene, c
 void readGrab(SessionGesture& gesture, const std::string& where) {
   const Constraint& held = *gesture.constraint;
   if (held.at.span || !held.relative_to.empty() || !held.regions.empty())
-    fail(where, "a grab with a span of time, relative to a body or with a region",
-                 "one at a time or an impact");
+    fail(where, "a grab with a span of time, relative to a body or with a region", "one at a time or an impact");
   const bool place =
       !held.targets.empty() && (held.targets[0].quantity == "position" || held.targets[0].quantity == "point");
   const bool turn = held.targets.size() == 2 && held.targets[1].quantity == "orientation";
@@ -153,9 +151,7 @@ JournalDocument journalOf(const Json& json, const std::string& folder) {
 }  // namespace
 
 JournalDocument parseJournal(std::string_view text, const std::string& name, const std::string& folder) {
-  return inFile(name, [&] {
-    return journalOf(parseJson(text, DocumentKind::journal, kLargestJournal), folder);
-  });
+  return inFile(name, [&] { return journalOf(parseJson(text, DocumentKind::journal, kLargestJournal), folder); });
 }
 
 JournalDocument readJournal(const std::string& path) {

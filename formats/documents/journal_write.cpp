@@ -83,13 +83,12 @@ std::string writeJournal(const JournalDocument& document) {
   JsonWriter out;
   out.beginObject();
   out.unlessEmpty("$schema", document.schema).members("carom_journal", 1);
-  writeDocument(out.key("scene"), {journal.scene, journal.duration, journal.controls, journal.nails,
-                                           document.folder, document.name, document.notes, ""});
+  writeDocument(out.key("scene"), {journal.scene, journal.duration, journal.controls, journal.nails, document.folder,
+                                   document.name, document.notes, ""});
   writeOptions(out, journal.options);
   std::size_t i = 0;
-  out.objects("gestures", journal.gestures, Layout::block, [&](const SessionGesture& gesture) {
-    writeGesture(out, gesture, "/gestures/" + std::to_string(i++));
-  });
+  out.objects("gestures", journal.gestures, Layout::block,
+              [&](const SessionGesture& gesture) { writeGesture(out, gesture, "/gestures/" + std::to_string(i++)); });
   out.endObject();
   return out.take();
 }

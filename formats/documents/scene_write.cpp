@@ -156,9 +156,8 @@ void formats_detail::writeDocument(JsonWriter& out, const Document& document) {
   if (!scene.bodies.empty())
     out.objects("bodies", scene.bodies, Layout::block, [&](const Body& body) { writeBody(out, body); });
   if (!scene.tilts.empty())
-    out.objects("tilts", scene.tilts, Layout::line, [&](const Tilt& tilt) {
-      out.members("body", tilt.body, "impact", tilt.impact, "value", tilt.value);
-    });
+    out.objects("tilts", scene.tilts, Layout::line,
+                [&](const Tilt& tilt) { out.members("body", tilt.body, "impact", tilt.impact, "value", tilt.value); });
   list("controls", document.controls, formats_detail::writeControl);
   list("constraints", document.constraints, writeConstraint);
   out.endObject();

@@ -10,7 +10,7 @@ namespace carom {
 struct Constraint;
 struct Control;
 struct Document;
-}
+}  // namespace carom
 
 namespace carom::formats_detail {
 

@@ -37,16 +37,24 @@ class JsonWriter {
 
   JsonWriter& key(std::string_view name);
   JsonWriter& null() { return raw("null"); }
-  /// Anything that JSON has a form for; lists on one line, an optional that is empty as null, rotations as [w, x, y, z].
+  /// Anything that JSON has a form for; lists on one line, an optional that is empty as null, rotations as [w, x, y,
+  /// z].
   template <class T>
   JsonWriter& value(const T& value) {
-    if constexpr (std::same_as<T, bool>) return raw(value ? "true" : "false");
-    else if constexpr (std::integral<T>) return raw(std::to_string(value));
-    else if constexpr (std::floating_point<T>) return raw(numberText(value));
-    else if constexpr (std::convertible_to<const T&, std::string_view>) return raw(quotedText(value));
-    else if constexpr (std::same_as<T, Quat>) return list(std::array{value.w(), value.x(), value.y(), value.z()});
-    else if constexpr (requires { value.has_value(); }) return value.has_value() ? this->value(*value) : null();
-    else return list(value);
+    if constexpr (std::same_as<T, bool>)
+      return raw(value ? "true" : "false");
+    else if constexpr (std::integral<T>)
+      return raw(std::to_string(value));
+    else if constexpr (std::floating_point<T>)
+      return raw(numberText(value));
+    else if constexpr (std::convertible_to<const T&, std::string_view>)
+      return raw(quotedText(value));
+    else if constexpr (std::same_as<T, Quat>)
+      return list(std::array{value.w(), value.x(), value.y(), value.z()});
+    else if constexpr (requires { value.has_value(); })
+      return value.has_value() ? this->value(*value) : null();
+    else
+      return list(value);
   }
 
   /// Members of an object: name, value, name, value, ...

@@ -48,16 +48,19 @@ TriangleMesh boxMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Box>) {
   return {
-      .read = [](const Json& value, const std::string&,
-                 SurfaceFiles&) -> Shape { return Box{readVector(value["size"])}; },
+      .read = [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
+        return Box{readVector(value["size"])};
+      },
       .write = [](JsonWriter& out,
                   const Shape& s) { out.beginObject().members("size", std::get<Box>(s).size).endObject(); },
       .on_one_line = onOneLine,
       .surfaces = noSurfaces,
-      .extent = [](const Shape& s, const ShapePose& at) {
-        return extentAround(at.x, 0.5 * (at.q.toRotationMatrix().cwiseAbs() * std::get<Box>(s).size));
-      },
-      .radius_about = [](const Shape& s, const Vec3& point) { return (0.5 * std::get<Box>(s).size + point.cwiseAbs()).norm(); },
+      .extent =
+          [](const Shape& s, const ShapePose& at) {
+            return extentAround(at.x, 0.5 * (at.q.toRotationMatrix().cwiseAbs() * std::get<Box>(s).size));
+          },
+      .radius_about = [](const Shape& s,
+                         const Vec3& point) { return (0.5 * std::get<Box>(s).size + point.cwiseAbs()).norm(); },
       .contours = boxContours,
       .mesh = boxMesh,
       .collider = [](const ColliderAdder& out, const Shape& s) { out.set(std::get<Box>(s)); },

@@ -25,11 +25,12 @@ FormatKind formatRow(KindOf<Capsule>) {
       .write = writeRound<Capsule>,
       .on_one_line = onOneLine,
       .surfaces = noSurfaces,
-      .extent = [](const Shape& s, const ShapePose& at) {
-        const Vec3 axis = at.q * Vec3::UnitZ();
-        const Capsule& capsule = std::get<Capsule>(s);
-        return extentAround(at.x, 0.5 * capsule.height * axis.cwiseAbs() + Vec3::Constant(capsule.radius));
-      },
+      .extent =
+          [](const Shape& s, const ShapePose& at) {
+            const Vec3 axis = at.q * Vec3::UnitZ();
+            const Capsule& capsule = std::get<Capsule>(s);
+            return extentAround(at.x, 0.5 * capsule.height * axis.cwiseAbs() + Vec3::Constant(capsule.radius));
+          },
       .radius_about =
           [](const Shape& s, const Vec3& point) {
             const Vec3 end(point.x(), point.y(), std::abs(point.z()) + 0.5 * std::get<Capsule>(s).height);

@@ -43,15 +43,18 @@ FormatKind formatRow(KindOf<Cylinder>) {
       .write = writeRound<Cylinder>,
       .on_one_line = onOneLine,
       .surfaces = noSurfaces,
-      .extent = [](const Shape& s, const ShapePose& at) {
-        const Vec3 axis = at.q * Vec3::UnitZ();
-        const Cylinder& cylinder = std::get<Cylinder>(s);
-        return extentAround(at.x, 0.5 * cylinder.height * axis.cwiseAbs() + reachOfDisc(cylinder.radius, axis));
-      },
-      .radius_about = [](const Shape& s, const Vec3& point) {
-        const Cylinder& cylinder = std::get<Cylinder>(s);
-        return std::hypot(std::hypot(point.x(), point.y()) + cylinder.radius, std::abs(point.z()) + 0.5 * cylinder.height);
-      },
+      .extent =
+          [](const Shape& s, const ShapePose& at) {
+            const Vec3 axis = at.q * Vec3::UnitZ();
+            const Cylinder& cylinder = std::get<Cylinder>(s);
+            return extentAround(at.x, 0.5 * cylinder.height * axis.cwiseAbs() + reachOfDisc(cylinder.radius, axis));
+          },
+      .radius_about =
+          [](const Shape& s, const Vec3& point) {
+            const Cylinder& cylinder = std::get<Cylinder>(s);
+            return std::hypot(std::hypot(point.x(), point.y()) + cylinder.radius,
+                              std::abs(point.z()) + 0.5 * cylinder.height);
+          },
       .contours = cylinderContours,
       .mesh = cylinderMesh,
       .collider =

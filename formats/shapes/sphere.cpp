@@ -19,8 +19,9 @@ TriangleMesh sphereMesh(const Shape& s, double) {
 
 FormatKind formatRow(KindOf<Sphere>) {
   return {
-      .read = [](const Json& value, const std::string&,
-                 SurfaceFiles&) -> Shape { return Sphere{numberOf(value, "radius")}; },
+      .read = [](const Json& value, const std::string&, SurfaceFiles&) -> Shape {
+        return Sphere{numberOf(value, "radius")};
+      },
       .write = [](JsonWriter& out,
                   const Shape& s) { out.beginObject().members("radius", std::get<Sphere>(s).radius).endObject(); },
       .on_one_line = onOneLine,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/shapes/rows.hpp"
 #include "formats/drawing/triangle_mesh.hpp"
+#include "formats/shapes/rows.hpp"
 #include "formats/svg/contours.hpp"
 #include "formats/svg/path.hpp"
 

@@ -19,7 +19,9 @@ void addBall(PartMaker& part, const Sphere& s) {
 }  // namespace
 
 SolidKind solidRow(KindOf<Sphere>) {
-  return {.add = addPart<Sphere, addBall>, .name = [](Family, int) -> std::string { return "ball"; }, .whole = &Solid::ball};
+  return {.add = addPart<Sphere, addBall>,
+          .name = [](Family, int) -> std::string { return "ball"; },
+          .whole = &Solid::ball};
 }
 
 }  // namespace carom::solids

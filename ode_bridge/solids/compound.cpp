@@ -31,6 +31,8 @@ const SolidKind& rowOf(const Shape& shape) {
   return kinds[shape.index()];
 }
 
-void addShape(Solid& solid, const Shape& shape, const Placement& at) { rowOf(shape).add(solid, shape, at, rowOf(shape)); }
+void addShape(Solid& solid, const Shape& shape, const Placement& at) {
+  rowOf(shape).add(solid, shape, at, rowOf(shape));
+}
 
 }  // namespace carom::solids

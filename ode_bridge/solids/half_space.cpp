@@ -16,7 +16,9 @@ void addHalfSpace(PartMaker& part, const Plane& s) {
 }  // namespace
 
 SolidKind solidRow(KindOf<Plane>) {
-  return {.add = addPart<Plane, addHalfSpace>, .name = [](Family, int) -> std::string { return "plane"; }, .whole = &Solid::plane};
+  return {.add = addPart<Plane, addHalfSpace>,
+          .name = [](Family, int) -> std::string { return "plane"; },
+          .whole = &Solid::plane};
 }
 
 }  // namespace carom::solids

@@ -110,7 +110,7 @@ struct Part {
   std::string name;  ///< how describe() calls it: empty for a simple shape, "part 3 " in a compound
   const char* kind = "";  ///< word of the shape: "box"
   const solids::SolidKind* row = nullptr;  ///< names its features
-  std::array<int, 4> firsts{};  ///< where the part's features begin, by Family
+  std::array<int, 4> firsts{};             ///< where the part's features begin, by Family
 
   int first(Family family) const { return firsts[static_cast<std::size_t>(family)]; }
 };

@@ -45,7 +45,8 @@ VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
   for (std::size_t k = 0; k < p.normal.size(); ++k) {
     both.normal.push_back(p.normal[k].cast<Rate>());
     setRates(both.normal[k], d.normal[k], 0);
-    both.pair.push_back({along(p.pair[k].elasticity, d.pair[k].elasticity), along(p.pair[k].friction, d.pair[k].friction),
+    both.pair.push_back({along(p.pair[k].elasticity, d.pair[k].elasticity),
+                         along(p.pair[k].friction, d.pair[k].friction),
                          along(p.pair[k].tangential_elasticity, d.pair[k].tangential_elasticity)});
   }
   return ratesOf(Law::solve(both).P, 0);

@@ -8,8 +8,8 @@
 #include "adjoint/simulate/simulate.h"
 #include "formats/documents/journal_json.h"
 #include "formats/documents/scene_json.h"
-#include "formats/gltf/read/import_gltf.h"
 #include "formats/export/export_motion.h"
+#include "formats/gltf/read/import_gltf.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/formats/scene_documents.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/gltf/read/import_gltf.h"
 #include "formats/export/export_motion.h"
+#include "formats/gltf/read/import_gltf.h"
 
 namespace carom::import_tests {
 

@@ -89,8 +89,10 @@ TEST(Cone, LimitOfItsRimAndItsRatesBySize) {
     expectEntries(side->normal_weight.dot(n), std::cos(std::abs(a) - b), 1e-14, "value");
     ASSERT_EQ(side->normal_rates.cols(), 2);
     expectEntries(Vec2(side->normal_rates.transpose() * n),
-                  Vec2(std::sin(std::abs(a) - b) / square * Vec2(kHeight, -kRadius)), 1e-13, "rates by radius and height");
-    expectEntries(Vec2(side->normal_rates.transpose() * side->normal_weight), Vec2::Zero().eval(), 1e-14, "it stays unit");
+                  Vec2(std::sin(std::abs(a) - b) / square * Vec2(kHeight, -kRadius)), 1e-13,
+                  "rates by radius and height");
+    expectEntries(Vec2(side->normal_rates.transpose() * side->normal_weight), Vec2::Zero().eval(), 1e-14,
+                  "it stays unit");
   }
 }
 

@@ -122,7 +122,8 @@ TEST(SolidPieces, PiecesListTheirFeatures) {
       if (p.core != Piece::Core::triangle) continue;
       for (int i = 0; i < 3; ++i) {
         const SolidEdge& e = solid.edges[at(index(Family::edge, i))];
-        EXPECT_EQ((std::set<int>{e.from, e.to}), (std::set<int>{index(Family::vertex, i), index(Family::vertex, (i + 1) % 3)}));
+        EXPECT_EQ((std::set<int>{e.from, e.to}),
+                  (std::set<int>{index(Family::vertex, i), index(Family::vertex, (i + 1) % 3)}));
         EXPECT_TRUE(e.left == index(Family::face, 0) || e.right == index(Family::face, 0));
       }
     }

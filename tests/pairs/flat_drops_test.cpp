@@ -72,8 +72,8 @@ Standing cone(Random& random) {
 }
 Standing coneOnItsApex(Random& random) {
   const double r = size(random), h = size(random);
-  return {"cone on its apex", Cone{r, h},  h / 2, h / 2, {{Vec2::Zero()}}, {polygon(kCorners, r)}, r,
-          true,               Quat(0, 1, 0, 0)};
+  return {"cone on its apex",     Cone{r, h}, h / 2, h / 2,           {{Vec2::Zero()}},
+          {polygon(kCorners, r)}, r,          true,  Quat(0, 1, 0, 0)};
 }
 /// On its side, which leans by b from the axis: the apex along -x, the rim's highest point above.
 Standing lyingCone(Random& random) {
@@ -81,8 +81,8 @@ Standing lyingCone(Random& random) {
   const double apex = -h / 2 * cosine, end = apex + std::hypot(r, h);
   const Outline line{{apex, 0}, {end, 0}}, point{{-apex - r * sine, 0}};
   const Quat down(Eigen::AngleAxisd(-std::numbers::pi / 2 - b, Vec3::UnitY()));
-  return {"lying cone", Cone{r, h}, h / 2 * sine, h / 2 * sine + r * cosine, {line}, {point}, 0, false, down,
-          Vec2(h / 4 * cosine, 0)};
+  return {"lying cone", Cone{r, h}, h / 2 * sine,           h / 2 * sine + r * cosine, {line}, {point}, 0,
+          false,        down,       Vec2(h / 4 * cosine, 0)};
 }
 Quat lyingDown() { return Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX())); }  // z comes to lie along -y
 Standing lyingCylinder(Random& random) {
@@ -144,10 +144,10 @@ Standing plane(Random&) {
 }
 
 using Maker = Standing (*)(Random&);
-constexpr Maker kUpper[] = {box, cylinder, lyingCylinder, lyingCapsule, capsule, sphere, prism, mesh, cross, table,
-                            cone, coneOnItsApex, lyingCone};
-constexpr Maker kLower[] = {box,  cylinder, lyingCylinder, lyingCapsule, capsule, sphere,
-                            prism, mesh,     cross,         table,        cone,    coneOnItsApex, lyingCone, plane};
+constexpr Maker kUpper[] = {box,  cylinder, lyingCylinder, lyingCapsule, capsule,       sphere,   prism,
+                            mesh, cross,    table,         cone,         coneOnItsApex, lyingCone};
+constexpr Maker kLower[] = {box,  cylinder, lyingCylinder, lyingCapsule, capsule,       sphere,    prism,
+                            mesh, cross,    table,         cone,         coneOnItsApex, lyingCone, plane};
 
 Outline placed(const Outline& outline, double angle, const Vec2& at) {
   Outline out;

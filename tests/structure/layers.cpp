@@ -31,10 +31,18 @@ const std::map<std::string, std::vector<Layer>>& layers() {
         folder("report"),
         {"edits and sessions", std::regex("([^/]*|session/.*)")}}},
       {"formats",
-       {folder("base"), folder("json"),
+       {folder("base"),
+        folder("json"),
         {"table of shapes", std::regex("shapes/rows\\.hpp")},  // declared low, filled in above what rows need
-        folder("mesh"), folder("drawing"), folder("documents"), {"gltf", std::regex("gltf/[^/]*")},
-        folder("gltf/read"), folder("gltf/write"), folder("svg"), folder("shapes"), folder("export"),
+        folder("mesh"),
+        folder("drawing"),
+        folder("documents"),
+        {"gltf", std::regex("gltf/[^/]*")},
+        folder("gltf/read"),
+        folder("gltf/write"),
+        folder("svg"),
+        folder("shapes"),
+        folder("export"),
         folder("answers")}},
   };
   return libraries;

@@ -74,7 +74,10 @@ ShapeKind sizedRow() {
             for (std::size_t i = 0; i < kCount; ++i) validation::requireLength(at.where / Row::words[i], numbers[i]);
           },
       .dimension_names = [](const Shape&) { return std::vector<std::string>(Row::words.begin(), Row::words.end()); },
-      .dimensions = [](const Shape& s) { return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(numbersOf(s).data(), kCount)); },
+      .dimensions =
+          [](const Shape& s) {
+            return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(numbersOf(s).data(), kCount));
+          },
       .setDimensions =
           [](Shape& s, const Eigen::VectorXd& d) {
             requireDimensions(d, kCount);

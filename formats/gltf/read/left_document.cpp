@@ -85,8 +85,7 @@ class FileMeshes : public SurfaceFiles {
   std::shared_ptr<const Surface> find(const std::string& file, const std::string& where, bool convex) override {
     std::size_t index = 0;
     while (index < count_ && meshReference(static_cast<int>(index)) != file) ++index;
-    if (index == count_)
-      fail(where, quotedText(file), "one of the " + std::to_string(count_) + " meshes of the file");
+    if (index == count_) fail(where, quotedText(file), "one of the " + std::to_string(count_) + " meshes of the file");
     const auto mesh = static_cast<int>(index);
     auto surface = shapes_.surfaceOf({mesh, -1, convex});
     meshes_[surface.get()] = mesh;

@@ -25,8 +25,7 @@ class ShapeList {
 
   /// Shape of a `geometry` (shape, mesh or node, and convexHull) or of an older collider (shape). Reports a shape of a
   /// kind that is not supported and returns none.
-  std::optional<ColliderShape> read(const JsonPlace& geometry, const PhysicsNode& node,
-                                    ImportReport& report) const;
+  std::optional<ColliderShape> read(const JsonPlace& geometry, const PhysicsNode& node, ImportReport& report) const;
 
  private:
   std::optional<ColliderShape> readListed(const JsonPlace& shape, bool convex, const PhysicsNode& node,

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "formats/json/json_place.hpp"
 #include "formats/gltf/read/shapes.hpp"
+#include "formats/json/json_place.hpp"
 #include "formats/mesh/gltf_geometry.hpp"
 #include "ode_bridge/convex_hull.h"
 

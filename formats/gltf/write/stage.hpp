@@ -7,8 +7,8 @@
 
 #include "adjoint/motion/motion.h"
 #include "formats/base/document.h"
-#include "formats/shapes/rows.hpp"
 #include "formats/gltf/write/look.hpp"
+#include "formats/shapes/rows.hpp"
 
 namespace carom::formats_detail {
 
