@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/impact/single_laws.hpp"
 #include "adjoint/impact/wide_impact.hpp"
 #include "adjoint/motion/guard.hpp"
 
@@ -138,26 +139,77 @@ ImpactOutcome<double> outcomeOf(const ImpactPass<double>& pass, bool& wide) {
   return wideImpact(pass.inputs());
 }
 
+void record(Contact& c, const Vec3& u, const Vec3& P) {
+  c.approach = c.at.normal.dot(u);
+  c.impulse = P;
+}
+
+Margins marginsOf(const Contact& c, const Vec3& u, double stick_slip) {
+  const double speed = u.norm();
+  return {speed > 0 ? std::abs(c.approach) / speed : 1, stick_slip};
+}
+
+// What ImpactPass does, for one contact and in fixed sizes: nearly every impact of a simulation is one
+// (docs/decisions.md has the figures).
+void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
+  Contact& c = event.contacts[0];
+  ContactProblem problem{Mat3::Zero(), Vec3::Zero(), c.impulse_normal, c.pair};
+  for (const Participant& p : event.participants) {
+    const BodyModel& model = models[static_cast<std::size_t>(p.body)];
+    const Mat3 A = model.inverseInertiaWorld(p.before.q.toRotationMatrix());
+    const Vec3 r = c.at.point - p.before.x, omega = A * p.before.L;
+    problem.u += (p.body == c.a ? 1.0 : -1.0) * (p.before.v + omega.cross(r));
+    if (!model.kinematic) problem.K += model.inverse_mass * Mat3::Identity() - skew(r) * A * skew(r);
+  }
+  Vec3 impulse;
+  double stick_slip = 1;
+  if (lawOf(problem.pair) == Law::frictionless) {
+    impulse = FrictionlessTerms<double>(problem).impulse();
+    event.mode = ImpactMode::frictionless;
+  } else {
+    const FrictionTerms<double> friction(problem);
+    impulse = friction.impulse();
+    event.mode = friction.slides ? ImpactMode::slide : ImpactMode::stick;
+    stick_slip = friction.margin;
+  }
+  record(c, problem.u, impulse);
+  event.margins = marginsOf(c, problem.u, stick_slip);
+  for (const Participant& p : event.participants) {
+    State& s = after.emplace_back(p.before);
+    if (models[static_cast<std::size_t>(p.body)].kinematic) continue;
+    const Vec3 P = (p.body == c.a ? 1.0 : -1.0) * impulse;
+    s.v += models[static_cast<std::size_t>(p.body)].inverse_mass * P;
+    s.L += (c.at.point - p.before.x).cross(P);
+  }
+}
+
+void solveByPass(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
+  const ImpactPass<double> pass(impactInputs(event, models));
+  const ImpactOutcome<double> outcome = outcomeOf(pass, event.wide);
+  const Eigen::VectorXd& u = pass.problem().u;
+  event.mode = outcome.solution.mode;
+  for (std::size_t k = 0; k < event.contacts.size(); ++k) {
+    const auto row = 3 * static_cast<Eigen::Index>(k);
+    record(event.contacts[k], u.segment<3>(row), outcome.solution.P.segment<3>(row));
+  }
+  event.margins = marginsOf(event.contacts[0], u.head<3>(), outcome.solution.stick_slip_margin);
+  for (std::size_t i = 0; i < outcome.after.size(); ++i) {
+    State& s = after.emplace_back(event.participants[i].before);
+    s.v = outcome.after[i].v;
+    s.L = outcome.after[i].L;
+  }
+}
+
 }  // namespace
 
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
   after.clear();
   requireContacts(event);
   event.wide = needsWide(event, models);
-  const ImpactPass<double> pass(impactInputs(event, models));
-  const ImpactOutcome<double> outcome = outcomeOf(pass, event.wide);
-  event.mode = outcome.solution.mode;
-  for (std::size_t k = 0; k < event.contacts.size(); ++k) {
-    const auto row = 3 * static_cast<Eigen::Index>(k);
-    event.contacts[k].approach = event.contacts[k].at.normal.dot(pass.problem().u.segment<3>(row));
-    event.contacts[k].impulse = outcome.solution.P.segment<3>(row);
-  }
-  const double speed = pass.problem().u.head<3>().norm();
-  event.margins = {speed > 0 ? std::abs(event.contacts[0].approach) / speed : 1, outcome.solution.stick_slip_margin};
-  for (std::size_t i = 0; i < outcome.after.size(); ++i) {
-    State& s = after.emplace_back(event.participants[i].before);
-    s.v = outcome.after[i].v;
-    s.L = outcome.after[i].L;
+  if (event.contacts.size() == 1 && !event.wide) {
+    solveSingle(event, models, after);
+  } else {
+    solveByPass(event, models, after);
   }
   if (!std::all_of(after.begin(), after.end(), isFinite))
     throw NotComputable("its impulses, or the velocities after it, are beyond the range of doubles");
