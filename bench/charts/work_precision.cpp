@@ -6,15 +6,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "adjoint/simulate/replay.h"
 #include "adjoint/simulate/simulate.h"
+#include "adjoint/simulate/simulate_along.h"
 #include "bench/charts/chart.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/engines/engine.h"
 #include "bench/charts/error.h"
 #include "bench/charts/frozen_flights.h"
 #include "ode_bridge/ode_contacts.h"
-#include "tests/reference/replayed.h"
+#include "tests/reference/along.h"
 
 namespace carom::charts {
 namespace {
@@ -46,10 +46,10 @@ class Comparison {
     progress_.next(row_.name + ", carom");
     write("carom", 0, bestSeconds([&] { motion_ = simulate(scene_, contacts_, row_.duration); }, 0.3, 100000),
           statesAt(motion_, row_.duration));
-    Replay again;
+    MotionAlong again;
     const double seconds =
-        bestSeconds([&] { again = replay(motion_, scene_, motion_.geometry, row_.duration); }, 0.3, 100000);
-    write("carom replay", 0, seconds, statesAt(again.motion, row_.duration));
+        bestSeconds([&] { again = simulateAlong(motion_, scene_, motion_.geometry, row_.duration); }, 0.3, 100000);
+    write("carom along", 0, seconds, statesAt(again.motion, row_.duration));
   }
 
   void flights(const FlightModel& model) {

@@ -24,7 +24,7 @@ do for [scene in '"ball" "box" "two boxes" "pool break"'] {
     rows(scene.",Bullet") using 4:5 with linespoints ls 4, \
     rows(scene.",MuJoCo") using 4:5 with linespoints ls 5, \
     rows(scene.",carom") using 4:5 with points ls 1 ps 1.4, \
-    rows(scene.",carom replay") using 4:5 with points ls 1 pt 6 ps 1.4
+    rows(scene.",carom along") using 4:5 with points ls 1 pt 6 ps 1.4
 }
 load "legend.gnuplot"
 plot NaN with linespoints ls 6 title "RK4", NaN with linespoints ls 7 title "Fehlberg 7(8)", \

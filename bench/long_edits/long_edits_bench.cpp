@@ -216,7 +216,7 @@ std::vector<LongTask> allTasks() {
   return tasks;
 }
 
-// Counts the motions that are simulated; followed ones (adjoint/simulate/replay.h) are not among them.
+// Counts the motions that are simulated; followed ones (adjoint/simulate/simulate_along.h) are not among them.
 class Counted final : public ContactSource {
  public:
   Counted(std::unique_ptr<ContactSource> inner, std::shared_ptr<std::atomic<int>> count)

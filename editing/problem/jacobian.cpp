@@ -118,16 +118,16 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
   return simulate(problem.controls.sceneAt(values), contacts ? *contacts : *problem.contacts, until, options);
 }
 
-Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
+MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
                 ContactSource* contacts) {
   const Scene scene = problem.controls.sceneAt(values);
   const std::vector<BoundControl>& controls = problem.controls.controls();
   const bool resized =
       std::any_of(controls.begin(), controls.end(), [](const BoundControl& c) { return c.kind->changes_shape; });
-  if (!resized) return replay(like, scene, like.geometry, until);
+  if (!resized) return simulateAlong(like, scene, like.geometry, until);
   ContactSource& source = contacts ? *contacts : *problem.contacts;
   source.begin(scene);
-  return replay(like, scene, source.geometry(), until);
+  return simulateAlong(like, scene, source.geometry(), until);
 }
 
 void askFrictions(const ControlSet& controls, Reliability& reliability) {

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "adjoint/simulate/replay.h"
 #include "adjoint/simulate/simulate.h"
+#include "adjoint/simulate/simulate_along.h"
 #include "editing/problem/controls/control_set.hpp"
 #include "editing/problem/controls/validity_rows.hpp"
 #include "editing/problem/rows/constraint_rows.hpp"
@@ -63,8 +63,8 @@ Motion simulateScene(const EditProblem& problem, const Scene& scene, double unti
 /// ends it early, unless it is to be simulated in any case.
 Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until,
                   ContactSource* contacts = nullptr, bool even_if_stopped = false);
-/// The same along the impact sequence of another motion of the problem, see adjoint/simulate/replay.h.
-Replay replayAt(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
+/// The same along the impact sequence of another motion of the problem, see adjoint/simulate/simulate_along.h.
+MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
                 ContactSource* contacts = nullptr);
 
 /// Tells the reliability of a row which coefficients of friction vary.

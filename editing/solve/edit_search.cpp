@@ -47,9 +47,9 @@ EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
   point->changes = unknowns;
   point->values = problem.valuesOf(unknowns);
   if (maker.like) {
-    Replay replay = replayAt(problem, point->values, maker.like->motion, until, maker.contacts);
-    if (!replay.complete) return nullptr;
-    point->motion = std::move(replay.motion);
+    MotionAlong along = simulateAlong(problem, point->values, maker.like->motion, until, maker.contacts);
+    if (!along.complete) return nullptr;
+    point->motion = std::move(along.motion);
   } else {
     point->motion = simulateAt(problem, point->values, until, maker.contacts, maker.even_if_stopped);
   }

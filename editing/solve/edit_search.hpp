@@ -33,7 +33,7 @@ using EditPointPtr = std::shared_ptr<EditPoint>;
 /// How the motion of a point is made.
 struct MotionMaker {
   ContactSource* contacts = nullptr;  ///< null: that of the problem
-  EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/simulate/replay.h)
+  EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/simulate/simulate_along.h)
   bool even_if_stopped = false;       ///< simulated to the end although a stop was requested
 };
 

@@ -6,8 +6,8 @@
 #include "adjoint/derivative/adjoint.h"
 #include "adjoint/derivative/tangent.h"
 #include "adjoint/second_order/second_order.h"
-#include "adjoint/simulate/replay.h"
 #include "adjoint/simulate/simulate.h"
+#include "adjoint/simulate/simulate_along.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;
@@ -57,8 +57,8 @@ int main() try {
 
   Scene changed = scene;
   changed.bodies[1].velocity.x() += 1e-3;
-  const Replay replayed = replay(motion, changed, motion.geometry, motion.duration);
-  std::printf("x moves by %.9f m\n", replayed.motion.stateAt("brick", 0.6).position.x() -
+  const MotionAlong moved = simulateAlong(motion, changed, motion.geometry, motion.duration);
+  std::printf("x moves by %.9f m\n", moved.motion.stateAt("brick", 0.6).position.x() -
                                          motion.stateAt("brick", 0.6).position.x());
 } catch (const NotComputable& error) {
   std::printf("no derivatives in doubles: %s\n", error.what());

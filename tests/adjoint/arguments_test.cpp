@@ -12,7 +12,7 @@
 #include "adjoint/flight/flight_triaxial.hpp"
 #include "adjoint/scene/surface.h"
 #include "adjoint/second_order/second_order.h"
-#include "adjoint/simulate/replay.h"
+#include "adjoint/simulate/simulate_along.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/scenes.h"
 
@@ -82,10 +82,10 @@ std::vector<Misuse> misusesOfMotions() {
          simulate(m.scene, m.contacts, 1, options);
        },
        {"1 bodies asked for", "expected 3"}},
-      {"replay, a duration of infinity",
-       [](Made& m) { replay(m.motion, m.scene, m.motion.geometry, kInfinity); },
+      {"simulateAlong, a duration of infinity",
+       [](Made& m) { simulateAlong(m.motion, m.scene, m.motion.geometry, kInfinity); },
        {"inf"}},
-      {"replay, no geometry", [](Made& m) { replay(m.motion, m.scene, nullptr, 1); }, {"geometry"}},
+      {"simulateAlong, no geometry", [](Made& m) { simulateAlong(m.motion, m.scene, nullptr, 1); }, {"geometry"}},
       {"Arc::extendTo, infinity", [](Made& m) { m.motion.world_lines[1].arcs[0].extendTo(kInfinity); }, {"inf"}},
       {"a rotation that was not extended",
        [](Made&) {

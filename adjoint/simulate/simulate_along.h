@@ -10,7 +10,7 @@
 namespace carom {
 
 /// A motion along a given impact sequence.
-struct Replay {
+struct MotionAlong {
   Motion motion;          ///< with events, so that it can be differentiated
   bool complete = false;  ///< every impact that was to be found up to the duration was found
   std::string why_not;    ///< a sentence when not complete; then the motion is known up to motion.end only
@@ -33,6 +33,7 @@ struct Replay {
 /// that of the mean gap, weighted by the normal impulses that it had in `like`. Overlaps at the start are those of `like`.
 ///
 /// Throws InputError where `scene` has not the bodies, materials and tilts of like's scene, or makes no sense.
-Replay replay(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry, double duration);
+MotionAlong simulateAlong(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,
+                          double duration);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/simulate/replay_root.hpp"
+#include "adjoint/simulate/guard_root.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/simulate/replay.h"
+#include "adjoint/simulate/simulate_along.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
-#include "adjoint/simulate/replay_root.hpp"
+#include "adjoint/simulate/guard_root.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 namespace carom {
@@ -62,7 +62,7 @@ class Follower {
     motion_.overlaps = like.overlaps;
   }
 
-  Replay run() {
+  MotionAlong run() {
     motion_.events.reserve(like_.events.size());
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       motion_.world_lines[b].arcs.reserve(like_.world_lines[b].arcs.size());
@@ -78,12 +78,12 @@ class Follower {
       } catch (const NotComputable& error) {
         outcome = fail(was, error.what());
       }
-      if (outcome == Outcome::late) ++replay_.left_out;
+      if (outcome == Outcome::late) ++along_.left_out;
       if (outcome == Outcome::failed) break;
     }
-    replay_.complete = outcome != Outcome::failed;
+    along_.complete = outcome != Outcome::failed;
     // what is followed may end early; then its last impact says how much later this one does
-    if (replay_.complete && like_.status != MotionStatus::complete && replay_.left_out == 0 &&
+    if (along_.complete && like_.status != MotionStatus::complete && along_.left_out == 0 &&
         !motion_.events.empty()) {
       motion_.status = like_.status;
       motion_.end = std::min(motion_.duration, like_.end + (motion_.events.back().time - like_.events.back().time));
@@ -91,8 +91,8 @@ class Follower {
     }
     orderByTime();
     for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) extendLast(b);
-    replay_.motion = std::move(motion_);
-    return std::move(replay_);
+    along_.motion = std::move(motion_);
+    return std::move(along_);
   }
 
  private:
@@ -106,8 +106,8 @@ class Follower {
     } catch (const NotComputable& error) {
       motion_.end = std::min(motion_.end, arc.availableUntil());
       builder_.endFlight(body, error);
-      replay_.complete = false;
-      replay_.why_not = motion_.message;
+      along_.complete = false;
+      along_.why_not = motion_.message;
     }
   }
 
@@ -202,7 +202,7 @@ class Follower {
   }
 
   void commit(const Event& was, const std::vector<State>& after) {
-    if (branchOf(event_.mode) != branchOf(was.mode)) replay_.mode_changed = true;
+    if (branchOf(event_.mode) != branchOf(was.mode)) along_.mode_changed = true;
     std::vector<Arc> arcs;
     for (std::size_t i = 0; i < after.size(); ++i)
       arcs.push_back(builder_.flight(event_.participants[i].body, event_.time, after[i]));
@@ -212,7 +212,7 @@ class Follower {
   void orderByTime() {
     const auto earlier = [](const Event& a, const Event& b) { return a.time < b.time; };
     if (std::ranges::is_sorted(motion_.events, earlier)) return;
-    replay_.order_changed = true;
+    along_.order_changed = true;
     std::vector<int> order(motion_.events.size()), place_of(motion_.events.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](int e) { return motion_.events[index(e)].time; });
@@ -231,7 +231,7 @@ class Follower {
     motion_.end = motion_.duration;
     for (const Participant& p : was.participants) motion_.end = std::min(motion_.end, arcOf(p.body).start());
     const Contact& c = was.contacts[0];
-    replay_.why_not = motion_.message =
+    along_.why_not = motion_.message =
         textOf(6, "the impact of '", scene_.bodies[index(c.a)].name, "' and '", scene_.bodies[index(c.b)].name,
                "' that was at t = ", was.time, " s does not follow: ", why);
     motion_.status = MotionStatus::unresolved_impact;
@@ -245,7 +245,7 @@ class Follower {
   const Scene& scene_;
   MotionBuilder builder_;
   Motion& motion_;
-  Replay replay_;                // but for its motion
+  MotionAlong along_;                // but for its motion
   std::vector<bool> late_;       // a body each: its next impact comes after the duration
   std::vector<double> weights_;  // of the gaps of the event that is followed
   Event event_;                  // being worked out
@@ -253,11 +253,11 @@ class Follower {
 
 }  // namespace
 
-Replay replay(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,
+MotionAlong simulateAlong(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,
               double duration) {
   if (!like.has_events)
     throw InputError("found a motion whose events were not recorded, expected one with them: they are followed");
-  checkDuration("replay", duration);
+  checkDuration("simulateAlong", duration);
   if (!geometry) throw InputError("found no geometry, expected that of the scene");
   requireSameParts(*like.scene, scene);
   validate(scene);

@@ -2,14 +2,14 @@
 // Motions along a given impact sequence: the same bits at the scene they were taken from, what `simulate` gives beside
 // it, derivatives beyond the edges of features, and a status for each way in which a sequence cannot be followed.
 
-#include "adjoint/simulate/replay.h"
+#include "adjoint/simulate/simulate_along.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/simulate/replay_root.hpp"
+#include "adjoint/simulate/guard_root.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
 #include "tests/support/dot_product_scenes.h"
@@ -24,8 +24,8 @@ namespace {
 
 using namespace test;
 
-Replay replayed(const Motion& like, const Scene& scene, double duration) {
-  return replay(like, scene, OdeContacts(scene).geometry(), duration);
+MotionAlong along(const Motion& like, const Scene& scene, double duration) {
+  return simulateAlong(like, scene, OdeContacts(scene).geometry(), duration);
 }
 
 /// Every number of every arc and impact, to the last bit.
@@ -60,14 +60,14 @@ void expectSameArcsAndEvents(const Motion& found, const Motion& expected) {
   }
 }
 
-TEST(Replay, SameSceneGivesTheSameBits) {
+TEST(MotionAlong, SameSceneGivesTheSameBits) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomScene options;
     options.friction = seed % 2 == 0;
     const Scene scene = randomScene(seed, options);
     const Motion like = play(scene, 1.5, 40);
-    const Replay same = replayed(like, scene, 1.5);
+    const MotionAlong same = along(like, scene, 1.5);
     ASSERT_TRUE(same.complete) << same.why_not;
     EXPECT_FALSE(same.order_changed || same.mode_changed);
     EXPECT_EQ(same.left_out, 0u);
@@ -75,12 +75,12 @@ TEST(Replay, SameSceneGivesTheSameBits) {
   }
 }
 
-TEST(Replay, SameSceneGivesTheSameBitsForAllShapesAndLaws) {
+TEST(MotionAlong, SameSceneGivesTheSameBitsForAllShapesAndLaws) {
   for (const DotProductScene& row : dotProductScenes()) {
     SCOPED_TRACE(row.name);
     const Scene scene = row.scene();
     const Motion like = play(scene, 3, row.impacts);
-    const Replay same = replayed(like, scene, 3);
+    const MotionAlong same = along(like, scene, 3);
     ASSERT_TRUE(same.complete) << same.why_not;
     expectSameArcsAndEvents(same.motion, like);
   }
@@ -89,7 +89,7 @@ TEST(Replay, SameSceneGivesTheSameBitsForAllShapesAndLaws) {
       SCOPED_TRACE(pair.name() + ", seed " + std::to_string(seed));
       const Throw t = randomThrow(*pair.a, *pair.b, seed);
       const Motion like = play(t.scene, t.duration, 8);
-      const Replay same = replayed(like, t.scene, t.duration);
+      const MotionAlong same = along(like, t.scene, t.duration);
       ASSERT_TRUE(same.complete) << same.why_not;
       expectSameArcsAndEvents(same.motion, like);
     }
@@ -108,7 +108,7 @@ Scene nudged(Scene scene, Random& random, double size) {
   return scene;
 }
 
-TEST(Replay, BesideItIsWhatSimulateGives) {
+TEST(MotionAlong, BesideItIsWhatSimulateGives) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -117,7 +117,7 @@ TEST(Replay, BesideItIsWhatSimulateGives) {
     const Scene other = nudged(scene, random, 1e-3);
     const Motion like = play(scene, 1, 3), expected = play(other, 1, 3);
     if (like.signature() != expected.signature() || like.status == MotionStatus::cascade) continue;
-    const Replay r = replayed(like, other, 1);
+    const MotionAlong r = along(like, other, 1);
     ASSERT_TRUE(r.complete) << r.why_not;
     EXPECT_EQ(r.motion.signature(), expected.signature());
     ++compared;
@@ -137,11 +137,11 @@ Scene ballOverTable(double x) {
                    {makePlane("floor", Vec3::UnitZ(), -1), table, makeBall("ball", 0.1, Vec3(x, 0.1, 1), {0.5, 0, 0})});
 }
 
-TEST(Replay, FeaturesGoOnPastTheirEdges) {
+TEST(MotionAlong, FeaturesGoOnPastTheirEdges) {
   const Motion like = play(ballOverTable(0), 1, 1);
   const Scene beyond = ballOverTable(3);  // a face that went on would be struck here, just as before
   ASSERT_NE(play(beyond, 1, 1).signature(), like.signature());
-  const Replay r = replayed(like, beyond, 1);
+  const MotionAlong r = along(like, beyond, 1);
   ASSERT_TRUE(r.complete) << r.why_not;
   EXPECT_EQ(r.motion.signature(), like.signature());
   expectEntries(r.motion.events[0].time, like.events[0].time, 1e-14, "time");
@@ -151,14 +151,14 @@ TEST(Replay, FeaturesGoOnPastTheirEdges) {
   expectTransposed(r.motion, 1);
 }
 
-TEST(Replay, DerivativesBeyondTheSequenceAreTransposed) {
+TEST(MotionAlong, DerivativesBeyondTheSequenceAreTransposed) {
   int left = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Scene scene = randomScene(seed), other = nudged(scene, random, 0.05);
     const Motion like = play(scene, 1, 4);
-    const Replay r = replayed(like, other, 1);
+    const MotionAlong r = along(like, other, 1);
     if (!r.complete || r.motion.events.empty()) continue;
     if (play(other, 1, 4).signature() != r.motion.signature()) ++left;
     expectTransposed(r.motion, seed);
@@ -166,12 +166,12 @@ TEST(Replay, DerivativesBeyondTheSequenceAreTransposed) {
   EXPECT_GE(left, 5);
 }
 
-TEST(Replay, GradientIsTheLimitOfDifferencesPastAnEdge) {
+TEST(MotionAlong, GradientIsTheLimitOfDifferencesPastAnEdge) {
   const Motion like = play(ballOverTable(0), 1, 1);
   const auto height = [&](double lift) {
     Scene scene = ballOverTable(3);
     scene.bodies[2].position.z() += lift;
-    return replayed(like, scene, 1).motion;
+    return along(like, scene, 1).motion;
   };
   const double h = 1e-4;
   const double difference =
@@ -180,7 +180,7 @@ TEST(Replay, GradientIsTheLimitOfDifferencesPastAnEdge) {
   expectEntries(g.bodies[2].position.z(), difference, 1e-7, "dz/dz0");
 }
 
-TEST(Replay, OrderOfBodiesDoesNotMatter) {
+TEST(MotionAlong, OrderOfBodiesDoesNotMatter) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto reversed = [](Scene scene) {
@@ -189,8 +189,8 @@ TEST(Replay, OrderOfBodiesDoesNotMatter) {
     };
     Random random(seed);
     const Scene scene = randomScene(seed), other = nudged(scene, random, 0.02);
-    const Replay r = replayed(play(scene, 1, 3), other, 1),
-                 s = replayed(play(reversed(scene), 1, 3), reversed(other), 1);
+    const MotionAlong r = along(play(scene, 1, 3), other, 1),
+                 s = along(play(reversed(scene), 1, 3), reversed(other), 1);
     ASSERT_EQ(r.complete, s.complete);
     if (!r.complete) continue;
     const double end = std::min(r.motion.end, s.motion.end);
@@ -206,15 +206,15 @@ Scene twoBalls(double aside) {
       {makeBall("a", 0.1, Vec3(-1, 0, 0), Vec3(2, 0, 0)), makeBall("b", 0.1, Vec3(1, aside, 0), Vec3(-1, 0, 0))});
 }
 
-TEST(ReplayStatus, BodiesThatPass) {
+TEST(MotionAlongStatus, BodiesThatPass) {
   const Motion like = play(twoBalls(0.1), 2);
   ASSERT_EQ(like.events.size(), 1u);
-  const Replay r = replayed(like, twoBalls(0.21), 2);
+  const MotionAlong r = along(like, twoBalls(0.21), 2);
   EXPECT_FALSE(r.complete);
   EXPECT_NE(r.why_not.find("pass without touching"), std::string::npos) << r.why_not;
   EXPECT_NE(r.why_not.find("'a' and 'b'"), std::string::npos) << r.why_not;
   EXPECT_EQ(r.motion.status, MotionStatus::unresolved_impact);
-  EXPECT_TRUE(replayed(like, twoBalls(0.1999), 2).complete);
+  EXPECT_TRUE(along(like, twoBalls(0.1999), 2).complete);
 }
 
 /// A ball strikes the floor at about 0.45 s, then a wall at x = 2.
@@ -224,57 +224,57 @@ Scene floorThenWall(double speed) {
                     makeBall("ball", 0.1, Vec3(0, 0, 1.1), Vec3(speed, 0, 0))});
 }
 
-TEST(ReplayStatus, ImpactsOfABodyOutOfOrder) {
+TEST(MotionAlongStatus, ImpactsOfABodyOutOfOrder) {
   const Motion like = play(floorThenWall(3), 0.8);
   ASSERT_EQ(like.events.size(), 2u);
-  const Replay r = replayed(like, floorThenWall(6), 0.8);
+  const MotionAlong r = along(like, floorThenWall(6), 0.8);
   EXPECT_FALSE(r.complete);
   EXPECT_NE(r.why_not.find("before the impact that precedes it"), std::string::npos) << r.why_not;
   EXPECT_LE(r.motion.end, 0.5);
 }
 
-TEST(ReplayStatus, ImpactsAfterTheDurationAreLeftOut) {
+TEST(MotionAlongStatus, ImpactsAfterTheDurationAreLeftOut) {
   const Motion like = play(floorThenWall(3), 0.8);
-  const Replay slower = replayed(like, floorThenWall(2), 0.8);
+  const MotionAlong slower = along(like, floorThenWall(2), 0.8);
   ASSERT_TRUE(slower.complete) << slower.why_not;
   EXPECT_EQ(slower.left_out, 1u);
   EXPECT_EQ(slower.motion.events.size(), 1u);
   EXPECT_EQ(slower.motion.end, 0.8);
-  const Replay shorter = replayed(like, floorThenWall(3), 0.3);
+  const MotionAlong shorter = along(like, floorThenWall(3), 0.3);
   ASSERT_TRUE(shorter.complete);
   EXPECT_EQ(shorter.left_out, 2u);
 }
 
-TEST(ReplayStatus, OrderOfDifferentBodies) {
+TEST(MotionAlongStatus, OrderOfDifferentBodies) {
   const auto scene = [](double first, double second) {
     return makeScene(Vec3(0, 0, -9.81), 0.8, 0.3,
                      {makePlane("floor", Vec3::UnitZ(), 0), makeBall("a", 0.1, Vec3(0, 0, first)),
                       makeBall("b", 0.1, Vec3(1, 0, second))});
   };
   const Motion like = play(scene(1, 1.2), 0.6);
-  const Replay r = replayed(like, scene(1.3, 1.1), 0.6);
+  const MotionAlong r = along(like, scene(1.3, 1.1), 0.6);
   ASSERT_TRUE(r.complete) << r.why_not;
   EXPECT_TRUE(r.order_changed);
-  expectSameArcsAndEvents(replayed(r.motion, scene(1.3, 1.1), 0.6).motion, r.motion);
+  expectSameArcsAndEvents(along(r.motion, scene(1.3, 1.1), 0.6).motion, r.motion);
   const Motion expected = play(scene(1.3, 1.1), 0.6);
   EXPECT_EQ(r.motion.signature(), expected.signature());
   expectTransposed(r.motion, 2);
 }
 
-TEST(ReplayStatus, StickBecomesSlide) {
+TEST(MotionAlongStatus, StickBecomesSlide) {
   const auto scene = [](double friction) {
     return makeScene(Vec3(0, 0, -9.81), 0.8, friction,
                      {makePlane("floor", Vec3::UnitZ(), 0), makeBall("a", 0.1, Vec3(0, 0, 1), Vec3(2, 0, 0))});
   };
   const Motion like = play(scene(0.9), 0.6);
   ASSERT_EQ(like.events[0].mode, ImpactMode::stick);
-  const Replay r = replayed(like, scene(0.05), 0.6);
+  const MotionAlong r = along(like, scene(0.05), 0.6);
   ASSERT_TRUE(r.complete);
   EXPECT_TRUE(r.mode_changed);
   EXPECT_EQ(r.motion.signature(), play(scene(0.05), 0.6).signature());
 }
 
-TEST(ReplayStatus, JointImpacts) {
+TEST(MotionAlongStatus, JointImpacts) {
   const auto scene = [](double speed, double turn) {
     Scene s = makeScene(
         Vec3(0, 0, -9.81), 0.8, 0.3,
@@ -284,39 +284,39 @@ TEST(ReplayStatus, JointImpacts) {
   };
   const Motion like = play(scene(0, 0), 0.7);
   ASSERT_EQ(like.events[0].mode, ImpactMode::joint);
-  const Replay flat = replayed(like, scene(1, 0), 0.7);
+  const MotionAlong flat = along(like, scene(1, 0), 0.7);
   ASSERT_TRUE(flat.complete) << flat.why_not;
   const Motion expected = play(scene(1, 0), 0.7);
   expectEntries(flatten(flat.motion.stateAt("box", 0.7)), flatten(expected.stateAt("box", 0.7)), 1e-13, "box");
   expectTransposed(flat.motion, 3);
-  const Replay turned = replayed(like, scene(0, 0.01), 0.7);
+  const MotionAlong turned = along(like, scene(0, 0.01), 0.7);
   EXPECT_FALSE(turned.complete);
   EXPECT_NE(turned.why_not.find("one instant"), std::string::npos) << turned.why_not;
 }
 
-TEST(ReplayStatus, MomentsThatLoseTheirSymmetry) {
+TEST(MotionAlongStatus, MomentsThatLoseTheirSymmetry) {
   Scene scene = floorThenWall(3);
   scene.bodies[2].inertia = Inertia::fromMoments(Vec3(1, 1, 1) * 4e-3);
   scene.bodies[2].angular_velocity = Vec3(1, 2, 3);
   const Motion like = play(scene, 0.8);
   scene.bodies[2].inertia.moments.x() *= 1.1;
-  const Replay r = replayed(like, scene, 0.8);
+  const MotionAlong r = along(like, scene, 0.8);
   expectEntries(flatten(r.motion.stateAt("ball", 0.8)), flatten(play(scene, 0.8).stateAt("ball", 0.8)), 1e-13, "ball");
 }
 
-TEST(ReplayStatus, WrongInput) {
+TEST(MotionAlongStatus, WrongInput) {
   const Scene scene = floorThenWall(3);
   const Motion like = play(scene, 0.8);
   Scene fewer = scene;
   fewer.bodies.pop_back();
-  EXPECT_THROW(replay(like, fewer, like.geometry, 0.8), InputError);
-  EXPECT_THROW(replay(like, scene, nullptr, 0.8), InputError);
-  EXPECT_THROW(replay(like, scene, like.geometry, std::nan("")), InputError);
+  EXPECT_THROW(simulateAlong(like, fewer, like.geometry, 0.8), InputError);
+  EXPECT_THROW(simulateAlong(like, scene, nullptr, 0.8), InputError);
+  EXPECT_THROW(simulateAlong(like, scene, like.geometry, std::nan("")), InputError);
   OdeContacts contacts(scene);
   SimulateOptions options;
   options.record_events = false;
   const Motion paths = simulate(scene, contacts, 0.8, options);
-  EXPECT_THROW(replay(paths, scene, like.geometry, 0.8), InputError);
+  EXPECT_THROW(simulateAlong(paths, scene, like.geometry, 0.8), InputError);
 }
 
 TEST(DescendingRoot, OfAFallFromAnywhere) {
