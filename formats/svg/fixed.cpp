@@ -21,7 +21,7 @@ std::vector<int> fixedBySize(const Scene& scene) {
     const Body& body = scene.bodies[i];
     if (!body.fixed) continue;
     bodies.push_back(static_cast<int>(i));
-    if (!std::holds_alternative<Plane>(body.shape))
+    if (!kindOf(body.shape).endless)
       size[i] = shapeExtent(body.shape, body.position, body.orientation).diagonal().norm();
   }
   std::stable_sort(bodies.begin(), bodies.end(), [&](int a, int b) {

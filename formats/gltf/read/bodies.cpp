@@ -91,7 +91,7 @@ class Builder {
   void addPart(Draft& draft, const PhysicsNode& node, const Frame& in_owner, const Quat& orientation) {
     auto shape = shapes_.make(node, in_owner.stretch);
     if (!shape) return;
-    if (std::holds_alternative<Plane>(*shape)) {
+    if (kindOf(*shape).endless) {
       report(node, "its plane is left out: a moving body cannot be an infinite plane");
       return;
     }

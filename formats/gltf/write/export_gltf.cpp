@@ -101,7 +101,7 @@ class Writer {
 
   void addBody(int body) {
     gltf::PhysicsNode physics = physicsNodeOf(scene_, body, (*motion_.models)[body], surfaces_);
-    if (std::holds_alternative<Plane>(scene_.bodies[body].shape)) {  // drawn as a square around the motion
+    if (kindOf(scene_.bodies[body].shape).endless) {  // drawn as a square around the motion
       const Vec3 normal = gltf::turned(physics.rotation, Vec3::UnitZ()), centre = extent_.center();
       physics.translation = centre + normal.dot(physics.translation - centre) * normal;
     }

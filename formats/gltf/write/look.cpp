@@ -23,7 +23,7 @@ int GltfLook::body(int index, double alpha) {
   const Body& b = scene_.bodies[static_cast<std::size_t>(index)];
   Tint tint{bodyColour(scene_, index), alpha};
   if (b.fixed) tint.roughness = 0.9;
-  tint.both_sides = std::holds_alternative<Plane>(b.shape);
+  tint.both_sides = kindOf(b.shape).endless;
   return entry->second = shape(b.shape, b.name + (alpha < 1 ? " ghost" : ""), tint);
 }
 
