@@ -47,6 +47,32 @@ struct Limits {
   const Feature& vertexAt(int v) const { return solid.vertices[static_cast<std::size_t>(v)]; }
 };
 
+// The side of the cone that a part is; null for other parts.
+const SolidEdge* sideOfCone(const Solid& solid, int part) {
+  const auto side = std::find_if(solid.edges.begin(), solid.edges.end(),
+                                 [&](const SolidEdge& e) { return e.part == part && e.apex > 0; });
+  return side == solid.edges.end() ? nullptr : &*side;
+}
+
+// Along or against the line of a cone's side that ends at the rim's point in the direction u from the axis:
+// (rho u - 2 apex d)/|..|, d towards the apex. As the normal of a contact there moves, u turns about the axis, which the
+// normal has no part along: only rho and apex count.
+void ofSideOfCone(const Limits& limits, const SolidEdge& side, const Vec3& u, double way, std::string beyond) {
+  const Vec3 along = side.rim * u - 2 * side.apex * side.direction, w = along.normalized();
+  const FeatureRates by_size = ratesOf(limits.solid, side);
+  const Eigen::Matrix3Xd rates = u * by_size.rim - 2 * side.direction * by_size.apex;
+  limits.normal(way * w, std::move(beyond), way / along.norm() * (rates - w * (w.transpose() * rates)));
+}
+
+// The lines of the side fall back from the apex; the one towards which the normal leans is the first that does not.
+void ofApex(const Limits& limits, int v, const Vec3& outward) {
+  const SolidEdge* side = sideOfCone(limits.solid, limits.vertexAt(v).part);
+  if (!side || limits.vertexAt(v).mark) return;
+  const Vec3 across = outward - side->direction.dot(outward) * side->direction;
+  if (across.norm() > 0)
+    ofSideOfCone(limits, *side, across.normalized(), -1, "the side next to " + nameOf(limits.solid, Family::vertex, v));
+}
+
 // All neighbours lie behind the vertex as the normal sees it.
 void ofVertex(const Limits& limits, int v) {
   const Solid& solid = limits.solid;
@@ -92,38 +118,27 @@ void ofFace(const Limits& limits, int f, const Vec3& point) {
   }
 }
 
-// Along the line of the side that ends at the rim's point: (rho u + 2 apex d)/|..|, u across the axis to that point. As
-// the point moves u turns along the rim, which no normal of a contact there has a part along: only rho and apex count.
-void ofSideOfCone(const Limits& limits, const Feature& rim, const SolidEdge& side, const Vec3& u, std::string beyond) {
-  const Vec3 along = rim.rim * u + 2 * side.apex * rim.direction, w = along.normalized();
-  const Eigen::Matrix3Xd rates =
-      u * ratesOf(limits.solid, rim).rim + 2 * rim.direction * ratesOf(limits.solid, side).apex;
-  limits.normal(w, std::move(beyond), (rates - w * (w.transpose() * rates)) / along.norm());
-}
-
 // The contact is at the outermost point of the rim, on the side of the cap.
 void ofRim(const Limits& limits, int r, const Vec3& point) {
   const Feature& rim = limits.solid.rims[static_cast<std::size_t>(r)];
   const std::string name = nameOf(limits.solid, Family::rim, r);
   const Vec3 to = point - rim.point, across = to - rim.direction.dot(to) * rim.direction;
-  const auto& edges = limits.solid.edges;
-  const auto side =
-      std::find_if(edges.begin(), edges.end(), [&](const SolidEdge& e) { return e.part == rim.part && e.apex > 0; });
-  if (side == edges.end() || across.norm() == 0) {
+  const SolidEdge* side = sideOfCone(limits.solid, rim.part);
+  if (!side || across.norm() == 0) {
     limits.normal(rim.direction, "the side of " + name);
   } else {
-    ofSideOfCone(limits, rim, *side, across.normalized(), "the side of " + name);
+    ofSideOfCone(limits, *side, across.normalized(), 1, "the side of " + name);
   }
   if (across.norm() > 0) limits.normal(across.normalized(), "the cap of " + name);
 }
 
-// Adds the conditions under which a contact stays with one feature of a solid (see FeatureLimit). `point` is the
-// contact point in the solid's axes; `sign` is 1 where the normal of the contact points out of this solid (it is body b
+// Adds the conditions under which a contact stays with one feature of a solid (see FeatureLimit). `point` and `n` are
+// those of the contact in the solid's axes; `sign` is 1 where the normal points out of this solid (it is body b
 // of the pair) and -1 where it points into it (body a).
-void addFeatureLimits(const Solid& solid, Family family, int index, const Vec3& point, double sign, int body,
-                      std::vector<FeatureLimit>& out) {
+void addFeatureLimits(const Solid& solid, Family family, int index, const Vec3& point, const Vec3& n, double sign,
+                      int body, std::vector<FeatureLimit>& out) {
   const Limits limits{solid, sign, body, out};
-  if (family == Family::vertex) ofVertex(limits, index);
+  if (family == Family::vertex) ofVertex(limits, index), ofApex(limits, index, sign * n);
   if (family == Family::edge) ofEdge(limits, index);
   if (family == Family::face) ofFace(limits, index, point);
   if (family == Family::rim) ofRim(limits, index, point);
@@ -143,10 +158,14 @@ double FeatureGeometry::overlap(int a, int b, const Pose& A, const Pose& B) cons
 std::vector<FeatureLimit> FeatureGeometry::limits(int a, int b, const FeaturePair& f, const Pose& A,
                                                   const Pose& B) const {
   std::vector<FeatureLimit> limits;
-  const Vec3 point = contact(a, b, f, A, B).point;
+  const ContactPoint at = contact(a, b, f, A, B);
   const auto kind = static_cast<GapKind>(f.kind);
-  addFeatureLimits(solid(a), familyOfFirst(kind), f.a, A.R.transpose() * (point - A.x), -1, a, limits);
-  addFeatureLimits(solid(b), familyOfSecond(kind), f.b, B.R.transpose() * (point - B.x), 1, b, limits);
+  const auto add = [&](int body, Family family, int index, const Pose& pose, double sign) {
+    addFeatureLimits(solid(body), family, index, pose.R.transpose() * (at.point - pose.x),
+                     pose.R.transpose() * at.normal, sign, body, limits);
+  };
+  add(a, familyOfFirst(kind), f.a, A, -1);
+  add(b, familyOfSecond(kind), f.b, B, 1);
   return limits;
 }
 

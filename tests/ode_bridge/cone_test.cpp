@@ -68,8 +68,8 @@ TEST(Cone, TurnsAboutTheCentreOfMassWhenItsRimStrikes) {
 
 // The side leans by b from the axis, tan b = r/h. Before a floor under which the cone is tilted by a the side is below
 // the rim where cos(a - b) > 0, and that changes by r and h as b does.
-TEST(Cone, LimitOfItsRimAndItsRatesBySize) {
-  for (const double a : {0.2, 0.7, -0.4, 1.2, 1.9}) {
+TEST(Cone, LimitsOfItsRimAndApexAndTheirRatesBySize) {
+  for (const double a : {0.2, 0.7, -0.4, 1.2, 1.9, 2.8, -3}) {
     SCOPED_TRACE("tilt " + std::to_string(a));
     const Motion motion = play(falling(turnedAbout(Vec3::UnitY(), a), 2), 1, 1);
     ASSERT_EQ(motion.events.size(), 1u);
@@ -86,10 +86,13 @@ TEST(Cone, LimitOfItsRimAndItsRatesBySize) {
     ASSERT_TRUE(side != limits.end());
     const double square = kRadius * kRadius + kHeight * kHeight, b = std::atan2(kRadius, kHeight);
     const Vec3 n = cone.R.transpose() * c.at.normal;
-    expectEntries(side->normal_weight.dot(n), std::cos(std::abs(a) - b), 1e-14, "value");
+    const bool on_apex = std::abs(a) > 2;
+    const double way = on_apex ? -1 : 1;
+    EXPECT_EQ(side->beyond.find("apex") != std::string::npos, on_apex);
+    expectEntries(side->normal_weight.dot(n), way * std::cos(std::abs(a) - b), 1e-14, "value");
     ASSERT_EQ(side->normal_rates.cols(), 2);
     expectEntries(Vec2(side->normal_rates.transpose() * n),
-                  Vec2(std::sin(std::abs(a) - b) / square * Vec2(kHeight, -kRadius)), 1e-13,
+                  Vec2(way * std::sin(std::abs(a) - b) / square * Vec2(kHeight, -kRadius)), 1e-13,
                   "rates by radius and height");
     expectEntries(Vec2(side->normal_rates.transpose() * side->normal_weight), Vec2::Zero().eval(), 1e-14,
                   "it stays unit");
