@@ -55,8 +55,8 @@ const SolidEdge* sideOfCone(const Solid& solid, int part) {
 }
 
 // Along or against the line of a cone's side that ends at the rim's point in the direction u from the axis:
-// (rho u - 2 apex d)/|..|, d towards the apex. As the normal of a contact there moves, u turns about the axis, which the
-// normal has no part along: only rho and apex count.
+// (rho u - 2 apex d)/|..|, d towards the apex. As the normal of a contact there moves, u turns about the axis, which
+// the normal has no part along: only rho and apex count.
 void ofSideOfCone(const Limits& limits, const SolidEdge& side, const Vec3& u, double way, std::string beyond) {
   const Vec3 along = side.rim * u - 2 * side.apex * side.direction, w = along.normalized();
   const FeatureRates by_size = ratesOf(limits.solid, side);

@@ -8,7 +8,8 @@
 
 namespace carom::adjoint_detail {
 
-/// Makes a motion, event by event: what `simulate`, which finds the events, and `simulateAlong`, which knows them, do alike.
+/// Makes a motion, event by event: what `simulate`, which finds the events, and `simulateAlong`, which knows them, do
+/// alike.
 class MotionBuilder {
  public:
   /// Scene, models and duration of the motion; plan and geometry are still to be set.

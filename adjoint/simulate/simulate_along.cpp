@@ -10,8 +10,8 @@
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/motion/guard.hpp"
-#include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/guard_root.hpp"
+#include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 namespace carom {
@@ -83,8 +83,7 @@ class Follower {
     }
     along_.complete = outcome != Outcome::failed;
     // what is followed may end early; then its last impact says how much later this one does
-    if (along_.complete && like_.status != MotionStatus::complete && along_.left_out == 0 &&
-        !motion_.events.empty()) {
+    if (along_.complete && like_.status != MotionStatus::complete && along_.left_out == 0 && !motion_.events.empty()) {
       motion_.status = like_.status;
       motion_.end = std::min(motion_.duration, like_.end + (motion_.events.back().time - like_.events.back().time));
       motion_.message = like_.message;
@@ -245,7 +244,7 @@ class Follower {
   const Scene& scene_;
   MotionBuilder builder_;
   Motion& motion_;
-  MotionAlong along_;                // but for its motion
+  MotionAlong along_;            // but for its motion
   std::vector<bool> late_;       // a body each: its next impact comes after the duration
   std::vector<double> weights_;  // of the gaps of the event that is followed
   Event event_;                  // being worked out
@@ -254,7 +253,7 @@ class Follower {
 }  // namespace
 
 MotionAlong simulateAlong(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,
-              double duration) {
+                          double duration) {
   if (!like.has_events)
     throw InputError("found a motion whose events were not recorded, expected one with them: they are followed");
   checkDuration("simulateAlong", duration);

@@ -30,7 +30,8 @@ struct MotionAlong {
 /// and centres of mass are those of like's scene. With the scene of `like` the answer is `like` to the last bit.
 ///
 /// A joint impact goes on as long as its contacts meet within one instant (docs/equations.md section 4); its time is
-/// that of the mean gap, weighted by the normal impulses that it had in `like`. Overlaps at the start are those of `like`.
+/// that of the mean gap, weighted by the normal impulses that it had in `like`. Overlaps at the start are those of
+/// `like`.
 ///
 /// Throws InputError where `scene` has not the bodies, materials and tilts of like's scene, or makes no sense.
 MotionAlong simulateAlong(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,

@@ -119,7 +119,7 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
 }
 
 MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
-                ContactSource* contacts) {
+                          ContactSource* contacts) {
   const Scene scene = problem.controls.sceneAt(values);
   const std::vector<BoundControl>& controls = problem.controls.controls();
   const bool resized =

@@ -65,7 +65,7 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
                   ContactSource* contacts = nullptr, bool even_if_stopped = false);
 /// The same along the impact sequence of another motion of the problem, see adjoint/simulate/simulate_along.h.
 MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
-                ContactSource* contacts = nullptr);
+                          ContactSource* contacts = nullptr);
 
 /// Tells the reliability of a row which coefficients of friction vary.
 void askFrictions(const ControlSet& controls, Reliability& reliability);

@@ -16,8 +16,8 @@ EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const 
                             const std::string* signature, int max_iterations);
 /// The same within the impact sequence of a point that meets all rows.
 EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations);
-/// The same along the impact sequence of a point as if its features had no edges (adjoint/simulate/simulate_along.h). Returns the point
-/// where that ended, with the motion that it really has, which may be of another sequence; or null.
+/// The same along the impact sequence of a point as if its features had no edges (adjoint/simulate/simulate_along.h).
+/// Returns the point where that ended, with the motion that it really has, which may be of another sequence; or null.
 EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
                             int max_iterations);
 

@@ -58,8 +58,8 @@ int main() try {
   Scene changed = scene;
   changed.bodies[1].velocity.x() += 1e-3;
   const MotionAlong moved = simulateAlong(motion, changed, motion.geometry, motion.duration);
-  std::printf("x moves by %.9f m\n", moved.motion.stateAt("brick", 0.6).position.x() -
-                                         motion.stateAt("brick", 0.6).position.x());
+  std::printf("x moves by %.9f m\n",
+              moved.motion.stateAt("brick", 0.6).position.x() - motion.stateAt("brick", 0.6).position.x());
 } catch (const NotComputable& error) {
   std::printf("no derivatives in doubles: %s\n", error.what());
 }

@@ -190,7 +190,7 @@ TEST(MotionAlong, OrderOfBodiesDoesNotMatter) {
     Random random(seed);
     const Scene scene = randomScene(seed), other = nudged(scene, random, 0.02);
     const MotionAlong r = along(play(scene, 1, 3), other, 1),
-                 s = along(play(reversed(scene), 1, 3), reversed(other), 1);
+                      s = along(play(reversed(scene), 1, 3), reversed(other), 1);
     ASSERT_EQ(r.complete, s.complete);
     if (!r.complete) continue;
     const double end = std::min(r.motion.end, s.motion.end);
