@@ -69,7 +69,7 @@ TEST(Cone, TurnsAboutTheCentreOfMassWhenItsRimStrikes) {
 // The side leans by b from the axis, tan b = r/h. Before a floor under which the cone is tilted by a the side is below
 // the rim where cos(a - b) > 0, and that changes by r and h as b does.
 TEST(Cone, LimitsOfItsRimAndApexAndTheirRatesBySize) {
-  for (const double a : {0.2, 0.7, -0.4, 1.2, 1.9, 2.8, -3}) {
+  for (const double a : {0.2, 0.7, -0.4, 1.2, 1.9, 2.8, -3.0}) {
     SCOPED_TRACE("tilt " + std::to_string(a));
     const Motion motion = play(falling(turnedAbout(Vec3::UnitY(), a), 2), 1, 1);
     ASSERT_EQ(motion.events.size(), 1u);
