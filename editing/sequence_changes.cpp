@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "adjoint/base/names.hpp"
 #include "adjoint/impact/law.hpp"
 #include "editing/detail/messages.hpp"
 
@@ -165,8 +166,7 @@ SequenceChange otherOrder(const Motion& before, const Motion& after, std::size_t
 }  // namespace
 
 const char* nameOf(SequenceChange::Kind kind) {
-  constexpr const char* kNames[] = {"went", "came", "moved", "mode", "order"};
-  return kNames[static_cast<int>(kind)];
+  return nameIn({"went", "came", "moved", "mode", "order"}, kind);
 }
 
 std::vector<SequenceChange> sequenceChanges(const Motion& before, std::size_t count_before, const Motion& after,

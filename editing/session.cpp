@@ -4,17 +4,19 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/base/names.hpp"
 #include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session_numbers.h"
 
 namespace carom {
+
+using namespace adjoint_detail;
 using namespace editing_detail;
 
 const char* nameOf(SessionStage stage) {
-  constexpr const char* kNames[] = {"kept", "predicted", "improved", "solved"};
-  return kNames[static_cast<int>(stage)];
+  return nameIn({"kept", "predicted", "improved", "solved"}, stage);
 }
 
 std::vector<Constraint> editing_detail::SessionMoment::constraints() const {

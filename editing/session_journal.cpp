@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "editing/session_journal.h"
 
+#include "adjoint/base/names.hpp"
+
 namespace carom {
 
+using namespace adjoint_detail;
+
 const char* nameOf(SessionGesture::Kind kind) {
-  constexpr const char* kNames[] = {"controls", "nail", "unnail", "drag", "undo", "redo"};
-  return kNames[static_cast<int>(kind)];
+  return nameIn({"controls", "nail", "unnail", "drag", "undo", "redo"}, kind);
 }
 
 const char* nameOf(SessionGesture::Ending ending) {
-  constexpr const char* kNames[] = {"release", "release_nailed", "cancel"};
-  return kNames[static_cast<int>(ending)];
+  return nameIn({"release", "release_nailed", "cancel"}, ending);
 }
 
 Constraint heldConstraint(const std::string& body, const When& at, const Held& held) {

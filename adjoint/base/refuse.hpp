@@ -24,11 +24,6 @@ template <class... Parts>
 }
 
 /// A number that was computed, to so many digits.
-inline std::string about(double value, int digits = 6) {
-  std::ostringstream out;
-  out.precision(digits);
-  out << value;
-  return out.str();
-}
+inline std::string about(double value, int digits = 6) { return textOf(digits, value); }
 
 }  // namespace carom::adjoint_detail
