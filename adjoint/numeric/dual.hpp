@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <compare>
@@ -15,7 +16,7 @@ namespace carom::adjoint_detail {
 
 /// A number with its rates along N directions. Arithmetic carries the rates along exactly; comparisons see the value
 /// alone, so that a computation with duals takes the branches that the same computation with doubles takes. T is what
-/// values and rates are: double, or Wide.
+/// values and rates are: double, Wide, or a Dual, for second derivatives.
 template <int N, class T = double>
 struct Dual {
   static constexpr int kDirections = N;
@@ -26,8 +27,9 @@ struct Dual {
   template <class U>
     requires std::is_convertible_v<U, T>
   Dual(const U& v) : value(v) {}  // NOLINT: a constant is a number
-    /// The same with values and rates of another kind.
+    /// The same with values and rates of another kind. (A number that T can hold is a constant.)
     template <class U>
+      requires(!std::is_convertible_v<Dual<N, U>, T>)
     explicit Dual(const Dual<N, U>& o) : value(static_cast<T>(o.value)) {
       for (std::size_t i = 0; i < N; ++i) rate[i] = static_cast<T>(o.rate[i]);
     }
@@ -98,21 +100,55 @@ struct Dual {
   }
   friend Dual abs(const Dual& a) { return a.value < 0 ? -a : a; }
   friend Dual sin(const Dual& a) {
-    const auto [sine, cosine] = elementary::sincos(a.value);
-    return a.chain(sine, cosine);
+    if constexpr (std::is_same_v<T, double>) {
+      const auto [sine, cosine] = elementary::sincos(a.value);
+      return a.chain(sine, cosine);
+    } else {
+      return a.chain(sin(a.value), cos(a.value));
+    }
   }
   friend Dual cos(const Dual& a) {
-    const auto [sine, cosine] = elementary::sincos(a.value);
-    return a.chain(cosine, -sine);
+    if constexpr (std::is_same_v<T, double>) {
+      const auto [sine, cosine] = elementary::sincos(a.value);
+      return a.chain(cosine, -sine);
+    } else {
+      return a.chain(cos(a.value), -sin(a.value));
+    }
+  }
+  friend Dual exp(const Dual& a) {
+    using elementary::exp;
+    const T power = exp(a.value);
+    return a.chain(power, power);
   }
 };
 
 template <int N, class T>
 bool isZero(const Dual<N, T>& x) {
-  if (x.value != 0) return false;
-  for (const T& r : x.rate)
-    if (r != 0) return false;
-  return true;
+  const auto vanishes = [](const T& part) {
+    if constexpr (requires { part.rate; }) {
+      return isZero(part);
+    } else {
+      return part == 0;
+    }
+  };
+  return vanishes(x.value) && std::all_of(x.rate.begin(), x.rate.end(), vanishes);
+}
+
+/// How often a number can be differentiated: 0 for a double, one more for each Dual around it.
+template <class S>
+inline constexpr int kOrderOf = 0;
+template <int N, class T>
+inline constexpr int kOrderOf<Dual<N, T>> = 1 + kOrderOf<T>;
+
+/// The number without any rates.
+inline double primalOf(double x) { return x; }
+template <int N, class T>
+double primalOf(const Dual<N, T>& x) {
+  return primalOf(x.value);
+}
+template <class Matrix>
+auto primalsOf(const Matrix& m) {
+  return m.unaryExpr([](const auto& x) { return primalOf(x); }).eval();
 }
 
 /// What the values of a number are: T of Dual<N, T>, else the number itself.

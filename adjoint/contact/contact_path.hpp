@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "adjoint/contact/glide_path.hpp"
+#include "adjoint/contact/rest_path.hpp"
+#include "adjoint/contact/roll_path.hpp"
+
+/// Lasting contact with one fixed face in closed form, in any kind of number: docs/equations.md, section 11.
+namespace carom::adjoint_detail {
+
+/// Calls f with the path of a form.
+template <class S, class F>
+auto withPath(PathForm form, const PathInputs<S>& in, F f) {
+  switch (form) {
+    case PathForm::glide_ball: return f(GlidePath<S>::ball(in));
+    case PathForm::glide_block: return f(GlidePath<S>::block(in));
+    case PathForm::roll_ball: return f(RollPath<S>::ball(in));
+    case PathForm::roll_axle: return f(RollPath<S>::axle(in));
+    case PathForm::rest: break;
+  }
+  return f(RestPath<S>{in});
+}
+inline bool glides(PathForm form) { return form == PathForm::glide_ball || form == PathForm::glide_block; }
+template <class S>
+GlidePath<S> glideOf(PathForm form, const PathInputs<S>& in) {
+  return form == PathForm::glide_ball ? GlidePath<S>::ball(in) : GlidePath<S>::block(in);
+}
+
+/// A time after the start; of a glide not past the end of its slip, where it stays.
+template <class S>
+PathState<S> pathStateAt(PathForm form, const PathInputs<S>& in, const S& elapsed) {
+  return withPath<S>(form, in, [&](const auto& path) { return path.stateAt(elapsed); });
+}
+/// The centre of mass alone.
+template <class S>
+PathCenter<S> pathCenterAt(PathForm form, const PathInputs<S>& in, const S& elapsed) {
+  return withPath<S>(form, in, [&](const auto& path) { return path.centerAt(elapsed); });
+}
+/// d(state)/dt; at the end of slip the limit from before.
+template <class S>
+StateDerivativeOf<S> pathRateAt(PathForm form, const PathInputs<S>& in, const S& elapsed) {
+  return withPath<S>(form, in, [&](const auto& path) { return path.rateAt(elapsed); });
+}
+
+/// How long a glide takes until its slip is 0: nothing where it never is, and for the other forms.
+template <class S>
+std::optional<S> slipEnd(PathForm form, const PathInputs<S>& in) {
+  if (!glides(form)) return std::nullopt;
+  return glideOf(form, in).end();
+}
+/// There the slip is exactly 0: a ball rolls, a block rests. `form`: a glide that ends.
+template <class S>
+PathState<S> pathStateAtSlipEnd(PathForm form, const PathInputs<S>& in) {
+  return glideOf(form, in).stateAtEnd();
+}
+/// Unit vector along the slip of a glide; at the end the limit. Zero where there is neither slip nor a slope that starts it.
+template <class S>
+V3<S> slipDirectionAt(PathForm form, const PathInputs<S>& in, const S& elapsed) {
+  return glideOf(form, in).directionAt(elapsed);
+}
+
+/// Bounds over a stretch of a path.
+struct PathBounds {
+  Vec3 acceleration = Vec3::Zero();  ///< m/s^2, of the centre of mass at the start of the stretch
+  double variation = 0;              ///< how far it may differ from that, m/s^2
+  bool straight = true;              ///< it is constant
+  double spin = 0, spin_rate = 0;    ///< |w| rad/s, |w'| rad/s^2
+};
+PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until);
+
+/// The first time in (0, until] at which weight.(x + ahead * slip direction) falls through `value`: nothing where it does
+/// not. `ahead` is 0 for what does not slide.
+std::optional<double> firstDescent(PathForm form, const PathInputs<double>& in, const Vec3& weight, double ahead,
+                                   double value, double until);
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/contact/contact_path.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+// Above what rounding makes of a bound.
+constexpr double kMore = 1 + 1e-12;
+
+PathBounds boundsOf(const RestPath<double>&, double, double) { return {}; }
+
+// The angular velocity goes along a line: its longest is at an end.
+PathBounds boundsOf(const RollPath<double>& path, double from, double until) {
+  return {path.acceleration(), 0, true, kMore * std::max(path.spinAt(from).norm(), path.spinAt(until).norm()),
+          kMore * path.spinRate().norm()};
+}
+
+// The slip turns one way, and by less than half a turn: it is farthest from where it was at the end.
+PathBounds boundsOf(const GlidePath<double>& path, double from, double until) {
+  const Vec3 first = path.directionAt(from);
+  PathBounds bounds;
+  bounds.acceleration = path.acceleration(first);
+  bounds.straight = path.slip().straight();
+  if (!bounds.straight) bounds.variation = kMore * (path.acceleration(path.directionAt(until)) - bounds.acceleration).norm();
+  bounds.spin_rate = kMore * path.lever().norm() * path.slip().friction();
+  bounds.spin = bounds.straight ? kMore * std::max(path.spinAt(from).norm(), path.spinAt(until).norm())
+                                : kMore * (path.spinAt(from).norm() + bounds.spin_rate * (until - from));
+  return bounds;
+}
+
+}  // namespace
+
+PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until) {
+  return withPath<double>(form, in, [&](const auto& path) { return boundsOf(path, from, until); });
+}
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/contact/path_inputs.hpp"
+
+namespace carom::adjoint_detail {
+
+/// A body at rest on a face: the pose of its start, for ever. Contact fixes its velocities: whatever varies, they are 0.
+template <class S>
+struct RestPath {
+  PathInputs<S> in;
+
+  PathCenter<S> centerAt(const S&) const { return {in.x, V3<S>::Zero()}; }
+  PathState<S> stateAt(const S&) const { return {in.x, V3<S>::Zero(), V3<S>::Zero(), in.R}; }
+  StateDerivativeOf<S> rateAt(const S&) const { return {}; }
+};
+
+}  // namespace carom::adjoint_detail
