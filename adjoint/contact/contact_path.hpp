@@ -44,7 +44,7 @@ StateDerivativeOf<S> pathRateAt(PathForm form, const PathInputs<S>& in, const S&
   return withPath<S>(form, in, [&](const auto& path) { return path.rateAt(elapsed); });
 }
 
-/// How long a glide takes until its slip is 0: nothing where it never is, and for the other forms.
+/// How long a glide takes until its slip is 0: nothing where it never is, and for other forms.
 template <class S>
 std::optional<S> slipEnd(PathForm form, const PathInputs<S>& in) {
   if (!glides(form)) return std::nullopt;
@@ -55,7 +55,7 @@ template <class S>
 PathState<S> pathStateAtSlipEnd(PathForm form, const PathInputs<S>& in) {
   return glideOf(form, in).stateAtEnd();
 }
-/// Unit vector along the slip of a glide; at the end the limit. Zero where there is neither slip nor a slope that starts it.
+/// Unit vector along the slip of a glide; at the end the limit. Zero where there is no slip, and no slope to start it.
 template <class S>
 V3<S> slipDirectionAt(PathForm form, const PathInputs<S>& in, const S& elapsed) {
   return glideOf(form, in).directionAt(elapsed);
@@ -70,8 +70,8 @@ struct PathBounds {
 };
 PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until);
 
-/// The first time in (0, until] at which weight.(x + ahead * slip direction) falls through `value`: nothing where it does
-/// not. `ahead` is 0 for what does not slide.
+/// The first time in (0, until] at which weight.(x + ahead * slip direction) falls through `value`: nothing where it
+/// does not. `ahead` is 0 for what does not slide.
 std::optional<double> firstDescent(PathForm form, const PathInputs<double>& in, const Vec3& weight, double ahead,
                                    double value, double until);
 

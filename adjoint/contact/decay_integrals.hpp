@@ -48,7 +48,7 @@ Moments<S> decayMoments(const S& rate, const S& xi, int count) {
   for (int k = count + 1; k < 200; ++k) {
     term *= x / static_cast<double>(k);
     sum += term;
-    if (k > primalOf(x) + 6 && primalOf(term) <= 1e-20 * primalOf(sum)) break;
+    if (k > count + 3 && k > primalOf(x) + 6 && primalOf(term) <= 1e-20 * primalOf(sum)) break;
   }
   moments[last] = sum;
   for (std::size_t n = last; n > 0; --n) moments[n - 1] = rate * moments[n] + power[n];

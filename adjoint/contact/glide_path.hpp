@@ -33,12 +33,19 @@ class GlidePath {
     advance(center, beyondEnd(t));
     return center;
   }
+  /// At the time of a slip.
+  PathCenter<S> centerOf(const Slip<S>& slip, const S& t) const {
+    const V3<S> &g = slip_.slope(), &s0 = slip_.start();
+    return {in_.x + (v0_ + g * (0.5 * t)) * t + (slip.integral - (s0 + g * (0.5 * t)) * t) * share_,
+            v0_ + g * t + (slip.s - s0 - g * t) * share_};
+  }
   V3<S> spinAt(const S& t) const {
     if (!isPastEnd(t)) return spinOf(slip_.at(t), t);
     return spinOf(slip_.atEnd(), *end_) + accelerationOfSpin(slip_.atEnd().direction) * beyondEnd(t);
   }
-  PathState<S> stateAt(const S& t) const;
-  PathState<S> stateAtEnd() const;
+  /// `turning`: with the orientation; else it stays that of the start.
+  PathState<S> stateAt(const S& t, bool turning = true) const;
+  PathState<S> stateAtEnd(bool turning = true) const;
   /// At the end of the slip, and past it, the limit from before.
   StateDerivativeOf<S> rateAt(const S& t) const {
     const bool past = isPastEnd(t);
@@ -78,11 +85,6 @@ class GlidePath {
       center.v += a * late;
     }
   }
-  PathCenter<S> centerOf(const Slip<S>& slip, const S& t) const {
-    const V3<S> &g = slip_.slope(), &s0 = slip_.start();
-    return {in_.x + (v0_ + g * (0.5 * t)) * t + (slip.integral - (s0 + g * (0.5 * t)) * t) * share_,
-            v0_ + g * t + (slip.s - s0 - g * t) * share_};
-  }
   V3<S> spinOf(const Slip<S>& slip, const S& t) const {
     if (!turns_) return V3<S>::Zero();
     return spin_ + lever_.cross(V3<S>(slip_.slope() * t + slip_.start() - slip.s));
@@ -104,15 +106,15 @@ class GlidePath {
 };
 
 template <class S>
-PathState<S> GlidePath<S>::stateAt(const S& t) const {
+PathState<S> GlidePath<S>::stateAt(const S& t, bool turning) const {
   if (isPastEnd(t)) {
-    PathState<S> state = stateAtEnd();
+    PathState<S> state = stateAtEnd(turning);
     if constexpr (kOrderOf<S> > 0) {
       const S late = beyondEnd(t);
       PathCenter<S> center{state.x, state.v};
       advance(center, late);
       state.x = center.x, state.v = center.v;
-      if (turns_) state.R = turnBy<S>(spinOf(slip_.atEnd(), *end_) * late) * state.R;
+      if (turns_ && turning) state.R = turnBy<S>(spinOf(slip_.atEnd(), *end_) * late) * state.R;
       state.L += accelerationOfSpin(slip_.atEnd().direction) * (inertia_ * late);
     }
     return state;
@@ -120,18 +122,20 @@ PathState<S> GlidePath<S>::stateAt(const S& t) const {
   const Slip<S> slip = slip_.at(t);
   const PathCenter<S> center = centerOf(slip, t);
   PathState<S> state{center.x, center.v, spinOf(slip, t) * inertia_, in_.R};
-  if (turns_) state.R = turnOverTime(t, false) * in_.R;
+  if (turns_ && turning) state.R = turnOverTime(t, false) * in_.R;
   return state;
 }
 
 // The slip is 0 to the last bit that the state can hold: a block is at rest, and a ball has the spin of its velocity.
 template <class S>
-PathState<S> GlidePath<S>::stateAtEnd() const {
+PathState<S> GlidePath<S>::stateAtEnd(bool turning) const {
   const Slip<S> slip = slip_.atEnd();
   const PathCenter<S> center = centerOf(slip, *end_);
   if (!turns_) return {center.x, V3<S>::Zero(), V3<S>::Zero(), in_.R};
   const V3<S> &n = in_.normal, spin = n.cross(center.v) / in_.reach + n * n.dot(spin_);
-  return {center.x, center.v, spin * inertia_, turnOverTime(*end_, true) * in_.R};
+  PathState<S> state{center.x, center.v, spin * inertia_, in_.R};
+  if (turning) state.R = turnOverTime(*end_, true) * in_.R;
+  return state;
 }
 
 }  // namespace carom::adjoint_detail

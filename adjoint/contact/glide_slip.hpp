@@ -129,7 +129,8 @@ class GlideSlip {
   S doubled(const Moments<S>& m, std::size_t offset, int terms) const {
     const S a2 = g_.squaredNorm();
     S sum = 0;
-    for (int j = terms; j-- > 1;) sum = sum * a2 + m[offset + 2 * static_cast<std::size_t>(j)] * (std::ldexp(1.0, 2 * j) - 1);
+    for (int j = terms; j-- > 1;)
+      sum = sum * a2 + m[offset + 2 * static_cast<std::size_t>(j)] * (std::ldexp(1.0, 2 * j) - 1);
     return sum;
   }
 
@@ -189,10 +190,11 @@ V3<S> GlideSlip<S>::slipAt(const S& xi) const {
 
 template <class S>
 Slip<S> GlideSlip<S>::atEnd() const {
+  using std::sqrt;
   const S c2 = c_ * c_, a2 = g_.squaredNorm();
   Slip<S> slip;
   slip.s = V3<S>::Zero();
-  slip.direction = steep_ && !straight_ ? along_ : V3<S>(s0_ / u_);
+  slip.direction = straight_ ? V3<S>(s0_ / u_) : V3<S>(g_ / sqrt(a2));  // it turns down the slope, be it ever so small
   if (steep_) {
     const S first = reverses_ ? S(0) : S(P_ * P_ / (2.0 * (c_ - a_)));
     const S across = reverses_ ? S(0) : S(P_ / (2.0 * c_ - a_));

@@ -6,8 +6,8 @@
 
 namespace carom::adjoint_detail {
 
-/// How a ball turns while it glides on a curve: at w = w0 + m x (g t + s0 - s) (11.2). On the clock of the slip w, s, |s|
-/// and t are entire functions, so that the quaternion is a power series in it, taken in segments (11.9).
+/// How a ball turns while it glides on a curve: at w = w0 + m x (g t + s0 - s) (11.2). On the clock of the slip w, s,
+/// |s| and t are entire functions, so that the quaternion is a power series in it, taken in segments (11.9).
 template <class S>
 class GlideTurn {
  public:
@@ -22,7 +22,7 @@ class GlideTurn {
     while (true) {
       const Start at = startAt(xi);
       const S rest = t - at.t;
-      if (isShort(at, primalOf(rest))) return turnBy<S>(angleOver(at, xi, t, to_end)) * turnOf(q);
+      if (isShort(at, primalOf(rest), primalOf(t))) return turnBy<S>(angleOver(at, xi, t, to_end)) * turnOf(q);
       const double step = lengthAt(at);
       const bool closing = !(primalOf(xi) + step < stop);
       const S h = closing ? S(last - xi) : S(step);
@@ -46,10 +46,13 @@ class GlideTurn {
 
   // Of the angular velocity.
   double rate() const { return primalsOf(m_).norm() * primalOf(slip_.friction()); }
-  // So short that the axis does not turn: angles add.
-  bool isShort(const Start& at, double rest) const {
+  // So short that the axis does not turn: angles add. Where there are rates it must not turn by them either.
+  bool isShort(const Start& at, double rest, double t) const {
+    double turning = rate();
+    if constexpr (kOrderOf<S> > 0)
+      turning += primalsOf(m_).norm() * (primalsOf(slip_.slope()).norm() + primalsOf(slip_.start()).norm() / t);
     const double spin = primalsOf(at.spin).norm() + rate() * std::abs(rest);
-    return spin * rate() * std::abs(rest * rest * rest) < 1e-17;
+    return (spin + turning * std::abs(rest)) * turning * std::abs(rest * rest * rest) < 1e-17;
   }
   V3<S> angleOver(const Start& at, const S& xi, const S& t, bool to_end) const {
     const S rest = t - at.t;

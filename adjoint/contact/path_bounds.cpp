@@ -21,7 +21,8 @@ PathBounds boundsOf(const GlidePath<double>& path, double from, double until) {
   PathBounds bounds;
   bounds.acceleration = path.acceleration(first);
   bounds.straight = path.slip().straight();
-  if (!bounds.straight) bounds.variation = kMore * (path.acceleration(path.directionAt(until)) - bounds.acceleration).norm();
+  if (!bounds.straight)
+    bounds.variation = kMore * (path.acceleration(path.directionAt(until)) - bounds.acceleration).norm();
   bounds.spin_rate = kMore * path.lever().norm() * path.slip().friction();
   bounds.spin = bounds.straight ? kMore * std::max(path.spinAt(from).norm(), path.spinAt(until).norm())
                                 : kMore * (path.spinAt(from).norm() + bounds.spin_rate * (until - from));

@@ -23,10 +23,11 @@ struct PathSensitivity {
 };
 
 /// At the end of slip: the derivative of the state at the moving end less the rate there, times that of its time.
-/// What contact fixes has rows and columns of zeros: a body at rest keeps its pose, whatever else varies. Right for a ball
-/// whose inertia stays a multiple of 1 (single moments do not keep it), and for a block by everything but its angular
-/// momentum about the normal, whose columns are 0. A ball is as good as any other that is turned: where nobody asks how it
-/// has turned, `orientation` is false, and its rows of theta are not computed (0).
+/// What contact fixes has rows and columns of zeros: a body at rest keeps its pose, whatever else varies. Right for a
+/// ball whose inertia stays a multiple of 1 (single moments do not keep it), and for a block by everything but its
+/// angular momentum, whose columns are 0: how fast a spin about the normal dies away depends on where it is pressed.
+/// A ball that has turned is as good as one that has not: where nobody asks how it has turned, `orientation` is false,
+/// and its rows of theta are not computed (0).
 template <class S>
 PathSensitivity<S> pathSensitivity(PathForm form, const PathInputs<S>& in, const S& elapsed, bool orientation = true);
 

@@ -94,7 +94,8 @@ class SensitivityColumns {
  private:
   PathState<C> stateOf(const PathInputs<C>& in) const {
     const C t = C(elapsed_);
-    return at_end_ ? pathStateAtSlipEnd(form_, in) : pathStateAt(form_, in, t);
+    if (at_end_) return glideOf(form_, in).stateAtEnd(orientation_);
+    return withPath<C>(form_, in, [&](const auto& path) { return path.stateAt(t, orientation_); });
   }
 
   PathForm form_;

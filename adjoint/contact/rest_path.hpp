@@ -5,13 +5,13 @@
 
 namespace carom::adjoint_detail {
 
-/// A body at rest on a face: the pose of its start, for ever. Contact fixes its velocities: whatever varies, they are 0.
+/// A body at rest on a face: the pose of its start, for ever. Its velocities are 0, whatever varies.
 template <class S>
 struct RestPath {
   PathInputs<S> in;
 
   PathCenter<S> centerAt(const S&) const { return {in.x, V3<S>::Zero()}; }
-  PathState<S> stateAt(const S&) const { return {in.x, V3<S>::Zero(), V3<S>::Zero(), in.R}; }
+  PathState<S> stateAt(const S&, bool = true) const { return {in.x, V3<S>::Zero(), V3<S>::Zero(), in.R}; }
   StateDerivativeOf<S> rateAt(const S&) const { return {}; }
 };
 

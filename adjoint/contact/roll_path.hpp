@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "adjoint/contact/turn_series.hpp"
 
 namespace carom::adjoint_detail {
 
-/// Pure rolling on a face (11.7): a constant acceleration, and an angular velocity that is linear in time. What the face
-/// fixes of the start (the velocity into it, the spin that rolling has) is taken from the rest of it.
+/// Pure rolling on a face (11.7): a constant acceleration, and an angular velocity that is linear in time. What the
+/// face fixes of the start (the velocity into it, the spin that rolling has) is taken from the rest of it.
 template <class S>
 class RollPath {
  public:
@@ -16,6 +18,7 @@ class RollPath {
     path.v0_ = alongFace(in.normal, in.v);
     path.acceleration_ = alongFace(in.normal, in.gravity) / (1.0 + k);
     path.pivot_ = in.normal * (in.normal.dot(in.L) / inertia);
+    path.ball_inertia_ = inertia;
     return path;
   }
   /// About its axis, which lies along the face; only what is across the axis moves it.
@@ -35,9 +38,11 @@ class RollPath {
   }
   V3<S> spinAt(const S& t) const { return spinOf(centerAt(t).v); }
   V3<S> spinRate() const { return in_.normal.cross(acceleration_) / in_.reach; }
-  PathState<S> stateAt(const S& t) const {
+  /// `turning`: with the orientation; else it stays that of the start.
+  PathState<S> stateAt(const S& t, bool turning = true) const {
     const PathCenter<S> center = centerAt(t);
-    const M3<S> R = turnOver<S>(spinAt(S(0)), spinRate(), t) * in_.R;
+    M3<S> R = in_.R;
+    if (turning) R = turnOver<S>(spinAt(S(0)), spinRate(), t) * R;
     return {center.x, center.v, momentum(R, spinOf(center.v)), R};
   }
   StateDerivativeOf<S> rateAt(const S& t) const {
@@ -49,10 +54,14 @@ class RollPath {
  private:
   explicit RollPath(const PathInputs<S>& in) : in_(in) {}
   V3<S> spinOf(const V3<S>& v) const { return in_.normal.cross(v) / in_.reach + pivot_; }
-  V3<S> momentum(const M3<S>& R, const V3<S>& spin) const { return R * (in_.J * (R.transpose() * spin)); }
+  V3<S> momentum(const M3<S>& R, const V3<S>& spin) const {
+    if (ball_inertia_) return spin * *ball_inertia_;
+    return R * (in_.J * (R.transpose() * spin));
+  }
 
   PathInputs<S> in_;
   V3<S> v0_, acceleration_, pivot_ = V3<S>::Zero();
+  std::optional<S> ball_inertia_;
 };
 
 }  // namespace carom::adjoint_detail

@@ -7,7 +7,9 @@
 
 namespace carom::adjoint_detail {
 
-double SlipClock::timeAt(double xi) const { return P * decayIntegral(c - a, xi) + Q * decayIntegral(c + a, xi); }
+double SlipClock::timeAt(double xi) const {
+  return P * decayIntegral(c - a, xi) + Q * decayIntegral(c + a, xi);
+}
 
 double SlipClock::speedAt(double xi) const {
   return P * elementary::exp((a - c) * xi) + Q * elementary::exp(-(c + a) * xi);
