@@ -57,6 +57,7 @@ class GlidePath {
   V3<S> acceleration(const V3<S>& direction) const { return slip_.slope() - direction * (share_ * slip_.friction()); }
   V3<S> accelerationOfSpin(const V3<S>& direction) const { return lever_.cross(direction) * slip_.friction(); }
   const V3<S>& lever() const { return lever_; }
+  const V3<S>& startSpin() const { return spin_; }
 
  private:
   GlidePath(const PathInputs<S>& in, const V3<S>& s, double scale, const S& share, const S& inertia)

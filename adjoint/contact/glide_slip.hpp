@@ -26,7 +26,8 @@ template <class S>
 class GlideSlip {
  public:
   /// `scale`: the speeds that s0 is a difference of, whose rounding it has.
-  GlideSlip(const V3<S>& s0, const V3<S>& g, const S& c, double scale) : s0_(s0), g_(g), c_(c), h_(s0.dot(g)) {
+  GlideSlip(const V3<S>& s0, const V3<S>& g, const S& c, double scale)
+      : s0_(s0), g_(g), c_(c), h_(s0.dot(g)), scale_(scale) {
     using std::sqrt;
     const Vec3 s = primalsOf(s0), slope = primalsOf(g);
     const double friction = primalOf(c), a = slope.norm(), speed = s.norm();
@@ -80,6 +81,7 @@ class GlideSlip {
   const V3<S>& start() const { return s0_; }
   const V3<S>& slope() const { return g_; }
   const S& friction() const { return c_; }
+  double scale() const { return scale_; }
 
  private:
   static constexpr double kSmallSlope = 0.2;
@@ -147,6 +149,7 @@ class GlideSlip {
 
   V3<S> s0_, g_, along_ = V3<S>::Zero(), across_ = V3<S>::Zero();
   S c_, h_, u_ = 0, a_ = 0, P_ = 0, Q_ = 0;
+  double scale_;
   bool moving_ = false, straight_ = false, reverses_ = false, steep_ = false;
   SlipClock clock_{};
 };

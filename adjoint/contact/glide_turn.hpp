@@ -6,6 +6,35 @@
 
 namespace carom::adjoint_detail {
 
+/// Where a segment of the clock starts: slip, its speed, the angular velocity, and the time.
+template <class S>
+struct ClockStart {
+  V3<S> s, spin;
+  S u, t;
+};
+
+/// Angular velocity w = w0 + m x (g t + s0 - s) and speed |s| of the slip over a segment of the clock, by the powers of
+/// its share.
+template <class S>
+struct ClockSeries {
+  static constexpr std::size_t kTerms = kTurnTerms;
+  std::array<V3<S>, kTerms> spin;
+  std::array<S, kTerms> u;
+
+  ClockSeries(const GlideSlip<S>& slip, const V3<S>& m, const ClockStart<S>& at, const S& h) {
+    V3<S> s = at.s;
+    spin[0] = at.spin;
+    u[0] = at.u;
+    for (std::size_t j = 0; j + 1 < kTerms; ++j) {
+      const S share = h / (static_cast<double>(j) + 1), t = u[j] * share;
+      const V3<S> next = (slip.slope() * u[j] - s * slip.friction()) * share;
+      u[j + 1] = (slip.slope().dot(s) - slip.friction() * u[j]) * share;
+      s = next;
+      spin[j + 1] = m.cross(V3<S>(slip.slope() * t - s));
+    }
+  }
+};
+
 /// How a ball turns while it glides on a curve: at w = w0 + m x (g t + s0 - s) (11.2). On the clock of the slip w, s,
 /// |s| and t are entire functions, so that the quaternion is a power series in it, taken in segments (11.9).
 template <class S>
@@ -32,24 +61,17 @@ class GlideTurn {
     }
   }
 
- private:
-  // Where a segment starts.
-  struct Start {
-    V3<S> s, spin;
-    S u, t;
-  };
+  using Start = ClockStart<S>;
   Start startAt(const S& xi) const {
     Start at{slip_.slipAt(xi), V3<S>::Zero(), slip_.speedAt(xi), slip_.timeAt(xi)};
     at.spin = spin_ + m_.cross(V3<S>(slip_.slope() * at.t + slip_.start() - at.s));
     return at;
   }
 
-  // Of the angular velocity.
-  double rate() const { return primalsOf(m_).norm() * primalOf(slip_.friction()); }
   // So short that the axis does not turn: angles add. Where there are rates it must not turn by them either.
-  bool isShort(const Start& at, double rest, double t) const {
+  bool isShort(const Start& at, double rest, double t, bool has_rates = kOrderOf<S> > 0) const {
     double turning = rate();
-    if constexpr (kOrderOf<S> > 0)
+    if (has_rates)
       turning += primalsOf(m_).norm() * (primalsOf(slip_.slope()).norm() + primalsOf(slip_.start()).norm() / t);
     const double spin = primalsOf(at.spin).norm() + rate() * std::abs(rest);
     return (spin + turning * std::abs(rest)) * turning * std::abs(rest * rest * rest) < 1e-17;
@@ -65,6 +87,15 @@ class GlideTurn {
     return 1.2 / (decay + u * (primalsOf(at.spin).norm() + std::sqrt(rate())));
   }
   Q4<S> segment(const Start& at, const S& h) const;
+  const V3<S>& lever() const { return m_; }
+  /// Of the angular velocity from a start to the end of the slip.
+  V3<S> change(const Start& at, const S& end) const {
+    return m_.cross(V3<S>(slip_.slope() * (end - at.t) + at.s));
+  }
+
+ private:
+  // Of the angular velocity.
+  double rate() const { return primalsOf(m_).norm() * primalOf(slip_.friction()); }
 
   const GlideSlip<S>& slip_;
   V3<S> spin_, m_;
@@ -72,33 +103,23 @@ class GlideTurn {
 
 template <class S>
 Q4<S> GlideTurn<S>::segment(const Start& at, const S& h) const {
+  const ClockSeries<S> series(slip_, m_, at, h);
   constexpr std::size_t kTerms = kTurnTerms;
-  std::array<V3<S>, kTerms> spin, turning;  // w, and |s| w h/2
-  std::array<S, kTerms> u;
+  std::array<V3<S>, kTerms> turning;  // |s| w h/2
   std::array<Q4<S>, kTerms> q;
-  V3<S> s = at.s;
-  S t = at.t;
-  spin[0] = at.spin;
-  u[0] = at.u;
   q[0] = Q4<S>::UnitX();
   Q4<S> sum = q[0];
   const S half = 0.5 * h;
   int small = 0;
   for (std::size_t j = 0; j + 1 < kTerms && small < 2; ++j) {
     V3<S> product = V3<S>::Zero();
-    for (std::size_t i = 0; i <= j; ++i) product += spin[j - i] * u[i];
+    for (std::size_t i = 0; i <= j; ++i) product += series.spin[j - i] * series.u[i];
     turning[j] = product * half;
     Q4<S> next = Q4<S>::Zero();
     for (std::size_t i = 0; i <= j; ++i) next += turnedBy(turning[i], q[j - i]);
     q[j + 1] = next / (static_cast<double>(j) + 1);
     sum += q[j + 1];
     if constexpr (kOrderOf<S> == 0) small = q[j + 1].squaredNorm() < 1e-36 ? small + 1 : 0;
-    const S share = h / (static_cast<double>(j) + 1);
-    const V3<S> s_next = (slip_.slope() * u[j] - s * slip_.friction()) * share;
-    u[j + 1] = (slip_.slope().dot(s) - slip_.friction() * u[j]) * share;
-    t = u[j] * share;
-    s = s_next;
-    spin[j + 1] = m_.cross(V3<S>(slip_.slope() * t - s));
   }
   return sum;
 }

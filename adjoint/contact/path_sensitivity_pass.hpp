@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
+#include "adjoint/contact/glide_turn_rates.hpp"
 #include "adjoint/contact/path_sensitivity.hpp"
+#include "adjoint/contact/turn_integrals.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -57,53 +61,131 @@ PathInputs<ColumnsOf<S>> asConstants(const PathInputs<S>& in) {
           C(in.friction), C(in.mass), matrix(in.J), C(in.reach), vector(in.axis)};
 }
 
-/// The state less its rate times how late a time is: what a time that moves along has of a fixed one.
+/// The inputs whose columns have to be computed: of a place, all that moves with it; of a ball, one moment for three.
+inline std::vector<int> variedInputs(PathForm form) {
+  std::vector<int> inputs = {6, 7, 8, 12, 13, 14, 15, 16, 17};
+  if (glides(form)) inputs.push_back(18);
+  if (form == PathForm::glide_block) return inputs;
+  if (form == PathForm::roll_axle) {
+    inputs.insert(inputs.end(), {3, 4, 5, 19, 20, 21, 22, 23, 24, 25, 26});
+  } else {
+    inputs.insert(inputs.end(), {9, 10, 11, 19, 20, 26});
+  }
+  return inputs;
+}
+
+/// Fills the columns of a path, a few at a time. What moves along with the end of slip is taken back to a fixed time.
 template <class S>
 class SensitivityColumns {
  public:
   using C = ColumnsOf<S>;
+  using Columns = Eigen::Matrix<S, 3, kColumns>;
   SensitivityColumns(PathForm form, const PathInputs<S>& in, const S& elapsed, bool orientation)
-      : form_(form), in_(in), elapsed_(elapsed), orientation_(orientation), start_(asConstants(in)) {
+      : form_(form), in_(in), elapsed_(elapsed), turns_(orientation && form != PathForm::glide_block) {
     const std::optional<S> end = slipEnd(form, in);
     at_end_ = end && !(primalOf(elapsed) < primalOf(*end));
     if (at_end_) rate_ = pathRateAt(form, in, elapsed);
   }
 
-  void fill(PathSensitivity<S>& sensitivity) const {
-    const M3<S> R_end = orientation_ ? pathStateAt(form_, in_, elapsed_).R : in_.R;
-    for (int first = 0; first < PathSensitivity<S>::kInputs; first += kColumns) {
-      PathInputs<C> in = start_;
-      const int count = std::min(kColumns, PathSensitivity<S>::kInputs - first);
-      for (int lane = 0; lane < count; ++lane) seedInput<S>(in, in_.R, first + lane, lane);
-      const PathState<C> state = stateOf(in);
-      const C late = at_end_ ? *slipEnd(form_, in) : C(0);
-      for (int lane = 0; lane < count; ++lane) {
-        const auto l = static_cast<std::size_t>(lane);
-        auto column = sensitivity.J.col(first + lane);
-        column.template segment<3>(0) = ratesOf(state.x, l) - rate_.x * late.rate[l];
-        column.template segment<3>(3).setZero();
-        if (orientation_)
-          column.template segment<3>(3) =
-              unskew(M3<S>(ratesOf(state.R, l) * R_end.transpose())) * S(0.5) - rate_.theta * late.rate[l];
-        column.template segment<3>(6) = ratesOf(state.v, l) - rate_.v * late.rate[l];
-        column.template segment<3>(9) = ratesOf(state.L, l) - rate_.L * late.rate[l];
-      }
+  void fill(PathSensitivity<S>& sensitivity) {
+    sensitivity.J.setZero();
+    for (int i = 0; i < 3; ++i) sensitivity.J(i, i) = S(1);
+    prepareTurns(sensitivity);
+    const PathInputs<C> start = asConstants(in_);
+    const std::vector<int> inputs = variedInputs(form_);
+    for (std::size_t first = 0; first < inputs.size(); first += kColumns) {
+      PathInputs<C> in = start;
+      const std::size_t count = std::min<std::size_t>(kColumns, inputs.size() - first);
+      for (std::size_t lane = 0; lane < count; ++lane)
+        seedInput<S>(in, in_.R, inputs[first + lane], static_cast<int>(lane));
+      withPath<C>(form_, in, [&](const auto& path) {
+        const PathState<C> state = stateOf(path);
+        const C late = lateness(path);
+        const Columns theta = turnsOf(path);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+          auto column = sensitivity.J.col(inputs[first + lane]);
+          column.template segment<3>(0) = ratesOf(state.x, lane) - rate_.x * late.rate[lane];
+          column.template segment<3>(3) += theta.col(static_cast<Eigen::Index>(lane));
+          column.template segment<3>(6) = ratesOf(state.v, lane) - rate_.v * late.rate[lane];
+          column.template segment<3>(9) = ratesOf(state.L, lane) - rate_.L * late.rate[lane];
+        }
+      });
     }
+    if (form_ == PathForm::glide_ball || form_ == PathForm::roll_ball)
+      sensitivity.J.col(21) = sensitivity.J.col(22) = sensitivity.J.col(20);
   }
 
  private:
-  PathState<C> stateOf(const PathInputs<C>& in) const {
-    const C t = C(elapsed_);
-    if (at_end_) return glideOf(form_, in).stateAtEnd(orientation_);
-    return withPath<C>(form_, in, [&](const auto& path) { return path.stateAt(t, orientation_); });
+  // The turn over the path, and what takes rates of the angular velocity to rates of the orientation.
+  void prepareTurns(PathSensitivity<S>& sensitivity) {
+    M3<S> E = M3<S>::Identity();
+    if (turns_) withPath<S>(form_, in_, [&](const auto& path) { E = prepare(path); });
+    if (turns_ || form_ == PathForm::glide_block) sensitivity.J.template block<3, 3>(3, 3) = E;
+  }
+  M3<S> prepare(const RestPath<S>&) { return M3<S>::Identity(); }
+  M3<S> prepare(const RollPath<S>& path) { return prepareLinear(path.spinAt(S(0)), path.spinRate()); }
+  M3<S> prepare(const GlidePath<S>& path) {
+    if (!path.slip().moving()) return prepareLinear(path.startSpin(), path.accelerationOfSpin(path.directionAt(S(0))));
+    GlideTurnRates<S> rates(path.slip(), path.startSpin(), path.lever());
+    const auto [E, G] = rates.over(at_end_ ? *path.end() : elapsed_, at_end_);
+    curved_ = G;
+    return E;
+  }
+  M3<S> prepareLinear(const V3<S>& spin, const V3<S>& rate) {
+    const TurnIntegrals<S> integrals(spin, rate, elapsed_);
+    by_spin_ = integrals.E * integrals.M0;
+    by_spin_rate_ = integrals.E * integrals.M1;
+    return integrals.E;
+  }
+
+  Columns turnsOf(const RestPath<C>&) const { return Columns::Zero(); }
+  Columns turnsOf(const RollPath<C>& path) const {
+    return turns_ ? linear(path.spinAt(C(0)), path.spinRate()) : Columns::Zero().eval();
+  }
+  Columns turnsOf(const GlidePath<C>& path) const {
+    if (!turns_) return Columns::Zero();
+    if (!path.slip().moving()) return linear(path.startSpin(), path.accelerationOfSpin(path.directionAt(C(0))));
+    Columns columns;
+    for (std::size_t lane = 0; lane < kColumns; ++lane) {
+      Eigen::Matrix<S, GlideTurnRates<S>::kInputs, 1> d;
+      d << ratesOf(path.slip().start(), lane), ratesOf(path.slip().slope(), lane), path.slip().friction().rate[lane],
+          ratesOf(path.lever(), lane), ratesOf(path.startSpin(), lane);
+      columns.col(static_cast<Eigen::Index>(lane)) = curved_ * d;
+    }
+    return columns;
+  }
+  Columns linear(const V3<C>& spin, const V3<C>& rate) const {
+    Columns columns;
+    for (int lane = 0; lane < kColumns; ++lane) {
+      const auto l = static_cast<std::size_t>(lane);
+      columns.col(lane) = by_spin_ * ratesOf(spin, l) + by_spin_rate_ * ratesOf(rate, l);
+    }
+    return columns;
+  }
+
+  template <class Path>
+  PathState<C> stateOf(const Path& path) const {
+    if constexpr (std::is_same_v<Path, GlidePath<C>>) {
+      if (at_end_) return path.stateAtEnd(false);
+    }
+    return path.stateAt(C(elapsed_), false);
+  }
+  // How late the end of slip is.
+  template <class Path>
+  C lateness(const Path& path) const {
+    if constexpr (std::is_same_v<Path, GlidePath<C>>) {
+      if (at_end_) return *path.end();
+    }
+    return C(0);
   }
 
   PathForm form_;
   const PathInputs<S>& in_;
   S elapsed_;
-  bool orientation_, at_end_ = false;
-  PathInputs<C> start_;
+  bool turns_, at_end_ = false;
   StateDerivativeOf<S> rate_;
+  M3<S> by_spin_ = M3<S>::Zero(), by_spin_rate_ = M3<S>::Zero();
+  typename GlideTurnRates<S>::Rates curved_ = GlideTurnRates<S>::Rates::Zero();
 };
 
 template <class S>

@@ -15,8 +15,8 @@ double SlipClock::speedAt(double xi) const {
   return P * elementary::exp((a - c) * xi) + Q * elementary::exp(-(c + a) * xi);
 }
 
-// By Newton on the logarithm of what is left of the time, p exp(-alpha xi) + q exp(-beta xi): its slope is between -beta
-// and -alpha, and it is convex, so that the steps from the left never pass the root.
+// By Newton on the logarithm of what is left of the time, p exp(-alpha xi) + q exp(-beta xi): its slope is between
+// -beta and -alpha, and it is convex, so that the steps from the left never pass the root.
 double SlipClock::xiBeforeEnd(double remaining) const {
   const double alpha = c - a, beta = c + a, p = P > 0 ? P / alpha : 0, q = Q / beta;
   double xi = 0;

@@ -9,8 +9,8 @@
 namespace carom::reference {
 
 /// A ball or a block on a fixed plane with Coulomb's friction, from the equations of motion alone: the slip u of the
-/// contact point, f = N (n - mu u/|u|) while it slides, and while a ball rolls the force along the plane that keeps u 0.
-/// Taylor series in time, restarted before anything can grow: as the slip dies, ever shorter ones.
+/// contact point, f = N (n - mu u/|u|) while it slides, and while a ball rolls the force along the plane that keeps u
+/// 0. Taylor series in time, restarted before anything can grow: as the slip dies, ever shorter ones.
 class ContactPath {
  public:
   RVec x, v, spin, gravity, normal;

@@ -172,9 +172,14 @@ TEST(ContactPath, RandomOnesEqualTheEquationsOfMotion) {
   std::printf("seed %u\n", seed);
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const auto vector = [&](double size) -> Vec3 { return Vec3(unit(generator), unit(generator), unit(generator)) * size; };
+  const auto vector = [&](double size) {
+    Vec3 v;
+    for (double& entry : v) entry = size * unit(generator);
+    return v;
+  };
   for (int k = 0; k < 60; ++k) {
-    const Vec3 v(2 * unit(generator), 2 * unit(generator), 0);
+    Vec3 v = vector(2);
+    v.z() = 0;
     const double angle = 0.4 * (1 + unit(generator)), friction = 0.5 * (1 + unit(generator));
     Case c{"random " + std::to_string(k), k % 3 == 0 ? PathForm::glide_block : PathForm::glide_ball,
            turned(onSlope(angle, friction, v, vector(30), 0.5 + 0.2 * unit(generator)), vector(3)), 0};
