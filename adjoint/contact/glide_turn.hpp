@@ -21,16 +21,18 @@ struct ClockSeries {
   std::array<V3<S>, kTerms> spin;
   std::array<S, kTerms> u;
 
-  ClockSeries(const GlideSlip<S>& slip, const V3<S>& m, const ClockStart<S>& at, const S& h) {
+  ClockSeries(const GlideSlip<S>& slip, const V3<S>& m, const ClockStart<S>& at, const S& h)
+      : ClockSeries(slip.slope(), slip.friction(), m, at, h) {}
+  ClockSeries(const V3<S>& slope, const S& friction, const V3<S>& m, const ClockStart<S>& at, const S& h) {
     V3<S> s = at.s;
     spin[0] = at.spin;
     u[0] = at.u;
     for (std::size_t j = 0; j + 1 < kTerms; ++j) {
       const S share = h / (static_cast<double>(j) + 1), t = u[j] * share;
-      const V3<S> next = (slip.slope() * u[j] - s * slip.friction()) * share;
-      u[j + 1] = (slip.slope().dot(s) - slip.friction() * u[j]) * share;
+      const V3<S> next = (slope * u[j] - s * friction) * share;
+      u[j + 1] = (slope.dot(s) - friction * u[j]) * share;
       s = next;
-      spin[j + 1] = m.cross(V3<S>(slip.slope() * t - s));
+      spin[j + 1] = m.cross(V3<S>(slope * t - s));
     }
   }
 };
@@ -81,10 +83,22 @@ class GlideTurn {
     const V3<S> covered = (to_end ? slip_.atEnd() : slip_.at(t)).integral - slip_.onClock(xi).integral;
     return at.spin * rest + m_.cross(V3<S>(slip_.slope() * (0.5 * rest * rest) + at.s * rest - covered));
   }
-  // Series of 30 terms are exact to rounding over this length.
+  // Over this length series of 30 terms are exact to rounding: always over the first one; over longer ones where what
+  // is left to turn is so little that the last terms, and those of their products of order n, are nothing.
   double lengthAt(const Start& at) const {
-    const double u = primalOf(at.u), decay = primalOf(slip_.friction()) + primalsOf(slip_.slope()).norm();
-    return 1.2 / (decay + u * (primalsOf(at.spin).norm() + std::sqrt(rate())));
+    const double decay = primalOf(slip_.friction()) + primalsOf(slip_.slope()).norm();
+    const double turning = primalOf(at.u) * (primalsOf(at.spin).norm() + std::sqrt(rate()));
+    const double safe = 1.2 / (decay + turning);
+    if (clockGrows() || !(turning < 0.1 * decay)) return safe;
+    const double unit = 1 / decay, angle = turning * unit;
+    double products = 1, share = 1;  // angle^(n - 1)/n!
+    for (int n = 2; n < 10; ++n) {
+      share *= angle / n;
+      products = std::max(products, share * elementary::pow(n, kTurnTerms - 2.0));
+    }
+    const double last = std::max(lastTurning(at, unit) * unit * products, 1e-60);
+    const double stretch = std::min(8.0, elementary::pow(1e-18 / last, 1.0 / (kTurnTerms - 1)));
+    return std::max(safe, std::min(stretch * unit, 1.2 / turning));
   }
   Q4<S> segment(const Start& at, const S& h) const;
   const V3<S>& lever() const { return m_; }
@@ -94,6 +108,20 @@ class GlideTurn {
   }
 
  private:
+  // What the last two terms of a series of |s| w over a length are, at most.
+  double lastTurning(const Start& at, double length) const {
+    const ClockStart<double> start{primalsOf(at.s), primalsOf(at.spin), primalOf(at.u), primalOf(at.t)};
+    const Vec3 slope = primalsOf(slip_.slope()), lever = primalsOf(m_);
+    const ClockSeries<double> series(slope, primalOf(slip_.friction()), lever, start, length);
+    double most = 0;
+    for (const std::size_t last : {ClockSeries<double>::kTerms - 2, ClockSeries<double>::kTerms - 1}) {
+      double sum = 0;
+      for (std::size_t i = 0; i <= last; ++i) sum += std::abs(series.u[i]) * series.spin[last - i].norm();
+      most = std::max(most, sum);
+    }
+    return most;
+  }
+  bool clockGrows() const { return primalsOf(slip_.slope()).norm() > primalOf(slip_.friction()); }
   // Of the angular velocity.
   double rate() const { return primalsOf(m_).norm() * primalOf(slip_.friction()); }
 

@@ -9,7 +9,7 @@
 #include "adjoint/contact/path_sensitivity.hpp"
 #include "tests/support/compare.h"
 
-namespace carom {
+namespace carom::contact_paths {
 
 using namespace adjoint_detail;
 
@@ -347,4 +347,4 @@ TEST_F(ContactPathsAtRandom, FirstDescentIsWhereASearchFindsIt) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_paths
