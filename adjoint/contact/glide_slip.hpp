@@ -82,6 +82,7 @@ class GlideSlip {
   const V3<S>& slope() const { return g_; }
   const S& friction() const { return c_; }
   double scale() const { return scale_; }
+  bool isStraightFrom(const S& xi) const { return clock_.tiltAt(primalOf(xi)) < 1e-19; }
 
  private:
   static constexpr double kSmallSlope = 0.2;

@@ -54,6 +54,7 @@ class GlideTurn {
       const Start at = startAt(xi);
       const S rest = t - at.t;
       if (isShort(at, primalOf(rest), primalOf(t))) return turnBy<S>(angleOver(at, xi, t, to_end)) * turnOf(q);
+      if (slip_.isStraightFrom(xi)) return turnOver<S>(at.spin, rateAt(at), rest) * turnOf(q);
       const double step = lengthAt(at);
       const bool closing = !(primalOf(xi) + step < stop);
       const S h = closing ? S(last - xi) : S(step);
@@ -102,6 +103,8 @@ class GlideTurn {
   }
   Q4<S> segment(const Start& at, const S& h) const;
   const V3<S>& lever() const { return m_; }
+  /// Of the angular velocity, where the slip goes along a line.
+  V3<S> rateAt(const Start& at) const { return m_.cross(at.s) * (slip_.friction() / at.u); }
   /// Of the angular velocity from a start to the end of the slip.
   V3<S> change(const Start& at, const S& end) const {
     return m_.cross(V3<S>(slip_.slope() * (end - at.t) + at.s));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "adjoint/contact/glide_turn.hpp"
+#include "adjoint/contact/turn_integrals.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -34,6 +35,7 @@ class GlideTurnRates {
     while (true) {
       const auto at = turn_.startAt(xi);
       if (turn_.isShort(at, primalOf(S(t - at.t)), primalOf(t), true)) return closing(result, xi, t, to_end);
+      if (slip_.isStraightFrom(xi)) return straightOn(result, xi, t);
       const double step = turn_.lengthAt(at);
       const bool is_last = !(primalOf(xi) + step < stop);
       const S h = is_last ? S(last - xi) : S(step);
@@ -79,6 +81,8 @@ class GlideTurnRates {
   void addSegment(Result& result, const typename GlideTurn<S>::Start& at, const S& xi, const S& h);
   // From a place on the clock to the time, which the rates reach elsewhere on it.
   Result atFixedTime(Result& result, const S& xi) const;
+  // The rest of the way, along a straight line.
+  Result straightOn(Result& result, const S& xi, const S& t) const;
   // The rest of the way, over which the angular velocity does not change.
   Result closing(Result& result, const S& xi, const S& t, bool to_end) const;
 
@@ -140,6 +144,28 @@ typename GlideTurnRates<S>::Result GlideTurnRates<S>::atFixedTime(Result& result
   eachLane([&](const Pass& pass, std::size_t lane, int input) {
     result.G.col(input) -= spin * pass.slip.timeAt(C(xi)).rate[lane];
   });
+  return result;
+}
+
+template <class S>
+typename GlideTurnRates<S>::Result GlideTurnRates<S>::straightOn(Result& result, const S& xi, const S& t) const {
+  const auto at = turn_.startAt(xi);
+  const V3<S> rate = turn_.rateAt(at);
+  const TurnIntegrals<S> rest(at.spin, rate, S(t - at.t));
+  result = atFixedTime(result, xi);
+  for (std::size_t p = 0; p < passes_.size(); ++p) {
+    const Pass& pass = passes_[p];
+    const GlideTurn<C> turn(pass.slip, pass.spin, pass.m);
+    const auto varied = turn.startAt(C(xi));
+    const V3<C> varied_rate = turn.rateAt(varied);
+    for (int lane = 0; lane < kLanes && kLanes * static_cast<int>(p) + lane < kInputs; ++lane) {
+      const auto l = static_cast<std::size_t>(lane);
+      const V3<S> spin = ratesOf(varied.spin, l) - rate * varied.t.rate[l];  // at a fixed time
+      result.G.col(kLanes * static_cast<int>(p) + lane) += rest.M0 * spin + rest.M1 * ratesOf(varied_rate, l);
+    }
+  }
+  result.G = (rest.E * result.G).eval();
+  result.E = (rest.E * result.E).eval();
   return result;
 }
 

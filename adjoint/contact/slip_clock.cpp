@@ -15,6 +15,10 @@ double SlipClock::speedAt(double xi) const {
   return P * elementary::exp((a - c) * xi) + Q * elementary::exp(-(c + a) * xi);
 }
 
+double SlipClock::tiltAt(double xi) const {
+  return P > 0 ? std::sqrt(Q / P) * elementary::exp(-a * xi) : 1;
+}
+
 // By Newton on the logarithm of what is left of the time, p exp(-alpha xi) + q exp(-beta xi): its slope is between
 // -beta and -alpha, and it is convex, so that the steps from the left never pass the root.
 double SlipClock::xiBeforeEnd(double remaining) const {
@@ -40,10 +44,11 @@ double SlipClock::xiAt(double t) const {
   double low = 0, high = t / (P + Q);
   for (int k = 0; k < 200 && timeAt(high) < t; ++k) low = high, high *= 2;
   double xi = low;
-  for (int k = 0; k < 100; ++k) {
-    const double miss = timeAt(xi) - t;
-    (miss < 0 ? low : high) = xi;
-    double next = xi - miss / speedAt(xi);
+  for (int k = 0; k < 200; ++k) {
+    const double time = timeAt(xi), speed = speedAt(xi);
+    (time < t ? low : high) = xi;
+    // Where time grows by its own size it is its logarithm that is nearly straight.
+    double next = xi - (time > t ? elementary::log(time / t) * time : time - t) / speed;
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     const double step = std::abs(next - xi);
     xi = next;

@@ -133,6 +133,18 @@ TEST(ContactPaths, NeverStopsWhereTheSlopeIsTooSteep) {
   expectEntries(pathStateAt(PathForm::glide_ball, smooth, 3.0).x, smooth.v * 3 + slope * 4.5, 1e-14, "no friction");
 }
 
+// The clock of a slip that begins with next to nothing covers many orders of magnitude.
+TEST(ContactPaths, SlipGrowsFromNextToNothing) {
+  const double angle = 0.67, friction = 0.18, v = 1e-4, t = 1.5;
+  const double rate = kGravity * (std::sin(angle) - friction * std::cos(angle) * 3.5);
+  const PathInputs<double> in = onSlope(angle, friction, {v, 1e-14, 0});
+  expectEntries(slipDirectionAt(PathForm::glide_ball, in, t), Vec3::UnitX(), 1e-9, "direction");
+  const Vec3 push = alongFace(in.normal, in.gravity) - Vec3(friction * kGravity * std::cos(angle), 0, 0);
+  expectEntries(pathCenterAt(PathForm::glide_ball, in, t).v, Vec3(v, 0, 0) + push * t, 1e-12, "speed");
+  EXPECT_GT(rate, 0);
+  EXPECT_TRUE(pathSensitivity(PathForm::glide_ball, in, t).J.allFinite());
+}
+
 TEST(ContactPaths, ContactFixesExactly) {
   const PathInputs<double> in = onSlope(20 * kDegree, 0.5, {1, 2, 0}, {3, 4, 5});
   Eigen::Matrix<double, 12, 27> expected = Eigen::Matrix<double, 12, 27>::Zero();

@@ -159,6 +159,17 @@ TEST(ContactPath, EndsAsTheEquationsOfMotionDo) {
   }
 }
 
+// Where the slip has all but turned down the slope, and neither grows nor dies.
+TEST(ContactPath, SlidesOnAlongALine) {
+  const double angle = 0.5, friction = 2.0 / 7 * std::tan(angle) * (1 + 1e-8);
+  const Case c{"long slide", PathForm::glide_ball, onSlope(angle, friction, {0.01, 0.2, 0}, {1, 2, 3}), 2};
+  const ContactPath start(c.form, c.in);
+  ContactPath end = start;
+  end.advance(Real(c.t));
+  checkState(c, end);
+  checkColumns(c, start, end, c.t, 12);
+}
+
 TEST(ContactPath, RollsOverAThousandRadians) {
   const double deg = std::acos(-1.0) / 180;
   const Case c{"long roll", PathForm::roll_ball, onSlope(1 * deg, 0.3, {3, 4, 0}, {0, 0, 60}), 13};
