@@ -167,7 +167,7 @@ TEST(ContactPath, SlidesOnAlongALine) {
   ContactPath end = start;
   end.advance(Real(c.t));
   checkState(c, end);
-  checkColumns(c, start, end, c.t, 12);
+  checkColumns(c, start, end, c.t, 18);
 }
 
 TEST(ContactPath, RollsOverAThousandRadians) {
