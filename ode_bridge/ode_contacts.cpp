@@ -14,6 +14,7 @@
 #include "ode_bridge/neighbours.hpp"
 #include "ode_bridge/overlap.hpp"
 #include "ode_bridge/parting.hpp"
+#include "ode_bridge/rounding.hpp"
 #include "ode_bridge/touching.hpp"
 
 namespace carom {
@@ -83,6 +84,8 @@ struct OdeContacts::State {
   void findOverlaps(const std::vector<Arc>& arcs, WorkCount* work);
   bool isAccepted(const Scene& scene, const StartOverlap& overlap) const;
   BallImpact quickImpact(int a, int b, double from, double until) const;
+  FeaturePair quickFeatures(int a, int b) const;
+  double quickGap(int a, int b, const Arc& arc_a, const Arc& arc_b, double t) const;
   void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
 };
 
@@ -229,6 +232,20 @@ BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double unt
   return ballPlaneImpact(neighbours.path(ball), neighbours.accelerationOf(ball), plane.normal, plane.offset, from, until);
 }
 
+// The only features that balls and planes can meet with.
+FeaturePair OdeContacts::State::quickFeatures(int a, int b) const {
+  const auto isPlane = [&](int body) { return quick[static_cast<std::size_t>(body)] == Quick::plane; };
+  return {isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint, 0, 0, 1};
+}
+
+double OdeContacts::State::quickGap(int a, int b, const Arc& arc_a, const Arc& arc_b, double t) const {
+  if (quick[static_cast<std::size_t>(a)] == Quick::plane) return quickGap(b, a, arc_b, arc_a, t);
+  const BodyExtent &ball = neighbours.extents()[static_cast<std::size_t>(a)],
+                   &other = neighbours.extents()[static_cast<std::size_t>(b)];
+  if (other.half_space) return other.normal.dot(arc_a.positionAt(t)) - other.offset - ball.radius;
+  return (arc_a.positionAt(t) - arc_b.positionAt(t)).norm() - ball.radius - other.radius;
+}
+
 std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
                                                         double until) {
   for (int body : {a, b}) state_->checkedBody("firstImpact", body);
@@ -239,18 +256,30 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
     const auto inSeries = [&](int body) { return state_->in_series[static_cast<std::size_t>(body)] != 0; };
     if (inSeries(a)) arc_a.extendTo(quick.time);
     if (inSeries(b)) arc_b.extendTo(quick.time);
-    const auto isPlane = [&](int body) { return state_->quick[static_cast<std::size_t>(body)] == Quick::plane; };
-    const std::int16_t kind = isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint;
-    return PredictedImpact{quick.time, {kind, 0, 0, 1}};
+    return PredictedImpact{quick.time, state_->quickFeatures(a, b)};
   }
   return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work()}, from, until);
+}
+
+std::optional<PredictedImpact> OdeContacts::firstImpactBeside(int a, int b, std::span<const FeaturePair> held,
+                                                              Arc& arc_a, Arc& arc_b, double from, double until) {
+  for (int body : {a, b}) state_->checkedBody("firstImpactBeside", body);
+  for (double t : {from, until}) checkedNumber("firstImpactBeside", "the time", t);
+  for (const FeaturePair& f : held) state_->geometry->checkFeatures(a, b, f);
+  const auto quick = [&](int body) { return isQuick(state_->quick[static_cast<std::size_t>(body)]); };
+  if (!held.empty() && quick(a) && quick(b)) return std::nullopt;  // a ball touches a plane in one place only
+  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work()}, from, until, held);
 }
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
                                                double tolerance) {
   for (double number : {t, tolerance}) checkedNumber("touching", "the time or the tolerance", number);
   const auto quick = [&](int body) { return isQuick(state_->quick[state_->checkedBody("touching", body)]); };
-  if (quick(a) && quick(b)) return {};  // one contact at the most
+  if (quick(a) && quick(b)) {
+    const double coordinates = std::max(arc_a.startState().x.cwiseAbs().maxCoeff(), 1.0);
+    if (state_->quickGap(a, b, arc_a, arc_b, t) > std::max(tolerance, 4 * kTouch * coordinates)) return {};
+    return {state_->quickFeatures(a, b)};
+  }
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
   return touchingFeatures(placed_a, placed_b, std::max(tolerance, 4 * touchTolerance(placed_a, placed_b)));
 }
