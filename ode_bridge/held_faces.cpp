@@ -32,8 +32,7 @@ HeldFaces::HeldFaces(const Placed& a, const Placed& b, std::span<const FeaturePa
   for (const FeaturePair& f : held) {
     const auto kind = static_cast<GapKind>(f.kind);
     const Side of_a{a, familyOfFirst(kind), f.a}, of_b{b, familyOfSecond(kind), f.b};
-    const ContactPoint c = contactOf(kind, placeFeature(a.solid->feature(of_a.family, f.a), {a.k.x, a.k.R}),
-                                     placeFeature(b.solid->feature(of_b.family, f.b), {b.k.x, b.k.R}), f.sign);
+    const ContactPoint c = contactAt(a, b, f);
     if (!c.normal.allFinite() || !std::isfinite(c.gap)) continue;
     planes_.push_back({of_a, of_b, c.normal, levelOf(a, b, f, c),
                        kInPlane * touchTolerance(a, b) + std::abs(c.gap)});

@@ -24,8 +24,8 @@ using namespace ode_bridge_detail;
 
 namespace {
 
-// Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).
-constexpr double kOverlap = 1e-9;
+// Bodies that are no further apart than this many tolerances of contact at the start are placed in contact.
+constexpr double kPlaced = 10;
 
 constexpr std::size_t kMostOverlaps = 100'000;
 
@@ -79,9 +79,10 @@ struct OdeContacts::State {
     return checkedIndex(call, "body", body, quick.size());
   }
   std::vector<StartOverlap> overlaps;
+  std::vector<PlacedContact> placed;
   std::set<std::pair<std::string, std::string>> accepted;  // names of pairs that overlap in the scene it was made for
 
-  void findOverlaps(const std::vector<Arc>& arcs, WorkCount* work);
+  void lookAtStart(const std::vector<Arc>& arcs, WorkCount* work);
   bool isAccepted(const Scene& scene, const StartOverlap& overlap) const;
   BallImpact quickImpact(int a, int b, double from, double until) const;
   FeaturePair quickFeatures(int a, int b) const;
@@ -133,19 +134,25 @@ void OdeContacts::take(const Scene& scene) {
   state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
   state_->narrow_phase.reset(state_->geometry->solids());
   state_->neighbours.begin(std::move(extents), scene.gravity, Neighbours::kFew, CollisionClasses(scene));
-  state_->findOverlaps(arcs, work());
+  state_->lookAtStart(arcs, work());
 }
 
-void OdeContacts::State::findOverlaps(const std::vector<Arc>& arcs, WorkCount* work) {
+// Who overlaps, and who touches.
+void OdeContacts::State::lookAtStart(const std::vector<Arc>& arcs, WorkCount* work) {
   overlaps.clear();
+  placed.clear();
   std::vector<std::pair<int, int>> near;
   neighbours.pairs(near);
   std::sort(near.begin(), near.end());
   for (const auto& [first, second] : near) {
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const Placed a(geometry->solids()[i], arcs[i], 0), b(geometry->solids()[j], arcs[j], 0);
-    const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13), work);
-    if (depth) overlaps.push_back({first, second, *depth, std::nullopt});
+    const double tolerance = touchTolerance(a, b);
+    if (const auto depth = overlapOf(a, b, kOverlap * tolerance, work)) {
+      overlaps.push_back({first, second, *depth, std::nullopt});
+    } else if (auto features = touchingFeatures(a, b, kPlaced * tolerance); !features.empty()) {
+      placed.push_back({first, second, std::move(features)});
+    }
     if (overlaps.size() > kMostOverlaps)
       throw InputError("/bodies", "found more than " + std::to_string(kMostOverlaps) +
                                       " pairs of bodies that overlap at the start, expected fewer");
@@ -158,6 +165,8 @@ bool OdeContacts::State::isAccepted(const Scene& scene, const StartOverlap& over
 }
 
 std::vector<StartOverlap> OdeContacts::overlaps() const { return state_->overlaps; }
+
+std::vector<PlacedContact> OdeContacts::placed() const { return state_->placed; }
 
 std::optional<double> OdeContacts::parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) {
   for (int body : {a, b}) state_->checkedBody("parting", body);

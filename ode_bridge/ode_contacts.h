@@ -24,6 +24,7 @@ class OdeContacts final : public ContactSource {
 
   void begin(const Scene& scene) override;
   std::vector<StartOverlap> overlaps() const override;
+  std::vector<PlacedContact> placed() const override;
   std::optional<double> parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
   void setPath(int body, const Arc& arc, double from, double until) override;
   double window(int body, double t) override;
