@@ -34,6 +34,9 @@ constexpr double kGrazing = 1e-3, kGrazingSpeed = 1e-5;
 // It is one if a straight approach would overlap by so many tolerances of contact, and it does not come half as far.
 constexpr double kDeeper = 4;
 
+// Bodies in touch that begin with no more than this against each other, m/s, begin with nothing.
+constexpr double kAtRest = 1e-15;
+
 // A search of more steps than this is given up.
 constexpr int kMostSteps = 1'000'000;
 
@@ -86,7 +89,8 @@ class GapOfPair {
     if (!(now.rate < -now.still) || !goesDeeper(t, now)) return {t, false};
     if (!parted && t > from_) {
       const State start = stateAt(from_);
-      if (std::abs(start.rate) <= start.still && std::abs(start.gap) <= kDeeper * tolerance_) return {from_, true};
+      const bool at_rest = std::abs(start.rate) <= std::max(start.still, kAtRest);
+      if (at_rest && std::abs(start.gap) <= kDeeper * tolerance_) return {from_, true};
     }
     return newton(t, now);
   }

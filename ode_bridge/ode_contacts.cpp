@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -71,6 +72,7 @@ struct OdeContacts::State {
   NarrowPhase narrow_phase;
   std::shared_ptr<const FeatureGeometry> geometry;
   std::vector<Quick> quick;     // of each body
+  std::map<int, Arc> varied;    // moving bodies whose acceleration varies
   std::vector<char> in_series;  // whether its arcs have to be extended; known here, arcs are far away in memory
   int opened = -1;              // body whose window was asked for last, when and up to where
   double opened_from = 0, opened_until = 0, end = 0;
@@ -87,6 +89,8 @@ struct OdeContacts::State {
   BallImpact quickImpact(int a, int b, double from, double until) const;
   FeaturePair quickFeatures(int a, int b) const;
   double quickGap(int a, int b, const Arc& arc_a, const Arc& arc_b, double t) const;
+  void keepVaried(int body, const Arc& arc);
+  void placeVaried(int body, double t);
   void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
 };
 
@@ -124,6 +128,7 @@ void OdeContacts::take(const Scene& scene) {
   std::vector<BodyExtent> extents;
   arcs.reserve(n);
   state_->quick.assign(n, Quick::fixed);
+  state_->varied.clear();
   state_->in_series.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     arcs.emplace_back(models[i], Tier::none, Vec3::Zero(), 0.0, startState(scene.bodies[i], models[i]));
@@ -184,12 +189,35 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
   state_->opened = -1;
   state_->in_series[static_cast<std::size_t>(body)] = arc.tier() == Tier::triaxial;
   const carom::State& s = arc.startState();
-  state_->neighbours.setPath(body, {s.x, s.v, arc.start(), 0}, from, until);
+  const Acceleration acceleration{arc.acceleration(), arc.accelerationVariation()};
+  state_->neighbours.setPath(body, {s.x, s.v, arc.start(), 0}, acceleration, from, until);
+  state_->keepVaried(body, arc);
+}
+
+void OdeContacts::State::keepVaried(int body, const Arc& arc) {
+  if (arc.accelerationVariation() > 0) {
+    varied.insert_or_assign(body, arc);
+  } else if (!varied.empty()) {
+    varied.erase(body);
+  }
+}
+
+// The lists know a parabola, which is left further behind the longer ago it began: it begins anew with each window.
+void OdeContacts::State::placeVaried(int body, double t) {
+  const auto place = [&](int other, const Arc& arc) {
+    neighbours.renewPath(other, arc.positionAt(t), arc.velocityAt(t), t);
+  };
+  if (neighbours.renewsAll(t)) {
+    for (const auto& [other, arc] : varied) place(other, arc);
+  } else if (const auto own = varied.find(body); own != varied.end()) {
+    place(body, own->second);
+  }
 }
 
 double OdeContacts::window(int body, double t) {
   state_->checkedBody("window", body);
   checkedNumber("window", "the time", t);
+  if (!state_->varied.empty()) state_->placeVaried(body, t);
   const double until = state_->neighbours.window(body, t);
   state_->opened = body;
   state_->opened_from = t;
@@ -206,7 +234,8 @@ void OdeContacts::neighbours(int body, std::vector<int>& out) {
 // Those that the body can meet on its present path in its window, as far as bounding balls tell.
 void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others) const {
   const FlightPath& path = neighbours.path(body);
-  const Vec3 gravity = neighbours.accelerationOf(body);
+  if (neighbours.accelerationOf(body).variation > 0) return;
+  const Vec3 gravity = neighbours.accelerationOf(body).mean;
   const bool is_ball = quick[static_cast<std::size_t>(body)] == Quick::ball;
   const double t = opened_from, until = opened_until;
   // the paths lie all over the memory: they are fetched side by side rather than one after the other
@@ -234,11 +263,13 @@ BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double unt
   if (!isQuick(qa) || !isQuick(qb)) return {BallImpact::Found::undecided, 0};
   if (qa == Quick::ball && qb == Quick::ball) {
     if (!neighbours.sameAcceleration(a, b)) return {BallImpact::Found::undecided, 0};
-    return ballBallImpact(neighbours.path(a), neighbours.path(b), neighbours.accelerationOf(a), from, until);
+    return ballBallImpact(neighbours.path(a), neighbours.path(b), neighbours.accelerationOf(a).mean, from, until);
   }
   const int ball = qa == Quick::ball ? a : b;
+  const Acceleration& acceleration = neighbours.accelerationOf(ball);
+  if (acceleration.variation > 0) return {BallImpact::Found::undecided, 0};
   const BodyExtent& plane = neighbours.extents()[static_cast<std::size_t>(ball == a ? b : a)];
-  return ballPlaneImpact(neighbours.path(ball), neighbours.accelerationOf(ball), plane.normal, plane.offset, from, until);
+  return ballPlaneImpact(neighbours.path(ball), acceleration.mean, plane.normal, plane.offset, from, until);
 }
 
 // The only features that balls and planes can meet with.

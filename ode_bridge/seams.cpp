@@ -28,13 +28,14 @@ bool goesOn(const TouchedBody& side, const SolidFace& own, const Vec3& p, const 
   const Solid& solid = side.solid();
   return std::any_of(side.pieces.begin(), side.pieces.end(), [&](int index) {
     const Piece& piece = solid.pieces[static_cast<std::size_t>(index)];
-    const Vec3 beyond = p + kBeyond * piece.core_radius * out;
+    const double step = kBeyond * piece.core_radius;
+    const Vec3 beyond = p + step * out;
     const auto faces = solid.featuresOf(piece, Family::face);
     return std::any_of(faces.begin(), faces.end(), [&](int f) {
       const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
       return &face != &own && (face.direction - own.direction).norm() <= kAlike &&
              std::abs(face.direction.dot(p - face.point)) <= flush && (face.count > 0 || face.disc > 0) &&
-             outsideFace(solid, face, beyond) < 0;
+             outsideFace(solid, face, beyond) < -0.5 * step;  // surely: not at a corner of both
     });
   });
 }
@@ -43,6 +44,8 @@ bool goesOn(const TouchedBody& side, const SolidFace& own, const Vec3& p, const 
 bool isSeam(const TouchedBody& side, int e, const Vec3& p, const Vec3& outward, double flush) {
   const Solid& solid = side.solid();
   const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
+  const auto direction = [&](int f) -> const Vec3& { return solid.faces[static_cast<std::size_t>(f)].direction; };
+  if (edge.left >= 0 && edge.right >= 0 && (direction(edge.left) - direction(edge.right)).norm() <= kAlike) return true;
   for (const auto& [f, along] : {std::pair{edge.left, -1.0}, std::pair{edge.right, 1.0}}) {
     if (f < 0) continue;
     const SolidFace& own = solid.faces[static_cast<std::size_t>(f)];

@@ -275,6 +275,100 @@ TEST(FirstImpactBeside, ChecksItsArguments) {
   EXPECT_THROW(path.beside({{0, 0, 0, 1}}, kInfinity), InputError);
 }
 
+// A ball at the border of a table (at x = 1) that flies on: the gap is 0 there and grows with t^2.
+struct OverTheEdge {
+  OverTheEdge(const Quat& turn, double r, const Vec3& v, const Vec3& g, double sinks)
+      : path(turnedAbout(makeBall("ball", r, {1, 0.1, r - sinks}, v), turn),
+             turnedAbout(fixedBody(makeBox("table", {2, 2, 0.75}, {0, 0, -0.375})), turn), turn * g) {}
+  std::optional<PredictedImpact> first(double until) {
+    return path.contacts.firstImpact(0, 1, path.arcs[0], path.arcs[1], 0, until);
+  }
+  PathBeside path;
+};
+
+TEST(LeavesTheBorder, FliesFreely) {
+  const double g = 9.81;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Quat turn = seed % 3 ? random.rotation() : Quat::Identity();
+    const double r = random.in(0.01, 0.2), v = std::sqrt(g * r) * (1 + std::pow(10, random.in(-4, 1)));
+    const double up = (random.below(3) - 1) * 1e-17, sinks = (random.below(3) - 1) * 1e-16;
+    OverTheEdge ball(turn, r, {v, random.in(-1, 1), up}, {0, 0, -g}, sinks);
+    const auto found = ball.first(3);
+    EXPECT_FALSE(found) << found->time << " " << ball.path.describe(found->features);
+  }
+}
+
+// Too slow to fly, it falls on the edge from the start on.
+TEST(LeavesTheBorder, SlowerOnesPressOnTheEdgeAtOnce) {
+  const double g = 9.81;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Quat turn = seed % 3 ? random.rotation() : Quat::Identity();
+    const double r = random.in(0.01, 0.2), v = std::sqrt(g * r) * random.in(0, 0.99);
+    OverTheEdge ball(turn, r, {v, 0, 0}, {0, 0, -g}, 0);
+    const auto found = ball.first(3);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->time, 0) << ball.path.describe(found->features);
+  }
+}
+
+// It misses the border by its own height and finds the side of the table when it is drawn back.
+TEST(LeavesTheBorder, FindsWhatComesLater) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Quat turn = seed % 3 ? random.rotation() : Quat::Identity();
+    const double r = random.in(0.02, 0.08), v = random.in(2, 3), back = random.in(8, 12);
+    OverTheEdge ball(turn, r, {v, 0, 0}, {-back, 0, -9.81}, 0);
+    const Triangles sides = boxTriangles({2, 2, 0.75}).placed(turn, turn * Vec3(0, 0, -0.375));
+    std::vector<Corners> corners;
+    for (const auto& t : sides.triangles) {
+      const auto corner = [&](int k) { return widen(sides.vertices[static_cast<std::size_t>(k)]); };
+      corners.push_back({corner(t[0]), corner(t[1]), corner(t[2])});
+    }
+    // the answer of small steps, from when it is clear of the edge
+    const double clear = 0.01;
+    const Vec3 g = turn * Vec3(-back, 0, -9.81), x = ball.path.scene.bodies[0].position, u = turn * Vec3(v, 0, 0);
+    const auto later = firstMeeting(corners, x + clear * u + 0.5 * clear * clear * g, u + clear * g, g, r, 2);
+    const auto found = ball.first(2);
+    ASSERT_EQ(found.has_value(), later.has_value());
+    if (!found) continue;
+    EXPECT_TRUE(std::abs(found->time - clear - double(*later)) <= 1e-12) << ball.path.describe(found->features);
+  }
+}
+
+TEST(StartsInContact, PartsOrFallsAtOnce) {
+  for (const double speed : {0.0, 1e-17, -1e-17, 1e-18, -1e-18})
+    for (const double along : {0.0, 0.3, 3.0})
+      for (const double gap : {0.0, 1e-17, -1e-16, 1e-16})
+        for (const bool box : {false, true})
+          for (const double pull : {1.0, -1.0, 1e-3, -1e-3, 9.81, -9.81}) {
+            Body body = makeBall("body", 0.1, {0, 0, 0.1 + gap}, {along, 0, speed});
+            if (box) body.shape = Box{{0.2, 0.2, 0.2}};
+            for (const Body& below : {makePlane("floor", Vec3::UnitZ(), 0), fixedBody(makeBox("slab", {9, 9, 1}, {0, 0, -0.5}))}) {
+              PathBeside path(body, below, {0, 0, pull});
+              const auto found = path.contacts.firstImpact(0, 1, path.arcs[0], path.arcs[1], 0, 1);
+              EXPECT_EQ(found.has_value(), pull < 0) << speed << " " << along << " " << gap << " " << pull << " " << box;
+              if (!found) continue;
+              EXPECT_EQ(found->time, 0) << speed << " " << along << " " << gap << " " << pull << " " << box;
+            }
+          }
+}
+
+// Thrown up from a gap of 0, it comes back when it comes back.
+TEST(StartsInContact, ReturnsLater) {
+  for (const double speed : {1e-6, 1e-3, 1.0}) {
+    PathBeside path(makeBox("body", {0.2, 0.2, 0.2}, {0, 0, 0.1}, {0.3, 0, speed}),
+                    fixedBody(makeBox("slab", {9, 9, 1}, {0, 0, -0.5})), {0, 0, -9.81});
+    const auto found = path.contacts.firstImpact(0, 1, path.arcs[0], path.arcs[1], 0, 1);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(std::abs(found->time - 2 * speed / 9.81) <= 1e-15 / speed + 1e-13) << speed << ": " << found->time;
+  }
+}
+
 // What rests is hit by what flies: it has no acceleration, the other one has.
 TEST(RestingBody, IsHitByFlyingBalls) {
   double worst = 0;
