@@ -11,6 +11,7 @@
 #include "adjoint/base/errors.h"
 #include "ode_bridge/held_faces.hpp"
 #include "ode_bridge/rounding.hpp"
+#include "ode_bridge/seams.hpp"
 #include "ode_bridge/touching.hpp"
 
 namespace carom::ode_bridge_detail {
@@ -30,7 +31,7 @@ constexpr double kGrown = 0.01;
 constexpr double kFar = 0.05, kOpen = 0.25;
 
 // An approach of less than this share of the speeds, or of so many m/s, may be that of a touch which goes no deeper.
-constexpr double kGrazing = 1e-3, kGrazingSpeed = 1e-5;
+constexpr double kGrazing = 1e-3, kGrazingSpeed = 1e-5;  // of bodies that began in touch, or roll along a seam
 // It is one if a straight approach would overlap by so many tolerances of contact, and it does not come half as far.
 constexpr double kDeeper = 4;
 
@@ -86,7 +87,7 @@ class GapOfPair {
   // they have not `parted` since, and did not approach there, it is that start.
   Root root(double t, const Placed& a0, const Placed& b0, bool parted) const {
     const State now = stateOf(a0, b0);
-    if (!(now.rate < -now.still) || !goesDeeper(t, now)) return {t, false};
+    if (!(now.rate < -now.still) || (!parted && !goesDeeper(t, now))) return {t, false};
     if (!parted && t > from_) {
       const State start = stateAt(from_);
       const bool at_rest = std::abs(start.rate) <= std::max(start.still, kAtRest);
@@ -95,10 +96,13 @@ class GapOfPair {
     return newton(t, now);
   }
 
+  bool isSlowAt(const Placed& a0, const Placed& b0) const { return isSlow(stateOf(a0, b0)); }
+
  private:
   struct State {
     double gap, rate, still, speed;  // slower than `still` is no approach
   };
+  static bool isSlow(const State& at) { return -at.rate < std::max(kGrazing * at.speed, kGrazingSpeed); }
 
   State stateOf(const Placed& a, const Placed& b) const {
     const ContactPoint c =
@@ -112,10 +116,9 @@ class GapOfPair {
     return stateOf(a, b);
   }
 
-  // What rolls along a wall meets the edges of its parts, and does not press into them: their gap has its least value
-  // there, 0 but for rounding.
+  // The gap of bodies that began in touch may have its least value at that touch, 0 but for rounding.
   bool goesDeeper(double t, const State& now) const {
-    if (!(-now.rate < std::max(kGrazing * now.speed, kGrazingSpeed))) return true;
+    if (!isSlow(now)) return true;
     const double h = std::min(kDeeper * tolerance_ / -now.rate, until_ - t);
     if (!(t + h > t)) return true;
     return stateAt(t + h).gap < now.gap + 0.5 * h * now.rate;
@@ -278,12 +281,19 @@ class Search {
     addTouching(a, b, witness, room, touching_);
     bool found = false;
     for (const FeaturePair& f : touching_) {
-      const Root root = GapOfPair(pair_, f, from_, until_, tolerance).root(now_.time, a_, b_, now_.parted);
-      if (!root.approaching) continue;
+      const GapOfPair gap(pair_, f, from_, until_, tolerance);
+      const Root root = gap.root(now_.time, a_, b_, now_.parted);
+      if (!root.approaching || (now_.parted && gap.isSlowAt(a_, b_) && isAtSeam(f, room))) continue;
       found = true;
       if (root.time <= until_ && (!first_ || root.time < first_->time)) first_ = PredictedImpact{root.time, f};
     }
     return found;
+  }
+
+  // What rolls along a wall does not meet the edges of its parts: it touches the faces on both sides of them.
+  bool isAtSeam(const FeaturePair& f, double room) const {
+    if (a_.solid->pieces.size() + b_.solid->pieces.size() == 2) return false;
+    return isBesideFace(a_, b_, f, touchingFeatures(a_, b_, room), 10 * room);
   }
 
   const PairMotion& pair_;

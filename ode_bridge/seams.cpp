@@ -79,6 +79,8 @@ bool besideFace(const Placed& a, const Placed& b, const FeaturePair& f, const Fe
     const SolidFace& plane = body.solid->faces[static_cast<std::size_t>(face)];
     return std::abs((body.k.R * plane.direction).dot(p - body.world(plane.point))) <= flush;
   };
+  const auto isFace = [&](Family family) { return family == Family::face; };
+  if (isFace(familyOfFirst(kind)) || isFace(familyOfSecond(kind))) return false;
   const auto ball = [](const Placed& body, int v) { return body.solid->vertices[static_cast<std::size_t>(v)].radius > 0; };
   if (kind_other == kPointPlane && familyOfFirst(kind) == Family::vertex)
     return f.a == other.a && ball(a, f.a) && on(b, other.b);
@@ -88,6 +90,12 @@ bool besideFace(const Placed& a, const Placed& b, const FeaturePair& f, const Fe
 }
 
 }  // namespace
+
+bool isBesideFace(const Placed& a, const Placed& b, const FeaturePair& f, const std::vector<FeaturePair>& touching,
+                  double flush) {
+  return std::any_of(touching.begin(), touching.end(),
+                     [&](const FeaturePair& other) { return besideFace(a, b, f, other, flush); });
+}
 
 void dropSeams(const Placed& a, const Placed& b, const std::vector<int>& pieces_a, const std::vector<int>& pieces_b,
                double flush, std::vector<FeaturePair>& found) {
@@ -104,8 +112,7 @@ void dropSeams(const Placed& a, const Placed& b, const std::vector<int>& pieces_
       return (first == Family::edge && isSeam(of_a, f.a, of_a.local(c.point), a.k.R.transpose() * -c.normal, flush)) ||
              (second == Family::edge && isSeam(of_b, f.b, of_b.local(c.point), b.k.R.transpose() * c.normal, flush));
     }
-    return std::any_of(found.begin(), found.end(),
-                       [&](const FeaturePair& other) { return besideFace(a, b, f, other, flush); });
+    return isBesideFace(a, b, f, found, flush);
   };
   std::vector<FeaturePair> kept;
   std::copy_if(found.begin(), found.end(), std::back_inserter(kept), [&](const FeaturePair& f) { return !dropped(f); });

@@ -14,4 +14,9 @@ namespace carom::ode_bridge_detail {
 void dropSeams(const Placed& a, const Placed& b, const std::vector<int>& pieces_a, const std::vector<int>& pieces_b,
                double flush, std::vector<FeaturePair>& found);
 
+/// Whether `f` is a contact of a ball with a sharp border of which the ball touches the face beside, in one plane with it,
+/// in one of `touching`.
+bool isBesideFace(const Placed& a, const Placed& b, const FeaturePair& f, const std::vector<FeaturePair>& touching,
+                  double flush);
+
 }  // namespace carom::ode_bridge_detail
