@@ -316,8 +316,11 @@ std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, c
   for (double number : {t, tolerance}) checkedNumber("touching", "the time or the tolerance", number);
   const auto quick = [&](int body) { return isQuick(state_->quick[state_->checkedBody("touching", body)]); };
   if (quick(a) && quick(b)) {
-    const double coordinates = std::max(arc_a.startState().x.cwiseAbs().maxCoeff(), 1.0);
-    if (state_->quickGap(a, b, arc_a, arc_b, t) > std::max(tolerance, 4 * kTouch * coordinates)) return {};
+    const double gap = state_->quickGap(a, b, arc_a, arc_b, t);
+    const auto touch = [&] {
+      return kTouch * std::max({1.0, arc_a.positionAt(t).cwiseAbs().maxCoeff(), arc_b.positionAt(t).cwiseAbs().maxCoeff()});
+    };
+    if (gap > tolerance && gap > 4 * touch()) return {};
     return {state_->quickFeatures(a, b)};
   }
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
