@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "ode_bridge/held_faces.hpp"
 #include "ode_bridge/rounding.hpp"
+#include "ode_bridge/seams.hpp"
 #include "ode_bridge/touching.hpp"
 
 namespace carom::ode_bridge_detail {
@@ -28,6 +30,14 @@ constexpr double kGrown = 0.01;
 // Balls further apart than this share of their size are followed as such; nearer ones are opened.
 constexpr double kFar = 0.05, kOpen = 0.25;
 
+// An approach of less than this share of the speeds, or of so many m/s, may be that of a touch which goes no deeper.
+constexpr double kGrazing = 1e-3, kGrazingSpeed = 1e-5;  // of bodies that began in touch, or roll along a seam
+// It is one if a straight approach would overlap by so many tolerances of contact, and it does not come half as far.
+constexpr double kDeeper = 4;
+
+// Bodies in touch that begin with no more than this against each other, m/s, begin with nothing.
+constexpr double kAtRest = 1e-15;
+
 // A search of more steps than this is given up.
 constexpr int kMostSteps = 1'000'000;
 
@@ -36,6 +46,7 @@ struct Pending {
   double time = 0;
   int node_a = 0, node_b = 0;
   int gliding = 0;
+  bool parted = false;            // at some time since the start of the search
   Vec3 n = Vec3::Zero();  // the direction that told two pieces apart before; 0 for none yet
 
   // for a queue with the earliest on top, in an order that does not depend on how it is kept
@@ -66,44 +77,84 @@ struct Root {
   bool approaching = false;
 };
 
-// Newton on the gap of frozen features from a time t at which it is within rounding of zero, where the bodies are `a0`
-// and `b0`; never before `from`.
-Root refineRoot(const PairMotion& pair, const FeaturePair& features, double from, double t, const Placed& a0,
-                const Placed& b0) {
-  const auto contact = [&](const Placed& a, const Placed& b) {
-    return pair.geometry.contact(pair.a, pair.b, features, {a.k.x, a.k.R}, {b.k.x, b.k.R});
-  };
-  ContactPoint c = contact(a0, b0);
-  double rate = gapRate(a0, b0, c);
-  if (!(rate < -stillSpeed(a0, b0, c.normal))) return {t, false};
-  double best = std::abs(c.gap);
-  for (int round = 0; round < 6; ++round) {
-    const double next = std::max(from, t - c.gap / rate);
-    if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {next, true};
-    pair.arc_a.extendTo(next);
-    pair.arc_b.extendTo(next);
-    const Placed a(*a0.solid, pair.arc_a, next), b(*b0.solid, pair.arc_b, next);
-    c = contact(a, b);
-    const double new_rate = gapRate(a, b, c);
-    if (!(std::abs(c.gap) < best) || !(new_rate < 0)) return {std::abs(c.gap) <= best ? next : t, true};
-    best = std::abs(c.gap);
-    rate = new_rate;
-    t = next;
+// The gap of frozen features along the two arcs, near the times at which it is within rounding of zero.
+class GapOfPair {
+ public:
+  GapOfPair(const PairMotion& pair, const FeaturePair& features, double from, double until, double tolerance)
+      : pair_(pair), features_(features), from_(from), until_(until), tolerance_(tolerance) {}
+
+  // Its root near time t, at which the bodies are `a0` and `b0`: by Newton, never before the start of the search. Where
+  // they have not `parted` since, and did not approach there, it is that start.
+  Root root(double t, const Placed& a0, const Placed& b0, bool parted) const {
+    const State now = stateOf(a0, b0);
+    if (!(now.rate < -now.still) || (!parted && !goesDeeper(t, now))) return {t, false};
+    if (!parted && t > from_) {
+      const State start = stateAt(from_);
+      const bool at_rest = std::abs(start.rate) <= std::max(start.still, kAtRest);
+      if (at_rest && std::abs(start.gap) <= kDeeper * tolerance_) return {from_, true};
+    }
+    return newton(t, now);
   }
-  return {t, true};
-}
+
+  bool isSlowAt(const Placed& a0, const Placed& b0) const { return isSlow(stateOf(a0, b0)); }
+
+ private:
+  struct State {
+    double gap, rate, still, speed;  // slower than `still` is no approach
+  };
+  static bool isSlow(const State& at) { return -at.rate < std::max(kGrazing * at.speed, kGrazingSpeed); }
+
+  State stateOf(const Placed& a, const Placed& b) const {
+    const ContactPoint c =
+        pair_.geometry.contact(pair_.a, pair_.b, features_, {a.k.x, a.k.R}, {b.k.x, b.k.R});
+    return {c.gap, gapRate(a, b, c), stillSpeed(a, b, c.normal), a.k.v.norm() + b.k.v.norm()};
+  }
+  State stateAt(double t) const {
+    pair_.arc_a.extendTo(t);
+    pair_.arc_b.extendTo(t);
+    const Placed a(pair_.geometry.solid(pair_.a), pair_.arc_a, t), b(pair_.geometry.solid(pair_.b), pair_.arc_b, t);
+    return stateOf(a, b);
+  }
+
+  // The gap of bodies that began in touch may have its least value at that touch, 0 but for rounding.
+  bool goesDeeper(double t, const State& now) const {
+    if (!isSlow(now)) return true;
+    const double h = std::min(kDeeper * tolerance_ / -now.rate, until_ - t);
+    if (!(t + h > t)) return true;
+    return stateAt(t + h).gap < now.gap + 0.5 * h * now.rate;
+  }
+
+  Root newton(double t, State at) const {
+    double best = std::abs(at.gap);
+    for (int round = 0; round < 6; ++round) {
+      const double next = std::max(from_, t - at.gap / at.rate);
+      if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {next, true};
+      at = stateAt(next);
+      if (!(std::abs(at.gap) < best) || !(at.rate < 0)) return {std::abs(at.gap) <= best ? next : t, true};
+      best = std::abs(at.gap);
+      t = next;
+    }
+    return {t, true};
+  }
+
+  const PairMotion& pair_;
+  const FeaturePair& features_;
+  double from_, until_, tolerance_;
+};
 
 class Search {
  public:
-  Search(const PairMotion& pair, double from, double until)
+  Search(const PairMotion& pair, double from, double until, std::span<const FeaturePair> held)
       : pair_(pair),
         from_(from),
         until_(until),
         a_(pair.geometry.solid(pair.a), pair.arc_a, from),
-        b_(pair.geometry.solid(pair.b), pair.arc_b, from) {}
+        b_(pair.geometry.solid(pair.b), pair.arc_b, from) {
+    if (!held.empty()) held_.emplace(a_, b_, held);
+  }
 
   std::optional<PredictedImpact> run() {
-    now_ = {from_, 0, 0, 0, Vec3::Zero()};
+    now_ = {from_, 0, 0, 0, false, Vec3::Zero()};
     do {
       while (advance())
         if (!queue_.empty() && now_ < queue_.top()) {  // others may touch before
@@ -140,6 +191,7 @@ class Search {
     const PlacedNode a{&a_, &a_.solid->nodes[static_cast<std::size_t>(now_.node_a)]},
         b{&b_, &b_.solid->nodes[static_cast<std::size_t>(now_.node_b)]};
     const bool leaves = a.node->piece >= 0 && b.node->piece >= 0;
+    if (leaves && held_ && held_->keepApart(a.node->piece, b.node->piece)) return false;
     const double apart = separationOf(a, b), size = sizeOf(a) + sizeOf(b);
     if (!std::isfinite(apart)) throw NotComputable("their distance is beyond the range of doubles");
     if (pair_.work) pair_.work->step();
@@ -147,11 +199,11 @@ class Search {
       throw NotComputable("it takes more than " + std::to_string(kMostSteps) +
                           " steps: they turn too fast, or move along each other too closely");
     if (apart > (leaves ? kFar : kOpen) * size) {
-      now_.gliding = 0;
+      now_.gliding = 0, now_.parted = true;
       return step(safeStep(a, b, apart, end() - now_.time));
     }
     if (!leaves) {
-      if (const auto h = stepOfPieceBeforeBall(a, b)) return step(*h);
+      if (const auto h = stepOfPieceBeforeBall(a, b)) return now_.parted = true, step(*h);
       open(a, b);
       return false;
     }
@@ -205,7 +257,7 @@ class Search {
       }
       ++now_.gliding;
     } else {
-      now_.gliding = 0;
+      now_.gliding = 0, now_.parted = true;
     }
     double loose = 1;
     for (int i = now_.gliding / kGlideSteps; i > 0 && loose < kLoosest; --i) loose *= 2;
@@ -229,17 +281,25 @@ class Search {
     addTouching(a, b, witness, room, touching_);
     bool found = false;
     for (const FeaturePair& f : touching_) {
-      const Root root = refineRoot(pair_, f, from_, now_.time, a_, b_);
-      if (!root.approaching) continue;
+      const GapOfPair gap(pair_, f, from_, until_, tolerance);
+      const Root root = gap.root(now_.time, a_, b_, now_.parted);
+      if (!root.approaching || (now_.parted && gap.isSlowAt(a_, b_) && isAtSeam(f, room))) continue;
       found = true;
       if (root.time <= until_ && (!first_ || root.time < first_->time)) first_ = PredictedImpact{root.time, f};
     }
     return found;
   }
 
+  // What rolls along a wall does not meet the edges of its parts: it touches the faces on both sides of them.
+  bool isAtSeam(const FeaturePair& f, double room) const {
+    if (a_.solid->pieces.size() + b_.solid->pieces.size() == 2) return false;
+    return isBesideFace(a_, b_, f, touchingFeatures(a_, b_, room), 10 * room);
+  }
+
   const PairMotion& pair_;
   double from_, until_;
   Placed a_, b_;
+  std::optional<HeldFaces> held_;
   int steps_ = 0;
   double placed_at_ = std::numeric_limits<double>::quiet_NaN();
   Pending now_;
@@ -250,10 +310,11 @@ class Search {
 
 }  // namespace
 
-std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until) {
+std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until,
+                                               std::span<const FeaturePair> held) {
   pair.arc_a.extendTo(from);
   pair.arc_b.extendTo(from);
-  return Search(pair, from, until).run();
+  return Search(pair, from, until, held).run();
 }
 
 }  // namespace carom::ode_bridge_detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "ode_bridge/narrow_phase.hpp"
 #include "ode_bridge/separation.hpp"
@@ -22,6 +23,8 @@ struct PairMotion {
 /// fewer pieces, then over pieces, up to contact within rounding; then Newton on the smooth gap of each touching
 /// feature pair. Separations of less than `touchTolerance` are contact. Throws NotComputable where numbers are not
 /// finite, or steps so small that a million of them do not suffice; WorkEnded where the count of work says so.
-std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until);
+/// `held`: features at which the bodies stay in contact all the time (see ContactSource::firstImpactBeside).
+std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until,
+                                               std::span<const FeaturePair> held = {});
 
 }  // namespace carom::ode_bridge_detail

@@ -207,4 +207,6 @@ std::string FeatureGeometry::describe(int a, int b, const FeaturePair& f) const 
   return nameOf(pair.of_a, pair.row.a, f.a) + " on " + nameOf(pair.of_b, pair.row.b, f.b);
 }
 
+void FeatureGeometry::checkFeatures(int a, int b, const FeaturePair& f) const { found(solids_, a, b, f); }
+
 }  // namespace carom::ode_bridge_detail

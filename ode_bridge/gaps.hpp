@@ -89,6 +89,8 @@ class FeatureGeometry final : public ContactGeometry, public BodyGeometry {
   std::vector<ContactJacobian> jacobianRates(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
                                              std::span<const PairTangent> directions) const override;
   std::string describe(int a, int b, const FeaturePair& f) const override;
+  /// Throws InputError for a pair of features that is not there.
+  void checkFeatures(int a, int b, const FeaturePair& f) const;
 
   double boundingRadius(int body) const override;
   double overlap(int a, int b, const Pose& A, const Pose& B) const override;

@@ -35,13 +35,17 @@ void take(std::vector<int>& list, int value) {
 
 void Neighbours::begin(std::vector<BodyExtent> extents, const Vec3& gravity, std::size_t few, CollisionClasses classes) {
   few_ = few;
-  gravity_ = gravity;
+  gravity_ = {gravity, 0};
   classes_ = std::move(classes);
-  one_gravity_ = gravity.isZero(0) || std::all_of(extents.begin(), extents.end(), [](const BodyExtent& e) {
-                   return !e.moving || e.gravity_factor == 1;
-                 });
   extents_ = std::move(extents);
   const std::size_t n = extents_.size();
+  accelerations_.assign(n, gravity_);
+  of_their_own_ = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!extents_[i].moving) continue;
+    accelerations_[i] = inFlight(static_cast<int>(i));
+    of_their_own_ += !(accelerations_[i] == gravity_);
+  }
   paths_.assign(n, {});
   boxes_.assign(n, {});
   until_.assign(n, kNever);
@@ -72,7 +76,22 @@ bool Neighbours::touches(int body, int other) const {
   return lowest <= e.offset + roundingRoom(b);
 }
 
-void Neighbours::setPath(int body, const FlightPath& path, double from, double until) {
+Acceleration Neighbours::inFlight(int body) const {
+  return {extents_[at(body)].gravity_factor * gravity_.mean, 0};
+}
+
+void Neighbours::renewPath(int body, const Vec3& x, const Vec3& v, double t) {
+  FlightPath& mine = paths_[at(body)];
+  mine.x = x, mine.v = v, mine.start = t;
+}
+
+void Neighbours::setPath(int body, const FlightPath& path, const Acceleration& acceleration, double from, double until) {
+  if (!(of_their_own_ == 0 && acceleration == gravity_)) {
+    Acceleration& own = accelerations_[at(body)];
+    of_their_own_ -= !(own == gravity_);
+    of_their_own_ += !(acceleration == gravity_);
+    own = acceleration;
+  }
   const double radius = paths_[at(body)].radius;
   FlightPath& mine = paths_[at(body)];
   mine = path;
@@ -113,7 +132,8 @@ void Neighbours::list(int body, std::vector<int>& out) {
 // The box for the path from t on, up to where it has used its share of the range. Returns the time for which that is.
 double Neighbours::layBox(int body, double t) {
   const FlightPath& path = paths_[at(body)];
-  const Vec3 gravity = accelerationOf(body), x = path.positionAt(t, gravity);
+  const Acceleration gravity = accelerationOf(body);
+  const Vec3 x = path.positionAt(t, gravity.mean);
   const Bounds cube{x.array() - kAhead * range_, x.array() + kAhead * range_};
   const double leaves = std::max(leavingTime(path, gravity, t, cube), std::nextafter(t, kNever));
   const Bounds centre = sweptCentre(path, gravity, t, std::min(leaves, std::max(end_, t)));
@@ -221,7 +241,7 @@ void Neighbours::chooseRange(double t) {
     Bounds all{Vec3::Constant(kNever), Vec3::Constant(-kNever)};
     for (std::size_t i = 0; i < extents_.size(); ++i) {
       if (!extents_[i].moving) continue;
-      const Vec3 x = paths_[i].positionAt(t, accelerationOf(static_cast<int>(i)));
+      const Vec3 x = paths_[i].positionAt(t, accelerationOf(static_cast<int>(i)).mean);
       all = {all.low.cwiseMin(x), all.high.cwiseMax(x)};
     }
     const Vec3 size = (all.high - all.low).cwiseMax(2 * radius);

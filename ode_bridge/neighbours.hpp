@@ -38,16 +38,24 @@ class Neighbours {
 
   /// Moving body `body` follows a path from `from` on; its centre is where it was at that time. `until` is the end of
   /// all paths.
-  void setPath(int body, const FlightPath& path, double from, double until);
+  void setPath(int body, const FlightPath& path, const Acceleration& acceleration, double from, double until);
+  /// The same in flight, under the body's share of gravity.
+  void setPath(int body, const FlightPath& path, double from, double until) {
+    setPath(body, path, inFlight(body), from, until);
+  }
+  /// The same path seen from a later time, where it is known again: for bodies whose acceleration varies.
+  void renewPath(int body, const Vec3& x, const Vec3& v, double t);
+  /// Whether all boxes are laid anew when a window is asked for at time t.
+  bool renewsAll(double t) const { return !few() && t >= all_until_; }
   const FlightPath& path(int body) const { return paths_[static_cast<std::size_t>(body)]; }
   const std::vector<BodyExtent>& extents() const { return extents_; }
   /// The acceleration of a body; FlightPath leaves it out, as it is the same for most.
-  Vec3 accelerationOf(int body) const {
-    return one_gravity_ ? gravity_ : Vec3(extents_[static_cast<std::size_t>(body)].gravity_factor * gravity_);
+  const Acceleration& accelerationOf(int body) const {
+    return of_their_own_ == 0 ? gravity_ : accelerations_[static_cast<std::size_t>(body)];
   }
+  /// Whether two bodies move straight, or not at all, against each other.
   bool sameAcceleration(int a, int b) const {
-    return one_gravity_ || extents_[static_cast<std::size_t>(a)].gravity_factor ==
-                               extents_[static_cast<std::size_t>(b)].gravity_factor;
+    return of_their_own_ == 0 || (accelerationOf(a) == accelerationOf(b) && accelerationOf(a).variation == 0);
   }
 
   /// See ContactSource.
@@ -62,6 +70,7 @@ class Neighbours {
  private:
   bool few() const { return extents_.size() <= few_; }
   bool touches(int body, int other) const;
+  Acceleration inFlight(int body) const;
   void renewAll(double t);
   void renew(int body, double t);
   double layBox(int body, double t);
@@ -69,8 +78,9 @@ class Neighbours {
   void relist(int body);
 
   std::size_t few_ = kFew;
-  Vec3 gravity_ = Vec3::Zero();
-  bool one_gravity_ = true;  // the same for all that move
+  Acceleration gravity_;
+  std::size_t of_their_own_ = 0;             // bodies that move otherwise than under gravity_
+  std::vector<Acceleration> accelerations_;  // of each body
   CollisionClasses classes_;
   std::vector<BodyExtent> extents_;
   std::vector<FlightPath> paths_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "ode_bridge/neighbours.hpp"
 #include "ode_bridge/overlap.hpp"
 #include "ode_bridge/parting.hpp"
+#include "ode_bridge/rounding.hpp"
 #include "ode_bridge/touching.hpp"
 
 namespace carom {
@@ -23,8 +25,8 @@ using namespace ode_bridge_detail;
 
 namespace {
 
-// Bodies that overlap by less than this at the start are taken to touch, m (times their size where that is above 1).
-constexpr double kOverlap = 1e-9;
+// Bodies that are no further apart than this many tolerances of contact at the start are placed in contact.
+constexpr double kPlaced = 10;
 
 constexpr std::size_t kMostOverlaps = 100'000;
 
@@ -70,6 +72,7 @@ struct OdeContacts::State {
   NarrowPhase narrow_phase;
   std::shared_ptr<const FeatureGeometry> geometry;
   std::vector<Quick> quick;     // of each body
+  std::map<int, Arc> varied;    // moving bodies whose acceleration varies
   std::vector<char> in_series;  // whether its arcs have to be extended; known here, arcs are far away in memory
   int opened = -1;              // body whose window was asked for last, when and up to where
   double opened_from = 0, opened_until = 0, end = 0;
@@ -78,11 +81,16 @@ struct OdeContacts::State {
     return checkedIndex(call, "body", body, quick.size());
   }
   std::vector<StartOverlap> overlaps;
+  std::vector<PlacedContact> placed;
   std::set<std::pair<std::string, std::string>> accepted;  // names of pairs that overlap in the scene it was made for
 
-  void findOverlaps(const std::vector<Arc>& arcs, WorkCount* work);
+  void lookAtStart(const std::vector<Arc>& arcs, WorkCount* work);
   bool isAccepted(const Scene& scene, const StartOverlap& overlap) const;
   BallImpact quickImpact(int a, int b, double from, double until) const;
+  FeaturePair quickFeatures(int a, int b) const;
+  double quickGap(int a, int b, const Arc& arc_a, const Arc& arc_b, double t) const;
+  void keepVaried(int body, const Arc& arc);
+  void placeVaried(int body, double t);
   void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
 };
 
@@ -120,6 +128,7 @@ void OdeContacts::take(const Scene& scene) {
   std::vector<BodyExtent> extents;
   arcs.reserve(n);
   state_->quick.assign(n, Quick::fixed);
+  state_->varied.clear();
   state_->in_series.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     arcs.emplace_back(models[i], Tier::none, Vec3::Zero(), 0.0, startState(scene.bodies[i], models[i]));
@@ -130,19 +139,25 @@ void OdeContacts::take(const Scene& scene) {
   state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
   state_->narrow_phase.reset(state_->geometry->solids());
   state_->neighbours.begin(std::move(extents), scene.gravity, Neighbours::kFew, CollisionClasses(scene));
-  state_->findOverlaps(arcs, work());
+  state_->lookAtStart(arcs, work());
 }
 
-void OdeContacts::State::findOverlaps(const std::vector<Arc>& arcs, WorkCount* work) {
+// Who overlaps, and who touches.
+void OdeContacts::State::lookAtStart(const std::vector<Arc>& arcs, WorkCount* work) {
   overlaps.clear();
+  placed.clear();
   std::vector<std::pair<int, int>> near;
   neighbours.pairs(near);
   std::sort(near.begin(), near.end());
   for (const auto& [first, second] : near) {
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const Placed a(geometry->solids()[i], arcs[i], 0), b(geometry->solids()[j], arcs[j], 0);
-    const auto depth = overlapOf(a, b, kOverlap * std::max(1.0, touchTolerance(a, b) / 1e-13), work);
-    if (depth) overlaps.push_back({first, second, *depth, std::nullopt});
+    const double tolerance = touchTolerance(a, b);
+    if (const auto depth = overlapOf(a, b, kOverlap * tolerance, work)) {
+      overlaps.push_back({first, second, *depth, std::nullopt});
+    } else if (auto features = touchingFeatures(a, b, kPlaced * tolerance); !features.empty()) {
+      placed.push_back({first, second, std::move(features)});
+    }
     if (overlaps.size() > kMostOverlaps)
       throw InputError("/bodies", "found more than " + std::to_string(kMostOverlaps) +
                                       " pairs of bodies that overlap at the start, expected fewer");
@@ -155,6 +170,8 @@ bool OdeContacts::State::isAccepted(const Scene& scene, const StartOverlap& over
 }
 
 std::vector<StartOverlap> OdeContacts::overlaps() const { return state_->overlaps; }
+
+std::vector<PlacedContact> OdeContacts::placed() const { return state_->placed; }
 
 std::optional<double> OdeContacts::parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) {
   for (int body : {a, b}) state_->checkedBody("parting", body);
@@ -172,12 +189,35 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
   state_->opened = -1;
   state_->in_series[static_cast<std::size_t>(body)] = arc.tier() == Tier::triaxial;
   const carom::State& s = arc.startState();
-  state_->neighbours.setPath(body, {s.x, s.v, arc.start(), 0}, from, until);
+  const Acceleration acceleration{arc.acceleration(), arc.accelerationVariation()};
+  state_->neighbours.setPath(body, {s.x, s.v, arc.start(), 0}, acceleration, from, until);
+  state_->keepVaried(body, arc);
+}
+
+void OdeContacts::State::keepVaried(int body, const Arc& arc) {
+  if (arc.accelerationVariation() > 0) {
+    varied.insert_or_assign(body, arc);
+  } else if (!varied.empty()) {
+    varied.erase(body);
+  }
+}
+
+// The lists know a parabola, which is left further behind the longer ago it began: it begins anew with each window.
+void OdeContacts::State::placeVaried(int body, double t) {
+  const auto place = [&](int other, const Arc& arc) {
+    neighbours.renewPath(other, arc.positionAt(t), arc.velocityAt(t), t);
+  };
+  if (neighbours.renewsAll(t)) {
+    for (const auto& [other, arc] : varied) place(other, arc);
+  } else if (const auto own = varied.find(body); own != varied.end()) {
+    place(body, own->second);
+  }
 }
 
 double OdeContacts::window(int body, double t) {
   state_->checkedBody("window", body);
   checkedNumber("window", "the time", t);
+  if (!state_->varied.empty()) state_->placeVaried(body, t);
   const double until = state_->neighbours.window(body, t);
   state_->opened = body;
   state_->opened_from = t;
@@ -194,7 +234,8 @@ void OdeContacts::neighbours(int body, std::vector<int>& out) {
 // Those that the body can meet on its present path in its window, as far as bounding balls tell.
 void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others) const {
   const FlightPath& path = neighbours.path(body);
-  const Vec3 gravity = neighbours.accelerationOf(body);
+  if (neighbours.accelerationOf(body).variation > 0) return;
+  const Vec3 gravity = neighbours.accelerationOf(body).mean;
   const bool is_ball = quick[static_cast<std::size_t>(body)] == Quick::ball;
   const double t = opened_from, until = opened_until;
   // the paths lie all over the memory: they are fetched side by side rather than one after the other
@@ -222,11 +263,27 @@ BallImpact OdeContacts::State::quickImpact(int a, int b, double from, double unt
   if (!isQuick(qa) || !isQuick(qb)) return {BallImpact::Found::undecided, 0};
   if (qa == Quick::ball && qb == Quick::ball) {
     if (!neighbours.sameAcceleration(a, b)) return {BallImpact::Found::undecided, 0};
-    return ballBallImpact(neighbours.path(a), neighbours.path(b), neighbours.accelerationOf(a), from, until);
+    return ballBallImpact(neighbours.path(a), neighbours.path(b), neighbours.accelerationOf(a).mean, from, until);
   }
   const int ball = qa == Quick::ball ? a : b;
+  const Acceleration& acceleration = neighbours.accelerationOf(ball);
+  if (acceleration.variation > 0) return {BallImpact::Found::undecided, 0};
   const BodyExtent& plane = neighbours.extents()[static_cast<std::size_t>(ball == a ? b : a)];
-  return ballPlaneImpact(neighbours.path(ball), neighbours.accelerationOf(ball), plane.normal, plane.offset, from, until);
+  return ballPlaneImpact(neighbours.path(ball), acceleration.mean, plane.normal, plane.offset, from, until);
+}
+
+// The only features that balls and planes can meet with.
+FeaturePair OdeContacts::State::quickFeatures(int a, int b) const {
+  const auto isPlane = [&](int body) { return quick[static_cast<std::size_t>(body)] == Quick::plane; };
+  return {isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint, 0, 0, 1};
+}
+
+double OdeContacts::State::quickGap(int a, int b, const Arc& arc_a, const Arc& arc_b, double t) const {
+  if (quick[static_cast<std::size_t>(a)] == Quick::plane) return quickGap(b, a, arc_b, arc_a, t);
+  const BodyExtent &ball = neighbours.extents()[static_cast<std::size_t>(a)],
+                   &other = neighbours.extents()[static_cast<std::size_t>(b)];
+  if (other.half_space) return other.normal.dot(arc_a.positionAt(t)) - other.offset - ball.radius;
+  return (arc_a.positionAt(t) - arc_b.positionAt(t)).norm() - ball.radius - other.radius;
 }
 
 std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
@@ -239,18 +296,33 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
     const auto inSeries = [&](int body) { return state_->in_series[static_cast<std::size_t>(body)] != 0; };
     if (inSeries(a)) arc_a.extendTo(quick.time);
     if (inSeries(b)) arc_b.extendTo(quick.time);
-    const auto isPlane = [&](int body) { return state_->quick[static_cast<std::size_t>(body)] == Quick::plane; };
-    const std::int16_t kind = isPlane(a) ? kPlanePoint : isPlane(b) ? kPointPlane : kPointPoint;
-    return PredictedImpact{quick.time, {kind, 0, 0, 1}};
+    return PredictedImpact{quick.time, state_->quickFeatures(a, b)};
   }
   return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work()}, from, until);
+}
+
+std::optional<PredictedImpact> OdeContacts::firstImpactBeside(int a, int b, std::span<const FeaturePair> held,
+                                                              Arc& arc_a, Arc& arc_b, double from, double until) {
+  for (int body : {a, b}) state_->checkedBody("firstImpactBeside", body);
+  for (double t : {from, until}) checkedNumber("firstImpactBeside", "the time", t);
+  for (const FeaturePair& f : held) state_->geometry->checkFeatures(a, b, f);
+  const auto quick = [&](int body) { return isQuick(state_->quick[static_cast<std::size_t>(body)]); };
+  if (!held.empty() && quick(a) && quick(b)) return std::nullopt;  // a ball touches a plane in one place only
+  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work()}, from, until, held);
 }
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
                                                double tolerance) {
   for (double number : {t, tolerance}) checkedNumber("touching", "the time or the tolerance", number);
   const auto quick = [&](int body) { return isQuick(state_->quick[state_->checkedBody("touching", body)]); };
-  if (quick(a) && quick(b)) return {};  // one contact at the most
+  if (quick(a) && quick(b)) {
+    const double gap = state_->quickGap(a, b, arc_a, arc_b, t);
+    const auto touch = [&] {
+      return kTouch * std::max({1.0, arc_a.positionAt(t).cwiseAbs().maxCoeff(), arc_b.positionAt(t).cwiseAbs().maxCoeff()});
+    };
+    if (gap > tolerance && gap > 4 * touch()) return {};
+    return {state_->quickFeatures(a, b)};
+  }
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
   return touchingFeatures(placed_a, placed_b, std::max(tolerance, 4 * touchTolerance(placed_a, placed_b)));
 }

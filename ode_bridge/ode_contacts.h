@@ -24,11 +24,14 @@ class OdeContacts final : public ContactSource {
 
   void begin(const Scene& scene) override;
   std::vector<StartOverlap> overlaps() const override;
+  std::vector<PlacedContact> placed() const override;
   std::optional<double> parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
   void setPath(int body, const Arc& arc, double from, double until) override;
   double window(int body, double t) override;
   void neighbours(int body, std::vector<int>& out) override;
   std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
+  std::optional<PredictedImpact> firstImpactBeside(int a, int b, std::span<const FeaturePair> held, Arc& arc_a,
+                                                   Arc& arc_b, double from, double until) override;
   std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
                                     double tolerance) override;
   std::shared_ptr<const ContactGeometry> geometry() const override;

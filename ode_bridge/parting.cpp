@@ -31,7 +31,8 @@ class Pair {
   // A time that it takes to move by `depth` against each other, at the least.
   double timeFor(double depth, double t) const {
     const double speed = (arc_a_.velocityAt(t) - arc_b_.velocityAt(t)).norm() + turning(a_, arc_a_) + turning(b_, arc_b_);
-    const double acceleration = (arc_a_.acceleration() - arc_b_.acceleration()).norm();
+    const double acceleration = (arc_a_.acceleration() - arc_b_.acceleration()).norm() +
+                                arc_a_.accelerationVariation() + arc_b_.accelerationVariation();
     return 2 * depth / (speed + std::sqrt(speed * speed + 2 * acceleration * depth));
   }
   double leastStep(double t) const { return timeFor(kLeastShare * size_, t); }

@@ -184,7 +184,11 @@ struct Mover {
   }
 };
 
-double gravityOf(const Mover& a, const Mover& b) { return (a.body->acceleration - b.body->acceleration).norm(); }
+double variationOf(const Mover& a, const Mover& b) { return a.body->variation + b.body->variation; }
+// Bound on the acceleration against each other.
+double gravityOf(const Mover& a, const Mover& b) {
+  return (a.body->acceleration - b.body->acceleration).norm() + variationOf(a, b);
+}
 Vec3 apart(const Mover& a, const Mover& b) { return a.body->k.x - b.body->k.x; }
 Vec3 velocity(const Mover& a, const Mover& b) { return a.body->k.v - b.body->k.v; }
 
@@ -201,7 +205,7 @@ double stepInWorld(const Mover& a, const Mover& b, const Vec3& n, double lift, d
   gap.rate = n.dot(velocity(a, b));
   gap.a = a.side(n, n.cross(a.w));
   gap.b = b.side(n, n.cross(b.w));
-  const double pull = n.dot(a.body->acceleration - b.body->acceleration);
+  const double pull = n.dot(a.body->acceleration - b.body->acceleration) - variationOf(a, b);
   const double across_a = a.acrossSpin(n), across_b = b.half_space ? 0 : b.acrossSpin(n);
   const auto step = [&](double window) {
     const double bend = a.bendAlong(across_a, 0, window) + b.bendAlong(across_b, 0, window) - pull;

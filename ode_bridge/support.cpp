@@ -9,6 +9,7 @@ Placed::Placed(const Solid& s, const Arc& flight, double t)
     : solid(&s),
       k(flight.kinematicsAt(t)),
       acceleration(flight.acceleration()),
+      variation(flight.accelerationVariation()),
       spin(s.ball ? 0 : flight.spinBound()),
       spin_rate(s.ball ? 0 : flight.spinRateBound()),
       arc(&flight) {}

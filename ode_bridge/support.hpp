@@ -17,6 +17,7 @@ struct Placed {
   const Solid* solid;
   Kinematics k;
   Vec3 acceleration;
+  double variation = 0;      ///< the acceleration stays within so much of this one, m/s^2
   double spin, spin_rate;  ///< bounds on |omega| and |d omega/dt|; 0 for a ball, which looks the same from all sides
   const Arc* arc = nullptr;  ///< outlives this; null at rest
 };

@@ -8,7 +8,8 @@
 
 namespace carom::ode_bridge_detail {
 
-Bounds sweptCentre(const FlightPath& path, const Vec3& g, double from, double until) {
+Bounds sweptCentre(const FlightPath& path, const Acceleration& acceleration, double from, double until) {
+  const Vec3& g = acceleration.mean;
   const Vec3 p = path.positionAt(from, g), q = path.positionAt(until, g), v = path.velocityAt(from, g);
   Bounds b{p.cwiseMin(q), p.cwiseMax(q)};
   for (int k = 0; k < 3; ++k) {
@@ -19,7 +20,9 @@ Bounds sweptCentre(const FlightPath& path, const Vec3& g, double from, double un
     b.low[k] = std::min(b.low[k], x);
     b.high[k] = std::max(b.high[k], x);
   }
-  return b;
+  if (acceleration.variation == 0) return b;
+  const double s = until - path.start;
+  return grown(b, 0.5 * s * s * acceleration.variation);
 }
 
 Bounds grown(const Bounds& b, double room) { return {b.low.array() - room, b.high.array() + room}; }
@@ -28,12 +31,17 @@ double roundingRoom(const Bounds& b) {
   return 1e-9 * std::max({1.0, b.low.cwiseAbs().maxCoeff(), b.high.cwiseAbs().maxCoeff()});
 }
 
-double leavingTime(const FlightPath& path, const Vec3& g, double from, const Bounds& bounds) {
+// Along each axis by the parabola of the least and that of the greatest acceleration.
+double leavingTime(const FlightPath& path, const Acceleration& acceleration, double from, const Bounds& bounds) {
+  const Vec3& g = acceleration.mean;
+  const double more = acceleration.variation, before = from - path.start;
+  const double faster = more * before, further = 0.5 * faster * before;
   const Vec3 p = path.positionAt(from, g), v = path.velocityAt(from, g);
   const auto across = [](double room, double speed, double pull) { return room > 0 ? timeTo(room, speed, pull) : 0; };
   double s = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k)
-    s = std::min({s, across(bounds.high[k] - p[k], v[k], g[k]), across(p[k] - bounds.low[k], -v[k], -g[k])});
+    s = std::min({s, across(bounds.high[k] - p[k] - further, v[k] + faster, g[k] + more),
+                  across(p[k] - bounds.low[k] - further, faster - v[k], more - g[k])});
   return from + s;
 }
 

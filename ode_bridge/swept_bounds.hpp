@@ -16,8 +16,16 @@ inline bool meet(const Bounds& a, const Bounds& b) {
          a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
 }
 
-/// The flight of a body as the broad phase sees it: the ball that bounds it, on a parabola.
-///   x(t) = x + s (v + s g / 2), s = t - start; g is the same for all that move and not kept here.
+/// How a body accelerates: always within `variation` of `mean`, m/s^2.
+struct Acceleration {
+  Vec3 mean = Vec3::Zero();
+  double variation = 0;
+  bool operator==(const Acceleration&) const = default;
+};
+
+/// The path of a body as the broad phase sees it: the ball that bounds it, on a parabola.
+///   x(t) = x + s (v + s g / 2), s = t - start; g is the same for most that move and not kept here. Where it varies
+/// by up to d, x(t) is known to s^2 d / 2.
 struct alignas(64) FlightPath {
   Vec3 x = Vec3::Zero(), v = Vec3::Zero();
   double start = 0;
@@ -30,8 +38,8 @@ struct alignas(64) FlightPath {
   Vec3 velocityAt(double t, const Vec3& g) const { return v + (t - start) * g; }
 };
 
-/// Everywhere that the centre can be between two times: the parabola's ends and its summits.
-Bounds sweptCentre(const FlightPath& path, const Vec3& g, double from, double until);
+/// Everywhere that the centre can be between two times: the parabola's ends and its summits, and what is not known.
+Bounds sweptCentre(const FlightPath& path, const Acceleration& g, double from, double until);
 
 /// The box grown by `room` on all sides.
 Bounds grown(const Bounds& bounds, double room);
@@ -39,8 +47,8 @@ Bounds grown(const Bounds& bounds, double room);
 /// Room for the rounding of positions and for the tolerance of contact, for a body in this box.
 double roundingRoom(const Bounds& bounds);
 
-/// The first time from `from` on at which the centre leaves the box; infinite if it never does, `from` if it is
+/// The first time from `from` on at which the centre can leave the box; infinite if it never does, `from` if it is
 /// outside.
-double leavingTime(const FlightPath& path, const Vec3& g, double from, const Bounds& bounds);
+double leavingTime(const FlightPath& path, const Acceleration& g, double from, const Bounds& bounds);
 
 }  // namespace carom::ode_bridge_detail

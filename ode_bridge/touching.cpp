@@ -8,6 +8,7 @@
 #include "ode_bridge/leaf_pairs.hpp"
 #include "ode_bridge/near_features.hpp"
 #include "ode_bridge/rounding.hpp"
+#include "ode_bridge/seams.hpp"
 
 namespace carom::ode_bridge_detail {
 namespace {
@@ -226,7 +227,20 @@ Vec3 normalOf(const PlacedPiece& triangle, const Vec3& n) {
   return normal.dot(n) < 0 ? Vec3(-normal) : normal;
 }
 
+double sizeOf(const PlacedPiece& a, const PlacedPiece& b) {
+  const double size = a.halfSpace()   ? b.piece->core_radius
+                      : b.halfSpace() ? a.piece->core_radius
+                                      : a.piece->core_radius + b.piece->core_radius;
+  return size + a.piece->radius + b.piece->radius;
+}
+
 }  // namespace
+
+ContactPoint contactAt(const Placed& a, const Placed& b, const FeaturePair& f) {
+  const auto kind = static_cast<GapKind>(f.kind);
+  return contactOf(kind, placeFeature(a.solid->feature(familyOfFirst(kind), f.a), {a.k.x, a.k.R}),
+                   placeFeature(b.solid->feature(familyOfSecond(kind), f.b), {b.k.x, b.k.R}), f.sign);
+}
 
 double touchTolerance(const Placed& a, const Placed& b) {
   double scale = 1;
@@ -241,15 +255,9 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
     found.push_back(witness.features);
     return;
   }
-  const double size = a.halfSpace()   ? b.piece->core_radius
-                      : b.halfSpace() ? a.piece->core_radius
-                                      : a.piece->core_radius + b.piece->core_radius;
-  const double scale = size + a.piece->radius + b.piece->radius;
+  const double scale = sizeOf(a, b);
   Touching touching{a, b, witness, tolerance, tolerance, scale, found, {}, 0};
-  for (const FeaturePair& f : found)
-    touching.points.push_back(touching.contactNow(static_cast<GapKind>(f.kind),
-                                                  {familyOfFirst(static_cast<GapKind>(f.kind)), f.a},
-                                                  {familyOfSecond(static_cast<GapKind>(f.kind)), f.b}, f.sign));
+  for (const FeaturePair& f : found) touching.points.push_back(contactAt(*a.body, *b.body, f));
   touching.known_before = found.size();
   touching.run(witness.n);
   const auto sheet = [](const PlacedPiece& p) { return p.piece->core == Piece::Core::triangle; };
@@ -269,12 +277,60 @@ void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witn
     found.push_back(witness.features);
 }
 
-std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double tolerance) {
+namespace {
+
+// A contact of two pieces.
+struct Candidate {
+  FeaturePair features;
+  ContactPoint at;
+  double scale;
+  bool kept = false;
+
+  bool onFace() const {
+    const auto kind = static_cast<GapKind>(features.kind);
+    return familyOfFirst(kind) == Family::face || familyOfSecond(kind) == Family::face;
+  }
+  bool sameAs(const Candidate& o) const {
+    return features == o.features || ((at.point - o.at.point).norm() <= kSame * std::min(scale, o.scale) &&
+                                      (at.normal - o.at.normal).norm() <= 1e-6);
+  }
+};
+
+// Of contacts that are one, one is kept: that with a face, where a border is one of them.
+std::vector<FeaturePair> oneEach(std::vector<Candidate>& all) {
+  for (const bool faces : {true, false})
+    for (Candidate& c : all)
+      if (c.onFace() == faces)
+        c.kept = std::none_of(all.begin(), all.end(), [&](const Candidate& o) { return o.kept && o.sameAs(c); });
   std::vector<FeaturePair> found;
-  eachLeafPair(a, b, tolerance, [&](const PlacedPiece& p, const PlacedPiece& q) {
+  for (const Candidate& c : all)
+    if (c.kept) found.push_back(c.features);
+  return found;
+}
+
+}  // namespace
+
+std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double reach) {
+  std::vector<Candidate> all;
+  std::vector<FeaturePair> of_pieces;
+  std::vector<int> pieces_a, pieces_b;
+  const double deepest = kOverlap * touchTolerance(a, b);
+  eachLeafPair(a, b, reach, [&](const PlacedPiece& p, const PlacedPiece& q) {
     const Witness witness = findWitness(p, q);
-    if (witness.separation <= tolerance) addTouching(p, q, witness, tolerance, found);
+    if (!(witness.separation <= reach)) return;
+    // what overlaps by so little touches; features that lie in front do so to within the overlap
+    const double overlap = witness.separation >= -deepest ? -witness.separation : 0;
+    of_pieces.clear();
+    addTouching(p, q, witness, std::max(reach, 2 * overlap), of_pieces);
+    for (const FeaturePair& f : of_pieces) {
+      const ContactPoint c = contactAt(a, b, f);
+      if (c.gap <= reach) all.push_back({f, c, sizeOf(p, q)});
+    }
+    for (auto& [pieces, piece] : {std::pair{&pieces_a, &p}, std::pair{&pieces_b, &q}})
+      pieces->push_back(static_cast<int>(piece->piece - piece->solid().pieces.data()));
   });
+  std::vector<FeaturePair> found = oneEach(all);
+  if (found.size() > 1 && pieces_a.size() > 1) dropSeams(a, b, pieces_a, pieces_b, 10 * reach, found);
   return found;
 }
 

@@ -13,8 +13,15 @@ namespace carom::ode_bridge_detail {
 void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
                  std::vector<FeaturePair>& found);
 
-/// The same of all pieces of two bodies.
-std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double tolerance);
+/// Bodies that overlap by less than this many tolerances of contact touch.
+inline constexpr double kOverlap = 1e4;
+
+/// The same of all pieces of two bodies: gaps of at most `reach`, and overlaps that small. A contact where parts of a
+/// body lie flush is one with the faces.
+std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double reach);
+
+/// The contact of two features.
+ContactPoint contactAt(const Placed& a, const Placed& b, const FeaturePair& f);
 
 /// Length below which a separation cannot be told from contact, for bodies where these are, m.
 double touchTolerance(const Placed& a, const Placed& b);

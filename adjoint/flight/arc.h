@@ -45,6 +45,8 @@ class Arc {
   const State& startState() const { return state_; }        ///< at the start
   const BodyModel& model() const { return *model_; }        ///< of its body
   const Vec3& acceleration() const { return gravity_; }     ///< m/s^2, constant
+  /// |acceleration(t) - acceleration()| over the whole arc, m/s^2; 0 for a flight.
+  double accelerationVariation() const { return 0; }
   bool moving() const { return model_->moving; }            ///< false for a fixed body
 
   /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do). Throws

@@ -77,6 +77,12 @@ struct PredictedImpact {
   FeaturePair features;  ///< how they meet
 };
 
+/// Two bodies that touch at the start of a scene (see ContactSource::placed).
+struct PlacedContact {
+  int a = 0, b = 0;                   ///< bodies, a < b
+  std::vector<FeaturePair> features;  ///< at which they touch: one at least, more where an edge or a face lies on a face
+};
+
 /// Who may touch whom, and when: collision detection as the simulator sees it.
 class ContactSource {
  public:
@@ -89,6 +95,11 @@ class ContactSource {
   /// The pairs that overlap at the start of the scene that was begun, in increasing order; bodies that never collide
   /// (see mayCollide) are not among them.
   virtual std::vector<StartOverlap> overlaps() const { return {}; }
+
+  /// The pairs that are in contact at the start of the scene that was begun, in increasing order: the gap of the features
+  /// named is 0 but for rounding, or so little below it that this is no overlap. Pairs that part, or that move along each
+  /// other, are among them; bodies that never collide are not.
+  virtual std::vector<PlacedContact> placed() const { return {}; }
 
   /// The first time in [from, until] at which bodies a and b do not overlap; none where they do all the time.
   virtual std::optional<double> parting(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) {
@@ -112,9 +123,20 @@ class ContactSource {
   virtual void neighbours(int body, std::vector<int>& out) = 0;
 
   /// First impact of bodies a and b in [from, until] on the given arcs, which are those of the paths set last. Extends
-  /// the arcs as far as it looks. Bodies that touch at `from` and do not approach are not an impact.
+  /// the arcs as far as it looks. Bodies that touch at `from` and do not approach are not an impact; where they
+  /// begin to approach at once, the impact is at `from`.
   virtual std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from,
                                                      double until) = 0;
+
+  /// The same for bodies that are in lasting contact at the features `held` all that time: the first impact of other
+  /// features of theirs. Each of `held` lies on a flat face of one of the two bodies, or crosses its border, and
+  /// the arcs neither turn the bodies out of that face nor move them through it. That the contact leaves the border of
+  /// the face is not seen here. None in a source whose bodies touch in one place only.
+  virtual std::optional<PredictedImpact> firstImpactBeside(int a, int b, std::span<const FeaturePair> held, Arc& arc_a,
+                                                           Arc& arc_b, double from, double until) {
+    (void)a, (void)b, (void)held, (void)arc_a, (void)arc_b, (void)from, (void)until;
+    return std::nullopt;
+  }
 
   /// All feature pairs of a and b with a gap of at most `reach` at time t, at which the bodies touch: more than one
   /// where an edge or a face lies on a face. May stay empty in a source whose bodies touch in one point only.

@@ -52,7 +52,10 @@ class FloorContacts final : public ContactSource {
   void begin(const Scene& scene) override {
     radius_ = std::get<Sphere>(scene.bodies[0].shape).radius;
     geometry_ = std::make_shared<BallAboveFloor>(radius_);
+    placed_.clear();
+    if (std::abs(scene.bodies[0].position.z() - radius_) <= 1e-12) placed_.push_back({0, 1, {kBallOnFloor}});
   }
+  std::vector<PlacedContact> placed() const override { return placed_; }
   void setPath(int, const Arc&, double, double) override {}
   void neighbours(int body, std::vector<int>& out) override { out = {1 - body}; }
   std::optional<PredictedImpact> firstImpact(int, int, Arc& ball, Arc&, double from, double until) override {
@@ -68,6 +71,7 @@ class FloorContacts final : public ContactSource {
  private:
   double radius_ = 0;
   std::shared_ptr<const BallAboveFloor> geometry_;
+  std::vector<PlacedContact> placed_;  // the ball, where it lies on the floor at the start
 };
 
 }  // namespace

@@ -183,5 +183,39 @@ TEST(Gliding, SpinAboutTheNormalHidesNoApproach) {
   EXPECT_GE(m.events.size(), 18u);
 }
 
+// Of an acceleration only a mean and how far it may be from it are known: whatever it is, the step ends before.
+TEST(SafeStep, WhereTheAccelerationVaries) {
+  int stopped = 0;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Body body = bodyOf(random.below(4), random), other = fixedBody(makeBox("", {1, 1, 1}, Vec3::Zero()));
+    body.angular_velocity = random.below(2) ? random.vec(5) : Vec3::Zero();
+    body.position = 2 * random.unit(), body.velocity = -random.in(0, 3) * body.position + random.vec(1);
+    const Solid a = solidOf(body), b = solidOf(other);
+    const BodyModel ma = modelOf(body), mb = modelOf(other);
+    const Vec3 pull = random.vec(20), off = random.vec(20);
+    const Arc arc_a(ma, random.below(2) ? Tier::triaxial : Tier::symmetric, pull, 0, startState(body, ma));
+    if (arc_a.tier() == Tier::symmetric && !(ma.inertia[0] == ma.inertia[1] || ma.inertia[1] == ma.inertia[2])) continue;
+    Arc path = arc_a;
+    path.extendTo(2);
+    const Arc arc_b(mb, Tier::none, Vec3::Zero(), 0, startState(other, mb));
+    Placed pa(a, path, 0);
+    const Placed pb(b, arc_b, 0);
+    pa.acceleration += off, pa.variation = off.norm();
+    const PlacedPiece p{&pa, &a.pieces[0]}, q{&pb, &b.pieces[0]};
+    const Witness w = findWitness(p, q);
+    if (!(w.separation > 0)) continue;
+    const double h = safeStep(p, q, w, 0, 1);
+    ASSERT_GT(h, 0);
+    stopped += h < 1;
+    for (int i = 1; i <= 20; ++i) {
+      const Placed then(a, path, h * i / 20);
+      EXPECT_TRUE(findWitness({&then, &a.pieces[0]}, q).separation >= -1e-13) << i;
+    }
+  }
+  EXPECT_GT(stopped, 500);
+}
+
 }  // namespace
 }  // namespace carom
