@@ -14,7 +14,7 @@ template <class S>
 struct ConeTerms {
   using Program = ConeProgramOf<S>;
   using Index = Eigen::Index;
-  const Program& q;
+  const Program* program;
   ConePointOf<S> at;
   MatrixOf<S> J, C;  // C = K N of the equations
   VectorOf<S> f, V, Kf, residual;
@@ -22,7 +22,7 @@ struct ConeTerms {
   std::vector<Index> first;     // column of a contact in J
   std::vector<V3<S>> turned;    // n x t
 
-  ConeTerms(const Program& program, ConePointOf<S> point) : q(program), at(std::move(point)) { assemble(); }
+  ConeTerms(const Program& of, ConePointOf<S> point) : program(&of), at(std::move(point)) { assemble(); }
 
   static int unknownsOf(const Program& q, const ConePointOf<S>& at, int k) {
     const auto kk = static_cast<std::size_t>(k);
@@ -42,6 +42,7 @@ struct ConeTerms {
   // The Newton step is taken; lambda was part of the unknowns.
   void step(const VectorOf<S>& d) {
     using std::sqrt;
+    const Program& q = *program;
     for (int k = 0; k < q.contacts(); ++k) {
       const auto kk = static_cast<std::size_t>(k);
       const Index c = first[kk];
@@ -62,6 +63,7 @@ struct ConeTerms {
 
  private:
   void assemble() {
+    const Program& q = *program;
     const int n = q.contacts();
     Index columns = 0;
     for (int k = 0; k < n; ++k) first.push_back(columns), columns += unknownsOf(q, at, k);
@@ -93,6 +95,7 @@ struct ConeTerms {
   }
 
   void addContact(int k) {
+    const Program& q = *program;
     const auto kk = static_cast<std::size_t>(k);
     const V3<S>&n = q.normal[kk], t = at.direction[kk];
     const Index c = first[kk];
@@ -120,6 +123,7 @@ struct ConeTerms {
     }
   }
   void addCurvature(int k) {
+    const Program& q = *program;
     const auto kk = static_cast<std::size_t>(k);
     if (at.state[kk] != ConeState::slides || !(q.friction[kk] > S(0))) return;
     const V3<S> v = V.template segment<3>(3 * k);
@@ -136,13 +140,13 @@ struct ConeTerms {
 template <class S>
 auto unitsOf(const ConeTerms<S>& t) {
   using T = Value<S>;
-  const std::vector<T> force = forceUnits<T>(valuesOf(t.q.K));
+  const std::vector<T> force = forceUnits<T>(valuesOf(t.program->K));
   VectorOf<T> units(t.M.rows());
-  for (int k = 0; k < t.q.contacts(); ++k)
-    for (int i = 0; i < ConeTerms<S>::unknownsOf(t.q, t.at, k); ++i)
+  for (int k = 0; k < t.program->contacts(); ++k)
+    for (int i = 0; i < ConeTerms<S>::unknownsOf(*t.program, t.at, k); ++i)
       units[t.first[static_cast<std::size_t>(k)] + i] = force[static_cast<std::size_t>(k)];
-  for (std::size_t e = 0; e < t.q.equal.size(); ++e)
-    units[t.J.cols() + static_cast<Eigen::Index>(e)] = force[static_cast<std::size_t>(t.q.equal[e])];
+  for (std::size_t e = 0; e < t.program->equal.size(); ++e)
+    units[t.J.cols() + static_cast<Eigen::Index>(e)] = force[static_cast<std::size_t>(t.program->equal[e])];
   return units;
 }
 

@@ -39,7 +39,7 @@ VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
     both.rate[0] = rate;
     return both;
   };
-  ImpactProblemOf<Rate> both{p.K.cast<Rate>(), p.u.cast<Rate>(), {}, {}, p.driven};
+  ImpactProblemOf<Rate> both{p.K.cast<Rate>(), p.u.cast<Rate>(), {}, {}, p.driven, p.held};
   setRates(both.K, d.K, 0);
   setRates(both.u, d.u, 0);
   for (std::size_t k = 0; k < p.normal.size(); ++k) {
