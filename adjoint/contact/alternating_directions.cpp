@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/base/types.h"
+#include "adjoint/contact/symmetric_inverse.hpp"
 
 namespace carom::adjoint_detail {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "adjoint/contact/cone_program.hpp"
+#include "adjoint/contact/cone.hpp"
 
 namespace carom::adjoint_detail {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/contact/cone_program.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/contact/alternating_directions.hpp"
 #include "adjoint/contact/cone_terms.hpp"
+#include "adjoint/contact/symmetric_inverse.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -19,11 +19,11 @@ template <class T>
 struct ConePrecision;
 template <>
 struct ConePrecision<double> {
-  static constexpr double kNull = 1e-12, kRounding = 1e-13, kExact = 2e-15;
+  static constexpr double kRounding = 1e-13, kExact = 2e-15;
 };
 template <>
 struct ConePrecision<Wide> {
-  static constexpr double kNull = 1e-28, kRounding = 1e-27, kExact = 1e-30;
+  static constexpr double kRounding = 1e-27, kExact = 1e-30;
 };
 
 template <class T>
@@ -37,43 +37,6 @@ T largestOf(const VectorOf<T>& v) {
   for (Index i = 0; i < v.size(); ++i) most = std::max({most, v[i], T(-v[i])});
   return most;
 }
-
-}  // namespace
-
-template <class T>
-std::vector<T> forceUnits(const MatrixOf<T>& K) {
-  std::vector<T> units;
-  for (Index k = 0; k < K.rows(); k += 3) {
-    const double mean = rounded(T(K(k, k) + K(k + 1, k + 1) + K(k + 2, k + 2))) / 3;
-    const bool usable = mean > 0 && std::isfinite(mean);
-    units.push_back(usable ? std::ldexp(1.0, -static_cast<int>(std::floor(std::ilogb(mean) / 2.0))) : 1.0);
-  }
-  return units;
-}
-
-template <class T>
-MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& scale) {
-  using std::sqrt;
-  if (M.rows() == 0) return M;
-  VectorOf<T> S = scale;
-  for (Index i = 0; i < S.size(); ++i) {  // a contact about to be released is stiff
-    T most = T(1);
-    for (Index j = 0; j < S.size(); ++j) most = std::max({most, T(S[i] * M(i, j) * S[j]), T(-S[i] * M(i, j) * S[j])});
-    S[i] /= sqrt(most);
-  }
-  const MatrixOf<T> even = S.asDiagonal() * M * S.asDiagonal();
-  if (!even.unaryExpr([](const T& x) { return rounded(x); }).allFinite())
-    throw NotComputable("the effective masses of its contacts are beyond the range of doubles");
-  const Eigen::SelfAdjointEigenSolver<MatrixOf<T>> eigen(even);
-  VectorOf<T> values = eigen.eigenvalues();
-  const T least = T(ConePrecision<T>::kNull) * largestOf<T>(values);
-  for (Index i = 0; i < values.size(); ++i)
-    values[i] = values[i] > least || values[i] < -least ? T(T(1) / values[i]) : T(0);
-  const MatrixOf<T> scaled = S.asDiagonal() * eigen.eigenvectors();
-  return scaled * values.asDiagonal() * scaled.transpose();
-}
-
-namespace {
 
 // The program in units that make its numbers alike: f = C f' size, V = C^-1 V' size.
 template <class T>
@@ -266,10 +229,6 @@ ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
   throw NotComputable("the friction of its contacts, which are many or unlike, was not found");
 }
 
-template std::vector<double> forceUnits(const MatrixOf<double>&);
-template std::vector<Wide> forceUnits(const MatrixOf<Wide>&);
-template MatrixOf<double> symmetricInverse(const MatrixOf<double>&, const VectorOf<double>&);
-template MatrixOf<Wide> symmetricInverse(const MatrixOf<Wide>&, const VectorOf<Wide>&);
 template ConePointOf<double> solveConeProgram(const ConeProgramOf<double>&);
 template ConePointOf<Wide> solveConeProgram(const ConeProgramOf<Wide>&);
 

@@ -61,18 +61,25 @@ class ConeSolution {
     const MatrixOf<S> inverse = inverse_.template cast<S>();
     VectorOf<S> z = -inverse * right;  // the adjoint of the conditions
     z -= inverse * (t.M * z + right);
+    VectorOf<S> V_bar = t.J * z.head(columns);
+    if constexpr (has_rates<S>) {
+      const VectorOf<S> turns = slipBar(z, f_bar + q_.K * V_bar - q_.K * across(z));
+      right.head(columns) = t.J.transpose() * (q_.K * turns);
+      right.tail(equations) = -t.C.transpose() * turns;
+      z -= inverse * right;
+      V_bar = t.J * z.head(columns) + turns;
+    }
     const std::size_t n = q_.normal.size();
-    ConeBarOf<S> bar{MatrixOf<S>::Zero(3 * q_.contacts(), 3 * q_.contacts()), t.J * z.head(columns),
+    ConeBarOf<S> bar{MatrixOf<S>::Zero(3 * q_.contacts(), 3 * q_.contacts()), V_bar,
                      std::vector<V3<S>>(n, V3<S>::Zero()), std::vector<S>(n, S(0)), std::vector<S>(n, S(0)),
                      std::vector<S>(q_.equal.size(), S(0))};
-    VectorOf<S> forces = t.f, across = VectorOf<S>::Zero(t.f.size());  // f - sum lambda n, sum z n
+    VectorOf<S> forces = t.f;  // f - sum lambda n
     for (Eigen::Index e = 0; e < equations; ++e) {
       const auto k = static_cast<std::size_t>(q_.equal[static_cast<std::size_t>(e)]);
       forces.template segment<3>(3 * q_.equal[static_cast<std::size_t>(e)]) -= t.at.lambda[e] * q_.normal[k];
-      across.template segment<3>(3 * q_.equal[static_cast<std::size_t>(e)]) += z[columns + e] * q_.normal[k];
     }
-    const VectorOf<S> Kb = q_.K * bar.b;
-    bar.K = bar.b * forces.transpose() - across * t.f.transpose();
+    const VectorOf<S> Kb = q_.K * bar.b, pulls = across(z);
+    bar.K = bar.b * forces.transpose() - pulls * t.f.transpose();
     for (Eigen::Index e = 0; e < equations; ++e) {
       const Eigen::Index row = 3 * q_.equal[static_cast<std::size_t>(e)];
       const auto k = static_cast<std::size_t>(q_.equal[static_cast<std::size_t>(e)]);
@@ -80,12 +87,46 @@ class ConeSolution {
       bar.normal[k] -= t.at.lambda[e] * by_lambda + z[columns + e] * by_z;
       bar.rise[static_cast<std::size_t>(e)] = z[columns + e];
     }
-    const VectorOf<S> whole = f_bar + Kb - q_.K * across;
+    const VectorOf<S> whole = f_bar + Kb - q_.K * pulls;
     for (int k = 0; k < q_.contacts(); ++k) contactPullback(k, whole.template segment<3>(3 * k), z, bar);
     return bar;
   }
 
  private:
+  // sum z n of the equations
+  VectorOf<S> across(const VectorOf<S>& z) const {
+    VectorOf<S> sum = VectorOf<S>::Zero(terms_.f.size());
+    for (std::size_t e = 0; e < q_.equal.size(); ++e)
+      sum.template segment<3>(3 * q_.equal[e]) +=
+          z[terms_.J.cols() + static_cast<Eigen::Index>(e)] * q_.normal[static_cast<std::size_t>(q_.equal[e])];
+    return sum;
+  }
+
+  // Friction that grows from 0 turns with the slip, t = -V_t/|V_t|; its share in the adjoint of V is of the size of mu,
+  // and so has rates alone.
+  VectorOf<S> slipBar(const VectorOf<S>& z, const VectorOf<S>& f_bar) const {
+    VectorOf<S> bar = VectorOf<S>::Zero(f_bar.size());
+    for (int k = 0; k < q_.contacts(); ++k) {
+      const auto kk = static_cast<std::size_t>(k);
+      const V3<S>&n = q_.normal[kk], t = terms_.at.direction[kk];
+      if (!isFromZero(k)) continue;
+      const V3<S> V = terms_.V.template segment<3>(3 * k);
+      const V3<S> t_bar = directionBar(k, z, f_bar.template segment<3>(3 * k));
+      bar.template segment<3>(3 * k) = (t_bar - t.dot(t_bar) * t - n.dot(t_bar) * n) / S(t.dot(V));
+    }
+    return bar;
+  }
+  bool isFromZero(int k) const {
+    const auto kk = static_cast<std::size_t>(k);
+    return terms_.at.state[kk] == ConeState::slides && !(q_.friction[kk] > S(0)) &&
+           terms_.at.direction[kk].dot(terms_.at.direction[kk]) > S(0);
+  }
+  V3<S> directionBar(int k, const VectorOf<S>& z, const V3<S>& f_bar) const {
+    const auto kk = static_cast<std::size_t>(k);
+    const V3<S> V = terms_.V.template segment<3>(3 * k);
+    return q_.friction[kk] * (z[terms_.first[kk]] * V + terms_.at.pressure[kk] * f_bar);
+  }
+
   void contactPullback(int k, const V3<S>& f_bar, const VectorOf<S>& z, ConeBarOf<S>& bar) const {
     const auto kk = static_cast<std::size_t>(k);
     const ConeState state = terms_.at.state[kk];
@@ -104,8 +145,12 @@ class ConeSolution {
     }
     bar.friction[kk] += z[c] * t.dot(V) + p * t.dot(f_bar);
     bar.normal[kk] += z[c] * V + (p - q_.offset[kk]) * f_bar;
+    V3<S> t_bar = directionBar(k, z, f_bar);
+    if (isFromZero(k)) {
+      const S slip = -t.dot(V);
+      bar.normal[kk] += (n.dot(V) * (t_bar - t.dot(t_bar) * t) + n.dot(t_bar) * V) / slip;
+    }
     if (!(mu > S(0))) return;
-    V3<S> t_bar = mu * (z[c] * V + p * f_bar);
     const V3<S> turned_bar = z[c + 1] * V;
     bar.normal[kk] += t.cross(turned_bar);
     t_bar += turned_bar.cross(n);
@@ -139,7 +184,7 @@ class ConeSolution {
     for (int k = 0; k < q_.contacts(); ++k) {
       const auto kk = static_cast<std::size_t>(k);
       V3<S>& t = terms_.at.direction[kk];
-      if (terms_.at.state[kk] != ConeState::slides || q_.friction[kk] > S(0) || !(t.dot(t) > S(0))) continue;
+      if (!isFromZero(k)) continue;
       const V3<S> v = terms_.V.template segment<3>(3 * k), v_t = v - q_.normal[kk].dot(v) * q_.normal[kk];
       t = -v_t / S(sqrt(S(v_t.dot(v_t))));
       any = true;

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "adjoint/contact/cone_program.hpp"
+#include "adjoint/contact/cone.hpp"
+#include "adjoint/contact/symmetric_inverse.hpp"
 
 /// The conditions of a cone program on its active set, for any number, with rates and adjoints of the solution. On the
 /// set f = f(y): (f_n, f_t) inside; f = (p - offset) n + mu p t on the side, with p and the turn of t; p n free.

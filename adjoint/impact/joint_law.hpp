@@ -7,6 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/base/types.h"
+#include "adjoint/contact/cone_program.hpp"
 #include "adjoint/contact/cone_rates.hpp"
 #include "adjoint/impact/directed_solve.hpp"
 #include "adjoint/numeric/wide.hpp"
@@ -58,9 +59,7 @@ class Branch {
   Branch(const Problem& p, bool from_zero) {
     const int n = static_cast<int>(p.normal.size());
     solveNormal(p, n);
-    P = P_N;
-    b = p.u + p.K * P_N;
-    if (!parts(p))
+    if (!parts(p) || pulls(p))
       throw NotComputable(p.driven ? "no impulses part its contacts, one of which moves by itself"
                                    : "the impulses that part all of its contacts are lost in rounding");
     const bool rubs = std::any_of(normal_active.begin(), normal_active.end(), [&](int k) { return hasFriction(p, k); });
@@ -151,10 +150,34 @@ class Branch {
     for (int k = 0; k < n; ++k) all[static_cast<std::size_t>(k)] = k;
     const MatrixOf<S> N = normalsOf<S>(p, all);
     const VectorOf<S> u_n = N.transpose() * p.u;
-    normal_active = activeContactsOf<T>(valuesOf(MatrixOf<S>(N.transpose() * p.K * N)),
-                                        valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n))), !p.driven, p.held);
+    push(p, activeContactsOf<T>(valuesOf(MatrixOf<S>(N.transpose() * p.K * N)),
+                                valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n))), !p.driven, p.held));
+    if (p.driven || parts(p)) return;
+    push(p, pushing(p, share(p, all)));
+  }
+  template <class Problem>
+  void push(const Problem& p, Contacts contacts) {
+    normal_active = std::move(contacts);
+    normal.clear();
     normal.emplace_back(p, normalsOf<S>(p, normal_active), share(p, normal_active));
-    P_N = normal[0].impulse();
+    P = P_N = normal[0].impulse();
+    b = p.u + p.K * P_N;
+  }
+  // Far more contacts than a body has ways to move lose the active set; without friction they are a cone program, too.
+  template <class Problem>
+  static Contacts pushing(const Problem& p, const VectorOf<S>& shares) {
+    const std::size_t n = p.normal.size();
+    ConeProgramOf<T> q{valuesOf(p.K), valuesOf(p.u), {}, std::vector<T>(n, T(0)), std::vector<T>(n, T(0)), p.held, {}, {}};
+    q.free.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      q.b.template segment<3>(3 * static_cast<Index>(k)) *= valueOf(shares[static_cast<Index>(k)]);
+      q.normal.push_back(valuesOf(p.normal[k]));
+    }
+    const ConePointOf<T> at = solveConeProgram<T>(q);
+    Contacts found;
+    for (std::size_t k = 0; k < n; ++k)
+      if (at.state[k] != ConeState::apex) found.push_back(static_cast<int>(k));
+    return found;
   }
   template <class Problem>
   static VectorOf<S> share(const Problem& p, const Contacts& contacts) {
@@ -286,6 +309,15 @@ class Branch {
 
   // Whether every contact comes off as fast as its e says. Surfaces of bodies that nothing moves may go different ways:
   // no impulses stop the others on all of them then.
+  template <class Problem>
+  bool pulls(const Problem& p) const {
+    const VectorOf<S>& y = normal[0].solve.y;
+    T most = T(0);
+    for (Index c = 0; c < y.size(); ++c) most = std::max(most, valueOf(y[c]));
+    for (std::size_t c = 0; c < normal_active.size(); ++c)
+      if (!isHeld(p, normal_active[c]) && valueOf(y[static_cast<Index>(c)]) < T(-1e-9) * most) return true;
+    return false;
+  }
   template <class Problem>
   bool parts(const Problem& p) const {
     const std::vector<Normal> along = alongNormals(p);

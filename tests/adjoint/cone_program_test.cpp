@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/contact/cone_program.hpp"
 #include "adjoint/contact/cone_terms.hpp"
 #include "adjoint/numeric/so3.hpp"
 #include "tests/support/compare.h"
