@@ -118,13 +118,8 @@ void Reliability::passFriction(const Motion& motion, int index, double margin) {
   }
   if (frictions.empty() || !friction_message.empty()) return;
   friction_message = sentenceOf(motion, index);
-  if (event.contacts.size() > 1) {
-    friction_message +=
-        "joins several contacts, some without friction: it has no derivative by their friction, and 0 stands for it";
-  } else {
-    friction_message += textOf(6, "is without friction and does not slip (margin ", margin,
-                               "): the derivative by its friction is one-sided, and another one next to it");
-  }
+  friction_message += textOf(6, "is without friction and does not slip (margin ", margin,
+                             "): the derivative by its friction is one-sided, and another one next to it");
 }
 
 void Reliability::askFriction(int material) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "adjoint/base/errors.h"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/impact/single_laws.hpp"
 #include "adjoint/impact/tilt.hpp"
@@ -80,7 +81,13 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
 double EventLinearization::frictionFromZero() const {
   const ImpactProblem& p = impact().problem();
   if (std::none_of(p.pair.begin(), p.pair.end(), [](const PairCoefficients& c) { return c.friction == 0; })) return 1;
-  if (p.contacts() > 1) return 0;
+  if (p.contacts() > 1) {
+    try {
+      return slipWithoutFriction(p);
+    } catch (const NotComputable&) {  // in doubles
+      return 0;
+    }
+  }
   const FrictionTerms<double> t(onlyContact(p));
   return t.slides ? t.margin : 0;
 }

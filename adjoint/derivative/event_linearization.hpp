@@ -20,8 +20,8 @@ class EventLinearization : public EventPass<double> {
                   const std::vector<BodyModelDerivative>& dmodel) const;
 
   /// How far the event is from where it has no derivative by coefficients of friction that are 0, because a body that
-  /// does not slip there sticks with the least friction: |P_t|/P_n of the untruncated impulse. 0 for several contacts,
-  /// one of which is without friction; 1 where none is.
+  /// does not slip there sticks with the least friction: |P_t|/P_n of the untruncated impulse, and of several contacts
+  /// the speed of the slip as a share of the fastest one at them; 1 where none is without friction.
   double frictionFromZero() const;
 };
 

@@ -116,23 +116,29 @@ T absOf(const T& x) {
   return x < T(0) ? T(-x) : x;
 }
 
+bool isHeld(const std::vector<char>& held, int contact) {
+  return !held.empty() && held[static_cast<std::size_t>(contact)];
+}
+
 // Where contacts are redundant several sets give the same velocities. The one that spreads the impulses over all
 // contacts that just meet their condition is taken when it pulls nowhere: a box on a face is held at its four corners,
 // not at two.
 template <class T>
-Contacts spread(const Matrix<T>& A, const Vector<T>& b, const Vector<T>& y, Contacts active) {
+Contacts spread(const Matrix<T>& A, const Vector<T>& b, const Vector<T>& y, const Contacts& active,
+                const std::vector<char>& held) {
   const Vector<T> w = A * y + b;
   const T scale = b.unaryExpr(&absOf<T>).maxCoeff(), least = T(1e-9) * scale;
   Contacts met;
   for (Index i = 0; i < b.size(); ++i)
-    if (y[i] > T(0) || absOf<T>(w[i]) <= least) met.push_back(static_cast<int>(i));
+    if (y[i] > T(0) || isHeld(held, static_cast<int>(i)) || absOf<T>(w[i]) <= least) met.push_back(static_cast<int>(i));
   if (met.empty() || met.size() == active.size()) return active;
   const LeastNormSolveOf<T> solve(A(met, met), b(met));
   const Vector<T> left = A(met, met) * solve.y + b(met);
   for (std::size_t c = 0; c < met.size(); ++c) {
     const auto i = static_cast<Index>(c);
     // an impulse counts by the velocity that it gives its own contact
-    if (absOf<T>(left[i]) > least || !(A(met[c], met[c]) * solve.y[i] > least)) return active;
+    if (absOf<T>(left[i]) > least) return active;
+    if (!isHeld(held, met[c]) && !(A(met[c], met[c]) * solve.y[i] > least)) return active;
   }
   return met;
 }
@@ -142,7 +148,7 @@ Contacts spread(const Matrix<T>& A, const Vector<T>& b, const Vector<T>& y, Cont
 // Active set of Lawson and Hanson: contacts enter one at a time, the most violated first, and leave at the first
 // impulse that would turn negative.
 template <class T>
-std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool in_range) {
+std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool in_range, const std::vector<char>& held) {
   using std::sqrt;
   const Index n = b.size();
   requireComputable<T>(A, b);
@@ -157,6 +163,9 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
     for (Index j = 0; j < n; ++j) sum += absOf<T>(A(i, j) * y[j]);
     return T(1e-15) * largest + T(1e-13) * absOf<T>(b[i]) + T(Precision<T>::kRounding) * sum;
   };
+  for (int i = 0; i < n; ++i)
+    if (isHeld(held, i)) list.push_back(i);
+  if (!list.empty()) y(list) = LeastNormSolveOf<T>(A(list, list), b(list)).y;
   for (Index round = 0; round < 10 * n + 10; ++round) {
     const Vector<T> w = A * y + b;
     int enter = -1;
@@ -174,7 +183,7 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
         int first = -1;
         for (std::size_t c = 0; c < list.size(); ++c) {
           const T rate = -against[static_cast<Index>(c)];
-          if (rate < T(-1e-12) * size && -y[list[c]] / rate < most) most = -y[list[c]] / rate, first = list[c];
+          if (!isHeld(held, list[c]) && rate < T(-1e-12) * size && -y[list[c]] / rate < most) most = -y[list[c]] / rate, first = list[c];
         }
         if (first < 0) throw NotComputable("a body is squeezed between others that nothing moves");
         y(list) -= most * against;
@@ -185,17 +194,18 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
       int leave = -1;
       for (std::size_t c = 0; c < list.size(); ++c) {
         const T from = y[list[c]], to = solve.y[static_cast<Index>(c)];
-        if (to <= T(0) && from > to && from / (from - to) < step) step = from / (from - to), leave = list[c];
+        if (!isHeld(held, list[c]) && to <= T(0) && from > to && from / (from - to) < step) step = from / (from - to), leave = list[c];
       }
       y(list) += step * (solve.y - y(list));
       feasible = leave < 0;
       if (!feasible) leaves(leave);
     }
   }
-  return spread<T>(A, b, y, list);
+  return spread<T>(A, b, y, list, held);
 }
 
-template std::vector<int> activeContactsOf(const Matrix<double>&, const Vector<double>&, bool);
-template std::vector<int> activeContactsOf(const Matrix<Wide>&, const Vector<Wide>&, bool);
+template std::vector<int> activeContactsOf(const Matrix<double>&, const Vector<double>&, bool,
+                                           const std::vector<char>&);
+template std::vector<int> activeContactsOf(const Matrix<Wide>&, const Vector<Wide>&, bool, const std::vector<char>&);
 
 }  // namespace carom::adjoint_detail

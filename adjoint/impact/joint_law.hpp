@@ -3,290 +3,330 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <memory>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/base/types.h"
+#include "adjoint/contact/cone_program.hpp"
+#include "adjoint/contact/cone_rates.hpp"
 #include "adjoint/impact/directed_solve.hpp"
 #include "adjoint/numeric/wide.hpp"
 
-// Equation 4.3, contacts of one instant together, each with u_n <= 0 before:
-//   P_N: normal impulses, 0 <= P_N,k, u_n,k+ >= -e_k u_n,k, complementary;   P_I: the same with e = 0;
-//   P_II: impulses that stop every active contact with friction altogether and the others along their normals;
-//   P = P_N + kappa (P_II - P_I), kappa = 1 + min e_t cut back to where the first contact reaches its friction cone, or
-//   comes off no faster than its e says.
-// One contact gives 4.1 and 4.2. Energy: with |.| the norm of K, the change is
-// 1/2 sum P_N,k (1 - e_k) u_n,k - kappa (1 - kappa/2) |P_II - P_I|^2 at the most, which is <= 0 for kappa in [0, 2].
+// Equation 4.4, contacts of one instant together, each with u_n <= 0 before:
+//   P_N: normal impulses, 0 <= P_N,k, u_n,k+ >= -e_k u_n,k, complementary; those of held contacts have either sign, e = 0;
+//   P = P_N + X, X the least of X.K X/2 + kappa (u + K P_N).X with P in the cones of contacts with P_N > 0, whose
+//   velocities along the normals X leaves alone; kappa = 1 + min e_t;
+//   a contact that X would slow down below -e u_n joins, with u_n+ = -e u_n and its own cone: the first one on the way
+//   from P_N to P, and so on. kappa is 1 at the most then.
+// X = 0 is admissible, so X.K X <= -kappa (u + K P_N).X, and the energy grows by (1/2 - 1/kappa) X.K X over that after P_N
+// at the most: never for kappa <= 2. After P_N it has grown by 1/2 sum P_N (1 - e) u_n, which is no growth either.
 // Where a kinematic body takes part, u need not be a velocity that impulses can undo. P_N still exists unless a body is
-// squeezed between ones that nothing moves; where P would let a contact come off slower than its e says, P = P_N.
+// squeezed between ones that nothing moves; where no P is found or lets a contact come off slower than its e says, P = P_N.
 // What comes out is held against these conditions: where rounding has spoilt them there is no answer but NotComputable.
-// Redundant contacts (a face on a plane) make K singular; impulses of least norm are taken, velocities are unique.
+// Redundant contacts (a face on a plane) make K singular; velocities are unique.
 //
 // Written for any number: doubles, numbers of 32 digits, and duals of either, which take the branch of the values. A
 // `Problem` has the fields of ImpactProblem, a `Bar` those of ImpactProblemDerivative.
 
 namespace carom::adjoint_detail {
 
-/// |v|; at 0, where it has no derivative and nothing asks for one, without rates.
-template <class S>
-S normOf(const V3<S>& v) {
-  using std::sqrt;
-  const S square = v.dot(v);
-  return square == S(0) ? S(0) : S(sqrt(square));
-}
-
 using Contacts = std::vector<int>;
 
-template <class Problem>
-bool hasFriction(const Problem& p, int k) {
-  return p.pair[static_cast<std::size_t>(k)].friction > 0;
-}
-
-// Directions of the impulses of a list of contacts: their normals; all three of contacts with friction that `stick`.
+// Normals of a list of contacts as columns.
 template <class S, class Problem>
-MatrixOf<S> directionsOf(const Problem& p, const Contacts& list, bool stick) {
-  MatrixOf<S> C = MatrixOf<S>::Zero(p.u.size(), 3 * static_cast<Index>(list.size()));
+MatrixOf<S> normalsOf(const Problem& p, const Contacts& list) {
+  MatrixOf<S> N = MatrixOf<S>::Zero(p.u.size(), static_cast<Index>(list.size()));
   Index at = 0;
-  for (int k : list) {
-    if (stick && hasFriction(p, k)) {
-      C.template block<3, 3>(3 * k, at).setIdentity();
-      at += 3;
-    } else {
-      C.template block<3, 1>(3 * k, at++) = p.normal[static_cast<std::size_t>(k)];
-    }
-  }
-  return C.leftCols(at);
+  for (int k : list) N.template block<3, 1>(3 * k, at++) = p.normal[static_cast<std::size_t>(k)];
+  return N;
 }
 
-// Its adjoint.
-template <class S, class Problem, class Bar>
-void addDirections(const Problem& p, const Contacts& list, bool stick, const MatrixOf<S>& C_bar, Bar& bar) {
-  Index at = 0;
-  for (int k : list) {
-    const bool whole = stick && hasFriction(p, k);
-    if (!whole) bar.normal[static_cast<std::size_t>(k)] += C_bar.template block<3, 1>(3 * k, at);
-    at += whole ? 3 : 1;
-  }
-}
-
-// The branch of the law with its three solves.
+// The branch of the law with its solutions.
 template <class S>
-struct Branch {
+class Branch {
+ public:
   using T = Value<S>;
-  Contacts normal_active, plastic_active, directions;  // directions: contacts of P_II, their union
-  bool friction = false;
+  Contacts normal_active, joined;  // contacts of P_N; those that friction would press down
   S kappa = 0;
-  int limit = -1;       // contact that cuts kappa back, -1: none does
-  bool by_cone = true;  // its friction cone does; else it parts as slowly as it may
-  int lowest_e_t = -1;  // contact that gives kappa when none does
-  double margin = 1;
-  VectorOf<S> P_N, d;
-  std::vector<DirectedSolve<S>> solves;  // P_N, P_I, P_II
+  int lowest_e_t = -1;  // contact that gives kappa, -1: none does
+  VectorOf<S> P_N, b;   // b = u + K P_N
+  std::vector<DirectedSolve<S>> normal;  // one: P_N
+  Contacts list;                         // contacts of X
+  std::unique_ptr<ConeSolution<S>> cone;  // X; null: 0
 
+  /// `from_zero`: friction that is 0 is to vary.
   template <class Problem>
-  explicit Branch(const Problem& p) {
+  Branch(const Problem& p, bool from_zero) {
     const int n = static_cast<int>(p.normal.size());
-    Contacts all(static_cast<std::size_t>(n));
-    for (int k = 0; k < n; ++k) all[static_cast<std::size_t>(k)] = k;
-    const MatrixOf<S> N = directionsOf<S>(p, all, false);
-    const MatrixOf<S> A = N.transpose() * p.K * N;
-    const VectorOf<S> u_n = N.transpose() * p.u;
-    normal_active = activeContactsOf<T>(valuesOf(A), valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n))), !p.driven);
-    solves.emplace_back(p, directionsOf<S>(p, normal_active, false), share(p, normal_active));
-    P_N = solves[0].impulse();
-    d = VectorOf<S>::Zero(3 * n);
-    P_N_gain = p.K * P_N;
-    if (!parts(p))
+    solveNormal(p, n);
+    if (!parts(p) || pulls(p))
       throw NotComputable(p.driven ? "no impulses part its contacts, one of which moves by itself"
                                    : "the impulses that part all of its contacts are lost in rounding");
-    friction = std::any_of(p.pair.begin(), p.pair.end(), [](const auto& c) { return c.friction > 0; });
-    if (!friction) return;
-    plastic_active = activeContactsOf<T>(valuesOf(A), valuesOf(u_n), !p.driven);
-    std::set_union(normal_active.begin(), normal_active.end(), plastic_active.begin(), plastic_active.end(),
-                   std::back_inserter(directions));
-    solves.emplace_back(p, directionsOf<S>(p, plastic_active, false), ones(plastic_active.size()));
-    const MatrixOf<S> C = directionsOf<S>(p, directions, true);
-    solves.emplace_back(p, C, ones(static_cast<std::size_t>(C.cols())));
-    d = solves[2].impulse() - solves[1].impulse();
-    d_gain = p.K * d;
-    cutBack(p);
-    if (!p.driven) cutToPart(p);
-    if (parts(p)) return;
+    const bool rubs = std::any_of(normal_active.begin(), normal_active.end(), [&](int k) { return hasFriction(p, k); });
+    if (normal_active.empty() || !(rubs || from_zero)) return;
+    setKappa(p, rubs);
+    try {
+      addFriction(p);
+      if (parts(p)) return;
+    } catch (const NotComputable&) {
+      if (rubs && !p.driven) throw;
+      leaveOutFriction();
+      return;
+    }
     if (!p.driven) throw NotComputable("the impulses of friction that part all of its contacts are lost in rounding");
     leaveOutFriction();
   }
 
-  VectorOf<S> P_N_gain, d_gain;  // of velocity, by P_N and by d
+  VectorOf<S> P;
 
-  // Velocities along the normal of contact k: before, gained by P_N and by d; and the size of what they are made of.
+  template <class Problem>
+  static bool isHeld(const Problem& p, int k) {
+    return !p.held.empty() && p.held[static_cast<std::size_t>(k)];
+  }
+  static bool isIn(const Contacts& contacts, int k) { return std::binary_search(contacts.begin(), contacts.end(), k); }
+
+  // The state of contact k in its cone; without friction it slides.
+  ConeState stateOf(int k) const {
+    const auto at = std::ranges::lower_bound(list, k);
+    if (cone && at != list.end() && *at == k)
+      return cone->terms().at.state[static_cast<std::size_t>(at - list.begin())];
+    return isIn(normal_active, k) ? ConeState::slides : ConeState::apex;
+  }
+
+  // How near X is to another branch: shares of cones that are not full, speeds of what slides.
+  double margin() const {
+    if (!cone) return 1;
+    const ConeTerms<S>& t = cone->terms();
+    const ConeProgramOf<S>& q = *t.program;
+    double least = 1, fastest = 0;
+    for (Index i = 0; i < q.b.size(); ++i) fastest = std::max(fastest, std::abs(rounded(valueOf(q.b[i]))));
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const double mu = rounded(valueOf(q.friction[k]));
+      if (!(mu > 0) || !(fastest > 0)) continue;
+      const Vec3 n = roundedOf(q.normal[k]), f = roundedOf(V3<S>(t.f.template segment<3>(3 * static_cast<Index>(k)))),
+                 v = roundedOf(V3<S>(t.V.template segment<3>(3 * static_cast<Index>(k))));
+      const double pressure = n.dot(f) + rounded(valueOf(q.offset[k])), side = (f - n.dot(f) * n).norm();
+      const double slip = (v - n.dot(v) * n).norm();
+      if (t.at.state[k] == ConeState::inside)
+        least = std::min(least, pressure > 0 ? (mu * pressure - side) / ((1 + mu) * pressure) : 0);
+      if (t.at.state[k] == ConeState::slides) least = std::min(least, slip / fastest);
+      if (t.at.state[k] == ConeState::apex) least = std::min(least, (n.dot(v) - mu * slip) / fastest);
+    }
+    return std::max(least, 0.0);
+  }
+  // The same of contacts without friction that may get some: whether they slip.
+  double slipWithoutFriction() const {
+    if (!cone) return 1;
+    const ConeTerms<S>& t = cone->terms();
+    const ConeProgramOf<S>& q = *t.program;
+    double least = 1;
+    const double fastest = rounded(valueOf(q.b[largestOf(q.b)]));
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (q.friction[k] > S(0) || t.at.state[k] != ConeState::slides) continue;
+      const Vec3 n = roundedOf(q.normal[k]), v = roundedOf(V3<S>(t.V.template segment<3>(3 * static_cast<Index>(k))));
+      least = std::min(least, fastest == 0 ? 0 : (v - n.dot(v) * n).norm() / std::abs(fastest));
+    }
+    return least;
+  }
+
+ private:
+  template <class Problem>
+  static bool hasFriction(const Problem& p, int k) {
+    return p.pair[static_cast<std::size_t>(k)].friction > 0;
+  }
+  static Vec3 roundedOf(const V3<S>& v) {
+    return {rounded(valueOf(v[0])), rounded(valueOf(v[1])), rounded(valueOf(v[2]))};
+  }
+  static Index largestOf(const VectorOf<S>& v) {
+    Index most = 0;
+    for (Index i = 0; i < v.size(); ++i)
+      if (std::abs(rounded(valueOf(v[i]))) > std::abs(rounded(valueOf(v[most])))) most = i;
+    return most;
+  }
+
+  template <class Problem>
+  void solveNormal(const Problem& p, int n) {
+    Contacts all(static_cast<std::size_t>(n));
+    for (int k = 0; k < n; ++k) all[static_cast<std::size_t>(k)] = k;
+    const MatrixOf<S> N = normalsOf<S>(p, all);
+    const VectorOf<S> u_n = N.transpose() * p.u;
+    push(p, activeContactsOf<T>(valuesOf(MatrixOf<S>(N.transpose() * p.K * N)),
+                                valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n))), !p.driven, p.held));
+    if (p.driven || parts(p)) return;
+    push(p, pushing(p, share(p, all)));
+  }
+  template <class Problem>
+  void push(const Problem& p, Contacts contacts) {
+    normal_active = std::move(contacts);
+    normal.clear();
+    normal.emplace_back(p, normalsOf<S>(p, normal_active), share(p, normal_active));
+    P = P_N = normal[0].impulse();
+    b = p.u + p.K * P_N;
+  }
+  // Far more contacts than a body has ways to move lose the active set; without friction they are a cone program, too.
+  template <class Problem>
+  static Contacts pushing(const Problem& p, const VectorOf<S>& shares) {
+    const std::size_t n = p.normal.size();
+    ConeProgramOf<T> q{valuesOf(p.K), valuesOf(p.u), {}, std::vector<T>(n, T(0)), std::vector<T>(n, T(0)), p.held, {}, {}};
+    q.free.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      q.b.template segment<3>(3 * static_cast<Index>(k)) *= valueOf(shares[static_cast<Index>(k)]);
+      q.normal.push_back(valuesOf(p.normal[k]));
+    }
+    const ConePointOf<T> at = solveConeProgram<T>(q);
+    Contacts found;
+    for (std::size_t k = 0; k < n; ++k)
+      if (at.state[k] != ConeState::apex) found.push_back(static_cast<int>(k));
+    return found;
+  }
+  template <class Problem>
+  static VectorOf<S> share(const Problem& p, const Contacts& contacts) {
+    VectorOf<S> s(static_cast<Index>(contacts.size()));
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      s[static_cast<Index>(c)] =
+          isHeld(p, contacts[c]) ? S(1) : S(1 + p.pair[static_cast<std::size_t>(contacts[c])].elasticity);
+    return s;
+  }
+  template <class Problem>
+  void setKappa(const Problem& p, bool rubs) {
+    for (int k : normal_active) {
+      const S bound = 1 + p.pair[static_cast<std::size_t>(k)].tangential_elasticity;
+      if ((hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa)) kappa = bound, lowest_e_t = k;
+    }
+  }
+  void leaveOutFriction() {
+    P = P_N;
+    cone.reset();
+    list.clear();
+    joined.clear();
+    lowest_e_t = -1;
+  }
+
+  // The least velocity along the normal of contact k after the impact, and what its velocity is after P_N.
+  template <class Problem>
+  static S leastOf(const Problem& p, int k) {
+    const auto kk = static_cast<std::size_t>(k);
+    if (isHeld(p, k)) return S(0);
+    return -p.pair[kk].elasticity * p.normal[kk].dot(V3<S>(p.u.template segment<3>(3 * k)));
+  }
+  template <class Problem>
+  S afterNormal(const Problem& p, int k) const {
+    return p.normal[static_cast<std::size_t>(k)].dot(V3<S>(b.template segment<3>(3 * k)));
+  }
+
+  template <class Problem>
+  ConeProgramOf<S> program(const Problem& p) const {
+    const auto n = static_cast<Index>(list.size());
+    ConeProgramOf<S> q;
+    q.K.resize(3 * n, 3 * n);
+    q.b.resize(3 * n);
+    for (Index i = 0; i < n; ++i) {
+      const int k = list[static_cast<std::size_t>(i)];
+      const auto kk = static_cast<std::size_t>(k);
+      for (Index j = 0; j < n; ++j)
+        q.K.template block<3, 3>(3 * i, 3 * j) =
+            p.K.template block<3, 3>(3 * k, 3 * list[static_cast<std::size_t>(j)]);
+      q.b.template segment<3>(3 * i) = kappa * b.template segment<3>(3 * k);
+      const bool joins = isIn(joined, k);
+      q.normal.push_back(p.normal[kk]);
+      q.friction.push_back(p.pair[kk].friction);
+      q.offset.push_back(joins ? S(0) : S(p.normal[kk].dot(V3<S>(P_N.template segment<3>(3 * k)))));
+      q.free.push_back(!joins && isHeld(p, k) && !(q.offset.back() > S(0)));
+      q.equal.push_back(static_cast<int>(i));
+      q.rise.push_back(joins ? S(leastOf(p, k) - afterNormal(p, k)) : S(0));
+    }
+    return q;
+  }
+
+  template <class Problem>
+  void addFriction(const Problem& p) {
+    const int n = static_cast<int>(p.normal.size());
+    std::vector<T> from;  // velocities along the normals from where the way to P goes on
+    for (int k = 0; k < n; ++k) from.push_back(valueOf(afterNormal(p, k)));
+    for (int round = 0; round <= n; ++round) {
+      list.clear();
+      std::ranges::set_union(normal_active, joined, std::back_inserter(list));
+      ConeProgramOf<S> q = program(p);
+      const ConePointOf<T> at = [&] {
+        if constexpr (has_rates<S>) return solveConeProgram<T>(valuesOf(q));
+        else return solveConeProgram<T>(q);
+      }();
+      cone = std::make_unique<ConeSolution<S>>(std::move(q), at);
+      P = P_N;
+      for (std::size_t c = 0; c < list.size(); ++c)
+        P.template segment<3>(3 * list[c]) += cone->terms().f.template segment<3>(3 * static_cast<Index>(c));
+      if (!join(p, from)) return;
+    }
+  }
+
+  // Contacts that P presses down: the first ones on the way to it join, and the way goes on from there.
+  template <class Problem>
+  bool join(const Problem& p, std::vector<T>& from) {
+    const std::vector<Normal> along = alongNormals(p);
+    T first = T(2);
+    std::vector<T> when(along.size(), T(2));
+    for (int k = 0; k < static_cast<int>(along.size()); ++k) {
+      const auto kk = static_cast<std::size_t>(k);
+      const T least = valueOf(leastOf(p, k)), to = along[kk].after;
+      if (isIn(list, k) || !(to < least - T(kTouch) * along[kk].size)) continue;
+      const T spare = from[kk] - least;
+      when[kk] = spare > T(0) ? T(spare / (from[kk] - to)) : T(0);
+      if (when[kk] < first) first = when[kk];
+    }
+    if (first > T(1)) return false;
+    for (int k = 0; k < static_cast<int>(along.size()); ++k) {
+      const auto kk = static_cast<std::size_t>(k);
+      from[kk] += first * (along[kk].after - from[kk]);
+      if (when[kk] > first + T(1e-9)) continue;
+      joined.insert(std::ranges::upper_bound(joined, k), k);
+    }
+    if (kappa > S(1)) kappa = S(1), lowest_e_t = -1;
+    return true;
+  }
+
+  static constexpr double kTouch = std::is_same_v<T, double> ? 1e-12 : 1e-24;
+
+  // Velocities along the normals before and after P, and the size of what they are made of.
   struct Normal {
-    T before, by_P_N, by_d, size;
+    T before, after, size;
   };
   template <class Problem>
-  Normal alongNormal(const Problem& p, int k) const {
-    using std::abs;
-    const auto kk = static_cast<std::size_t>(k);
-    const V3<T> n = valuesOf(p.normal[kk]), u = valuesOf(V3<S>(p.u.template segment<3>(3 * k))),
-                N = valuesOf(V3<S>(P_N_gain.template segment<3>(3 * k)));
-    Normal v{n.dot(u), n.dot(N), T(0), T(u.cwiseAbs().maxCoeff()) + T(N.cwiseAbs().maxCoeff())};
-    if (d_gain.size() == 0) return v;
-    const V3<T> D = valuesOf(V3<S>(d_gain.template segment<3>(3 * k)));
-    v.by_d = n.dot(D);
-    v.size += T(D.cwiseAbs().maxCoeff());
-    return v;
-  }
-  // Rounding of a contact's velocities: of its own, and far less of the fastest one's.
-  template <class Problem>
   std::vector<Normal> alongNormals(const Problem& p) const {
+    const VectorOf<T> u = valuesOf(p.u), gain = valuesOf(p.K) * valuesOf(P);
     std::vector<Normal> all;
     T fastest = T(0);
-    for (int k = 0; k < static_cast<int>(p.normal.size()); ++k) {
-      all.push_back(alongNormal(p, k));
+    for (std::size_t k = 0; k < p.normal.size(); ++k) {
+      const V3<T> n = valuesOf(p.normal[k]), before = u.template segment<3>(3 * static_cast<Index>(k)),
+                  gained = gain.template segment<3>(3 * static_cast<Index>(k));
+      all.push_back({n.dot(before), n.dot(V3<T>(before + gained)),
+                     T(before.cwiseAbs().maxCoeff()) + T(gained.cwiseAbs().maxCoeff())});
       if (all.back().size > fastest) fastest = all.back().size;
     }
-    for (Normal& v : all) v.size = T(1e-9) * v.size + T(1e-12) * fastest;
+    // rounding of a contact's velocities: of its own, and far less of the fastest one's
+    for (Normal& v : all) v.size = v.size + T(1e-3) * fastest;
     return all;
   }
 
   // Whether every contact comes off as fast as its e says. Surfaces of bodies that nothing moves may go different ways:
   // no impulses stop the others on all of them then.
   template <class Problem>
+  bool pulls(const Problem& p) const {
+    const VectorOf<S>& y = normal[0].solve.y;
+    T most = T(0);
+    for (Index c = 0; c < y.size(); ++c) most = std::max(most, valueOf(y[c]));
+    for (std::size_t c = 0; c < normal_active.size(); ++c)
+      if (!isHeld(p, normal_active[c]) && valueOf(y[static_cast<Index>(c)]) < T(-1e-9) * most) return true;
+    return false;
+  }
+  template <class Problem>
   bool parts(const Problem& p) const {
     const std::vector<Normal> along = alongNormals(p);
     for (std::size_t k = 0; k < along.size(); ++k) {
       const Normal& v = along[k];
-      const T e = valueOf(S(p.pair[k].elasticity));
-      if (!(v.before + v.by_P_N + valueOf(kappa) * v.by_d >= -e * v.before - v.size)) return false;
+      if (!(v.after >= valueOf(leastOf(p, static_cast<int>(k))) - T(1e-9) * v.size)) return false;
     }
     return true;
   }
-  static bool isIn(const Contacts& list, int k) { return std::binary_search(list.begin(), list.end(), k); }
-
-  // P_II - P_I may slow down contacts that P_N parts without pushing them: kappa stops where the first of them comes off
-  // as slowly as its e lets it.
-  template <class Problem>
-  void cutToPart(const Problem& p) {
-    const std::vector<Normal> along = alongNormals(p);
-    for (int k = 0; k < static_cast<int>(along.size()); ++k) {
-      const auto kk = static_cast<std::size_t>(k);
-      const Normal& v = along[kk];
-      if (isIn(plastic_active, k) || !(valueOf(kappa) * v.by_d < -v.size)) continue;
-      if (isIn(normal_active, k)) return leaveOutFriction();  // it comes off as slowly as it may already
-      const S spare = spareOf(p, k), loss = lossOf(p, k);
-      if (!(spare > 0)) return leaveOutFriction();
-      if (spare < kappa * loss) kappa = spare / loss, limit = k, by_cone = false;
-    }
-  }
-  // What contact k has above the least speed that it may part with, after P_N; and what d takes of it.
-  template <class Problem>
-  S spareOf(const Problem& p, int k) const {
-    const auto kk = static_cast<std::size_t>(k);
-    const V3<S> u = p.u.template segment<3>(3 * k), gain = P_N_gain.template segment<3>(3 * k);
-    const S e = p.pair[kk].elasticity;
-    return (1 + e) * p.normal[kk].dot(u) + p.normal[kk].dot(gain);
-  }
-  template <class Problem>
-  S lossOf(const Problem& p, int k) const {
-    return -p.normal[static_cast<std::size_t>(k)].dot(V3<S>(d_gain.template segment<3>(3 * k)));
-  }
-  void leaveOutFriction() {
-    friction = false;
-    kappa = 0;
-    d.setZero();
-    limit = lowest_e_t = -1;
-    margin = 1;
-  }
-
-  static VectorOf<S> ones(std::size_t n) { return VectorOf<S>::Ones(static_cast<Index>(n)); }
-  template <class Problem>
-  static VectorOf<S> share(const Problem& p, const Contacts& list) {
-    VectorOf<S> s(static_cast<Index>(list.size()));
-    for (std::size_t c = 0; c < list.size(); ++c)
-      s[static_cast<Index>(c)] = 1 + p.pair[static_cast<std::size_t>(list[c])].elasticity;
-    return s;
-  }
-  template <class Problem>
-  void cutBack(const Problem& p) {
-    kappa = 2;
-    for (int k : directions) {
-      const S bound = 1 + p.pair[static_cast<std::size_t>(k)].tangential_elasticity;
-      if (hasFriction(p, k) && (lowest_e_t < 0 || bound < kappa)) kappa = bound, lowest_e_t = k;
-    }
-    if (lowest_e_t < 0) kappa = 0;
-    for (int k : directions) {
-      const auto kk = static_cast<std::size_t>(k);
-      const V3<S> dk = d.template segment<3>(3 * k), n = p.normal[kk];
-      const S mu = p.pair[kk].friction, d_n = n.dot(dk), along = n.dot(P_N.template segment<3>(3 * k));
-      const S P_n = along > 0 ? along : S(0);
-      const S s = mu > 0 ? S(normOf<S>(dk - d_n * n) / mu) : S(0), slope = s - d_n;
-      if (slope > 0 && P_n < kappa * slope) kappa = P_n / slope, limit = k;
-      const double whole = rounded(valueOf(S(P_n + kappa * d_n))), tangential = rounded(valueOf(S(kappa * s))),
-                   m = rounded(valueOf(mu));
-      if (whole > 0) margin = std::min(margin, std::abs(whole - tangential) * (m > 0 ? m / (1 + m) : 1) / whole);
-    }
-  }
 };
-
-// What follows from the adjoint of kappa where a contact limits it.
-template <class S, class Problem, class Bar>
-void limitPullback(const Problem& p, const Branch<S>& b, const S& kappa_bar, Bar& bar, VectorOf<S>& P_N_bar,
-                   VectorOf<S>& d_bar) {
-  const auto k = static_cast<std::size_t>(b.limit);
-  const Index at = 3 * b.limit;
-  if (!b.by_cone) {  // kappa loss = spare
-    const S w = kappa_bar / b.lossOf(p, b.limit), e1 = 1 + p.pair[k].elasticity;
-    const V3<S> u = p.u.template segment<3>(at), n = p.normal[k];
-    const VectorOf<S> both = b.P_N + b.kappa * b.d;
-    const MatrixOf<S> row = p.K.middleRows(at, 3);
-    bar.pair[k].elasticity += w * n.dot(u);
-    bar.normal[k] += w * (e1 * u + row * both);
-    bar.u.template segment<3>(at) += w * e1 * n;
-    bar.K.middleRows(at, 3) += w * n * both.transpose();
-    const VectorOf<S> back = w * (row.transpose() * n);
-    P_N_bar += back;
-    d_bar += b.kappa * back;
-    return;
-  }
-  const V3<S> n = p.normal[k], d = b.d.template segment<3>(at), P = b.P_N.template segment<3>(at);
-  const S mu = p.pair[k].friction, d_n = n.dot(d), P_n = n.dot(P);
-  S P_n_bar, d_n_bar;
-  if (mu > 0) {
-    const V3<S> d_t = d - d_n * n;
-    const S s = normOf<S>(d_t), w = kappa_bar / (s - mu * d_n), s_bar = -b.kappa * w;
-    bar.pair[k].friction += w * (P_n + b.kappa * d_n);
-    P_n_bar = mu * w;
-    d_n_bar = b.kappa * mu * w;
-    d_bar.template segment<3>(at) += s_bar / s * d_t;
-    bar.normal[k] -= s_bar / s * d_n * d_t;
-  } else {
-    P_n_bar = -kappa_bar / d_n;
-    d_n_bar = b.kappa * P_n_bar;
-  }
-  P_N_bar.template segment<3>(at) += P_n_bar * n;
-  d_bar.template segment<3>(at) += d_n_bar * n;
-  bar.normal[k] += P_n_bar * P + d_n_bar * d;
-}
-
-template <class S, class Problem, class Bar>
-void jointPullback(const Problem& p, const VectorOf<S>& P_bar, Bar& bar) {
-  const Branch<S> b(p);
-  VectorOf<S> P_N_bar = P_bar, share_bar;
-  MatrixOf<S> C_bar;
-  if (b.friction) {
-    VectorOf<S> d_bar = b.kappa * P_bar;
-    const S kappa_bar = P_bar.dot(b.d);
-    if (b.limit >= 0)
-      limitPullback<S>(p, b, kappa_bar, bar, P_N_bar, d_bar);
-    else if (b.lowest_e_t >= 0)
-      bar.pair[static_cast<std::size_t>(b.lowest_e_t)].tangential_elasticity += kappa_bar;
-    b.solves[1].pullback(p, VectorOf<S>(-d_bar), bar, C_bar, share_bar);
-    addDirections<S>(p, b.plastic_active, false, C_bar, bar);
-    b.solves[2].pullback(p, d_bar, bar, C_bar, share_bar);
-    addDirections<S>(p, b.directions, true, C_bar, bar);
-  }
-  b.solves[0].pullback(p, P_N_bar, bar, C_bar, share_bar);
-  addDirections<S>(p, b.normal_active, false, C_bar, bar);
-  for (std::size_t c = 0; c < b.normal_active.size(); ++c)
-    bar.pair[static_cast<std::size_t>(b.normal_active[c])].elasticity += share_bar[static_cast<Index>(c)];
-}
 
 }  // namespace carom::adjoint_detail

@@ -18,6 +18,9 @@ struct ImpactProblemOf {
   std::vector<PairCoefficientsOf<S>> pair;             ///< N
   /// A kinematic body takes part: u need not be in the range of what impulses can change.
   bool driven = false;
+  /// Contacts, none or one entry each, with n.u = 0 before that keep n.u = 0 as an equation: their impulse may pull, and
+  /// is without friction where it does.
+  std::vector<char> held;
 
   int contacts() const { return static_cast<int>(normal.size()); }
 };
@@ -40,12 +43,18 @@ struct ImpactProblemDerivativeOf {
 };
 using ImpactProblemDerivative = ImpactProblemDerivativeOf<double>;
 
+/// What became of a contact: no impulse keeps it; it is on its cone, or without friction; it is inside, where friction
+/// does all it can (u_t+ = 0 without elasticities).
+enum class ContactOutcome : char { off, slides, sticks };
+
 /// Impulses, and the branch that was taken.
 template <class S>
 struct ImpactSolutionOf {
   Eigen::Matrix<S, Eigen::Dynamic, 1> P;  ///< 3N, N s, on a
   ImpactMode mode = ImpactMode::frictionless;
   double stick_slip_margin = 1;  ///< see Margins
+  std::vector<ContactOutcome> outcome;  ///< N
+  std::vector<char> closed;             ///< N: n.u+ = 0 by the branch, as e = 0 or it is held
 };
 using ImpactSolution = ImpactSolutionOf<double>;
 

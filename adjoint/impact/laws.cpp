@@ -11,4 +11,8 @@ template ImpactSolutionOf<double> solveLaw(const ImpactProblemOf<double>&);
 template ImpactProblemDerivativeOf<double> lawPullback(const ImpactProblemOf<double>&, const VectorOf<double>&);
 template ImpactSolutionOf<Dual<1>> solveLaw(const ImpactProblemOf<Dual<1>>&);
 
+double slipWithoutFriction(const ImpactProblem& problem) {
+  return Branch<double>(problem, true).slipWithoutFriction();
+}
+
 }  // namespace carom::adjoint_detail

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/impact/joint_law.hpp"
+#include "adjoint/impact/joint_pullback.hpp"
 #include "adjoint/impact/law.hpp"
 #include "adjoint/impact/single_laws.hpp"
 
 /// The impact laws of law.hpp for any number. Derivatives along directions are the law itself in dual numbers; adjoints
 /// are written by hand, and the dot-product tests hold one against the other.
 namespace carom::adjoint_detail {
-
-template <class S>
-inline constexpr bool has_rates = !std::is_same_v<S, Value<S>>;
 
 /// 4.1. Where the contact slips, friction that grows from 0 is 4.2 with a coefficient of 0: the same impulse, with its
 /// derivatives by friction.
@@ -20,9 +17,9 @@ struct FrictionlessLaw {
     const ContactProblemOf<S> one = onlyContact(p);
     if constexpr (has_rates<S>) {
       const FrictionTerms<S> friction(one);
-      if (slipsWithoutFriction(friction)) return {friction.impulse(), ImpactMode::frictionless, 1};
+      if (slipsWithoutFriction(friction)) return {friction.impulse(), ImpactMode::frictionless, 1, {}, {}};
     }
-    return {FrictionlessTerms<S>(one).impulse(), ImpactMode::frictionless, 1};
+    return {FrictionlessTerms<S>(one).impulse(), ImpactMode::frictionless, 1, {}, {}};
   }
   template <class S>
   static void pullback(const ImpactProblemOf<S>& p, const VectorOf<S>& P_bar, ImpactProblemDerivativeOf<S>& bar) {
@@ -39,7 +36,7 @@ struct FrictionLaw {  // 4.2
   template <class S>
   static ImpactSolutionOf<S> solve(const ImpactProblemOf<S>& p) {
     const FrictionTerms<S> t(onlyContact(p));
-    return {t.impulse(), t.slides ? ImpactMode::slide : ImpactMode::stick, t.margin};
+    return {t.impulse(), t.slides ? ImpactMode::slide : ImpactMode::stick, t.margin, {}, {}};
   }
   template <class S>
   static void pullback(const ImpactProblemOf<S>& p, const VectorOf<S>& P_bar, ImpactProblemDerivativeOf<S>& bar) {
@@ -47,11 +44,21 @@ struct FrictionLaw {  // 4.2
   }
 };
 
-struct JointLaw {  // 4.3
+struct JointLaw {  // 4.4
   template <class S>
   static ImpactSolutionOf<S> solve(const ImpactProblemOf<S>& p) {
-    const Branch<S> b(p);
-    return {b.P_N + b.kappa * b.d, ImpactMode::joint, b.limit < 0 ? b.margin : 1.0};
+    const Branch<S> b(p, has_rates<S>);
+    ImpactSolutionOf<S> solution{b.P, ImpactMode::joint, b.margin(), {}, {}};
+    for (int k = 0; k < p.contacts(); ++k) {
+      const ConeState state = b.stateOf(k);
+      solution.outcome.push_back(state == ConeState::apex     ? ContactOutcome::off
+                                 : state == ConeState::inside ? ContactOutcome::sticks
+                                                              : ContactOutcome::slides);
+      const bool keeps = Branch<S>::isIn(b.normal_active, k) || Branch<S>::isIn(b.joined, k);
+      const bool plastic = p.pair[static_cast<std::size_t>(k)].elasticity == S(0) || Branch<S>::isHeld(p, k);
+      solution.closed.push_back(keeps && plastic);
+    }
+    return solution;
   }
   template <class S>
   static void pullback(const ImpactProblemOf<S>& p, const VectorOf<S>& P_bar, ImpactProblemDerivativeOf<S>& bar) {
@@ -67,12 +74,35 @@ auto withLaw(const ImpactProblemOf<S>& p, const Visit& visit) {
   return visit(FrictionlessLaw());
 }
 
+/// One contact that is held: as though without elasticity, and without friction where it would pull.
+template <class S>
+ImpactProblemOf<S> asHeld(ImpactProblemOf<S> p) {
+  p.pair[0].elasticity = S(0);
+  if (p.normal[0].dot(V3<S>(p.u)) > S(0)) p.pair[0].friction = S(0);
+  p.held.clear();
+  return p;
+}
+template <class S>
+bool isOneHeld(const ImpactProblemOf<S>& p) {
+  return p.contacts() == 1 && !p.held.empty() && p.held[0];
+}
+
 template <class S>
 ImpactSolutionOf<S> solveLaw(const ImpactProblemOf<S>& p) {
-  return withLaw(p, [&](auto law) { return law.solve(p); });
+  if (isOneHeld(p)) return solveLaw(asHeld(p));
+  auto solution = withLaw(p, [&](auto law) { return law.solve(p); });
+  if (p.contacts() > 1) return solution;
+  solution.outcome = {solution.mode == ImpactMode::stick ? ContactOutcome::sticks : ContactOutcome::slides};
+  solution.closed = {p.pair[0].elasticity == S(0)};
+  return solution;
 }
 template <class S>
 ImpactProblemDerivativeOf<S> lawPullback(const ImpactProblemOf<S>& p, const VectorOf<S>& P_bar) {
+  if (isOneHeld(p)) {
+    ImpactProblemDerivativeOf<S> bar = lawPullback(asHeld(p), P_bar);
+    bar.pair[0].elasticity = S(0);
+    return bar;
+  }
   ImpactProblemDerivativeOf<S> bar(p.contacts());
   withLaw(p, [&](auto law) { law.pullback(p, P_bar, bar); });
   return bar;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts of one instant are solved together (equation 4.3): landings and chains whose answer is known.
+// Contacts of one instant are solved together (equation 4.4): landings and chains whose answer is known.
 
 #include <gtest/gtest.h>
 
@@ -58,17 +58,36 @@ TEST(Joint, FlatLandingWithGripStopsSliding) {
   }
 }
 
-TEST(Joint, FlatLandingOnSlipperyGroundKeepsSliding) {
-  const Motion m = landFlat(grounds()[0], 0.05);
-  const Vec3 v = m.stateAt("slab", 0.4).velocity;
-  expectFlat(m, {v.x(), v.y(), 1.2});
-  EXPECT_GT(v.x(), 0.5);
-  EXPECT_LT(v.x(), 1);
-  expectEntries(v.y(), 0.5 * v.x(), kState, "direction of sliding");
-  double fullest = 0;  // the first contact at its friction cone decides
-  for (const Contact& c : m.events[0].contacts)
-    fullest = std::max(fullest, c.impulse.head<2>().norm() / (0.05 * c.impulse.z()));
-  expectEntries(fullest, 1, kState, "share of the cone");
+// The speed along the ground falls by mu (1 + e) 2, in its own direction, and nothing turns.
+TEST(Joint, FlatLandingOnSlipperyGroundLosesWhatCoulombSays) {
+  for (const double friction : {0.05, 0.3})
+    for (const Body& ground : grounds()) {
+      SCOPED_TRACE(ground.name);
+      const double left = 1 - friction * 1.6 * 2 / std::sqrt(1.25);
+      const Motion m = landFlat(ground, friction);
+      expectFlat(m, {left, 0.5 * left, 1.2});
+      for (const Contact& c : m.events[0].contacts)
+        expectEntries(c.impulse.head<2>().norm(), friction * c.impulse.z(), kState, "its cone is full");
+    }
+}
+
+TEST(Joint, FourBallsStruckInASquareStaySymmetric) {
+  const double r = 0.1, d = 0.1 * std::sqrt(2.0), h = 0.1 * std::sqrt(2.0) + 0.4;
+  for (double friction : {0.0, 0.3}) {
+    Scene s = makeScene(Vec3::Zero(), 0.7, friction,
+                        {makeBall("east", r, {d, 0, 0}), makeBall("north", r, {0, d, 0}), makeBall("west", r, {-d, 0, 0}),
+                         makeBall("south", r, {0, -d, 0}), makeBall("top", r, {0, 0, h}, {0, 0, -1})});
+    const Motion m = play(s, 1);
+    ASSERT_GE(m.events.size(), 1u);
+    EXPECT_GE(m.events[0].contacts.size(), 4u) << m.describeEvent(0);
+    const double t = m.events[0].time;
+    const BodyState east = m.stateAt("east", t), north = m.stateAt("north", t), top = m.stateAt("top", t);
+    expectEntries(Vec2(top.velocity.head<2>()), Vec2::Zero().eval(), kState, "top, aside");
+    expectEntries(m.stateAt("west", t).velocity, Vec3(-east.velocity.x(), 0, east.velocity.z()), kState, "west");
+    expectEntries(north.velocity, Vec3(0, east.velocity.x(), east.velocity.z()), kState, "north");
+    expectEntries(m.stateAt("south", t).velocity, Vec3(0, -east.velocity.x(), east.velocity.z()), kState, "south");
+    expectEntries(east.velocity.y(), 0, kState, "east, aside");
+  }
 }
 
 // Both ends of an edge strike together, which is the planar problem of one vertex at (r_x, r_z).

@@ -39,7 +39,7 @@ VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
     both.rate[0] = rate;
     return both;
   };
-  ImpactProblemOf<Rate> both{p.K.cast<Rate>(), p.u.cast<Rate>(), {}, {}, p.driven};
+  ImpactProblemOf<Rate> both{p.K.cast<Rate>(), p.u.cast<Rate>(), {}, {}, p.driven, p.held};
   setRates(both.K, d.K, 0);
   setRates(both.u, d.u, 0);
   for (std::size_t k = 0; k < p.normal.size(); ++k) {
@@ -206,19 +206,44 @@ TEST(Laws, PullbackIsTheTransposeOfTangent) {
     }
 }
 
-// One contact: the joint law is 4.1 and 4.2.
+// One contact: the joint law is 4.1; it is 4.2 where the contact sticks, and where it slides in the plane or what pushes
+// along the normal pushes nowhere else.
+enum class Kind { any, planar, uncoupled };
+
+void makeOneContact(Kind kind, ImpactProblem& p) {
+  if (kind == Kind::any) return;
+  const Vec3 n = p.normal[0], z = n.unitOrthogonal();
+  if (kind == Kind::planar) {  // nothing happens along z
+    const Mat3 across = Mat3::Identity() - z * z.transpose();
+    p.K = across * p.K * across + z * z.transpose();
+    p.u = across * p.u;
+  } else {
+    const Mat3 along = n * n.transpose(), across = Mat3::Identity() - along;
+    p.K = (along * p.K * along + (1 + p.K(0, 0)) * across).eval();
+  }
+}
+
 TEST(Laws, JointLawOfOneContactIsTheLawOfOneContact) {
+  int stuck = 0;
   for (const LawRow& row : {kLaws[0], kLaws[1]})
-    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-      SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
-      Random random(seed);
-      const RandomProblem r(row, random);
-      ImpactProblemDerivative d = randomDirection(r.p, random);
-      keepSlippery(r.p, d);
-      const VectorXd P = row.law->solve(r.p).P, dP = row.law->tangent(r.p, d);
-      expectEntries(kJointLaw.solve(r.p).P, P, 1e-10, "P", 1 + P.norm());
-      expectEntries(kJointLaw.tangent(r.p, d), dP, 1e-9, "dP", 1 + dP.norm());
-    }
+    for (const Kind kind : {Kind::any, Kind::planar, Kind::uncoupled})
+      for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
+        Random random(seed);
+        RandomProblem r(row, random);
+        makeOneContact(kind, r.p);
+        const ImpactSolution one = row.law->solve(r.p), joint = kJointLaw.solve(r.p);
+        if (kind == Kind::any && one.mode == ImpactMode::slide) continue;
+        stuck += one.mode == ImpactMode::stick;
+        expectEntries(joint.P, one.P, 1e-10, "P", 1 + one.P.norm());
+        EXPECT_EQ(joint.outcome[0] == ContactOutcome::sticks, one.mode == ImpactMode::stick);
+        if (kind != Kind::any) continue;
+        ImpactProblemDerivative d = randomDirection(r.p, random);
+        keepSlippery(r.p, d);
+        const VectorXd dP = row.law->tangent(r.p, d);
+        expectEntries(kJointLaw.tangent(r.p, d), dP, 1e-9, "dP", 1 + dP.norm());
+      }
+  EXPECT_GT(stuck, 50);
 }
 
 TEST(Tilt, JacobianIsTheLimitOfDifferences) {

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/contact/cone_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/contact/alternating_directions.hpp"
+#include "adjoint/contact/cone_terms.hpp"
+#include "adjoint/contact/symmetric_inverse.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using Eigen::Index;
+
+template <class T>
+struct ConePrecision;
+template <>
+struct ConePrecision<double> {
+  static constexpr double kRounding = 1e-13, kExact = 2e-15;
+};
+template <>
+struct ConePrecision<Wide> {
+  static constexpr double kRounding = 1e-27, kExact = 1e-30;
+};
+
+template <class T>
+T lengthOf(const V3<T>& v) {
+  using std::sqrt;
+  return sqrt(v.dot(v));
+}
+template <class T>
+T largestOf(const VectorOf<T>& v) {
+  T most = T(0);
+  for (Index i = 0; i < v.size(); ++i) most = std::max({most, v[i], T(-v[i])});
+  return most;
+}
+
+// The program in units that make its numbers alike: f = C f' size, V = C^-1 V' size.
+template <class T>
+struct Evened {
+  ConeProgramOf<T> q;
+  std::vector<T> units;
+  T size = T(0);
+
+  explicit Evened(const ConeProgramOf<T>& p) : q(p), units(forceUnits<T>(p.K)) {
+    const int n = p.contacts();
+    for (int k = 0; k < n; ++k) {
+      const T c = units[static_cast<std::size_t>(k)];
+      q.K.middleRows(3 * k, 3) *= c;
+      q.K.middleCols(3 * k, 3) *= c;
+      q.b.template segment<3>(3 * k) *= c;
+    }
+    for (std::size_t e = 0; e < q.equal.size(); ++e) q.rise[e] *= units[static_cast<std::size_t>(q.equal[e])];
+    size = largestOf<T>(q.b);
+    for (const T& r : q.rise) size = std::max({size, r, T(-r)});
+    if (!(size > T(0))) size = T(1);
+    q.b /= size;
+    for (T& r : q.rise) r /= size;
+    for (std::size_t k = 0; k < q.offset.size(); ++k) q.offset[k] /= units[k] * size;
+  }
+  ConePointOf<T> asWritten(ConePointOf<T> at) const {
+    for (std::size_t k = 0; k < units.size(); ++k) {
+      at.f[k] *= units[k] * size;
+      at.pressure[k] *= units[k] * size;
+    }
+    for (std::size_t e = 0; e < q.equal.size(); ++e)
+      at.lambda[static_cast<Index>(e)] *= units[static_cast<std::size_t>(q.equal[e])] * size;
+    return at;
+  }
+};
+
+// Newton's method on the conditions with their active set, which changes with the point.
+template <class T>
+class ActiveSet {
+ public:
+  explicit ActiveSet(const ConeProgramOf<T>& q) : q_(q) {}
+
+  // The solution, when found from this point within some steps.
+  std::optional<ConePointOf<T>> from(ConePointOf<T> at, int steps) const {
+    T before = T(0);
+    bool kept = false;
+    for (int i = 0; i <= steps; ++i) {
+      ConeTerms<T> now(q_, std::move(at));
+      const T off = largestOf<T>(now.residual), size = T(1) + largestOf<T>(now.f);
+      if (!std::isfinite(rounded(off))) return std::nullopt;
+      const bool right = i > 0 && holds(now);
+      if (right && off <= T(ConePrecision<T>::kRounding) * size &&
+          (off <= T(ConePrecision<T>::kExact) * size || (kept && !(off < T(0.1) * before))))
+        return finished(now);
+      kept = right;
+      before = off;
+      now.step(VectorOf<T>(-symmetricInverse<T>(now.M, VectorOf<T>::Ones(now.M.rows())) * now.residual));
+      at = changed(ConeTerms<T>(q_, now.at));
+    }
+    return std::nullopt;
+  }
+
+  // Where friction of every contact is known: all inside, or all on the side against the velocity b.
+  ConePointOf<T> guess(bool slides) const {
+    const auto n = static_cast<std::size_t>(q_.contacts());
+    ConePointOf<T> at{std::vector<ConeState>(n, ConeState::inside), std::vector<V3<T>>(n, V3<T>::Zero()), q_.offset,
+                      std::vector<V3<T>>(n, V3<T>::Zero()),
+                      VectorOf<T>::Zero(static_cast<Index>(q_.equal.size()))};
+    for (std::size_t k = 0; k < n; ++k) {
+      if (q_.free[k]) at.state[k] = ConeState::free, at.pressure[k] = T(0);
+      if (q_.free[k] || (!slides && q_.friction[k] > T(0))) continue;
+      at.state[k] = ConeState::slides;
+      at.direction[k] = against(k, q_.b.template segment<3>(3 * static_cast<Index>(k)));
+      if (!(at.pressure[k] > T(0))) at.pressure[k] = T(1);
+    }
+    return at;
+  }
+
+  // The active set of forces f with velocities V.
+  ConePointOf<T> near(const VectorOf<T>& f, const VectorOf<T>& V, const VectorOf<T>& lambda) const {
+    ConePointOf<T> at = guess(false);
+    at.lambda = lambda;
+    for (std::size_t k = 0; k < at.state.size(); ++k) {
+      at.f[k] = f.template segment<3>(3 * static_cast<Index>(k));
+      if (q_.free[k]) {
+        at.pressure[k] = q_.normal[k].dot(at.f[k]);
+      } else {
+        at.state[k] = ConeState::inside;
+        classify(k, at.f[k], V.template segment<3>(3 * static_cast<Index>(k)), at);
+      }
+    }
+    return at;
+  }
+
+ private:
+  V3<T> against(std::size_t k, const V3<T>& v) const {
+    const V3<T> v_t = v - q_.normal[k].dot(v) * q_.normal[k];
+    const T speed = lengthOf<T>(v_t);
+    if (speed > T(1e-14)) return -v_t / speed;
+    if (!(q_.friction[k] > T(0))) return V3<T>::Zero();
+    Index least = 0;
+    q_.normal[k].unaryExpr([](const T& x) { return std::abs(rounded(x)); }).minCoeff(&least);
+    const V3<T> across = q_.normal[k].cross(V3<T>(V3<T>::Unit(least)));
+    return across / lengthOf<T>(across);
+  }
+
+  bool holds(const ConeTerms<T>& t, std::size_t k) const {
+    const auto row = 3 * static_cast<Index>(k);
+    const V3<T> f = t.f.template segment<3>(row), v = t.V.template segment<3>(row), n = q_.normal[k];
+    const T mu = q_.friction[k], little = T(ConePrecision<T>::kRounding), P = n.dot(f) + q_.offset[k];
+    const T little_v = little * (T(1) + largestOf<T>(t.f));
+    switch (t.at.state[k]) {
+      case ConeState::free:
+        return true;
+      case ConeState::apex:
+        return n.dot(v) >= mu * lengthOf<T>(v - n.dot(v) * n) - little_v;
+      case ConeState::slides:
+        return t.at.pressure[k] > T(0) && (!(mu > T(0)) || -t.at.direction[k].dot(v) >= -little_v);
+      case ConeState::inside:
+        break;
+    }
+    return lengthOf<T>(f - n.dot(f) * n) <= mu * P + little * (T(1) + lengthOf<T>(f));
+  }
+  bool holds(const ConeTerms<T>& t) const {
+    for (std::size_t k = 0; k < t.at.state.size(); ++k)
+      if (!holds(t, k)) return false;
+    return true;
+  }
+
+  // Where f - V, put back into the cone, stands in it.
+  void classify(std::size_t k, const V3<T>& f, const V3<T>& v, ConePointOf<T>& at) const {
+    const V3<T> n = q_.normal[k], w = f - v;
+    const T mu = q_.friction[k], w_n = n.dot(w) + q_.offset[k];
+    const V3<T> w_t = w - n.dot(w) * n;
+    const T side = lengthOf<T>(w_t), onto = (w_n + mu * side) / (T(1) + mu * mu);
+    at.f[k] = f;
+    if (mu > T(0) && side <= mu * w_n) {
+      at.state[k] = ConeState::inside;
+    } else if (mu * side <= -w_n) {
+      at.state[k] = ConeState::apex;
+    } else {
+      at.state[k] = ConeState::slides;
+      at.pressure[k] = onto;
+      at.direction[k] = mu > T(0) ? V3<T>(w_t / side) : against(k, v);
+    }
+  }
+  ConePointOf<T> changed(ConeTerms<T> t) const {
+    for (std::size_t k = 0; k < t.at.state.size(); ++k) {
+      const auto row = 3 * static_cast<Index>(k);
+      if (!holds(t, k)) classify(k, t.f.template segment<3>(row), t.V.template segment<3>(row), t.at);
+    }
+    return std::move(t.at);
+  }
+  ConePointOf<T> finished(ConeTerms<T>& t) const {
+    for (std::size_t k = 0; k < t.at.state.size(); ++k)
+      if (t.at.state[k] == ConeState::slides && !(q_.friction[k] > T(0)))
+        t.at.direction[k] = against(k, t.V.template segment<3>(3 * static_cast<Index>(k)));
+    return std::move(t.at);
+  }
+
+  const ConeProgramOf<T>& q_;
+};
+
+template <class T>
+ConeProgramOf<double> inDoubles(const ConeProgramOf<T>& q) {
+  const auto number = [](const T& x) { return rounded(x); };
+  ConeProgramOf<double> d{q.K.unaryExpr(number), q.b.unaryExpr(number), {}, {}, {}, q.free, q.equal, {}};
+  for (const auto& n : q.normal) d.normal.push_back(n.unaryExpr(number));
+  for (const T& x : q.friction) d.friction.push_back(rounded(x));
+  for (const T& x : q.offset) d.offset.push_back(rounded(x));
+  for (const T& x : q.rise) d.rise.push_back(rounded(x));
+  return d;
+}
+
+}  // namespace
+
+template <class T>
+ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
+  const Evened<T> even(program);
+  const ActiveSet<T> set(even.q);
+  constexpr int kSteps = 12;
+  for (const bool slides : {false, true})
+    if (auto at = set.from(set.guess(slides), kSteps)) return even.asWritten(*at);
+  AlternatingDirections slow(inDoubles<T>(even.q));
+  for (int iterations = 16; iterations <= 16384; iterations *= 2) {
+    slow.iterate(iterations);
+    const auto near = set.near(slow.forces().template cast<T>(), slow.velocities().template cast<T>(),
+                               slow.multipliers().template cast<T>());
+    if (auto at = set.from(near, kSteps)) return even.asWritten(*at);
+  }
+  throw NotComputable("the friction of its contacts, which are many or unlike, was not found");
+}
+
+template ConePointOf<double> solveConeProgram(const ConeProgramOf<double>&);
+template ConePointOf<Wide> solveConeProgram(const ConeProgramOf<Wide>&);
+
+}  // namespace carom::adjoint_detail
