@@ -6,6 +6,7 @@
 #include "adjoint/contact/glide_path.hpp"
 #include "adjoint/contact/rest_path.hpp"
 #include "adjoint/contact/roll_path.hpp"
+#include "adjoint/scene/body_model.h"
 
 /// Lasting contact with one fixed face in closed form, in any kind of number: docs/equations.md, section 11.
 namespace carom::adjoint_detail {
@@ -69,6 +70,23 @@ struct PathBounds {
   double spin = 0, spin_rate = 0;    ///< |w| rad/s, |w'| rad/s^2
 };
 PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until);
+
+/// A path as an arc keeps it, with what its derivative needs of the scene.
+struct ContactPath {
+  PathForm form = PathForm::rest;
+  PathInputs<double> inputs;
+  PathBounds bounds;  ///< over the whole arc
+  int body = -1;      ///< which is on the path
+  int face = -1;      ///< the fixed body that has the face
+  Eigen::RowVectorXd reach_rates;  ///< of the reach by the dimensions of the body
+  double start = 0;   ///< s
+  /// Elapsed at the end of slip, where the slip is exactly 0; infinite where there is none.
+  double slip_end = kInfinity;
+
+  /// At that end, start + slip_end, exactly slip_end.
+  double elapsedAt(double t) const { return t < start + slip_end ? t - start : slip_end; }
+  State stateAt(const State& start_state, double t) const;
+};
 
 /// The first time in (0, until] at which weight.(x + ahead * slip direction) falls through `value`: nothing where it
 /// does not. `ahead` is 0 for what does not slide.

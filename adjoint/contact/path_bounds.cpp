@@ -35,4 +35,13 @@ PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, 
   return withPath<double>(form, in, [&](const auto& path) { return boundsOf(path, from, until); });
 }
 
+State ContactPath::stateAt(const State& start_state, double t) const {
+  const double elapsed = elapsedAt(t);
+  if (form == PathForm::rest || elapsed == 0) return start_state;
+  const PathState<double> now =
+      elapsed == slip_end ? pathStateAtSlipEnd(form, inputs) : pathStateAt(form, inputs, elapsed);
+  const bool turns = form != PathForm::glide_block;
+  return {now.x, turns ? Quat(now.R).normalized() : start_state.q, now.v, now.L};
+}
+
 }  // namespace carom::adjoint_detail

@@ -2,6 +2,7 @@
 #include "adjoint/derivative/adjoint.h"
 
 #include "adjoint/base/arguments.hpp"
+#include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/derivative/seed.hpp"
@@ -38,16 +39,18 @@ class ReversePass {
     const auto b = static_cast<std::size_t>(seed.body);
     const ReadPlace place = readPlace(motion_, seed.body, seed.at);
     const StateDerivative bar = seedPullback((*motion_.models)[b], place.state, seed, bars_.model[b]);
-    const auto rate = [&] { return motion_.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state); };
+    const auto rate = [&] {
+      return motion_.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(place.time, place.state);
+    };
     if (seed.at.event >= 0 && bars_.readBefore(seed.at.event, seed.body, bar, seed.time, rate)) return;
-    throughFlight(seed.body, place.arc, place.time, tape_.arcUntil(seed.body, place.arc, place.time), bar);
+    throughArc(seed.body, place.arc, place.time, tape_.arcUntil(seed.body, place.arc, place.time), bar);
   }
 
   // From time t on arc k back to the start of the arc, which is an event or the start of the motion.
-  void throughFlight(int body, int k, double t, const RotationSensitivity& S, const StateDerivative& bar) {
+  void throughArc(int body, int k, double t, const ArcSensitivity& S, const StateDerivative& bar) {
     const auto b = static_cast<std::size_t>(body);
     const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
-    bars_.arriveAt(body, k, flightPullback(arc, t, S, bar, bars_.scene.gravity, bars_.model[b]));
+    bars_.arriveAt(body, k, arcPullback(arc, t, S, bar, bars_.scene, bars_.model[b]));
   }
 
   void throughEvent(int index, const Bars::AtEvent& at) {
@@ -57,7 +60,7 @@ class ReversePass {
     for (std::size_t i = 0; i < before.size(); ++i) {
       const Participant& p = event.participants[i];
       if (before[i].isZero()) continue;
-      throughFlight(p.body, p.arc, event.time, tape_.arc(p.body, p.arc), before[i]);
+      throughArc(p.body, p.arc, event.time, tape_.arc(p.body, p.arc), before[i]);
     }
   }
 

@@ -6,6 +6,7 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/motion/pair_rules.hpp"
@@ -45,11 +46,12 @@ std::string doubtOf(const Event& event, double tilt) {
   return {};
 }
 
-RotationSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
+ArcSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
   const auto b = static_cast<std::size_t>(body);
   const BodyPlan& plan = motion.plan.bodies[b];
-  return motion.world_lines[b].arcs[static_cast<std::size_t>(k)].rotationSensitivity(t, plan.derivative_tier,
-                                                                                     plan.derivative_products);
+  const Arc& arc = motion.world_lines[b].arcs[static_cast<std::size_t>(k)];
+  if (const ContactPath* path = arc.path()) return {{}, linearizedPath(motion, *path, path->elapsedAt(t))};
+  return {arc.rotationSensitivity(t, plan.derivative_tier, plan.derivative_products), nullptr};
 }
 
 }  // namespace
@@ -62,19 +64,19 @@ DerivativeTape::DerivativeTape(const Motion& motion) : motion_(motion), events_(
 
 DerivativeTape::~DerivativeTape() = default;
 
-const RotationSensitivity& DerivativeTape::arc(int body, int k) {
+const ArcSensitivity& DerivativeTape::arc(int body, int k) {
   const std::size_t b = checkedIndex("DerivativeTape::arc", "body", body, arcs_.size());
   const WorldLine& line = motion_.world_lines[b];
   const std::size_t kk = checkedIndex("DerivativeTape::arc", "an arc that ends in an event,", k, line.events.size());
   auto& slot = arcs_[b][kk];
   if (!slot) {
-    slot = std::make_unique<RotationSensitivity>(
+    slot = std::make_unique<ArcSensitivity>(
         sensitivity(motion_, body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
   }
   return *slot;
 }
 
-RotationSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
+ArcSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
   const std::size_t b = checkedIndex("DerivativeTape::arcUntil", "body", body, arcs_.size());
   checkedIndex("DerivativeTape::arcUntil", "arc", k, arcs_[b].size());
   checkTime("DerivativeTape::arcUntil", motion_, t);

@@ -13,7 +13,14 @@ namespace carom {
 
 namespace adjoint_detail {
 class EventLinearization;
+struct PathLinearization;
 }
+
+/// How the state of a body at the end of a stretch of an arc varies with its start and the scene.
+struct ArcSensitivity : RotationSensitivity {
+  /// Of a path in lasting contact, which all of it depends on; null for a flight.
+  std::shared_ptr<const adjoint_detail::PathLinearization> path;
+};
 
 /// When a state is read: at a time, or just before an event (then the time itself moves with the causes). A body that
 /// takes no part in the event is read at the time of the event.
@@ -70,16 +77,16 @@ class DerivativeTape {
 
   const Motion& motion() const { return motion_; }  ///< which it is of
   /// Sensitivity over the whole of arc k of a body, which ends in an event.
-  const RotationSensitivity& arc(int body, int k);
+  const ArcSensitivity& arc(int body, int k);
   /// Sensitivity from the start of arc k to time t; remembered, because the rows of a Jacobian share their times.
-  RotationSensitivity arcUntil(int body, int k, double t);
+  ArcSensitivity arcUntil(int body, int k, double t);
   /// Linearisation of an event.
   const adjoint_detail::EventLinearization& event(int event);
 
  private:
   const Motion& motion_;
-  std::vector<std::vector<std::unique_ptr<RotationSensitivity>>> arcs_;
-  std::map<std::tuple<int, int, double>, RotationSensitivity> until_;  // by body, arc and time
+  std::vector<std::vector<std::unique_ptr<ArcSensitivity>>> arcs_;
+  std::map<std::tuple<int, int, double>, ArcSensitivity> until_;  // by body, arc and time
   std::vector<std::unique_ptr<adjoint_detail::EventLinearization>> events_;
 };
 

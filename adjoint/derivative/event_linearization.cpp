@@ -47,8 +47,8 @@ Pass passOf(const Motion& motion, const Event& event) {
   for (const Participant& p : event.participants) {
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
     const Arc& next = arcs[static_cast<std::size_t>(p.arc) + 1];
-    rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rate(p.before));
-    rate_after.push_back(next.rate(next.startState()));
+    rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rateAt(event.time, p.before));
+    rate_after.push_back(next.rateAt(event.time, next.startState()));
   }
   return {event,
           usesWide(event, *motion.models),

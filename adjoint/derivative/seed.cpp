@@ -46,7 +46,7 @@ double timeDerivative(const Motion& motion, const StateSeed& seed) {
   checkSeed("timeDerivative", motion, seed);
   const auto b = static_cast<std::size_t>(seed.body);
   const ReadPlace place = readPlace(motion, seed.body, seed.at);
-  const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state);
+  const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(place.time, place.state);
   BodyModelDerivative unused;
   return seedPullback((*motion.models)[b], place.state, seed, unused).dot(F) + (seed.at.event >= 0 ? seed.time : 0);
 }

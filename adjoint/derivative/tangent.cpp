@@ -2,6 +2,7 @@
 #include "adjoint/derivative/tangent.h"
 
 #include "adjoint/base/arguments.hpp"
+#include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/derivative/influence.hpp"
@@ -18,8 +19,8 @@ double BodyStateRate::dot(const StateSeed& s) const {
 
 StateDerivative MotionTangent::stateTangent(int body, int k, double t) const {
   const auto b = static_cast<std::size_t>(body), kk = static_cast<std::size_t>(k);
-  return flightTangent(tape_->motion().world_lines[b].arcs[kk], t, tape_->arcUntil(body, k, t), starts_[b][kk],
-                       dgravity_, dmodels_[b]);
+  return arcTangent(tape_->motion().world_lines[b].arcs[kk], t, tape_->arcUntil(body, k, t), starts_[b][kk], direction_,
+                    dmodels_[b]);
 }
 
 BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
@@ -30,7 +31,7 @@ BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
   StateDerivative ds = stateTangent(body, place.arc, place.time);
   if (instant.event >= 0) {  // the instant moves along
     rate.time = eventTime(instant.event);
-    ds.addScaled(rate.time, motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state));
+    ds.addScaled(rate.time, motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(place.time, place.state));
   }
   const BodyModel& model = (*motion.models)[b];
   rate.position = originTangent(model, place.state, ds, dmodels_[b]);
@@ -63,7 +64,7 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
   const Motion& motion = tape.motion();
   MotionTangent t;
   t.tape_ = &tape;
-  t.dgravity_ = direction.gravity;
+  t.direction_ = direction;
   t.starts_.resize(motion.world_lines.size());
   for (std::size_t b = 0; b < motion.world_lines.size(); ++b) {
     const Body& body = motion.scene->bodies[b];
@@ -80,8 +81,8 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
     std::vector<StateDerivative> before;
     for (const Participant& p : event.participants) {
       const auto b = static_cast<std::size_t>(p.body), k = static_cast<std::size_t>(p.arc);
-      before.push_back(flightTangent(motion.world_lines[b].arcs[k], event.time, tape.arc(p.body, p.arc),
-                                     t.starts_[b][k], t.dgravity_, t.dmodels_[b]));
+      before.push_back(arcTangent(motion.world_lines[b].arcs[k], event.time, tape.arc(p.body, p.arc), t.starts_[b][k],
+                                  direction, t.dmodels_[b]));
     }
     const EventLinearization::Tangent d = tape.event(static_cast<int>(e)).tangent(before, direction, t.dmodels_);
     t.event_time_.push_back(d.time);

@@ -42,7 +42,7 @@ class MotionTangent {
   friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction,
                                const adjoint_detail::Influence* influence);
   DerivativeTape* tape_ = nullptr;
-  Vec3 dgravity_ = Vec3::Zero();
+  SceneTangent direction_;
   std::vector<BodyModelDerivative> dmodels_;
   std::vector<std::vector<StateDerivative>> starts_;  // of every arc of every body, at fixed time
   std::vector<double> event_time_;

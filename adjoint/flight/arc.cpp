@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "adjoint/base/names.hpp"
+#include "adjoint/contact/contact_path.hpp"
 #include "adjoint/flight/flight_pass.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/flight/flight_triaxial.hpp"
@@ -14,6 +15,7 @@ namespace carom {
 
 using namespace adjoint_detail;
 
+const char* nameOf(ArcKind kind) { return nameIn({"flight", "rest", "glide", "roll"}, kind); }
 const char* nameOf(Tier tier) { return nameIn({"none", "spherical", "symmetric", "triaxial"}, tier); }
 
 namespace {
@@ -63,7 +65,11 @@ double largestSpinRate(const Vec3& I, const Vec3& omega, double spin) {
 }  // namespace
 
 Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state)
-    : model_(&model), tier_(tier), start_(start), gravity_(model.moving ? Vec3(model.gravity_factor * gravity) : Vec3::Zero()), state_(state) {
+    : model_(&model),
+      tier_(tier),
+      start_(start),
+      acceleration_(model.moving ? Vec3(model.gravity_factor * gravity) : Vec3::Zero()),
+      state_(state) {
   if (!model.moving) return;
   const Vec3& I = model.inertia;
   if (tier == Tier::none || tier == Tier::spherical) {
@@ -82,8 +88,33 @@ Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, c
   spin_rate_bound_ = largestSpinRate(I, M.cwiseQuotient(I), spin_bound_);
 }
 
+Arc::Arc(const BodyModel& model, Tier tier, std::shared_ptr<const ContactPath> path, double start, const State& state)
+    : model_(&model), tier_(tier), start_(start), path_(std::move(path)), state_(state) {
+  acceleration_ = path_->bounds.acceleration;
+  spin_bound_ = path_->bounds.spin;
+  spin_rate_bound_ = path_->bounds.spin_rate;
+}
+
+ArcKind Arc::kind() const {
+  if (!path_) return ArcKind::flight;
+  switch (path_->form) {
+    case PathForm::rest:
+      return ArcKind::rest;
+    case PathForm::glide_ball:
+    case PathForm::glide_block:
+      return ArcKind::glide;
+    case PathForm::roll_ball:
+    case PathForm::roll_axle:
+      break;
+  }
+  return ArcKind::roll;
+}
+
+double Arc::accelerationVariation() const { return path_ ? path_->bounds.variation : 0; }
+
 std::optional<Vec3> Arc::steadyAxis() const {
-  if (tier_ == Tier::none || tier_ == Tier::spherical) return Vec3(Vec3::Zero());
+  if (path_ && spin_bound_ > 0) return std::nullopt;
+  if (path_ || tier_ == Tier::none || tier_ == Tier::spherical) return Vec3(Vec3::Zero());
   if (tier_ != Tier::symmetric) return std::nullopt;
   const Vec3 axis = Vec3::Unit(symmetry_axis_);
   return model_->has_offset ? Vec3(model_->R_BG.transpose() * axis) : axis;
@@ -97,7 +128,8 @@ Arc::Arc(const Arc& o)
       spin_bound_(o.spin_bound_),
       spin_rate_bound_(o.spin_rate_bound_),
       triaxial_(o.triaxial_ ? std::make_unique<TriaxialRotation>(*o.triaxial_) : nullptr),
-      gravity_(o.gravity_),
+      path_(o.path_),
+      acceleration_(o.acceleration_),
       state_(o.state_) {}
 
 Arc& Arc::operator=(const Arc& other) { return *this = Arc(other); }
@@ -131,12 +163,19 @@ Quat Arc::rotationAt(double s) const {
 
 Vec3 Arc::positionAt(double t) const {
   const double s = t - start_;
-  return state_.x + s * (state_.v + 0.5 * s * gravity_);
+  if (path_ && !path_->bounds.straight) return pathCenterAt(path_->form, path_->inputs, path_->elapsedAt(t)).x;
+  return state_.x + s * (state_.v + 0.5 * s * acceleration_);
 }
 
-Vec3 Arc::velocityAt(double t) const { return state_.v + (t - start_) * gravity_; }
+Vec3 Arc::velocityAt(double t) const {
+  if (path_ && !path_->bounds.straight) return pathCenterAt(path_->form, path_->inputs, path_->elapsedAt(t)).v;
+  return state_.v + (t - start_) * acceleration_;
+}
 
-State Arc::stateAt(double t) const { return {positionAt(t), rotationAt(t - start_), velocityAt(t), state_.L}; }
+State Arc::stateAt(double t) const {
+  if (path_) return path_->stateAt(state_, t);
+  return {positionAt(t), rotationAt(t - start_), velocityAt(t), state_.L};
+}
 
 Kinematics Arc::kinematicsOf(const State& s) const {
   Kinematics k;
@@ -148,13 +187,14 @@ Kinematics Arc::kinematicsOf(const State& s) const {
   return k;
 }
 
-StateDerivative Arc::rate(const State& s) const {
+StateDerivative Arc::rateAt(double t, const State& s) const {
   StateDerivative ds;
   if (!model_->moving) return ds;
+  if (path_) return pathRateAt(path_->form, path_->inputs, path_->elapsedAt(t));
   const Mat3 R = s.q.toRotationMatrix();
   ds.x = s.v;
   ds.theta = R * model_->inverse_inertia.cwiseProduct(R.transpose() * s.L);
-  ds.v = gravity_;
+  ds.v = acceleration_;
   return ds;
 }
 

@@ -12,7 +12,14 @@ namespace carom {
 
 namespace adjoint_detail {
 class TriaxialRotation;
+struct ContactPath;
 }
+
+/// What a body does on an arc: it flies freely, or stays in contact with what stands still, where it rests, slides
+/// without turning otherwise than friction makes it, or rolls; see docs/equations.md section 11.
+enum class ArcKind { flight, rest, glide, roll };
+/// "flight", "rest", "glide" or "roll".
+const char* nameOf(ArcKind kind);
 
 /// How the rotation of a flight is carried; see docs/equations.md section 2.
 enum class Tier { none, spherical, symmetric, triaxial };
@@ -28,25 +35,32 @@ struct Kinematics {
   Vec3 w = Vec3::Zero();      ///< rad/s, world axes
 };
 
-/// One stretch of a world-line: free flight of one body from `start()` on, known in closed form or as Taylor segments.
-/// A fixed body has one arc, which stays where it is.
+/// One stretch of a world-line from `start()` on: free flight of one body, known in closed form or as Taylor segments, or
+/// a path in lasting contact. A fixed body has one arc, which stays where it is.
 class Arc {
  public:
   /// A flight under the scene's gravity, or the model's share of it, from the given state.
   Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
+  /// A path in lasting contact.
+  Arc(const BodyModel& model, Tier tier, std::shared_ptr<const adjoint_detail::ContactPath> path, double start,
+      const State& state);
   Arc(const Arc& other);             ///< keeps what was made available
   Arc& operator=(const Arc& other);  ///< the same
   Arc(Arc&&) noexcept;               ///< leaves an arc that can only be destroyed or assigned to
   Arc& operator=(Arc&&) noexcept;    ///< the same
   ~Arc();
 
+  ArcKind kind() const;                                     ///< flight, or how the body stays in contact
+  /// Of a body in lasting contact; null for a flight.
+  const adjoint_detail::ContactPath* path() const { return path_.get(); }
   Tier tier() const { return tier_; }                       ///< of its rotation
   double start() const { return start_; }                   ///< s
   const State& startState() const { return state_; }        ///< at the start
   const BodyModel& model() const { return *model_; }        ///< of its body
-  const Vec3& acceleration() const { return gravity_; }     ///< m/s^2, constant
-  /// |acceleration(t) - acceleration()| over the whole arc, m/s^2; 0 for a flight.
-  double accelerationVariation() const { return 0; }
+  /// Of the centre of mass at the start, m/s^2; the same all the time but for a body that slides round a bend.
+  const Vec3& acceleration() const { return acceleration_; }
+  /// |acceleration(t) - acceleration()| is at most this over the whole arc, m/s^2; 0 for a flight.
+  double accelerationVariation() const;
   bool moving() const { return model_->moving; }            ///< false for a fixed body
 
   /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do). Throws
@@ -65,8 +79,9 @@ class Arc {
   Kinematics kinematicsOf(const State& state) const;
   Vec3 positionAt(double t) const;  ///< m, of the centre of mass
   Vec3 velocityAt(double t) const;  ///< m/s, of the centre of mass
-  /// d(state)/dt of the flow: (v, omega, acceleration, 0).
-  StateDerivative rate(const State& state) const;
+  /// d(state)/dt of the flow at time t, where the state is `state`: (v, omega, acceleration, dL/dt). L is constant in
+  /// flight.
+  StateDerivative rateAt(double t, const State& state) const;
 
   /// Bound over the whole arc: |omega| <= spinBound(), rad/s.
   double spinBound() const { return spin_bound_; }
@@ -93,7 +108,8 @@ class Arc {
   double start_;
   double spin_bound_ = 0, spin_rate_bound_ = 0;
   std::unique_ptr<adjoint_detail::TriaxialRotation> triaxial_;  // apart, so that the arcs of the other tiers are small
-  Vec3 gravity_;
+  std::shared_ptr<const adjoint_detail::ContactPath> path_;     // null: a flight
+  Vec3 acceleration_;
   State state_;
 };
 

@@ -24,7 +24,7 @@ ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyMode
   }
   for (const Contact& c : event.contacts)
     in.contacts.push_back(
-        {participantOf(event, c.a), participantOf(event, c.b), c.at.point, c.impulse_normal, c.pair});
+        {participantOf(event, c.a), participantOf(event, c.b), c.at.point, c.impulse_normal, c.pair, c.kept});
   return in;
 }
 
@@ -59,7 +59,8 @@ ImpactInputs<Rate> along(const ImpactInputs<double>& in, const std::vector<State
     both.contacts.push_back({c.a, c.b, along(c.point, Vec3(dcontact[k].tail<3>())),
                              along(c.normal, Vec3(dcontact[k].segment<3>(1))),
                              {along(c.pair.elasticity, dpair[k].elasticity), along(c.pair.friction, dpair[k].friction),
-                              along(c.pair.tangential_elasticity, dpair[k].tangential_elasticity)}});
+                              along(c.pair.tangential_elasticity, dpair[k].tangential_elasticity)},
+                             c.kept});
   }
   return both;
 }
@@ -173,6 +174,7 @@ void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector
     stick_slip = friction.margin;
   }
   record(c, problem.u, impulse);
+  c.lasts = c.pair.elasticity == 0;
   event.margins = marginsOf(c, problem.u, stick_slip);
   for (const Participant& p : event.participants) {
     State& s = after.emplace_back(p.before);
@@ -191,6 +193,7 @@ void solveByPass(Event& event, const std::vector<BodyModel>& models, std::vector
   for (std::size_t k = 0; k < event.contacts.size(); ++k) {
     const auto row = 3 * static_cast<Eigen::Index>(k);
     record(event.contacts[k], u.segment<3>(row), outcome.solution.P.segment<3>(row));
+    event.contacts[k].lasts = outcome.solution.closed[k];
   }
   event.margins = marginsOf(event.contacts[0], u.head<3>(), outcome.solution.stick_slip_margin);
   for (std::size_t i = 0; i < outcome.after.size(); ++i) {
@@ -206,7 +209,7 @@ void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector
   after.clear();
   requireContacts(event);
   event.wide = needsWide(event, models);
-  if (event.contacts.size() == 1 && !event.wide) {
+  if (event.contacts.size() == 1 && !event.wide && !event.contacts[0].kept) {
     solveSingle(event, models, after);
   } else {
     solveByPass(event, models, after);

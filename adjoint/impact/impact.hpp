@@ -23,7 +23,8 @@ std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, b
                                            const std::vector<PairCoefficients>& dpair,
                                            const std::vector<BodyModelDerivative>& dmodel);
 
-/// Fills in impulses, mode, approach and margins of an event and gives the states of its participants after it. Throws
+/// Fills in impulses, mode, approach, margins and which contacts part without speed (`lasts`) of an event and gives the
+/// states of its participants after it. Throws
 /// NotComputable where these are not finite numbers, and where a contact does not part as fast as its elasticity says.
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after);
 

@@ -19,6 +19,7 @@ struct ImpactInputs {
     int a = -1, b = -1;  // of the bodies; -1: one that does not move
     V3<S> point, normal;
     PairCoefficientsOf<S> pair;
+    bool kept = false;  // n.u = 0 as an equation
   };
   std::vector<Body> bodies;
   std::vector<Contact> contacts;
@@ -90,6 +91,7 @@ class ImpactPass {
       const auto& c = in_.contacts[k];
       problem_.normal.push_back(c.normal);
       problem_.pair.push_back(c.pair);
+      if (c.kept) problem_.held.resize(in_.contacts.size()), problem_.held[k] = 1;
       for (std::size_t i = 0; i < in_.bodies.size(); ++i) {
         const bool is_a = static_cast<int>(i) == c.a;
         if (is_a || static_cast<int>(i) == c.b) arms_.push_back({k, i, is_a ? 1.0 : -1.0, c.point - in_.bodies[i].x});

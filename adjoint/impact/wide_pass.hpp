@@ -31,7 +31,8 @@ auto widePass(const ImpactInputs<S>& inputs) {
     wide.bodies.push_back({b.kinematic, W(b.inverse_mass), b.R.template cast<W>(), b.D.template cast<W>(),
                            b.x.template cast<W>(), b.v.template cast<W>(), b.L.template cast<W>()});
   for (const auto& c : inputs.contacts)
-    wide.contacts.push_back({c.a, c.b, c.point.template cast<W>(), c.normal.template cast<W>(), castPair<W>(c.pair)});
+    wide.contacts.push_back({c.a, c.b, c.point.template cast<W>(), c.normal.template cast<W>(), castPair<W>(c.pair),
+                             c.kept});
   return ImpactPass<W>(std::move(wide));
 }
 

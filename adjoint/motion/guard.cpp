@@ -9,7 +9,7 @@ std::vector<double> guardWeights(const Event& event) {
   std::vector<double> weights;
   double total = 0;
   for (const Contact& c : event.contacts) {
-    weights.push_back(std::max(0.0, c.impulse_normal.dot(c.impulse)));
+    weights.push_back(c.held ? 0 : std::max(0.0, c.impulse_normal.dot(c.impulse)));
     total += weights.back();
   }
   for (double& w : weights) w = total > 0 ? w / total : 1.0 / static_cast<double>(weights.size());

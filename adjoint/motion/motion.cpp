@@ -12,6 +12,8 @@ namespace carom {
 
 using namespace adjoint_detail;
 
+const char* nameOf(EventKind kind) { return nameIn({"impact", "capture", "transition", "placed"}, kind); }
+
 const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 
 const char* nameOf(MotionStatus status) {

@@ -27,7 +27,13 @@ const char* nameOf(ImpactMode mode);
 /// other.
 inline ImpactMode branchOf(ImpactMode mode) { return mode == ImpactMode::frictionless ? ImpactMode::slide : mode; }
 
-/// One contact of an impact, between bodies a and b at frozen features.
+/// What happens at an event. An impact; one after which contacts last that did not before; a change of how a body in
+/// contact goes on, without an impulse; or the start of a motion that begins in contact.
+enum class EventKind { impact, capture, transition, placed };
+/// "impact", "capture", "transition" or "placed".
+const char* nameOf(EventKind kind);
+
+/// One contact of an event, between bodies a and b at frozen features.
 struct Contact {
   int a = -1;            ///< body
   int b = -1;            ///< body that it meets
@@ -38,8 +44,13 @@ struct Contact {
   int tilt_a = -1;               ///< entry of Scene::tilts in force for a's impact, -1 if none
   int tilt_b = -1;               ///< the same for b's
   PairCoefficients pair;         ///< coefficients in force
-  double approach = 0;          ///< n . u just before, m/s, < 0
+  double approach = 0;          ///< n . u just before, m/s, < 0; about 0 where it is held
   Vec3 impulse = Vec3::Zero();  ///< on a, N s
+  bool counted = true;    ///< an impact to people: it does not arrive from less than a millionth of the body's size
+  bool held = false;      ///< the bodies have been in contact there for some time
+  bool lasts = false;     ///< they stay in contact there from the event on
+  bool captured = false;  ///< its elasticity is taken for 0, as its bounce would be lower than Motion::lowest_bounce
+  bool kept = false;      ///< n . u = 0 is kept as an equation, as a contact that is held would bounce that low
 };
 
 /// How near an event is to a place where derivatives stop (docs/equations.md section 7).
@@ -56,19 +67,23 @@ inline constexpr double kReliableMargin = 1e-6;
 struct Participant {
   int body = -1;   ///< index
   int arc = -1;    ///< of its world-line, the one that ends here; the next one starts here
-  int impact = 0;  ///< this is the body's n-th impact, 1 = first
+  int impact = 0;  ///< this is the body's n-th impact, 1 = first; 0 where it is none, or too low to be one to people
   State before;    ///< its state just before
 };
 
 /// An impact: the contacts of one instant, solved together.
 struct Event {
   double time = 0;                             ///< s
+  EventKind kind = EventKind::impact;          ///< what happens
   ImpactMode mode = ImpactMode::frictionless;  ///< branch of the impact law that was taken
   std::vector<Contact> contacts;               ///< in increasing order of bodies
   std::vector<Participant> participants;  ///< in increasing order of body
   Margins margins;                        ///< to where derivatives stop
   /// Doubles are too short for its impulses: they and all derivatives are worked out with 32 digits.
   bool wide = false;
+  /// Of a capture of one contact: when endlessly many bounces would have come to an end there, s
+  /// (docs/equations.md, C.7).
+  std::optional<double> settles_at;
 
   const Participant* find(int body) const;  ///< null where the body takes no part
   bool touches(int body, int with) const;  ///< has a contact between the two
@@ -106,6 +121,7 @@ struct Motion {
   std::size_t steps = 0;               ///< of work that it took, see SimulateOptions::step_limit
   bool has_events = true;              ///< false: paths alone, which cannot be differentiated
   std::vector<StartOverlap> overlaps;  ///< pairs that did not collide until they had parted
+  double lowest_bounce = 0;            ///< m, in force, see SimulateOptions; 0: no contact lasts
   double duration = 0;                 ///< asked for
   double end = 0;                      ///< known up to here; = duration when complete
   MotionStatus status = MotionStatus::complete;  ///< why it ends where it does

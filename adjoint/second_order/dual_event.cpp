@@ -101,7 +101,7 @@ class EventMaker {
       setRates(at, d, lane);
     }
     const NVec normal = tiltNormal(c, at.segment<3>(1), part);
-    inputs.contacts.push_back({part.a.participant, part.b.participant, at.tail<3>(), normal, part.rules.values()});
+    inputs.contacts.push_back({part.a.participant, part.b.participant, at.tail<3>(), normal, part.rules.values(), c.kept});
     return part;
   }
 

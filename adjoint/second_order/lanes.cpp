@@ -45,7 +45,7 @@ Num Lanes::startTime(int body, int k) const {
 
 DualState Lanes::startOf(int body, int k) const {
   const State& now = arc(body, k).startState();
-  const StateDerivative flow = arc(body, k).rate(now);
+  const StateDerivative flow = arc(body, k).rateAt(arc(body, k).start(), now);
   const Num t = startTime(body, k);
   DualState state = dualState(now);
   for (std::size_t lane = 0; lane < size(); ++lane) {
@@ -57,7 +57,7 @@ DualState Lanes::startOf(int body, int k) const {
 }
 
 DualState Lanes::stateAt(int body, int k, const Num& t, const State& now, const RotationSensitivity& S) const {
-  const StateDerivative flow = arc(body, k).rate(now);
+  const StateDerivative flow = arc(body, k).rateAt(t.value, now);
   DualState state = dualState(now);
   for (std::size_t lane = 0; lane < size(); ++lane) {
     StateDerivative d = flightTangent(arc(body, k), t.value, S, tangents_[lane].start(body, k),

@@ -122,7 +122,7 @@ class DualPass {
     return generalSensitivity(stretch, at->second);
   }
 
-  const RotationSensitivity& plainSensitivity(int body, int k, double t) {
+  const ArcSensitivity& plainSensitivity(int body, int k, double t) {
     const WorldLine& line = motion_.world_lines[static_cast<std::size_t>(body)];
     const auto kk = static_cast<std::size_t>(k);
     const bool whole = kk < line.events.size() && motion_.events[static_cast<std::size_t>(line.events[kk])].time == t;
@@ -162,7 +162,7 @@ class DualPass {
   const std::vector<bool>& inertia_varies_;
   std::vector<BodyPlan> plans_;
   Bars bars_;
-  RotationSensitivity until_;
+  ArcSensitivity until_;
 };
 
 // Adds what the reading changes by when its time moves by dt.
@@ -170,7 +170,7 @@ void addFlow(const Motion& motion, int body, const Instant& at, double dt, BodyS
   const auto b = static_cast<std::size_t>(body);
   const ReadPlace place = readPlace(motion, body, at);
   const BodyModel& model = (*motion.models)[b];
-  const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rate(place.state);
+  const StateDerivative F = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(place.time, place.state);
   rate.position += dt * originTangent(model, place.state, F, {});
   rate.orientation += dt * F.theta;
   rate.velocity += dt * F.v;

@@ -57,7 +57,7 @@ void Simulator::runToEnd() {
 
 // False where the motion has ended before its time.
 bool Simulator::follow() {
-  start();
+  if (!start()) return false;
   for (Prediction next; takeNext(next);) {
     work_.step();
     if (motion_.impacts >= impact_limit_) {
@@ -65,9 +65,13 @@ bool Simulator::follow() {
              "stopped after " + std::to_string(impact_limit_) + " impacts, the limit that was set");
       return false;
     }
-    if (!isExplained(next)) return false;
-    resolve(next);
-    if (!separates()) return false;
+    if (next.isTransition()) {
+      resolveTransition(next.a);
+    } else {
+      if (!isExplained(next)) return false;
+      resolve(next);
+      if (!separates()) return false;
+    }
     const bool last = accumulates();
     commit();
     if (last) return false;
@@ -83,16 +87,19 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
   const std::size_t n = scene.bodies.size();
   motion_.plan = makePlan(scene, options.asked);
   motion_.has_events = options.record_events;
+  motion_.lowest_bounce = options.lowest_bounce;
   arc_.assign(n, nullptr);
   version_.assign(n, 0);
   impacts_.assign(n, 0);
   in_draft_.assign(n, -1);
   outlook_.resize(n);
+  onward_.resize(n);
   for (std::size_t i = 0; i < scene.tilts.size(); ++i)
     tilts_.try_emplace({bodyIndex(scene, scene.tilts[i].body), scene.tilts[i].impact}, static_cast<int>(i));
 }
 
-void Simulator::start() {
+// False where a contact at the start is beyond what is known of.
+bool Simulator::start() {
   const int n = static_cast<int>(scene_.bodies.size());
   builder_.start();
   for (int b = 0; b < n; ++b) arc_[index(b)] = &motion_.world_lines[index(b)].arcs.back();
@@ -103,8 +110,10 @@ void Simulator::start() {
     requireFlight(b, arcOf(b));
     contacts_.setPath(b, arcOf(b), 0, motion_.duration);
   }
+  if (!placeAtStart()) return false;
   for (int b = 0; b < n; ++b)
     if (arcOf(b).moving()) predictBody(b, 0);
+  return true;
 }
 
 // Contacts of one instant are solved together: those predicted for it, all features that touch in it, and those that
@@ -190,9 +199,10 @@ Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& fea
   c.b = b;
   c.features = features;
   const auto tilt = [&](int body) { return arcOf(body).moving() ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
-  c.tilt_a = tilt(a);
-  c.tilt_b = tilt(b);
   builder_.place(c, ka, kb);
+  c.counted = isCounted(c, snapshots_[place_a].state, snapshots_[place_b].state);
+  if (c.counted) c.tilt_a = tilt(a), c.tilt_b = tilt(b);
+  if (c.tilt_a >= 0 || c.tilt_b >= 0) builder_.place(c, ka, kb);
   if (!(std::isfinite(c.at.gap) && c.at.point.allFinite() && c.at.normal.allFinite()))
     giveUp("contact", a, b, time,
            NotComputable("its features (" + motion_.geometry->describe(a, b, features) +
@@ -209,6 +219,7 @@ int Simulator::tiltOf(int body, int impact) const {
 // Participants, impulses and the arcs that follow.
 void Simulator::solveDraft() {
   Event& event = draft_.event;
+  addHeld();
   const std::size_t n = event.contacts.size();
   work_.step(n + n * n * n / 10);  // what many contacts at once cost
   for (const Participant& p : event.participants) in_draft_[index(p.body)] = -1;
@@ -220,21 +231,14 @@ void Simulator::solveDraft() {
   std::sort(bodies_.begin(), bodies_.end());
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   event.participants.reserve(bodies_.size());
-  for (int body : bodies_)
+  for (int body : bodies_) {
+    const bool counts = std::ranges::any_of(
+        event.contacts, [&](const Contact& c) { return !c.held && c.counted && (c.a == body || c.b == body); });
     event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1,
-                                  impacts_[index(body)] + 1, snapshots_[snapshot(body, event.time)].state});
-  try {
-    solveImpact(event, *motion_.models, draft_.after);
-  } catch (const NotComputable& error) {
-    giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
+                                  counts ? impacts_[index(body)] + 1 : 0, snapshots_[snapshot(body, event.time)].state});
   }
-  draft_.arcs.clear();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto b = index(bodies_[i]);
-    draft_.arcs.push_back(builder_.flight(bodies_[i], event.time, draft_.after[i]));
-    requireFlight(bodies_[i], draft_.arcs.back());
-    in_draft_[b] = static_cast<int>(i);
-  }
+  solveLaw();
+  chooseArcs();
 }
 
 Pose Simulator::poseAt(int body, double time) {
@@ -280,13 +284,16 @@ void Simulator::commit() {
       if (!overlap->parted) overlap->parted = event.time;
     }
   searches_ = 0;
+  counted_.clear();
+  for (const Participant& p : event.participants) counted_.push_back(p.impact > 0);
   builder_.add(std::move(event), std::move(draft_.arcs));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {  // the participants
     const int body = bodies_[i];
     arc_[index(body)] = &motion_.world_lines[index(body)].arcs.back();
     if (isMoved(body)) ++version_[index(body)];
-    ++impacts_[index(body)];
+    if (counted_[i]) ++impacts_[index(body)];
     in_draft_[index(body)] = -1;
+    onward_[index(body)] = std::move(draft_.onward[i]);
     enter(body, draft_.outlooks[i]);
   }
 }

@@ -19,6 +19,9 @@ struct SimulateOptions {
   bool record_events = true;
   /// true: throws InputError where bodies overlap at the start, rather than leave them alone until they part.
   bool refuse_overlaps = false;
+  /// A bounce that would stay lower than this, m, is none: its elasticity is taken for 0, and the bodies stay in contact.
+  /// 0: no contact lasts, and a motion ends at the first that would.
+  double lowest_bounce = 0;
   /// Steps of work, after which the motion ends with MotionStatus::step_limit. A step is one of a search for an impact,
   /// one pair of bodies that is looked at, one impact (of n contacts at once n + n^3 / 10) or one series of a rotation: a
   /// microsecond or some each, but the same number on every machine. Motion::steps says how many were taken.

@@ -9,6 +9,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/event_queue.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
+#include "adjoint/simulate/path_transition.hpp"
 #include "adjoint/simulate/simulate.h"
 
 namespace carom::adjoint_detail {
@@ -55,6 +56,7 @@ class Simulator {
     FeaturePair features;
     int partner() const { return searched == a ? b : a; }
     bool explained() const { return features.kind >= 0; }
+    bool isTransition() const { return b < 0; }  // of the path of body a
     bool operator<(const Prediction& o) const {
       if (time != o.time) return time < o.time;
       return a != o.a ? a < o.a : b < o.b;
@@ -66,6 +68,12 @@ class Simulator {
     double horizon = 0;                  // without an impact: searched up to here
     std::vector<Prediction> of_instant;  // further ones within an instant of the first
   };
+  // How a body in lasting contact goes on: where it is held, all by bodies that stand still, and until when.
+  struct Onward {
+    std::vector<Contact> held;
+    double transition = EventQueue::kNever;
+    PathTransition why;
+  };
   // An event that is worked out but not yet part of the motion. Its storage is used again and again.
   struct Draft {
     Event event;
@@ -73,6 +81,8 @@ class Simulator {
     std::vector<Arc> arcs;          // of the participants, from the event on
     std::vector<Prediction> found;  // of the participants' pairs, on those arcs
     std::vector<Outlook> outlooks;  // of the participants
+    std::vector<Onward> onward;     // of the participants
+    std::string beyond;             // why the motion cannot go on: contact that lasts, of a kind that is not known
   };
   // A body just before the event that is being worked out.
   struct Snapshot {
@@ -81,7 +91,7 @@ class Simulator {
     Kinematics k;
   };
 
-  void start();
+  bool start();
   void runToEnd();
   bool follow();
   bool takeNext(Prediction& next);
@@ -100,6 +110,28 @@ class Simulator {
   Pose poseAt(int body, double time);  ///< on its path, that of the draft where it is in it
   void commit();
   int tiltOf(int body, int impact) const;
+
+  // simulator_contact.cpp: contact that lasts
+  bool contactsLast() const { return motion_.lowest_bounce > 0; }
+  bool placeAtStart();
+  void solvePlaced(int body);
+  void resolveTransition(int body);
+  std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
+  void addHeld();
+  void solveLaw();
+  bool captureLow();
+  void chooseArcs();
+  void chooseArc(std::size_t participant);
+  void project(State& state, int body, std::vector<Contact>& closed) const;
+  bool presses(const Contact& contact) const;
+  bool isCounted(const Contact& contact, const State& a, const State& b) const;
+  double accelerationOf(const Contact& contact, bool among_closed) const;
+  const State& stateAfter(int body) const;
+  const Onward& onwardOf(int body) const {
+    const int i = in_draft_[index(body)];
+    return i < 0 ? onward_[index(body)] : draft_.onward[index(i)];
+  }
+  std::vector<FeaturePair> heldBetween(int a, int b) const;
 
   // simulator_search.cpp: predictions
   void predictDraft();
@@ -157,6 +189,7 @@ class Simulator {
   std::vector<Arc*> arc_;  // the last one of its world-line
   std::vector<int> version_, impacts_, in_draft_;
   std::vector<Outlook> outlook_;
+  std::vector<Onward> onward_;
   EventQueue queue_;
 
   std::vector<double> overlaps_until_;  // of motion_.overlaps: known to overlap up to here
@@ -166,6 +199,7 @@ class Simulator {
   std::vector<Snapshot> snapshots_;
   std::vector<Prediction> same_, found_;
   std::vector<int> bodies_, neighbours_;
+  std::vector<char> counted_;  // of the participants
 };
 
 }  // namespace carom::adjoint_detail

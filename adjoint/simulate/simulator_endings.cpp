@@ -60,7 +60,12 @@ bool Simulator::stalls(int body) const {
 // True when the impacts of a pair or of a body pile up in finite time; sets status and message.
 bool Simulator::accumulates() {
   const Event& event = draft_.event;
+  if (!draft_.beyond.empty()) {
+    finish(MotionStatus::cascade, event.time, draft_.beyond);
+    return true;
+  }
   for (const Contact& c : event.contacts) {
+    if (contactsLast()) break;
     const std::uint64_t pair = static_cast<std::uint64_t>(c.a) << 32 | static_cast<std::uint32_t>(c.b);
     const Prediction* next;
     if (!isLow(c, next)) {

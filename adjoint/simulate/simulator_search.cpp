@@ -13,7 +13,7 @@ namespace carom::adjoint_detail {
 // the body's arc beyond that will happen, unless the other body is struck before. In that case the search goes on when
 // that time is reached with the arc still in force. Adds everything found to found_.
 void Simulator::search(int body, double from, Outlook& outlook) {
-  double until = std::min(contacts_.window(body, from), motion_.duration);
+  double until = std::min({contacts_.window(body, from), motion_.duration, onwardOf(body).transition});
   contacts_.neighbours(body, neighbours_);
   const std::size_t begin = found_.size();
   for (int other : neighbours_) {
@@ -49,8 +49,13 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
     if (!parted) return std::nullopt;
     from = std::max(from, *parted);
   }
+  const auto stays = [](const Arc& arc) { return !arc.moving() || arc.kind() == ArcKind::rest; };
+  if (stays(arc_a) && stays(arc_b)) return std::nullopt;
   const std::size_t series = arc_a.series() + arc_b.series();
-  const std::optional<PredictedImpact> impact = contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
+  const std::vector<FeaturePair> held = heldBetween(a, b);
+  const std::optional<PredictedImpact> impact =
+      held.empty() ? contacts_.firstImpact(a, b, arc_a, arc_b, from, until)
+                   : contacts_.firstImpactBeside(a, b, held, arc_a, arc_b, from, until);
   work_.step(1 + arc_a.series() + arc_b.series() - series);
   return impact;
 }
@@ -90,6 +95,10 @@ bool Simulator::takeNext(Prediction& next) {
     const Prediction& first = outlook_[index(body)].first;
     if (first.a >= 0 && holds(first)) {
       next = first;
+      return true;
+    }
+    if (const double due = onward_[index(body)].transition; first.a < 0 && !(queue_.time() < due)) {
+      next = {due, body, body, -1, 0, {}};
       return true;
     }
     if (++searches_ > kMostSearches)

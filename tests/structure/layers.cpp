@@ -19,7 +19,7 @@ Layer folder(const std::string& name) { return {name, std::regex(name + "/.*")};
 const std::map<std::string, std::vector<Layer>>& layers() {
   static const std::map<std::string, std::vector<Layer>> libraries = {
       {"adjoint",
-       {folder("base"), folder("numeric"), folder("scene"), folder("flight"), folder("contact"), folder("motion"),
+       {folder("base"), folder("numeric"), folder("scene"), folder("contact"), folder("flight"), folder("motion"),
         folder("impact"), folder("simulate"), folder("derivative"), folder("second_order")}},
       {"editing",
        {folder("detail"),

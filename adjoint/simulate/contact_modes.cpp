@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/simulate/contact_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/contact/cone_program.hpp"
+#include "adjoint/impact/complementarity.hpp"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/support_polygon.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using Eigen::Index;
+
+// Slower slip than this, times sqrt(g l), counts as none (section 11 of docs/equations.md).
+constexpr double kNoSlip = 1e-9;
+// Normals that differ by less are those of one face.
+constexpr double kSameNormal = 1e-9;
+// Acceleration left by the forces of rest, as a share of gravity.
+constexpr double kAtRest = 1e-9;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+class Chooser {
+ public:
+  Chooser(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
+      : motion_(motion),
+        scene_(*motion.scene),
+        body_(body),
+        model_((*motion.models)[index(body)]),
+        state_(state),
+        gravity_(model_.gravity_factor * scene_.gravity),
+        R_(state.q.toRotationMatrix()),
+        A_(model_.mobilityWorld(R_)),
+        omega_(model_.inverseInertiaWorld(R_) * state.L) {
+    for (const Contact* c : closed) reach_ = std::max(reach_, armOf(*c).norm());
+    no_slip_ = kNoSlip * std::sqrt(gravity_.norm() * reach_);
+    press(closed);
+  }
+
+  /// Without friction.
+  const FreeAcceleration& acceleration() const { return free_; }
+
+  ContactChoice choose() {
+    if (pressed_.empty()) return {};
+    for (const Contact* c : pressed_) {
+      const int other = otherOf(*c);
+      if (!scene_.bodies[index(other)].fixed)
+        return beyond("rest, rolling and sliding on bodies that move are not modelled yet");
+    }
+    if (isSlow(state_.v) && isSlow(reach_ * omega_) && canRest()) return stays(PathForm::rest, 1);
+    const bool one_face = isOneFace();
+    if (isBall()) {
+      if (pressed_.size() > 1 || !one_face) return beyond("a ball in lasting contact with several faces or with an edge is not modelled yet");
+      return ball();
+    }
+    if (!one_face) return beyond("lasting contact with a corner, an edge or several faces is not modelled yet");
+    if (isAxle()) return axle();
+    if (isSlow(reach_ * omega_)) return block();
+    return beyond("lasting contact of a body that turns is not modelled yet, but for balls and for what rolls about its axis");
+  }
+
+ private:
+  double signOf(const Contact& c) const { return c.a == body_ ? 1 : -1; }
+  int otherOf(const Contact& c) const { return c.a == body_ ? c.b : c.a; }
+  Vec3 armOf(const Contact& c) const { return c.at.point - state_.x; }
+  Vec3 normalOf(const Contact& c) const { return signOf(c) * c.at.normal; }  // towards the body
+  Vec3 slipOf(const Contact& c) const {
+    const Vec3 u = state_.v + omega_.cross(armOf(c)), n = normalOf(c);
+    return u - n.dot(u) * n;
+  }
+  bool isSlow(const Vec3& v) const { return v.norm() <= no_slip_; }
+
+  // Of the closed contacts, those that a force without friction has to keep closed.
+  void press(const std::vector<const Contact*>& closed) {
+    const auto n = static_cast<Index>(closed.size());
+    free_ = freeAcceleration(model_, state_, scene_.gravity);
+    Eigen::MatrixXd K(n, n);
+    Eigen::VectorXd alpha(n);
+    for (Index k = 0; k < n; ++k) {
+      const Contact& c = *closed[static_cast<std::size_t>(k)];
+      const bool is_a = c.a == body_;
+      const State& of_other = motion_.world_lines[index(otherOf(c))].arcs.back().startState();
+      alpha[k] = gapAcceleration(*motion_.geometry, (*motion_.models)[index(c.a)], (*motion_.models)[index(c.b)], c,
+                                 is_a ? state_ : of_other, is_a ? of_other : state_, is_a ? &free_ : nullptr,
+                                 is_a ? nullptr : &free_);
+      for (Index l = 0; l < n; ++l) {
+        const Contact& d = *closed[static_cast<std::size_t>(l)];
+        K(k, l) = model_.inverse_mass * normalOf(c).dot(normalOf(d)) +
+                  armOf(c).cross(normalOf(c)).dot(A_ * armOf(d).cross(normalOf(d)));
+      }
+    }
+    const std::vector<int> active = activeContacts(K, alpha);
+    if (active.empty()) return;
+    Eigen::MatrixXd K_active(active.size(), active.size());
+    Eigen::VectorXd alpha_active(active.size());
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      pressed_.push_back(closed[index(active[i])]);
+      alpha_active[static_cast<Index>(i)] = alpha[active[i]];
+      for (std::size_t j = 0; j < active.size(); ++j)
+        K_active(static_cast<Index>(i), static_cast<Index>(j)) = K(active[i], active[j]);
+    }
+    const LeastNormSolve forces(K_active, alpha_active);
+    for (std::size_t i = 0; i < pressed_.size(); ++i) {
+      const Vec3 f = forces.y[static_cast<Index>(i)] * normalOf(*pressed_[i]);
+      free_.v += model_.inverse_mass * f;
+      free_.w += A_ * armOf(*pressed_[i]).cross(f);
+    }
+  }
+
+  bool isOneFace() const {
+    const Contact& first = *pressed_.front();
+    for (const Contact* c : pressed_) {
+      if (otherOf(*c) != otherOf(first) || (normalOf(*c) - normalOf(first)).norm() > kSameNormal) return false;
+      if (!isBall()) continue;
+      const State& of_other = motion_.world_lines[index(otherOf(*c))].arcs.back().startState();
+      const auto poseOf = [&](int body) {
+        const State& s = body == body_ ? state_ : of_other;
+        return Pose{s.x, (*motion_.models)[index(body)].shapeToWorld(s.q.toRotationMatrix())};
+      };
+      const ContactJacobian J = motion_.geometry->jacobian(c->a, c->b, c->features, poseOf(c->a), poseOf(c->b));
+      if (!J.pose.block<3, 6>(1, c->a == body_ ? 0 : 6).isZero(0)) return false;
+    }
+    return true;
+  }
+
+  // Forces within the cones of friction that undo gravity.
+  bool canRest() const {
+    const auto n = static_cast<Index>(pressed_.size());
+    ConeProgramOf<double> q;
+    q.K.resize(3 * n, 3 * n);
+    q.b.resize(3 * n);
+    for (Index k = 0; k < n; ++k) {
+      const Contact& c = *pressed_[static_cast<std::size_t>(k)];
+      for (Index l = 0; l < n; ++l)
+        q.K.block<3, 3>(3 * k, 3 * l) = model_.inverse_mass * Mat3::Identity() -
+                                        skew(armOf(c)) * A_ * skew(armOf(*pressed_[static_cast<std::size_t>(l)]));
+      q.b.segment<3>(3 * k) = gravity_;
+      q.normal.push_back(normalOf(c));
+      q.friction.push_back(c.pair.friction);
+    }
+    q.offset.assign(static_cast<std::size_t>(n), 0);
+    q.free.assign(static_cast<std::size_t>(n), 0);
+    const ConePointOf<double> at = solveConeProgram(q);
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (std::size_t k = 0; k < pressed_.size(); ++k) {
+      Vec3 f = Vec3::Zero();
+      if (at.state[k] == ConeState::inside) f = at.f[k];
+      if (at.state[k] == ConeState::slides)
+        f = at.pressure[k] * (q.normal[k] + q.friction[k] * at.direction[k]);
+      force += f;
+      moment += armOf(*pressed_[k]).cross(f);
+    }
+    const double most = kAtRest * gravity_.norm();
+    return (gravity_ + model_.inverse_mass * force).norm() <= most && (A_ * moment).norm() * reach_ <= most;
+  }
+
+  bool isBall() const {
+    return std::holds_alternative<Sphere>(scene_.bodies[index(body_)].shape) && model_.center.isZero(0) &&
+           model_.inertia.minCoeff() == model_.inertia.maxCoeff();
+  }
+  // Of a cylinder or capsule that lies on its side, all of whose contacts are on the line below its axis.
+  bool isAxle() const {
+    const Shape& shape = scene_.bodies[index(body_)].shape;
+    const auto* cylinder = std::get_if<Cylinder>(&shape);
+    const auto* capsule = std::get_if<Capsule>(&shape);
+    if ((!cylinder && !capsule) || model_.center.norm() > 0) return false;
+    const double radius = cylinder ? cylinder->radius : capsule->radius;
+    const Vec3 axis = R_ * axisOf(), n = normalOf(*pressed_.front());
+    if (pressed_.size() < 2 || std::abs(axis.dot(n)) > kSameNormal) return false;
+    if (!(omega_ - axis.dot(omega_) * axis).isZero(kNoSlip * omega_.norm())) return false;
+    return std::ranges::all_of(pressed_, [&](const Contact* c) {
+      return std::abs(armOf(*c).dot(n) + radius) <= kSameNormal * radius;
+    });
+  }
+  Vec3 axisOf() const { return model_.has_offset ? Vec3(model_.R_BG * Vec3::UnitZ()) : Vec3(Vec3::UnitZ()); }
+
+  PathInputs<double> inputs(double reach) const {
+    PathInputs<double> in;
+    in.x = state_.x, in.v = state_.v, in.L = state_.L, in.R = R_;
+    in.gravity = gravity_;
+    in.normal = normalOf(*pressed_.front());
+    in.friction = pressed_.front()->pair.friction;
+    in.mass = model_.mass;
+    in.J = model_.inertia.asDiagonal();
+    in.reach = reach;
+    in.axis = axisOf();
+    return in;
+  }
+  double heightOf() const { return -armOf(*pressed_.front()).dot(normalOf(*pressed_.front())); }
+
+  bool sameFriction() const {
+    return std::ranges::all_of(pressed_, [&](const Contact* c) {
+      return c->pair.friction == pressed_.front()->pair.friction;
+    });
+  }
+
+  ContactChoice ball() {
+    const PathInputs<double> in = inputs(heightOf());
+    const Tier derivative = motion_.plan.bodies[index(body_)].derivative_tier;
+    if (derivative != Tier::spherical && derivative != Tier::none)
+      return beyond("a ball whose moments of inertia vary one by one is not modelled yet where it rolls or slides");
+    if (slipOf(*pressed_.front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
+    const Vec3 slope = alongFace(in.normal, in.gravity);
+    const double k = ballInertia(in) / (in.mass * in.reach * in.reach);
+    const bool rolls = slope.norm() * k / (1 + k) <= in.friction * pressingGravity(in);
+    return stays(rolls ? PathForm::roll_ball : PathForm::glide_ball, in.reach);
+  }
+
+  ContactChoice axle() {
+    const PathInputs<double> in = inputs(heightOf());
+    for (const Contact* c : pressed_)
+      if (slipOf(*c).norm() > no_slip_)
+        return beyond("a body on its side that slides is not modelled yet");
+    const RollPath<double> path = RollPath<double>::axle(in);
+    const Vec3 friction = alongFace(in.normal, in.gravity) - path.acceleration();
+    if (!(friction.norm() <= in.friction * pressingGravity(in)))
+      return beyond("a body on its side that slides is not modelled yet");
+    return stays(PathForm::roll_axle, in.reach);
+  }
+
+  ContactChoice block() {
+    if (!sameFriction()) return beyond("sliding over places of different friction is not modelled yet");
+    const PathInputs<double> in = inputs(heightOf());
+    const Vec3 ahead = slipDirectionAt<double>(PathForm::glide_block, in, 0);
+    const SupportPolygon support(pressed_, in.normal);
+    if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > 0))
+      return beyond("tipping over a corner or an edge is not modelled yet");
+    return stays(PathForm::glide_block, in.reach);
+  }
+
+  ContactChoice beyond(std::string what) const { return {nullptr, state_, pressed_, std::move(what)}; }
+
+  ContactChoice stays(PathForm form, double reach) const {
+    ContactChoice choice;
+    choice.path = std::make_shared<ContactPath>();
+    ContactPath& path = *choice.path;
+    path.form = form;
+    path.inputs = inputs(reach);
+    path.body = body_;
+    path.face = otherOf(*pressed_.front());
+    if (form == PathForm::glide_block) path.inputs.L.setZero();
+    const PathState<double> start = pathStateAt<double>(form, path.inputs, 0);
+    choice.start = {start.x, state_.q, start.v, start.L};
+    path.inputs.v = start.v;
+    path.inputs.L = start.L;
+    if (const auto end = slipEnd(form, path.inputs)) path.slip_end = *end;
+    choice.contacts = pressed_;
+    return choice;
+  }
+
+  const Motion& motion_;
+  const Scene& scene_;
+  int body_;
+  const BodyModel& model_;
+  const State& state_;
+  Vec3 gravity_;
+  Mat3 R_, A_;
+  Vec3 omega_;
+  double reach_ = 0, no_slip_ = 0;
+  std::vector<const Contact*> pressed_;
+  FreeAcceleration free_;
+};
+
+}  // namespace
+
+FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, const Vec3& gravity) {
+  const Mat3 A = model.inverseInertiaWorld(state.q.toRotationMatrix());
+  return {model.gravity_factor * gravity, -(A * (A * state.L).cross(state.L))};
+}
+
+double gapAcceleration(const ContactGeometry& geometry, const BodyModel& model_a, const BodyModel& model_b,
+                       const Contact& contact, const State& a, const State& b, const FreeAcceleration* accelerates_a,
+                       const FreeAcceleration* accelerates_b) {
+  Eigen::Matrix<double, 12, 1> velocity = Eigen::Matrix<double, 12, 1>::Zero(), acceleration = velocity;
+  Pose A, B;
+  const auto place = [&](const BodyModel& model, const State& s, const FreeAcceleration* accelerates, Eigen::Index at) {
+    const Mat3 R = s.q.toRotationMatrix();
+    if (accelerates) {
+      velocity.segment<6>(at) << s.v, model.inverseInertiaWorld(R) * s.L;
+      acceleration.segment<6>(at) << accelerates->v, accelerates->w;
+    }
+    return Pose{s.x, model.shapeToWorld(R)};
+  };
+  A = place(model_a, a, accelerates_a, 0);
+  B = place(model_b, b, accelerates_b, 6);
+  const ContactJacobian J = geometry.jacobian(contact.a, contact.b, contact.features, A, B);
+  double alpha = J.pose.row(0).dot(acceleration);
+  if (velocity.isZero(0)) return alpha;
+  PairTangent along;
+  along.pose = velocity;
+  along.size_a = Eigen::VectorXd::Zero(J.size_a.cols());
+  along.size_b = Eigen::VectorXd::Zero(J.size_b.cols());
+  const auto rates =
+      geometry.jacobianRates(contact.a, contact.b, contact.features, A, B, std::span<const PairTangent>(&along, 1));
+  return alpha + rates[0].pose.row(0).dot(velocity);
+}
+
+FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State& state,
+                                     const std::vector<const Contact*>& closed) {
+  return Chooser(motion, body, state, closed).acceleration();
+}
+
+ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
+                                const std::vector<const Contact*>& closed) {
+  return Chooser(motion, body, state, closed).choose();
+}
+
+}  // namespace carom::adjoint_detail

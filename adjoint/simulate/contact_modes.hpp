@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adjoint/contact/contact_path.hpp"
+#include "adjoint/motion/motion.h"
+
+namespace carom::adjoint_detail {
+
+/// How a body goes on after an event.
+struct ContactChoice {
+  /// Null: it flies, as nothing presses it on, or `beyond` says why no path is known for it.
+  std::shared_ptr<ContactPath> path;
+  State start;                           ///< of the path: what contact fixes of the state is exact
+  std::vector<const Contact*> contacts;  ///< that last
+  std::string beyond;                    ///< what the path would have to be, as the end of a sentence
+};
+
+/// Accelerations of a body that nothing touches: of its centre of mass, and angular.
+struct FreeAcceleration {
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+};
+FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, const Vec3& gravity);
+
+/// The same where contacts that do not rub keep the body from what they are with; `closed` are those with n.u = 0, and
+/// what they are with stays.
+FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State& state,
+                                     const std::vector<const Contact*>& closed);
+
+/// d^2(gap)/dt^2 of a contact whose bodies have these states and accelerations; null: a body that stays.
+double gapAcceleration(const ContactGeometry& geometry, const BodyModel& model_a, const BodyModel& model_b,
+                       const Contact& contact, const State& a, const State& b, const FreeAcceleration* accelerates_a,
+                       const FreeAcceleration* accelerates_b);
+
+/// The path of a body from `state` on, where `closed` are its contacts that part without speed: rest wherever rest is
+/// possible; sliding or rolling of what has a closed form (docs/equations.md section 11).
+ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
+                                const std::vector<const Contact*>& closed);
+
+}  // namespace carom::adjoint_detail

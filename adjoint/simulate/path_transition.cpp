@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/simulate/path_transition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/motion/body_geometry.h"
+#include "adjoint/simulate/support_polygon.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+class Search {
+ public:
+  Search(const Motion& motion, const ContactChoice& choice, double until)
+      : motion_(motion), choice_(choice), path_(*choice.path), found_{until, TransitionCause::none, -1, -1} {}
+
+  PathTransition run() {
+    if (path_.form == PathForm::rest) return {};
+    if (path_.slip_end <= found_.elapsed) take(path_.slip_end, TransitionCause::slip_ends, -1, -1);
+    const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());
+    for (std::size_t k = 0; bodies && k < choice_.contacts.size(); ++k) leave(*bodies, static_cast<int>(k));
+    if (path_.form == PathForm::glide_block) tip();
+    if (found_.cause == TransitionCause::none) return {};
+    return found_;
+  }
+
+ private:
+  void take(double elapsed, TransitionCause cause, int contact, int limit) { found_ = {elapsed, cause, contact, limit}; }
+
+  Pose poseOf(int body, const State& s) const {
+    return {s.x, (*motion_.models)[index(body)].shapeToWorld(s.q.toRotationMatrix())};
+  }
+  const State& stateOf(int body) const {
+    return body == path_.body ? choice_.start : motion_.world_lines[index(body)].arcs.back().startState();
+  }
+
+  // How the point of a contact moves with the centre of mass.
+  Mat3 pointBy(const Contact& c) const {
+    const ContactJacobian J = motion_.geometry->jacobian(c.a, c.b, c.features, poseOf(c.a, stateOf(c.a)),
+                                                         poseOf(c.b, stateOf(c.b)));
+    return J.pose.block<3, 3>(4, c.a == path_.body ? 0 : 6);
+  }
+
+  // The body turns about an axis that leaves its contacts where they are below it, so a point moves as the centre does.
+  void leave(const BodyGeometry& bodies, int k) {
+    const Contact& c = *choice_.contacts[index(k)];
+    const Mat3 by = pointBy(c);
+    const std::vector<FeatureLimit> limits =
+        bodies.limits(c.a, c.b, c.features, poseOf(c.a, stateOf(c.a)), poseOf(c.b, stateOf(c.b)));
+    const auto borders = std::ranges::count_if(
+        limits, [&](const FeatureLimit& l) { return l.body == path_.face && !l.point_weight.isZero(0); });
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      const FeatureLimit& limit = limits[i];
+      if (limit.point_weight.isZero(0)) continue;
+      if (limit.body == path_.body && path_.form != PathForm::glide_block) continue;
+      if (limit.body == path_.face && borders == 1) {
+        leaveDisc(bodies, k, static_cast<int>(i));
+        continue;
+      }
+      const Pose pose = poseOf(limit.body, stateOf(limit.body));
+      const Vec3 weight = pose.R * limit.point_weight;
+      // weight . (p - x_body - border), p = p0 + by (x - x0)
+      Vec3 along = by.transpose() * weight;
+      double value = along.dot(choice_.start.x) - weight.dot(c.at.point - pose.x - pose.R * limit.border);
+      if (limit.body == path_.body) along -= weight, value -= weight.dot(choice_.start.x);
+      if (along.norm() < 1e-12) continue;
+      if (const auto t = firstDescent(path_.form, path_.inputs, along, 0, value, found_.elapsed); t && *t < found_.elapsed)
+        take(*t, TransitionCause::leaves, k, static_cast<int>(i));
+    }
+  }
+
+  // A round border: no nearer than it is, over the fastest speed, can it be reached.
+  void leaveDisc(const BodyGeometry& bodies, int k, int i) {
+    const Contact& c = *choice_.contacts[index(k)];
+    const auto room = [&](double t) {
+      const State now = path_.stateAt(choice_.start, path_.start + t);
+      const Pose A = poseOf(c.a, c.a == path_.body ? now : stateOf(c.a)), B = poseOf(c.b, c.b == path_.body ? now : stateOf(c.b));
+      const std::vector<FeatureLimit> limits = bodies.limits(c.a, c.b, c.features, A, B);
+      if (i >= static_cast<int>(limits.size())) return kInfinity;  // in the middle
+      const FeatureLimit& limit = limits[index(i)];
+      const Pose& pose = limit.body == c.a ? A : B;
+      const Vec3 point = motion_.geometry->contact(c.a, c.b, c.features, A, B).point;
+      return limit.point_weight.dot(pose.R.transpose() * (point - pose.x) - limit.border);
+    };
+    const double end = std::min(found_.elapsed, 1e9);
+    const double slope = path_.inputs.gravity.norm() * (1 + path_.inputs.friction);
+    double t = 0, before = 0;
+    for (int step = 0; step < 2000 && t < end; ++step) {
+      const double left = room(t);
+      if (!std::isfinite(left)) {
+        t += 1e-6;
+        continue;
+      }
+      if (left <= 1e-15 * (1 + choice_.start.x.norm())) {
+        take(t, TransitionCause::leaves, k, i);
+        return;
+      }
+      before = t;
+      const double speed = pathCenterAt(path_.form, path_.inputs, t).v.norm();
+      // speed dt + slope dt^2 / 2 = left
+      t += 2 * left / (speed + std::sqrt(speed * speed + 2 * slope * left));
+      if (t == before) {
+        take(t, TransitionCause::leaves, k, i);
+        return;
+      }
+    }
+  }
+
+  // The point that the force of the face goes through is h mu ahead of the foot of the centre of mass, along the slip.
+  void tip() {
+    const SupportPolygon support(choice_.contacts, path_.inputs.normal);
+    const double ahead = path_.inputs.reach * path_.inputs.friction;
+    for (const SupportPolygon::Side& side : support.sides()) {
+      const Mat3 by = pointBy(*choice_.contacts[index(side.from)]);
+      const Vec3 follows = by.transpose() * side.inward;
+      const double room = side.inward.dot(choice_.start.x - support.pointOf(side.from));
+      if ((follows - side.inward).norm() < 1e-9) {
+        tipOver(side.inward, room, ahead);
+      } else if (const auto t = firstDescent(path_.form, path_.inputs, side.inward - follows, ahead,
+                                             (side.inward - follows).dot(choice_.start.x) - room, found_.elapsed);
+                 t && *t < found_.elapsed) {
+        take(*t, TransitionCause::tips, -1, -1);
+      }
+    }
+  }
+
+  // Over a side that goes with the body: where the slip turns towards it.
+  void tipOver(const Vec3& inward, double room, double ahead) {
+    const auto left = [&](double t) {
+      return room + ahead * inward.dot(slipDirectionAt<double>(path_.form, path_.inputs, t));
+    };
+    const double end = std::min({found_.elapsed, path_.slip_end, 1e9});
+    double low = 0, high = end;
+    if (left(high) >= 0) return;
+    for (int step = 0; step < 200 && std::nextafter(low, high) < high; ++step) {
+      const double middle = 0.5 * (low + high);
+      (left(middle) >= 0 ? low : high) = middle;
+    }
+    take(high, TransitionCause::tips, -1, -1);
+  }
+
+  const Motion& motion_;
+  const ContactChoice& choice_;
+  const ContactPath& path_;
+  PathTransition found_;
+};
+
+}  // namespace
+
+PathTransition firstTransition(const Motion& motion, const ContactChoice& choice, double until) {
+  return Search(motion, choice, until).run();
+}
+
+}  // namespace carom::adjoint_detail

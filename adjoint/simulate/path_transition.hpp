@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/simulate/contact_modes.hpp"
+
+namespace carom::adjoint_detail {
+
+/// Why a path in lasting contact goes on otherwise: its slip comes to an end, a contact leaves the feature that it is at,
+/// or the force at a corner comes to 0.
+enum class TransitionCause { none, slip_ends, leaves, tips };
+
+struct PathTransition {
+  double elapsed = kInfinity;  ///< s from the start of the path
+  TransitionCause cause = TransitionCause::none;
+  int contact = -1;  ///< of those of the path, that leaves
+  int limit = -1;    ///< of BodyGeometry::limits, that it reaches
+};
+
+/// The first one within `until` seconds from the start of a path that rests on `contacts`.
+PathTransition firstTransition(const Motion& motion, const ContactChoice& choice, double until);
+
+}  // namespace carom::adjoint_detail

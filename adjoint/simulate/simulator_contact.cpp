@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/impact/complementarity.hpp"
+#include "adjoint/impact/impact.hpp"
+#include "adjoint/simulate/simulator.hpp"
+
+// Contact that lasts: where it begins, which path a body takes in it, and where that ends (docs/equations.md section 11).
+
+namespace carom::adjoint_detail {
+namespace {
+
+// A bounce that arrives from a lower height than this, as a share of the arm of the contact, is no impact to people.
+constexpr double kUncounted = 1e-6;
+// What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
+constexpr double kBeyond = 2e-7;
+
+}  // namespace
+
+std::vector<FeaturePair> Simulator::heldBetween(int a, int b) const {
+  std::vector<FeaturePair> held;
+  for (int body : {a, b})
+    for (const Contact& c : onwardOf(body).held)
+      if (c.a == a && c.b == b) held.push_back(c.features);
+  return held;
+}
+
+// The contacts that the participants are held by take part in whatever happens to them.
+void Simulator::addHeld() {
+  std::vector<Contact>& contacts = draft_.event.contacts;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    for (int body : {contacts[k].a, contacts[k].b})
+      for (const Contact& h : onward_[index(body)].held) {
+        const auto known = std::ranges::find_if(
+            contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b && c.features == h.features; });
+        if (known != contacts.end()) {
+          known->held = true;
+          continue;
+        }
+        Contact c = makeContact(draft_.event.time, h.a, h.b, h.features);
+        c.held = true;
+        c.counted = false;
+        contacts.push_back(c);
+      }
+  const auto order = [](const Contact& c, const Contact& d) { return std::pair(c.a, c.b) < std::pair(d.a, d.b); };
+  if (!std::ranges::is_sorted(contacts, order)) std::ranges::stable_sort(contacts, order);
+}
+
+void Simulator::solveLaw() {
+  Event& event = draft_.event;
+  event.settles_at.reset();
+  do {
+    try {
+      solveImpact(event, *motion_.models, draft_.after);
+    } catch (const NotComputable& error) {
+      giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
+    }
+  } while (captureLow());
+}
+
+const State& Simulator::stateAfter(int body) const {
+  const Participant* p = draft_.event.find(body);
+  if (!p) return motion_.world_lines[index(body)].arcs.back().startState();
+  return draft_.after[static_cast<std::size_t>(p - draft_.event.participants.data())];
+}
+
+// d^2(gap)/dt^2 after the event; `among_closed`: while those that part without speed stay closed.
+double Simulator::accelerationOf(const Contact& contact, bool among_closed) const {
+  FreeAcceleration of_a, of_b;
+  const auto accelerate = [&](int body, FreeAcceleration& accelerates) -> const FreeAcceleration* {
+    const Arc& arc = motion_.world_lines[index(body)].arcs.back();
+    if (!arc.moving()) return nullptr;
+    std::vector<const Contact*> closed;
+    for (const Contact& c : draft_.event.contacts)
+      if (among_closed && c.lasts && (c.a == body || c.b == body) && !isMoved(c.a == body ? c.b : c.a))
+        closed.push_back(&c);
+    accelerates = pressedAcceleration(motion_, body, stateAfter(body), closed);
+    return &accelerates;
+  };
+  const FreeAcceleration *a = accelerate(contact.a, of_a), *b = accelerate(contact.b, of_b);
+  return gapAcceleration(*motion_.geometry, (*motion_.models)[index(contact.a)], (*motion_.models)[index(contact.b)],
+                         contact, stateAfter(contact.a), stateAfter(contact.b), a, b);
+}
+
+// Contacts that leave so slowly that they would be back from less than the lowest bounce part without speed instead
+// (C.6); true where there are more of them than before.
+bool Simulator::captureLow() {
+  if (!contactsLast()) return false;
+  Event& event = draft_.event;
+  bool more = false;
+  for (Contact& c : event.contacts) {
+    if (c.lasts || c.kept || c.captured) continue;
+    double leaves = 0;
+    for (int body : {c.a, c.b}) {
+      if (!event.find(body)) continue;
+      const Kinematics k = arcOf(body).kinematicsOf(stateAfter(body));
+      leaves += (body == c.a ? 1 : -1) * c.at.normal.dot(k.v + k.w.cross(c.at.point - k.x));
+    }
+    const double fastest = 2 * motion_.lowest_bounce * (scene_.gravity.norm() + 1) * 1e6;
+    if (!(leaves * leaves < fastest)) continue;  // far most often
+    const double alpha = accelerationOf(c, true);
+    if (!(alpha < 0 && leaves * leaves < -2 * motion_.lowest_bounce * alpha)) continue;
+    more = true;
+    if (c.held || !(c.approach < 0)) {
+      c.kept = true;
+      continue;
+    }
+    c.captured = true;
+    const double e = c.pair.elasticity;
+    if (event.contacts.size() == 1 && e < 1) event.settles_at = event.time + 2 * leaves / (-alpha * (1 - e));
+    c.pair.elasticity = 0;
+  }
+  return more;
+}
+
+// Whether a contact arrives from high enough to be an impact to people.
+bool Simulator::isCounted(const Contact& c, const State& a, const State& b) const {
+  if (!contactsLast()) return true;
+  double reach = 0;
+  for (const auto& [body, s] : {std::pair{c.a, &a}, std::pair{c.b, &b}})
+    if (isMoved(body)) reach = std::max(reach, (c.at.point - s->x).norm());
+  const double height = kUncounted * reach;
+  if (!(c.approach * c.approach < 2 * height * (1e6 + scene_.gravity.norm()))) return true;
+  FreeAcceleration of_a, of_b;
+  const auto accelerate = [&](int body, const State& s, FreeAcceleration& accelerates) -> const FreeAcceleration* {
+    if (!(*motion_.models)[index(body)].moving) return nullptr;
+    accelerates = freeAcceleration((*motion_.models)[index(body)], s, scene_.gravity);
+    return &accelerates;
+  };
+  const FreeAcceleration *of_first = accelerate(c.a, a, of_a), *of_second = accelerate(c.b, b, of_b);
+  const double alpha = gapAcceleration(*motion_.geometry, (*motion_.models)[index(c.a)],
+                                       (*motion_.models)[index(c.b)], c, a, b, of_first, of_second);
+  return !(alpha < 0 && c.approach * c.approach < -2 * height * alpha);
+}
+
+// Whether a contact between bodies that move, which part without speed, goes on pressing.
+bool Simulator::presses(const Contact& c) const { return accelerationOf(c, false) < 0; }
+
+// The poses with all gaps 0: moved as little as possible, as measured by the mass (C.5). The contacts follow.
+void Simulator::project(State& state, int body, std::vector<Contact>& closed) const {
+  const BodyModel& model = (*motion_.models)[index(body)];
+  const Mat3 A = model.mobilityWorld(state.q.toRotationMatrix());
+  const auto n = static_cast<Eigen::Index>(closed.size());
+  Eigen::MatrixXd K(n, n);
+  Eigen::VectorXd gaps(n);
+  const auto signOf = [&](const Contact& c) { return c.a == body ? 1.0 : -1.0; };
+  const auto lever = [&](const Contact& c) { return Vec3((c.at.point - state.x).cross(signOf(c) * c.at.normal)); };
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Contact& c = closed[static_cast<std::size_t>(k)];
+    gaps[k] = c.at.gap;
+    for (Eigen::Index l = 0; l < n; ++l) {
+      const Contact& d = closed[static_cast<std::size_t>(l)];
+      K(k, l) = model.inverse_mass * signOf(c) * signOf(d) * c.at.normal.dot(d.at.normal) + lever(c).dot(A * lever(d));
+    }
+  }
+  const LeastNormSolve shares(K, gaps);
+  Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Contact& c = closed[static_cast<std::size_t>(k)];
+    moved += shares.y[k] * model.inverse_mass * signOf(c) * c.at.normal;
+    turned += shares.y[k] * (A * lever(c));
+  }
+  state.x += moved;
+  if (turned.norm() > 0) state.q = (Quat(Eigen::AngleAxisd(turned.norm(), turned.normalized())) * state.q).normalized();
+  for (Contact& c : closed) {
+    const auto pose = [&](int b) {
+      const State& s = b == body ? state : motion_.world_lines[index(b)].arcs.back().startState();
+      return Pose{s.x, (*motion_.models)[index(b)].shapeToWorld(s.q.toRotationMatrix())};
+    };
+    c.at = motion_.geometry->contact(c.a, c.b, c.features, pose(c.a), pose(c.b));
+    c.pair = builder_.pairOf(c.a, c.b);
+  }
+}
+
+// How every participant goes on.
+void Simulator::chooseArcs() {
+  Event& event = draft_.event;
+  draft_.beyond.clear();
+  draft_.arcs.clear();
+  draft_.onward.assign(bodies_.size(), {});
+  for (std::size_t i = 0; i < bodies_.size(); ++i) chooseArc(i);
+  for (Contact& c : event.contacts) {
+    if (!c.lasts) continue;
+    c.lasts = std::ranges::any_of(draft_.onward, [&](const Onward& onward) {
+      return std::ranges::any_of(onward.held, [&](const Contact& h) {
+        return h.a == c.a && h.b == c.b && h.features == c.features;
+      });
+    });
+    if (c.lasts && !c.held && event.kind == EventKind::impact) event.kind = EventKind::capture;
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) in_draft_[index(bodies_[i])] = static_cast<int>(i);
+}
+
+void Simulator::chooseArc(std::size_t participant) {
+  const Event& event = draft_.event;
+  const int body = bodies_[participant];
+  std::vector<Contact> closed;
+  if (contactsLast() && isMoved(body)) {
+    for (const Contact& c : event.contacts) {
+      if (!c.lasts || (c.a != body && c.b != body)) continue;
+      const int other = c.a == body ? c.b : c.a;
+      if (!scene_.bodies[index(other)].fixed && !presses(c)) continue;
+      closed.push_back(c);
+      closed.back().pair = builder_.pairOf(c.a, c.b);
+    }
+  }
+  State& after = draft_.after[participant];
+  ContactChoice choice;
+  const auto choose = [&] {
+    std::vector<const Contact*> contacts;
+    for (const Contact& c : closed) contacts.push_back(&c);
+    choice = chooseContactPath(motion_, body, after, contacts);
+  };
+  if (!closed.empty()) choose();
+  if (choice.path) {  // the contacts that last fix the pose
+    std::vector<Contact> last;
+    for (const Contact* c : choice.contacts) last.push_back(*c);
+    closed = std::move(last);
+    if (std::ranges::any_of(closed, [](const Contact& c) { return !c.held; })) project(after, body, closed);
+    choose();
+  }
+  if (!choice.path) {
+    draft_.arcs.push_back(builder_.flight(body, event.time, after));
+    requireFlight(body, draft_.arcs.back());
+    if (choice.beyond.empty() || !draft_.beyond.empty()) return;
+    const Contact& c = *choice.contacts.front();
+    draft_.beyond = textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.settles_at.value_or(event.time),
+                           " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
+                           motion_.impacts + 1, " impacts; ", choice.beyond, ", so the motion ends there");
+    return;
+  }
+  const double left = motion_.duration - event.time;
+  choice.path->start = event.time;
+  Onward& onward = draft_.onward[participant];
+  onward.why = firstTransition(motion_, choice, left);
+  if (onward.why.cause != TransitionCause::none) onward.transition = event.time + onward.why.elapsed;
+  choice.path->bounds = pathBounds(choice.path->form, choice.path->inputs, 0, std::min(onward.why.elapsed, left));
+  for (const Contact* c : choice.contacts) onward.held.push_back(*c);
+  after = choice.start;
+  draft_.arcs.emplace_back((*motion_.models)[index(body)], motion_.plan.bodies[index(body)].tier,
+                           std::move(choice.path), event.time, choice.start);
+}
+
+// What touches a body where a contact of it leaves its feature: what it has a little later on the same path.
+std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, double time) {
+  const Arc& arc = arcOf(body);
+  double size = 1, arm = kInfinity;
+  for (const Contact& c : from.held) {
+    size = std::max(size, c.at.point.norm());
+    arm = std::min(arm, (c.at.point - arc.startState().x).norm());
+  }
+  const double further = kBeyond * size, later = time + further / arc.velocityAt(time).norm();
+  const double reach = 10 * motion_.lowest_bounce + further * further / arm;
+  std::vector<Contact> contacts;
+  for (const Contact& h : from.held) {
+    if (std::ranges::any_of(contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b; })) continue;
+    for (const FeaturePair& f : contacts_.touching(h.a, h.b, arcOf(h.a), arcOf(h.b), later, reach)) {
+      contacts.push_back(makeContact(time, h.a, h.b, f));
+      contacts.back().counted = false;
+    }
+  }
+  return contacts;
+}
+
+// The body of a path whose time has come goes on otherwise, from the state that it has.
+void Simulator::resolveTransition(int body) {
+  const Onward from = onward_[index(body)];
+  Event& event = draft_.event;
+  event = {};
+  event.time = from.transition;
+  event.kind = EventKind::transition;
+  snapshots_.clear();
+  snapshot(body, event.time);
+  if (from.why.cause == TransitionCause::leaves) {
+    event.contacts = contactsBeyond(from, body, event.time);
+    if (event.contacts.empty()) {  // it flies: the contact that it leaves is that of the event
+      const Contact& h = from.held[index(from.why.contact)];
+      event.contacts.push_back(makeContact(event.time, h.a, h.b, h.features));
+      event.contacts.back().counted = false;
+      event.contacts.back().held = true;
+    }
+  } else {
+    for (const Contact& h : from.held) {
+      event.contacts.push_back(makeContact(event.time, h.a, h.b, h.features));
+      event.contacts.back().counted = false;
+    }
+  }
+  const bool flies = event.contacts.size() == 1 && event.contacts[0].held;
+  for (Contact& c : event.contacts) {
+    c.lasts = !flies;
+    c.held = true;
+  }
+  bodies_ = {body};
+  event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
+                                snapshots_[0].state});
+  draft_.after = {snapshots_[0].state};
+  chooseArcs();
+  predictDraft();
+}
+
+// Bodies that the scene starts in contact: those that neither part nor approach go on from an event of their own.
+bool Simulator::placeAtStart() {
+  if (!contactsLast()) return true;
+  std::vector<PlacedContact> placed = contacts_.placed();
+  for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
+    if (!isMoved(body)) continue;
+    Event& event = draft_.event;
+    event = {};
+    event.kind = EventKind::placed;
+    snapshots_.clear();
+    bodies_.clear();
+    for (const PlacedContact& p : placed) {
+      if ((p.a != body && p.b != body) || overlapOf(p.a, p.b)) continue;
+      if (arcOf(p.a == body ? p.b : p.a).moving()) continue;  // they meet at once, or part
+      for (const FeaturePair& f : p.features) {
+        Contact c = makeContact(0, p.a, p.b, f);
+        const double alpha = accelerationOf(c, false);
+        if (!(alpha < 0 && c.approach * c.approach < -2 * motion_.lowest_bounce * alpha)) continue;
+        c.counted = false;
+        c.kept = true;
+        c.pair.elasticity = c.pair.friction = 0;
+        event.contacts.push_back(c);
+      }
+    }
+    if (event.contacts.empty()) continue;
+    solvePlaced(body);
+    if (draft_.beyond.empty()) continue;
+    finish(MotionStatus::cascade, 0, draft_.beyond);
+    return false;
+  }
+  return true;
+}
+
+// Velocities along the normals, which are 0 but for rounding, are 0.
+void Simulator::solvePlaced(int body) {
+  Event& event = draft_.event;
+  bodies_ = {body};
+  event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
+                                snapshots_[snapshot(body, 0)].state});
+  try {
+    solveImpact(event, *motion_.models, draft_.after);
+  } catch (const NotComputable& error) {
+    giveUp("contact", event.contacts[0].a, event.contacts[0].b, 0, error);
+  }
+  chooseArcs();
+  contacts_.setPath(body, draft_.arcs[0], 0, motion_.duration);
+  draft_.outlooks.assign(1, {});
+  commit();
+}
+
+}  // namespace carom::adjoint_detail
