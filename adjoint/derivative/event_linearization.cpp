@@ -4,11 +4,13 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/contact/contact_path.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/impact/single_laws.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/impact/tilt_frame.hpp"
 #include "adjoint/impact/wide_impact.hpp"
+#include "adjoint/motion/body_geometry.h"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom::adjoint_detail {
@@ -22,7 +24,7 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
   Part part;
   part.a = {c.a, participantOf(event, c.a)};
   part.b = {c.b, participantOf(event, c.b)};
-  part.weight = weight;
+  part.guard[0] = event.kind == EventKind::transition ? 0 : weight;
   ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, poseBefore(motion, event, c.a),
                                                 poseBefore(motion, event, c.b));
   part.pose = J.pose;
@@ -35,7 +37,37 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
   part.material_b = materialIndexOf(*motion.scene, c.b);
   part.rules = rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
                        materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.b)]));
+  if (c.captured || c.kept) part.rules.elasticity = {};
+  if (event.kind == EventKind::placed) part.rules.friction = {};
   return part;
+}
+
+// Of a transition; adds the weights of contacts to their parts.
+EventGuard<double> guardOf(const Motion& motion, const Event& event, std::vector<Part>& parts) {
+  EventGuard<double> guard;
+  if (event.kind != EventKind::transition) return guard;
+  const Contact& c = event.contacts[0];
+  const Participant& p = event.participants[0];
+  const ContactPath& path =
+      *motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc)].path();
+  if (event.cause == TransitionCause::slip_ends) {
+    guard.by_slip = true;
+    guard.slip = (p.body == c.a ? 1 : -1) * slipDirectionAt<double>(path.form, path.inputs, path.slip_end);
+    return guard;
+  }
+  const auto* bodies = dynamic_cast<const BodyGeometry*>(motion.geometry.get());
+  if (event.cause != TransitionCause::leaves || !bodies)
+    throw NotComputable("the derivative by when a body begins to tip is not modelled yet");
+  const Pose A = poseBefore(motion, event, c.a), B = poseBefore(motion, event, c.b);
+  const FeatureLimit limit = bodies->limits(c.a, c.b, c.features, A, B)[static_cast<std::size_t>(event.border)];
+  const Pose& pose = limit.body == c.a ? A : B;
+  guard.border_body = limit.body;
+  guard.border_participant = participantOf(event, limit.body);
+  guard.weight = pose.R * limit.point_weight;
+  guard.border_arm = c.at.point - pose.x;
+  if (limit.border_rates.cols() > 0) guard.border_rates = limit.border_rates.transpose() * limit.point_weight;
+  parts[0].guard.tail<3>() = guard.weight;
+  return guard;
 }
 
 Pass passOf(const Motion& motion, const Event& event) {
@@ -43,6 +75,7 @@ Pass passOf(const Motion& motion, const Event& event) {
   const std::vector<double> weights = guardWeights(event);
   for (std::size_t k = 0; k < weights.size(); ++k)
     parts.push_back(partOf(motion, event, event.contacts[k], weights[k]));
+  EventGuard<double> guard = guardOf(motion, event, parts);
   std::vector<StateDerivative> rate_before, rate_after;
   for (const Participant& p : event.participants) {
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
@@ -54,6 +87,7 @@ Pass passOf(const Motion& motion, const Event& event) {
           usesWide(event, *motion.models),
           impactInputs(event, *motion.models),
           std::move(parts),
+          std::move(guard),
           std::move(rate_before),
           std::move(rate_after)};
 }
@@ -79,6 +113,7 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
     : EventPass(passOf(motion, motion.events[static_cast<std::size_t>(index)])) {}
 
 double EventLinearization::frictionFromZero() const {
+  if (event().kind == EventKind::transition || event().kind == EventKind::placed) return 1;
   const ImpactProblem& p = impact().problem();
   if (std::none_of(p.pair.begin(), p.pair.end(), [](const PairCoefficients& c) { return c.friction == 0; })) return 1;
   if (p.contacts() > 1) {
@@ -92,13 +127,30 @@ double EventLinearization::frictionFromZero() const {
   return t.slides ? t.margin : 0;
 }
 
+double EventLinearization::guardTangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,
+                                        const std::vector<BodyModelDerivative>& dmodel) const {
+  double d = 0;
+  for (const Part& part : parts())
+    if (!part.guard.isZero(0)) d += part.guard.dot(contactTangent(part, before, dscene));
+  if (guard().by_slip) {
+    std::vector<BodyModelDerivative> dmodels;
+    for (const Participant& p : event().participants) dmodels.push_back(dmodel[static_cast<std::size_t>(p.body)]);
+    d += guard().slip.dot(velocityTangent(impact().inputs(), before, contactTangent(parts()[0], before, dscene), dmodels));
+  }
+  if (guard().border_body < 0) return d;
+  const BodyDerivative& border = dscene.bodies[static_cast<std::size_t>(guard().border_body)];
+  const int p = guard().border_participant;
+  d += p < 0 ? guard().borderTangent(border.position, border.orientation)
+             : guard().borderTangent(before[static_cast<std::size_t>(p)].x, before[static_cast<std::size_t>(p)].theta);
+  if (guard().border_rates.size() > 0) d -= guard().border_rates.dot(border.size);
+  return d;
+}
+
 EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateDerivative>& before,
                                                         const SceneTangent& dscene,
                                                         const std::vector<BodyModelDerivative>& dmodel) const {
   Tangent out;
-  double dgap = 0;
-  for (const Part& part : parts()) dgap += part.weight * contactTangent(part, before, dscene)[0];
-  out.time = -dgap / guardRate();
+  if (!hasFixedTime()) out.time = -guardTangent(before, dscene, dmodel) / guardRate();
 
   // at the moved time of the impact
   std::vector<StateDerivative> moved = before;
@@ -126,7 +178,14 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
     };
     dpair.push_back(part.rules.tangent(dmaterial(part.material_a), dmaterial(part.material_b)));
   }
-  out.after = impactTangent(impact().inputs(), wide(), moved, dcontact, dpair, dmodels);
+  out.after = hasLaw() ? impactTangent(impact().inputs(), wide(), moved, dcontact, dpair, dmodels) : moved;
+  const std::vector<std::size_t>& lasting = projection().lasting();
+  if (!lasting.empty()) {
+    Eigen::VectorXd gaps(lasting.size());
+    for (std::size_t k = 0; k < lasting.size(); ++k)
+      gaps[static_cast<Eigen::Index>(k)] = contactTangent(parts()[lasting[k]], moved, dscene)[0];
+    projection().apply(gaps, out.after);
+  }
   for (std::size_t i = 0; i < moved.size(); ++i) out.after[i].addScaled(-out.time, rateAfter()[i]);
   return out;
 }

@@ -23,6 +23,10 @@ class EventLinearization : public EventPass<double> {
   /// does not slip there sticks with the least friction: |P_t|/P_n of the untruncated impulse, and of several contacts
   /// the speed of the slip as a share of the fastest one at them; 1 where none is without friction.
   double frictionFromZero() const;
+
+ private:
+  double guardTangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,
+                      const std::vector<BodyModelDerivative>& dmodel) const;
 };
 
 }  // namespace carom::adjoint_detail

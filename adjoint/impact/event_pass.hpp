@@ -3,28 +3,12 @@
 
 #include <algorithm>
 
-#include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/impact/contact_part.hpp"
+#include "adjoint/impact/event_guard.hpp"
+#include "adjoint/impact/pose_projection.hpp"
 #include "adjoint/motion/motion.h"
-#include "adjoint/motion/pair_rules.hpp"
 
 namespace carom::adjoint_detail {
-
-/// A contact of an event, linearised.
-template <class S>
-struct ContactPart {
-  struct Side {
-    int body, participant;  // participant -1: a fixed body
-  };
-  Side a, b;
-  double weight = 0;  // of its gap in the guard
-  // d(gap, normal, point) by (x_a, theta_a, x_b, theta_b) and by the dimensions
-  Eigen::Matrix<S, 7, 12> pose;
-  Eigen::Matrix<S, 7, Eigen::Dynamic> size_a, size_b;
-  bool tilted = false;
-  Eigen::Matrix<S, 3, 7> tilt;  // d(impulse normal) by (normal, tilt a, tilt b)
-  int material_a = -1, material_b = -1;
-  PairRules<S> rules;
-};
 
 /// One event, linearised, and its reverse pass, in one kind of number: impact, contact geometry and guard (equations 5.1
 /// to 5.3 of docs/equations.md). The weights of the guard are held: they weigh gaps that are all 0 there.
@@ -39,16 +23,19 @@ class EventPass {
   using SceneBar = SceneDerivativeOf<S>;
 
   /// `wide`: doubles are too short for the impact; `rate_before`, `rate_after`: F- and F+ of the participants.
-  EventPass(const Event& event, bool wide, ImpactInputs<S> inputs, std::vector<Part> parts,
+  EventPass(const Event& event, bool wide, ImpactInputs<S> inputs, std::vector<Part> parts, EventGuard<S> guard,
             std::vector<StateBar> rate_before, std::vector<StateBar> rate_after)
       : event_(event),
         wide_(wide),
         impact_(std::move(inputs)),
         parts_(std::move(parts)),
+        guard_(std::move(guard)),
+        projection_(event, parts_, impact_.inputs()),
         rate_before_(std::move(rate_before)),
         rate_after_(std::move(rate_after)) {
-    for (const Part& part : parts_) guard_rate_ += part.weight * part.pose.row(0).dot(poses(part, rate_before_));
-    if (wide_) return;
+    for (const Part& part : parts_) guard_rate_ += part.guard.dot(part.pose * poses(part, rate_before_));
+    guard_rate_ += guard_.rate(impact_, rate_before_);
+    if (wide_ || !hasLaw()) return;
     if constexpr (std::is_same_v<S, double>) {
       P_.resize(3 * static_cast<Eigen::Index>(event.contacts.size()));
       for (std::size_t k = 0; k < event.contacts.size(); ++k)
@@ -65,8 +52,14 @@ class EventPass {
   /// F- and F+, d(state)/dt of the participants just before and just after.
   const std::vector<StateBar>& rateBefore() const { return rate_before_; }
   const std::vector<StateBar>& rateAfter() const { return rate_after_; }
-  /// D = d(guard)/dt < 0, m/s.
+  /// D = d(guard)/dt < 0, m/s; of a slip that ends m/s^2.
   const S& guardRate() const { return guard_rate_; }
+  const EventGuard<S>& guard() const { return guard_; }
+  const PoseProjection<S>& projection() const { return projection_; }
+  /// Whether the map is an impact law; states go through other events as they are.
+  bool hasLaw() const { return event_.kind != EventKind::transition; }
+  /// Whether its time stays where it is.
+  bool hasFixedTime() const { return event_.kind == EventKind::placed; }
 
   /// (x_a, theta_a, x_b, theta_b) of changes of the participants; fixed bodies stay.
   static Vec12 poses(const Part& part, const std::vector<StateBar>& states) {
@@ -131,7 +124,8 @@ class EventPass {
                                  const S& time_bar, SceneBar& scene_bar, std::vector<ModelBar>& model_bar) const {
     std::vector<StateBar> before_bar(after_bar.size());
     const bool through = std::any_of(after_bar.begin(), after_bar.end(), [](const auto& s) { return !s.isZero(); });
-    if (through) {  // lambda- = C_s^T lambda+, u_bar += C_u^T lambda+
+    if (through && !hasLaw()) before_bar = after_bar;
+    if (through && hasLaw()) {  // lambda- = C_s^T lambda+, u_bar += C_u^T lambda+
       ImpactBars<S> bars =
           wide_ ? wideImpactPullback(impact_.inputs(), after_bar) : impact_.pullback(P_, after_bar);
       before_bar = std::move(bars.before);
@@ -140,6 +134,18 @@ class EventPass {
       for (std::size_t k = 0; k < parts_.size(); ++k)
         contactPullback(k, bars.contact[k], bars.pair[k], before_bar, scene_bar);
     }
+    if (through && !projection_.lasting().empty()) {
+      const VectorOf<S> gap_bar = projection_.pullback(after_bar);
+      for (std::size_t k = 0; k < projection_.lasting().size(); ++k) {
+        Vec7 bar = Vec7::Zero();
+        bar[0] = gap_bar[static_cast<Eigen::Index>(k)];
+        scatter(parts_[projection_.lasting()[k]], bar, before_bar, scene_bar);
+      }
+    }
+    if (hasFixedTime()) {
+      for (std::size_t i = 0; i < before_bar.size(); ++i) before_bar[i] += read_bar[i];
+      return before_bar;
+    }
     // sigma = (lambda+ . F+ - lambda- . F- - time_bar) / D; lambda- += phi_s^T sigma, u_bar += phi_u^T sigma
     S sigma = -time_bar;
     for (std::size_t i = 0; i < before_bar.size(); ++i) {
@@ -147,20 +153,44 @@ class EventPass {
       sigma += after_bar[i].dot(rate_after_[i]) - before_bar[i].dot(rate_before_[i]);
     }
     sigma /= guard_rate_;
-    for (const Part& part : parts_) {
-      Vec7 gap_bar = Vec7::Zero();
-      gap_bar[0] = sigma * part.weight;
-      scatter(part, gap_bar, before_bar, scene_bar);
-    }
+    for (const Part& part : parts_) scatter(part, Vec7(sigma * part.guard), before_bar, scene_bar);
+    guardPullback(sigma, before_bar, scene_bar, model_bar);
     return before_bar;
   }
 
  private:
+  // Of what the guard has beyond the gaps, normals and points of contacts.
+  void guardPullback(const S& sigma, std::vector<StateBar>& before_bar, SceneBar& scene_bar,
+                     std::vector<ModelBar>& model_bar) const {
+    if (guard_.by_slip) {
+      const ImpactBars<S> bars = slipPullback(impact_, guard_.slip, sigma);
+      for (std::size_t i = 0; i < before_bar.size(); ++i) {
+        before_bar[i] += bars.before[i];
+        model_bar[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
+      }
+      scatter(parts_[0], bars.contact[0], before_bar, scene_bar);
+    }
+    if (guard_.border_body < 0) return;
+    auto& border = scene_bar.bodies[static_cast<std::size_t>(guard_.border_body)];
+    const V3<S> x = -sigma * guard_.weight, theta = -sigma * V3<S>(guard_.border_arm.cross(guard_.weight));
+    if (guard_.border_participant < 0) {
+      border.position += x;
+      border.orientation += theta;
+    } else {
+      StateBar& before = before_bar[static_cast<std::size_t>(guard_.border_participant)];
+      before.x += x;
+      before.theta += theta;
+    }
+    if (guard_.border_rates.size() > 0) border.size -= sigma * guard_.border_rates;
+  }
+
   const Event& event_;
   bool wide_;
   ImpactPass<S> impact_;
   VectorOf<S> P_;
   std::vector<Part> parts_;
+  EventGuard<S> guard_;
+  PoseProjection<S> projection_;
   std::vector<StateBar> rate_before_, rate_after_;
   S guard_rate_ = 0;
 };

@@ -88,6 +88,14 @@ std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, b
   return dafter;
 }
 
+Vec3 velocityTangent(const ImpactInputs<double>& inputs, const std::vector<StateDerivative>& dbefore,
+                     const Eigen::Matrix<double, 7, 1>& dcontact, const std::vector<BodyModelDerivative>& dmodel) {
+  ImpactInputs<double> first = inputs;
+  first.contacts.resize(1);
+  const ImpactPass<Rate> pass(along(first, dbefore, {dcontact}, {PairCoefficients()}, dmodel));
+  return ratesOf(V3<Rate>(pass.problem().u), 0);
+}
+
 namespace {
 
 // A contact may part slower than it should by this share of the speeds at it.

@@ -23,6 +23,10 @@ std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, b
                                            const std::vector<PairCoefficients>& dpair,
                                            const std::vector<BodyModelDerivative>& dmodel);
 
+/// Tangent of the velocity of the first contact's bodies relative to each other, where it moves along with them.
+Vec3 velocityTangent(const ImpactInputs<double>& inputs, const std::vector<StateDerivative>& dbefore,
+                     const Eigen::Matrix<double, 7, 1>& dcontact, const std::vector<BodyModelDerivative>& dmodel);
+
 /// Fills in impulses, mode, approach, margins and which contacts part without speed (`lasts`) of an event and gives the
 /// states of its participants after it. Throws
 /// NotComputable where these are not finite numbers, and where a contact does not part as fast as its elasticity says.

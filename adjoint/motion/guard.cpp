@@ -12,7 +12,11 @@ std::vector<double> guardWeights(const Event& event) {
     weights.push_back(c.held ? 0 : std::max(0.0, c.impulse_normal.dot(c.impulse)));
     total += weights.back();
   }
-  for (double& w : weights) w = total > 0 ? w / total : 1.0 / static_cast<double>(weights.size());
+  const auto meeting = std::ranges::count(event.contacts, false, &Contact::held);
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    weights[k] = total > 0              ? weights[k] / total
+                 : event.contacts[k].held ? 0.0
+                                          : 1.0 / static_cast<double>(meeting);
   return weights;
 }
 

@@ -14,6 +14,8 @@ using namespace adjoint_detail;
 
 const char* nameOf(EventKind kind) { return nameIn({"impact", "capture", "transition", "placed"}, kind); }
 
+const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip ends", "leaves", "tips"}, cause); }
+
 const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 
 const char* nameOf(MotionStatus status) {

@@ -33,6 +33,12 @@ enum class EventKind { impact, capture, transition, placed };
 /// "impact", "capture", "transition" or "placed".
 const char* nameOf(EventKind kind);
 
+/// Why a body in lasting contact goes on otherwise: its slip comes to an end, a contact comes to the border of the feature
+/// that it is at, or the force at a corner comes to 0.
+enum class TransitionCause { none, slip_ends, leaves, tips };
+/// "none", "slip ends", "leaves" or "tips".
+const char* nameOf(TransitionCause cause);
+
 /// One contact of an event, between bodies a and b at frozen features.
 struct Contact {
   int a = -1;            ///< body
@@ -75,6 +81,8 @@ struct Participant {
 struct Event {
   double time = 0;                             ///< s
   EventKind kind = EventKind::impact;          ///< what happens
+  TransitionCause cause = TransitionCause::none;  ///< of a transition
+  int border = -1;  ///< the first contact leaves its feature: which of BodyGeometry::limits it comes to
   ImpactMode mode = ImpactMode::frictionless;  ///< branch of the impact law that was taken
   std::vector<Contact> contacts;               ///< in increasing order of bodies
   std::vector<Participant> participants;  ///< in increasing order of body

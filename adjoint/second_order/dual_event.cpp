@@ -47,6 +47,7 @@ class EventMaker {
             usesWide(event_, *lanes_.motion().models),
             std::move(inputs),
             std::move(parts),
+            EventGuard<Num>(),
             std::move(rate_before),
             std::move(rate_after)};
   }
@@ -77,7 +78,7 @@ class EventMaker {
     Part part;
     part.a = {c.a, participantOf(event_, c.a)};
     part.b = {c.b, participantOf(event_, c.b)};
-    part.weight = weight;
+    part.guard[0] = weight;
     part.material_a = materialIndexOf(*motion.scene, c.a);
     part.material_b = materialIndexOf(*motion.scene, c.b);
     part.rules = rulesOf(c, part);

@@ -114,16 +114,17 @@ class Chooser {
     const Contact& first = *pressed_.front();
     for (const Contact* c : pressed_) {
       if (otherOf(*c) != otherOf(first) || (normalOf(*c) - normalOf(first)).norm() > kSameNormal) return false;
-      if (!isBall()) continue;
-      const State& of_other = motion_.world_lines[index(otherOf(*c))].arcs.back().startState();
-      const auto poseOf = [&](int body) {
-        const State& s = body == body_ ? state_ : of_other;
-        return Pose{s.x, (*motion_.models)[index(body)].shapeToWorld(s.q.toRotationMatrix())};
-      };
-      const ContactJacobian J = motion_.geometry->jacobian(c->a, c->b, c->features, poseOf(c->a), poseOf(c->b));
-      if (!J.pose.block<3, 6>(1, c->a == body_ ? 0 : 6).isZero(0)) return false;
+      if (isBall() && !jacobianOf(*c).pose.block<3, 6>(1, c->a == body_ ? 0 : 6).isZero(0)) return false;
     }
     return true;
+  }
+
+  ContactJacobian jacobianOf(const Contact& c) const {
+    const auto poseOf = [&](int body) {
+      const State& s = body == body_ ? state_ : motion_.world_lines[index(body)].arcs.back().startState();
+      return Pose{s.x, (*motion_.models)[index(body)].shapeToWorld(s.q.toRotationMatrix())};
+    };
+    return motion_.geometry->jacobian(c.a, c.b, c.features, poseOf(c.a), poseOf(c.b));
   }
 
   // Forces within the cones of friction that undo gravity.
@@ -241,6 +242,10 @@ class Chooser {
     path.inputs = inputs(reach);
     path.body = body_;
     path.face = otherOf(*pressed_.front());
+    if (form != PathForm::rest) {
+      const ContactJacobian J = jacobianOf(*pressed_.front());
+      path.reach_rates = -(pressed_.front()->a == body_ ? J.size_a : J.size_b).row(0);
+    }
     if (form == PathForm::glide_block) path.inputs.L.setZero();
     const PathState<double> start = pathStateAt<double>(form, path.inputs, 0);
     choice.start = {start.x, state_.q, start.v, start.L};

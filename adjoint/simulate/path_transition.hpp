@@ -5,10 +5,6 @@
 
 namespace carom::adjoint_detail {
 
-/// Why a path in lasting contact goes on otherwise: its slip comes to an end, a contact leaves the feature that it is at,
-/// or the force at a corner comes to 0.
-enum class TransitionCause { none, slip_ends, leaves, tips };
-
 struct PathTransition {
   double elapsed = kInfinity;  ///< s from the start of the path
   TransitionCause cause = TransitionCause::none;

@@ -256,10 +256,8 @@ std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, dou
   std::vector<Contact> contacts;
   for (const Contact& h : from.held) {
     if (std::ranges::any_of(contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b; })) continue;
-    for (const FeaturePair& f : contacts_.touching(h.a, h.b, arcOf(h.a), arcOf(h.b), later, reach)) {
+    for (const FeaturePair& f : contacts_.touching(h.a, h.b, arcOf(h.a), arcOf(h.b), later, reach))
       contacts.push_back(makeContact(time, h.a, h.b, f));
-      contacts.back().counted = false;
-    }
   }
   return contacts;
 }
@@ -273,24 +271,20 @@ void Simulator::resolveTransition(int body) {
   event.kind = EventKind::transition;
   snapshots_.clear();
   snapshot(body, event.time);
-  if (from.why.cause == TransitionCause::leaves) {
-    event.contacts = contactsBeyond(from, body, event.time);
-    if (event.contacts.empty()) {  // it flies: the contact that it leaves is that of the event
-      const Contact& h = from.held[index(from.why.contact)];
-      event.contacts.push_back(makeContact(event.time, h.a, h.b, h.features));
-      event.contacts.back().counted = false;
-      event.contacts.back().held = true;
-    }
-  } else {
-    for (const Contact& h : from.held) {
-      event.contacts.push_back(makeContact(event.time, h.a, h.b, h.features));
-      event.contacts.back().counted = false;
-    }
-  }
-  const bool flies = event.contacts.size() == 1 && event.contacts[0].held;
-  for (Contact& c : event.contacts) {
-    c.lasts = !flies;
+  event.cause = from.why.cause;
+  event.border = from.why.limit;
+  const auto add = [&](const Contact& h, bool lasts) {
+    Contact& c = event.contacts.emplace_back(makeContact(event.time, h.a, h.b, h.features));
+    c.counted = false;
     c.held = true;
+    c.lasts = lasts;
+  };
+  if (event.cause == TransitionCause::leaves) {
+    add(from.held[index(from.why.contact)], false);
+    for (const Contact& c : contactsBeyond(from, body, event.time))
+      if (!(c.features == event.contacts[0].features)) add(c, true);
+  } else {
+    for (const Contact& h : from.held) add(h, true);
   }
   bodies_ = {body};
   event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/motion/pair_rules.hpp"
+
+namespace carom::adjoint_detail {
+
+/// A contact of an event, linearised.
+template <class S>
+struct ContactPart {
+  struct Side {
+    int body, participant;  // participant -1: a fixed body
+  };
+  Side a, b;
+  Eigen::Matrix<S, 7, 1> guard = Eigen::Matrix<S, 7, 1>::Zero();  // weights of (gap, normal, point) in the guard
+  // d(gap, normal, point) by (x_a, theta_a, x_b, theta_b) and by the dimensions
+  Eigen::Matrix<S, 7, 12> pose;
+  Eigen::Matrix<S, 7, Eigen::Dynamic> size_a, size_b;
+  bool tilted = false;
+  Eigen::Matrix<S, 3, 7> tilt;  // d(impulse normal) by (normal, tilt a, tilt b)
+  int material_a = -1, material_b = -1;
+  PairRules<S> rules;
+};
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/impact/contact_part.hpp"
+
+namespace carom::adjoint_detail {
+
+/// What the guard of a transition is made of beyond its contacts' gaps, normals and points:
+///   slip_ends: t . u at the first contact, t the direction of slip there, held: u is 0 at the root;
+///   leaves: weight . (p - x - R border), (x, R) of a body whose feature ends there (see FeatureLimit).
+template <class S>
+struct EventGuard {
+  bool by_slip = false;
+  V3<S> slip = V3<S>::Zero();  // t
+  int border_body = -1, border_participant = -1;
+  V3<S> weight = V3<S>::Zero();         // world axes
+  V3<S> border_arm = V3<S>::Zero();     // p - x
+  VectorOf<S> border_rates;             // weight . R d(border)/d(size)
+
+  /// d/dt of its part of the guard, beyond that of the contacts.
+  S rate(const ImpactPass<S>& impact, const std::vector<StateDerivativeOf<S>>& rates) const {
+    S d = 0;
+    if (by_slip) {  // A is that of a ball, or nothing turns
+      const auto& c = impact.inputs().contacts[0];
+      for (std::size_t i = 0; i < rates.size(); ++i) {
+        const auto& b = impact.inputs().bodies[i];
+        const double sign = static_cast<int>(i) == c.a ? 1 : -1;
+        const M3<S> A = b.R * b.D * b.R.transpose();
+        d += sign * slip.dot(V3<S>(rates[i].v + V3<S>(A * rates[i].L).cross(V3<S>(c.point - b.x))));
+      }
+    }
+    if (border_participant >= 0) d += borderTangent(rates[static_cast<std::size_t>(border_participant)].x,
+                                                    rates[static_cast<std::size_t>(border_participant)].theta);
+    return d;
+  }
+  /// Of the border, where its body moves.
+  S borderTangent(const V3<S>& dx, const V3<S>& dtheta) const {
+    return -weight.dot(dx) - dtheta.dot(border_arm.cross(weight));
+  }
+};
+
+/// Its part that the velocities at the contact have.
+template <class S>
+ImpactBars<S> slipPullback(const ImpactPass<S>& impact, const V3<S>& slip, const S& sigma) {
+  ImpactBars<S> bars = impact.noBars();
+  auto between = impact.nothingBetween();
+  ImpactProblemDerivativeOf<S> problem(impact.problem().contacts());
+  problem.u.template head<3>() = sigma * slip;
+  impact.problemPullback(problem, between, bars);
+  impact.betweenPullback(between, bars);
+  return bars;
+}
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/impact/contact_part.hpp"
+#include "adjoint/impact/directed_solve.hpp"
+#include "adjoint/impact/impact_pass.hpp"
+
+namespace carom::adjoint_detail {
+
+/// Contacts that last keep their gaps at 0 whatever varies: after an event that begins them, the poses move as little as
+/// possible, as measured by the masses (11.10, in docs/equations.md),
+///   dq <- dq - M^-1 G^T (G M^-1 G^T)^+ dgap,  dgap = G dq + the gaps' own change with the scene.
+template <class S>
+class PoseProjection {
+ public:
+  PoseProjection() = default;
+  PoseProjection(const Event& event, const std::vector<ContactPart<S>>& parts, const ImpactInputs<S>& in) {
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      if (event.contacts[k].lasts) lasting_.push_back(k);
+    if (lasting_.empty()) return;
+    const auto n = static_cast<Eigen::Index>(lasting_.size()), poses = 6 * static_cast<Eigen::Index>(in.bodies.size());
+    G_ = MatrixOf<S>::Zero(n, poses);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const ContactPart<S>& part = parts[lasting_[static_cast<std::size_t>(k)]];
+      Eigen::Index at = 0;
+      for (const auto& side : {part.a, part.b}) {
+        if (side.participant >= 0) G_.template block<1, 6>(k, 6 * side.participant) = part.pose.template block<1, 6>(0, at);
+        at += 6;
+      }
+    }
+    moved_ = MatrixOf<S>::Zero(poses, n);
+    for (std::size_t i = 0; i < in.bodies.size(); ++i) {
+      const auto& b = in.bodies[i];
+      if (b.kinematic) continue;
+      const auto row = 6 * static_cast<Eigen::Index>(i);
+      const M3<S> A = b.R * b.D * b.R.transpose();
+      moved_.template middleRows<3>(row) = b.inverse_mass * G_.template middleCols<3>(row).transpose();
+      moved_.template middleRows<3>(row + 3) = A * G_.template middleCols<3>(row + 3).transpose();
+    }
+    inverse_ = LeastNorm<S>(MatrixOf<S>(G_ * moved_), VectorOf<S>(VectorOf<S>::Zero(n))).inverse;
+  }
+
+  /// Contacts of the event that last.
+  const std::vector<std::size_t>& lasting() const { return lasting_; }
+
+  /// Moves the poses of the participants, where the gaps of `lasting()` have these tangents.
+  void apply(const VectorOf<S>& gaps, std::vector<StateDerivativeOf<S>>& after) const {
+    const VectorOf<S> move = -(moved_ * (inverse_ * gaps));
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      after[i].x += move.template segment<3>(6 * static_cast<Eigen::Index>(i));
+      after[i].theta += move.template segment<3>(6 * static_cast<Eigen::Index>(i) + 3);
+    }
+  }
+  /// The adjoints of the gaps of `lasting()`.
+  VectorOf<S> pullback(const std::vector<StateDerivativeOf<S>>& after_bar) const {
+    VectorOf<S> bar(moved_.rows());
+    for (std::size_t i = 0; i < after_bar.size(); ++i)
+      bar.template segment<6>(6 * static_cast<Eigen::Index>(i)) << after_bar[i].x, after_bar[i].theta;
+    return -(inverse_ * (moved_.transpose() * bar));
+  }
+
+ private:
+  std::vector<std::size_t> lasting_;
+  MatrixOf<S> G_, moved_, inverse_;  // rows of the gaps by the poses; M^-1 G^T; (G M^-1 G^T)^+
+};
+
+}  // namespace carom::adjoint_detail
