@@ -95,8 +95,7 @@ const EventLinearization& DerivativeTape::event(int event) {
 void Reliability::pass(const Motion& motion, int index) {
   const Event& event = motion.events[checkedIndex("Reliability::pass", "event", index, motion.events.size())];
   ++events;
-  const auto counts = [](const Participant& p) { return p.impact > 0; };
-  if (std::ranges::none_of(event.participants, counts)) return;
+  if (!event.counts()) return;
   const double tilt = tiltMarginOf(event);
   smallest_margin = std::min({smallest_margin, event.margins.smallest(), tilt});
   if (!reliable) return;

@@ -33,6 +33,14 @@ bool Event::touches(int body, int with) const {
                      [&](const Contact& c) { return (c.a == body && c.b == with) || (c.a == with && c.b == body); });
 }
 
+bool Event::meets(int body, int with) const {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+    return c.counted && !c.held && ((c.a == body && c.b == with) || (c.a == with && c.b == body));
+  });
+}
+
+bool Event::counts() const { return std::ranges::any_of(participants, [](const Participant& p) { return p.impact > 0; }); }
+
 BodyState toBodyState(const BodyModel& model, const State& s) {
   BodyState out;
   out.position = s.x;
@@ -77,7 +85,8 @@ std::optional<int> Motion::findImpact(int body, int n, int with) const {
   if (n < 1) refuseNumber("findImpact", "impact", n, "1 (the first) or more");
   int count = 0;
   for (int e : world_lines[b].events) {
-    if (with >= 0 && !events[static_cast<std::size_t>(e)].touches(body, with)) continue;
+    const Event& event = events[static_cast<std::size_t>(e)];
+    if (event.find(body)->impact == 0 || (with >= 0 && !event.meets(body, with))) continue;
     if (++count == n) return e;
   }
   return std::nullopt;
@@ -91,6 +100,16 @@ std::string Motion::describeEvent(int index) const {
     text += scene->bodies[static_cast<std::size_t>(c.a)].name + "-" +
             scene->bodies[static_cast<std::size_t>(c.b)].name + " (" + geometry->describe(c.a, c.b, c.features) + ")";
   }
+  switch (event.kind) {
+    case EventKind::impact:
+      break;
+    case EventKind::capture:
+      return text + " " + nameOf(event.mode) + ", and stays";
+    case EventKind::transition:
+      return text + " " + nameOf(event.cause);
+    case EventKind::placed:
+      return text + " in contact from the start";
+  }
   return text + " " + nameOf(event.mode);
 }
 
@@ -98,11 +117,13 @@ std::string Motion::signature(std::size_t count) const {
   std::string text;
   for (std::size_t i = 0; i < std::min(count, events.size()); ++i) {
     const Event& event = events[i];
+    if (event.kind == EventKind::impact && !event.counts()) continue;
     for (const Contact& c : event.contacts)
       for (int part : {c.a, c.b, static_cast<int>(c.features.kind), static_cast<int>(c.features.a),
                        static_cast<int>(c.features.b), static_cast<int>(c.features.sign)})
         text += std::to_string(part) + ",";
     text += nameOf(branchOf(event.mode));
+    if (event.kind != EventKind::impact) text += nameOf(event.kind);
     text += ';';
   }
   return text;

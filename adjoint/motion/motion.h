@@ -95,6 +95,8 @@ struct Event {
 
   const Participant* find(int body) const;  ///< null where the body takes no part
   bool touches(int body, int with) const;  ///< has a contact between the two
+  bool meets(int body, int with) const;    ///< has an impact between the two that counts
+  bool counts() const;                     ///< is an impact to people, of some body
 };
 
 /// The path of one body: arcs, joined by events.

@@ -21,7 +21,6 @@ constexpr double kSameNormal = 1e-9;
 // Acceleration left by the forces of rest, as a share of gravity.
 constexpr double kAtRest = 1e-9;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 class Chooser {
  public:
@@ -29,7 +28,7 @@ class Chooser {
       : motion_(motion),
         scene_(*motion.scene),
         body_(body),
-        model_((*motion.models)[index(body)]),
+        model_((*motion.models)[asIndex(body)]),
         state_(state),
         gravity_(model_.gravity_factor * scene_.gravity),
         R_(state.q.toRotationMatrix()),
@@ -40,6 +39,11 @@ class Chooser {
     press(closed);
   }
 
+  ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
+    pressed_ = contacts;
+    return stays(form, form == PathForm::rest ? 1 : heightOf());
+  }
+
   /// Without friction.
   const FreeAcceleration& acceleration() const { return free_; }
 
@@ -47,7 +51,7 @@ class Chooser {
     if (pressed_.empty()) return {};
     for (const Contact* c : pressed_) {
       const int other = otherOf(*c);
-      if (!scene_.bodies[index(other)].fixed)
+      if (!scene_.bodies[asIndex(other)].fixed)
         return beyond("rest, rolling and sliding on bodies that move are not modelled yet");
     }
     if (isSlow(state_.v) && isSlow(reach_ * omega_) && canRest()) return stays(PathForm::rest, 1);
@@ -82,8 +86,8 @@ class Chooser {
     for (Index k = 0; k < n; ++k) {
       const Contact& c = *closed[static_cast<std::size_t>(k)];
       const bool is_a = c.a == body_;
-      const State& of_other = motion_.world_lines[index(otherOf(c))].arcs.back().startState();
-      alpha[k] = gapAcceleration(*motion_.geometry, (*motion_.models)[index(c.a)], (*motion_.models)[index(c.b)], c,
+      const State& of_other = motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState();
+      alpha[k] = gapAcceleration(*motion_.geometry, (*motion_.models)[asIndex(c.a)], (*motion_.models)[asIndex(c.b)], c,
                                  is_a ? state_ : of_other, is_a ? of_other : state_, is_a ? &free_ : nullptr,
                                  is_a ? nullptr : &free_);
       for (Index l = 0; l < n; ++l) {
@@ -92,12 +96,13 @@ class Chooser {
                   armOf(c).cross(normalOf(c)).dot(A_ * armOf(d).cross(normalOf(d)));
       }
     }
+    if (n == 0) return;
     const std::vector<int> active = activeContacts(K, alpha);
     if (active.empty()) return;
     Eigen::MatrixXd K_active(active.size(), active.size());
     Eigen::VectorXd alpha_active(active.size());
     for (std::size_t i = 0; i < active.size(); ++i) {
-      pressed_.push_back(closed[index(active[i])]);
+      pressed_.push_back(closed[asIndex(active[i])]);
       alpha_active[static_cast<Index>(i)] = alpha[active[i]];
       for (std::size_t j = 0; j < active.size(); ++j)
         K_active(static_cast<Index>(i), static_cast<Index>(j)) = K(active[i], active[j]);
@@ -121,8 +126,8 @@ class Chooser {
 
   ContactJacobian jacobianOf(const Contact& c) const {
     const auto poseOf = [&](int body) {
-      const State& s = body == body_ ? state_ : motion_.world_lines[index(body)].arcs.back().startState();
-      return Pose{s.x, (*motion_.models)[index(body)].shapeToWorld(s.q.toRotationMatrix())};
+      const State& s = body == body_ ? state_ : motion_.world_lines[asIndex(body)].arcs.back().startState();
+      return Pose{s.x, (*motion_.models)[asIndex(body)].shapeToWorld(s.q.toRotationMatrix())};
     };
     return motion_.geometry->jacobian(c.a, c.b, c.features, poseOf(c.a), poseOf(c.b));
   }
@@ -159,12 +164,12 @@ class Chooser {
   }
 
   bool isBall() const {
-    return std::holds_alternative<Sphere>(scene_.bodies[index(body_)].shape) && model_.center.isZero(0) &&
+    return std::holds_alternative<Sphere>(scene_.bodies[asIndex(body_)].shape) && model_.center.isZero(0) &&
            model_.inertia.minCoeff() == model_.inertia.maxCoeff();
   }
   // Of a cylinder or capsule that lies on its side, all of whose contacts are on the line below its axis.
   bool isAxle() const {
-    const Shape& shape = scene_.bodies[index(body_)].shape;
+    const Shape& shape = scene_.bodies[asIndex(body_)].shape;
     const auto* cylinder = std::get_if<Cylinder>(&shape);
     const auto* capsule = std::get_if<Capsule>(&shape);
     if ((!cylinder && !capsule) || model_.center.norm() > 0) return false;
@@ -200,7 +205,7 @@ class Chooser {
 
   ContactChoice ball() {
     const PathInputs<double> in = inputs(heightOf());
-    const Tier derivative = motion_.plan.bodies[index(body_)].derivative_tier;
+    const Tier derivative = motion_.plan.bodies[asIndex(body_)].derivative_tier;
     if (derivative != Tier::spherical && derivative != Tier::none)
       return beyond("a ball whose moments of inertia vary one by one is not modelled yet where it rolls or slides");
     if (slipOf(*pressed_.front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
@@ -306,6 +311,36 @@ double gapAcceleration(const ContactGeometry& geometry, const BodyModel& model_a
 FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State& state,
                                      const std::vector<const Contact*>& closed) {
   return Chooser(motion, body, state, closed).acceleration();
+}
+
+std::optional<double> settlesAt(const Motion& motion, const Event& event, const std::vector<State>& after) {
+  const Contact& c = event.contacts[0];
+  if (event.contacts.size() > 1 || !c.captured || !(c.approach < 0)) return std::nullopt;
+  const Scene& scene = *motion.scene;
+  const double e = combine(materialOf(scene, scene.bodies[asIndex(c.a)]), materialOf(scene, scene.bodies[asIndex(c.b)])).elasticity;
+  std::vector<FreeAcceleration> accelerations(2);
+  const auto accelerate = [&](int body, std::size_t slot) -> const FreeAcceleration* {
+    const Participant* p = event.find(body);
+    if (!p) return nullptr;
+    accelerations[slot] = freeAcceleration((*motion.models)[asIndex(body)],
+                                           after[static_cast<std::size_t>(p - event.participants.data())], scene.gravity);
+    return &accelerations[slot];
+  };
+  const auto stateOf = [&](int body) -> const State& {
+    const Participant* p = event.find(body);
+    return p ? after[static_cast<std::size_t>(p - event.participants.data())]
+             : motion.world_lines[asIndex(body)].arcs.back().startState();
+  };
+  const FreeAcceleration *a = accelerate(c.a, 0), *b = accelerate(c.b, 1);
+  const double alpha = gapAcceleration(*motion.geometry, (*motion.models)[asIndex(c.a)], (*motion.models)[asIndex(c.b)], c,
+                                       stateOf(c.a), stateOf(c.b), a, b);
+  if (!(alpha < 0 && e < 1)) return std::nullopt;
+  return event.time + 2 * e * c.approach / (alpha * (1 - e));
+}
+
+ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
+                            const std::vector<const Contact*>& contacts, PathForm form) {
+  return Chooser(motion, body, state, {}).follow(form, contacts);
 }
 
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "adjoint/motion/motion.h"
 
 namespace carom::adjoint_detail {
+
+inline std::size_t asIndex(int i) { return static_cast<std::size_t>(i); }
 
 /// How a body goes on after an event.
 struct ContactChoice {
@@ -34,6 +37,14 @@ FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State
 double gapAcceleration(const ContactGeometry& geometry, const BodyModel& model_a, const BodyModel& model_b,
                        const Contact& contact, const State& a, const State& b, const FreeAcceleration* accelerates_a,
                        const FreeAcceleration* accelerates_b);
+
+/// When the endlessly many bounces would have come to an end that the capture of a single contact cuts short (11.9);
+/// `after`: the states of the participants.
+std::optional<double> settlesAt(const Motion& motion, const Event& event, const std::vector<State>& after);
+
+/// The path of the given form that a body takes at the given contacts.
+ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
+                            const std::vector<const Contact*>& contacts, PathForm form);
 
 /// The path of a body from `state` on, where `closed` are its contacts that part without speed: rest wherever rest is
 /// possible; sliding or rolling of what has a closed form (docs/equations.md section 11).

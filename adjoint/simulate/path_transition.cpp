@@ -10,12 +10,16 @@
 namespace carom::adjoint_detail {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 class Search {
  public:
   Search(const Motion& motion, const ContactChoice& choice, double until)
       : motion_(motion), choice_(choice), path_(*choice.path), found_{until, TransitionCause::none, -1, -1} {}
+
+  std::optional<double> leaves(int contact, int limit) {
+    if (const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get())) leave(*bodies, contact, limit);
+    if (found_.cause == TransitionCause::none) return std::nullopt;
+    return found_.elapsed;
+  }
 
   PathTransition run() {
     if (path_.form == PathForm::rest) return {};
@@ -31,10 +35,10 @@ class Search {
   void take(double elapsed, TransitionCause cause, int contact, int limit) { found_ = {elapsed, cause, contact, limit}; }
 
   Pose poseOf(int body, const State& s) const {
-    return {s.x, (*motion_.models)[index(body)].shapeToWorld(s.q.toRotationMatrix())};
+    return {s.x, (*motion_.models)[asIndex(body)].shapeToWorld(s.q.toRotationMatrix())};
   }
   const State& stateOf(int body) const {
-    return body == path_.body ? choice_.start : motion_.world_lines[index(body)].arcs.back().startState();
+    return body == path_.body ? choice_.start : motion_.world_lines[asIndex(body)].arcs.back().startState();
   }
 
   // How the point of a contact moves with the centre of mass.
@@ -45,8 +49,8 @@ class Search {
   }
 
   // The body turns about an axis that leaves its contacts where they are below it, so a point moves as the centre does.
-  void leave(const BodyGeometry& bodies, int k) {
-    const Contact& c = *choice_.contacts[index(k)];
+  void leave(const BodyGeometry& bodies, int k, int only = -1) {
+    const Contact& c = *choice_.contacts[asIndex(k)];
     const Mat3 by = pointBy(c);
     const std::vector<FeatureLimit> limits =
         bodies.limits(c.a, c.b, c.features, poseOf(c.a, stateOf(c.a)), poseOf(c.b, stateOf(c.b)));
@@ -54,7 +58,7 @@ class Search {
         limits, [&](const FeatureLimit& l) { return l.body == path_.face && !l.point_weight.isZero(0); });
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const FeatureLimit& limit = limits[i];
-      if (limit.point_weight.isZero(0)) continue;
+      if (limit.point_weight.isZero(0) || (only >= 0 && only != static_cast<int>(i))) continue;
       if (limit.body == path_.body && path_.form != PathForm::glide_block) continue;
       if (limit.body == path_.face && borders == 1) {
         leaveDisc(bodies, k, static_cast<int>(i));
@@ -74,13 +78,13 @@ class Search {
 
   // A round border: no nearer than it is, over the fastest speed, can it be reached.
   void leaveDisc(const BodyGeometry& bodies, int k, int i) {
-    const Contact& c = *choice_.contacts[index(k)];
+    const Contact& c = *choice_.contacts[asIndex(k)];
     const auto room = [&](double t) {
       const State now = path_.stateAt(choice_.start, path_.start + t);
       const Pose A = poseOf(c.a, c.a == path_.body ? now : stateOf(c.a)), B = poseOf(c.b, c.b == path_.body ? now : stateOf(c.b));
       const std::vector<FeatureLimit> limits = bodies.limits(c.a, c.b, c.features, A, B);
       if (i >= static_cast<int>(limits.size())) return kInfinity;  // in the middle
-      const FeatureLimit& limit = limits[index(i)];
+      const FeatureLimit& limit = limits[asIndex(i)];
       const Pose& pose = limit.body == c.a ? A : B;
       const Vec3 point = motion_.geometry->contact(c.a, c.b, c.features, A, B).point;
       return limit.point_weight.dot(pose.R.transpose() * (point - pose.x) - limit.border);
@@ -114,7 +118,7 @@ class Search {
     const SupportPolygon support(choice_.contacts, path_.inputs.normal);
     const double ahead = path_.inputs.reach * path_.inputs.friction;
     for (const SupportPolygon::Side& side : support.sides()) {
-      const Mat3 by = pointBy(*choice_.contacts[index(side.from)]);
+      const Mat3 by = pointBy(*choice_.contacts[asIndex(side.from)]);
       const Vec3 follows = by.transpose() * side.inward;
       const double room = side.inward.dot(choice_.start.x - support.pointOf(side.from));
       if ((follows - side.inward).norm() < 1e-9) {
@@ -152,6 +156,11 @@ class Search {
 
 PathTransition firstTransition(const Motion& motion, const ContactChoice& choice, double until) {
   return Search(motion, choice, until).run();
+}
+
+std::optional<double> whenContactLeaves(const Motion& motion, const ContactChoice& choice, int contact, int limit,
+                                        double until) {
+  return Search(motion, choice, until).leaves(contact, limit);
 }
 
 }  // namespace carom::adjoint_detail

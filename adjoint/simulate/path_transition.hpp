@@ -14,5 +14,8 @@ struct PathTransition {
 
 /// The first one within `until` seconds from the start of a path that rests on `contacts`.
 PathTransition firstTransition(const Motion& motion, const ContactChoice& choice, double until);
+/// When a contact of the path comes to one of its limits, whatever comes before it.
+std::optional<double> whenContactLeaves(const Motion& motion, const ContactChoice& choice, int contact, int limit,
+                                        double until);
 
 }  // namespace carom::adjoint_detail

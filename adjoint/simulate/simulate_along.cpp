@@ -10,6 +10,7 @@
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/motion/guard.hpp"
+#include "adjoint/simulate/followed_path.hpp"
 #include "adjoint/simulate/guard_root.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/simulator.hpp"
@@ -60,6 +61,8 @@ class Follower {
     motion_.plan = planFor(like, scene, *motion_.models);
     motion_.geometry = std::move(geometry);
     motion_.overlaps = like.overlaps;
+    motion_.lowest_bounce = like.lowest_bounce;
+    held_.resize(scene.bodies.size());
   }
 
   MotionAlong run() {
@@ -118,7 +121,13 @@ class Follower {
     }
     event_ = was;
     weights_ = guardWeights(was);
-    for (Contact& c : event_.contacts) c.pair = builder_.pairOf(c.a, c.b);
+    for (Contact& c : event_.contacts) {
+      c.pair = builder_.pairOf(c.a, c.b);
+      if (c.captured || c.kept) c.pair.elasticity = 0;
+      if (was.kind == EventKind::placed) c.pair.friction = 0;
+    }
+    if (was.kind == EventKind::placed) return meet(was, 0);
+    if (was.kind == EventKind::transition) return followTransition(was);
     double from = 0, flight = was.time;
     for (const Participant& p : was.participants) {
       from = std::max(from, arcOf(p.body).start());
@@ -132,13 +141,48 @@ class Follower {
       return Outcome::late;
     }
     if (root.outcome != GuardRoot::Outcome::found) return fail(was, root.why());
-    place(root.time);
-    if (!meetInOneInstant()) return fail(was, "its contacts no longer meet in one instant");
+    return meet(was, root.time);
+  }
 
+  Outcome meet(const Event& was, double time) {
+    place(time);
+    if (was.kind != EventKind::placed && !meetInOneInstant())
+      return fail(was, "its contacts no longer meet in one instant");
     std::vector<State> after;
     solveImpact(event_, *motion_.models, after);
     if (builder_.notParted(event_, after)) return fail(was, "its impulse does not part the bodies");
+    for (std::size_t k = 0; k < event_.contacts.size(); ++k) {
+      Contact& c = event_.contacts[k];
+      if (was.contacts[k].lasts && !c.lasts) return fail(was, "its contacts no longer last");
+      c.lasts = was.contacts[k].lasts;
+    }
+    event_.settles_at = settlesAt(motion_, event_, after);
     commit(was, after);
+    return Outcome::found;
+  }
+
+  // Of a path in lasting contact: its own end, or when the contact of `was` comes to the same border.
+  Outcome followTransition(const Event& was) {
+    const int body = was.participants[0].body;
+    const Arc& arc = arcOf(body);
+    const FollowedPath& held = held_[index(body)];
+    if (!arc.path()) return fail(was, "the bodies are not in contact");
+    std::optional<double> elapsed;
+    if (was.cause == TransitionCause::slip_ends && std::isfinite(arc.path()->slip_end)) {
+      elapsed = arc.path()->slip_end;
+    } else if (held.transition.cause == was.cause && was.cause == TransitionCause::tips) {
+      elapsed = held.transition.elapsed;
+    } else if (was.cause == TransitionCause::leaves) {
+      elapsed = held.leaves(motion_, arc, was);
+    }
+    if (!elapsed) return fail(was, was.cause == TransitionCause::leaves ? "the contact stays on its feature"
+                                                                        : "the body goes on sliding");
+    if (arc.start() + *elapsed > motion_.duration) {
+      markLate(was);
+      return Outcome::late;
+    }
+    place(arc.start() + *elapsed);
+    commit(was, {event_.participants[0].before});
     return Outcome::found;
   }
 
@@ -203,9 +247,28 @@ class Follower {
   void commit(const Event& was, const std::vector<State>& after) {
     if (branchOf(event_.mode) != branchOf(was.mode)) along_.mode_changed = true;
     std::vector<Arc> arcs;
-    for (std::size_t i = 0; i < after.size(); ++i)
-      arcs.push_back(builder_.flight(event_.participants[i].body, event_.time, after[i]));
+    for (std::size_t i = 0; i < after.size(); ++i) arcs.push_back(arcAfter(was, i, after[i]));
     builder_.add(std::move(event_), std::move(arcs));
+  }
+
+  // A flight, or a path of the form that it was.
+  Arc arcAfter(const Event& was, std::size_t participant, const State& after) {
+    const Participant& p = was.participants[participant];
+    const Arc& like = like_.world_lines[index(p.body)].arcs[index(p.arc) + 1];
+    FollowedPath& held = held_[index(p.body)] = {};
+    if (!like.path()) return builder_.flight(p.body, event_.time, after);
+    State start = after;
+    for (const Contact& c : event_.contacts)
+      if (c.lasts && (c.a == p.body || c.b == p.body)) {
+        held.contacts.push_back(c);
+        held.contacts.back().pair = builder_.pairOf(c.a, c.b);
+      }
+    if (std::ranges::any_of(held.contacts, [](const Contact& c) { return !c.held; }))
+      closeGaps(motion_, p.body, start, held.contacts);
+    PathArc made = makePathArc(
+        motion_, contactPathOf(motion_, p.body, start, pointersTo(held.contacts), like.path()->form), event_.time);
+    held.transition = made.transition;
+    return std::move(made.arc);
   }
 
   void orderByTime() {
@@ -246,6 +309,7 @@ class Follower {
   Motion& motion_;
   MotionAlong along_;            // but for its motion
   std::vector<bool> late_;       // a body each: its next impact comes after the duration
+  std::vector<FollowedPath> held_;  // a body each
   std::vector<double> weights_;  // of the gaps of the event that is followed
   Event event_;                  // being worked out
 };

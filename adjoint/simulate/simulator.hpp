@@ -122,7 +122,6 @@ class Simulator {
   bool captureLow();
   void chooseArcs();
   void chooseArc(std::size_t participant);
-  void project(State& state, int body, std::vector<Contact>& closed) const;
   bool presses(const Contact& contact) const;
   bool isCounted(const Contact& contact, const State& a, const State& b) const;
   double accelerationOf(const Contact& contact, bool among_closed) const;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "adjoint/base/refuse.hpp"
-#include "adjoint/impact/complementarity.hpp"
 #include "adjoint/impact/impact.hpp"
+#include "adjoint/simulate/path_arc.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 // Contact that lasts: where it begins, which path a body takes in it, and where that ends (docs/equations.md section 11).
@@ -50,7 +50,6 @@ void Simulator::addHeld() {
 
 void Simulator::solveLaw() {
   Event& event = draft_.event;
-  event.settles_at.reset();
   do {
     try {
       solveImpact(event, *motion_.models, draft_.after);
@@ -58,6 +57,7 @@ void Simulator::solveLaw() {
       giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
     }
   } while (captureLow());
+  event.settles_at = settlesAt(motion_, event, draft_.after);
 }
 
 const State& Simulator::stateAfter(int body) const {
@@ -108,8 +108,6 @@ bool Simulator::captureLow() {
       continue;
     }
     c.captured = true;
-    const double e = c.pair.elasticity;
-    if (event.contacts.size() == 1 && e < 1) event.settles_at = event.time + 2 * leaves / (-alpha * (1 - e));
     c.pair.elasticity = 0;
   }
   return more;
@@ -137,42 +135,6 @@ bool Simulator::isCounted(const Contact& c, const State& a, const State& b) cons
 
 // Whether a contact between bodies that move, which part without speed, goes on pressing.
 bool Simulator::presses(const Contact& c) const { return accelerationOf(c, false) < 0; }
-
-// The poses with all gaps 0: moved as little as possible, as measured by the mass (C.5). The contacts follow.
-void Simulator::project(State& state, int body, std::vector<Contact>& closed) const {
-  const BodyModel& model = (*motion_.models)[index(body)];
-  const Mat3 A = model.mobilityWorld(state.q.toRotationMatrix());
-  const auto n = static_cast<Eigen::Index>(closed.size());
-  Eigen::MatrixXd K(n, n);
-  Eigen::VectorXd gaps(n);
-  const auto signOf = [&](const Contact& c) { return c.a == body ? 1.0 : -1.0; };
-  const auto lever = [&](const Contact& c) { return Vec3((c.at.point - state.x).cross(signOf(c) * c.at.normal)); };
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Contact& c = closed[static_cast<std::size_t>(k)];
-    gaps[k] = c.at.gap;
-    for (Eigen::Index l = 0; l < n; ++l) {
-      const Contact& d = closed[static_cast<std::size_t>(l)];
-      K(k, l) = model.inverse_mass * signOf(c) * signOf(d) * c.at.normal.dot(d.at.normal) + lever(c).dot(A * lever(d));
-    }
-  }
-  const LeastNormSolve shares(K, gaps);
-  Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Contact& c = closed[static_cast<std::size_t>(k)];
-    moved += shares.y[k] * model.inverse_mass * signOf(c) * c.at.normal;
-    turned += shares.y[k] * (A * lever(c));
-  }
-  state.x += moved;
-  if (turned.norm() > 0) state.q = (Quat(Eigen::AngleAxisd(turned.norm(), turned.normalized())) * state.q).normalized();
-  for (Contact& c : closed) {
-    const auto pose = [&](int b) {
-      const State& s = b == body ? state : motion_.world_lines[index(b)].arcs.back().startState();
-      return Pose{s.x, (*motion_.models)[index(b)].shapeToWorld(s.q.toRotationMatrix())};
-    };
-    c.at = motion_.geometry->contact(c.a, c.b, c.features, pose(c.a), pose(c.b));
-    c.pair = builder_.pairOf(c.a, c.b);
-  }
-}
 
 // How every participant goes on.
 void Simulator::chooseArcs() {
@@ -218,7 +180,7 @@ void Simulator::chooseArc(std::size_t participant) {
     std::vector<Contact> last;
     for (const Contact* c : choice.contacts) last.push_back(*c);
     closed = std::move(last);
-    if (std::ranges::any_of(closed, [](const Contact& c) { return !c.held; })) project(after, body, closed);
+    if (std::ranges::any_of(closed, [](const Contact& c) { return !c.held; })) closeGaps(motion_, body, after, closed);
     choose();
   }
   if (!choice.path) {
@@ -231,16 +193,13 @@ void Simulator::chooseArc(std::size_t participant) {
                            motion_.impacts + 1, " impacts; ", choice.beyond, ", so the motion ends there");
     return;
   }
-  const double left = motion_.duration - event.time;
-  choice.path->start = event.time;
   Onward& onward = draft_.onward[participant];
-  onward.why = firstTransition(motion_, choice, left);
+  PathArc made = makePathArc(motion_, choice, event.time);
+  onward.held = std::move(made.held);
+  onward.why = made.transition;
   if (onward.why.cause != TransitionCause::none) onward.transition = event.time + onward.why.elapsed;
-  choice.path->bounds = pathBounds(choice.path->form, choice.path->inputs, 0, std::min(onward.why.elapsed, left));
-  for (const Contact* c : choice.contacts) onward.held.push_back(*c);
   after = choice.start;
-  draft_.arcs.emplace_back((*motion_.models)[index(body)], motion_.plan.bodies[index(body)].tier,
-                           std::move(choice.path), event.time, choice.start);
+  draft_.arcs.push_back(std::move(made.arc));
 }
 
 // What touches a body where a contact of it leaves its feature: what it has a little later on the same path.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/simulate/path_transition.hpp"
+
+namespace carom::adjoint_detail {
+
+/// An arc in lasting contact, what it is held by, and when it goes on otherwise.
+struct PathArc {
+  Arc arc;
+  std::vector<Contact> held;
+  PathTransition transition;  ///< up to the duration of the motion
+};
+PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time);
+
+/// The pose with all gaps 0, moved as little as possible as measured by the mass (11.10); the contacts follow.
+void closeGaps(const Motion& motion, int body, State& state, std::vector<Contact>& closed);
+
+}  // namespace carom::adjoint_detail
