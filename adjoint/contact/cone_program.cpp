@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/contact/cone_program.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/contact/alternating_directions.hpp"
 #include "adjoint/contact/cone_terms.hpp"
+#include "adjoint/contact/interior_point.hpp"
 #include "adjoint/contact/symmetric_inverse.hpp"
 
 namespace carom::adjoint_detail {
@@ -216,15 +217,16 @@ template <class T>
 ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
   const Evened<T> even(program);
   const ActiveSet<T> set(even.q);
-  constexpr int kSteps = 12;
   for (const bool slides : {false, true})
-    if (auto at = set.from(set.guess(slides), kSteps)) return even.asWritten(*at);
-  AlternatingDirections slow(inDoubles<T>(even.q));
-  for (int iterations = 16; iterations <= 16384; iterations *= 2) {
-    slow.iterate(iterations);
-    const auto near = set.near(slow.forces().template cast<T>(), slow.velocities().template cast<T>(),
-                               slow.multipliers().template cast<T>());
-    if (auto at = set.from(near, kSteps)) return even.asWritten(*at);
+    if (auto at = set.from(set.guess(slides), slides ? 5 : 2)) return even.asWritten(*at);
+  InteriorPoint point(inDoubles<T>(even.q));
+  for (int i = 0; i < 60; ++i) {
+    point.step();
+    if (!std::isfinite(point.gap())) break;
+    if (i % 2 == 0 || point.gap() > 1e-5) continue;
+    const auto near = set.near(point.forces().template cast<T>(), point.velocities().template cast<T>(),
+                               point.multipliers().template cast<T>());
+    if (auto at = set.from(near, 6)) return even.asWritten(*at);
   }
   throw NotComputable("the friction of its contacts, which are many or unlike, was not found");
 }

@@ -150,10 +150,11 @@ class Branch {
     for (int k = 0; k < n; ++k) all[static_cast<std::size_t>(k)] = k;
     const MatrixOf<S> N = normalsOf<S>(p, all);
     const VectorOf<S> u_n = N.transpose() * p.u;
-    push(p, activeContactsOf<T>(valuesOf(MatrixOf<S>(N.transpose() * p.K * N)),
-                                valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n))), !p.driven, p.held));
+    const MatrixOf<T> A = valuesOf(MatrixOf<S>(N.transpose() * p.K * N));
+    const VectorOf<T> asked = valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n)));
+    push(p, activeContactsOf<T>(A, asked, !p.driven, p.held));
     if (p.driven || parts(p)) return;
-    push(p, pushing(p, share(p, all)));
+    push(p, pushing(p, share(p, all), A, asked));
   }
   template <class Problem>
   void push(const Problem& p, Contacts contacts) {
@@ -165,7 +166,7 @@ class Branch {
   }
   // Far more contacts than a body has ways to move lose the active set; without friction they are a cone program, too.
   template <class Problem>
-  static Contacts pushing(const Problem& p, const VectorOf<S>& shares) {
+  static Contacts pushing(const Problem& p, const VectorOf<S>& shares, const MatrixOf<T>& A, const VectorOf<T>& b) {
     const std::size_t n = p.normal.size();
     ConeProgramOf<T> q{valuesOf(p.K), valuesOf(p.u), {}, std::vector<T>(n, T(0)), std::vector<T>(n, T(0)), p.held, {}, {}};
     q.free.resize(n);
@@ -174,10 +175,10 @@ class Branch {
       q.normal.push_back(valuesOf(p.normal[k]));
     }
     const ConePointOf<T> at = solveConeProgram<T>(q);
-    Contacts found;
+    VectorOf<T> y = VectorOf<T>::Zero(static_cast<Index>(n));
     for (std::size_t k = 0; k < n; ++k)
-      if (at.state[k] != ConeState::apex) found.push_back(static_cast<int>(k));
-    return found;
+      if (at.state[k] != ConeState::apex) y[static_cast<Index>(k)] = at.pressure[k];
+    return pushingContactsOf<T>(A, b, y, p.held);
   }
   template <class Problem>
   static VectorOf<S> share(const Problem& p, const Contacts& contacts) {

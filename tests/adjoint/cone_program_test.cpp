@@ -127,16 +127,17 @@ TEST(ConeProgram, MeetsTheConditionsInAnyOrder) {
       const auto there = solveConeProgram(q), back = solveConeProgram(r);
       expectSolved<double>(q, there, 1e-12);
       const VectorXd one = ConeTerms<double>(q, there).Kf, other = ConeTerms<double>(r, back).Kf;
+      const double size = 1 + ConeTerms<double>(q, there).f.cwiseAbs().maxCoeff();  // large where contacts are wedged
       for (int k = 0; k < q.contacts(); ++k)
-        expectEntries(other.segment<3>(3 * (q.contacts() - 1 - k)), one.segment<3>(3 * k), 1e-12, "K f");
+        expectEntries(other.segment<3>(3 * (q.contacts() - 1 - k)), one.segment<3>(3 * k), 1e-12, "K f", size);
       ++solved;
-    } catch (const NotComputable& error) {  // contacts that wedge themselves: ever larger forces brake ever better
+    } catch (const NotComputable& error) {
       std::printf("seed %d: %s\n", static_cast<int>(seed), error.what());
       ++refused;
     }
   }
   std::printf("%d programs solved, %d refused\n", solved, refused);
-  EXPECT_LE(refused, 5);
+  EXPECT_EQ(refused, 0);
 }
 
 }  // namespace
