@@ -16,15 +16,17 @@ namespace {
 
 using Eigen::Index;
 
+// kSettled: what Newton's steps may leave, once they get no further, of what nearly redundant contacts ask of each other. In
+// 32 digits points, which are doubles, are off by so much.
 template <class T>
 struct ConePrecision;
 template <>
 struct ConePrecision<double> {
-  static constexpr double kRounding = 1e-13, kExact = 2e-15;
+  static constexpr double kRounding = 1e-13, kExact = 2e-15, kSettled = 1e-13;
 };
 template <>
 struct ConePrecision<Wide> {
-  static constexpr double kRounding = 1e-27, kExact = 1e-30;
+  static constexpr double kRounding = 1e-27, kExact = 1e-30, kSettled = 1e-13;
 };
 
 template <class T>
@@ -88,7 +90,7 @@ class ActiveSet {
       const T off = largestOf<T>(now.residual), size = T(1) + largestOf<T>(now.f);
       if (!std::isfinite(rounded(off))) return std::nullopt;
       const bool right = i > 0 && holds(now);
-      if (right && off <= T(ConePrecision<T>::kRounding) * size &&
+      if (right && off <= T(ConePrecision<T>::kSettled) * size &&
           (off <= T(ConePrecision<T>::kExact) * size || (kept && !(off < T(0.1) * before))))
         return finished(now);
       kept = right;

@@ -93,7 +93,7 @@ double InteriorPoint::gap() const {
 
 void InteriorPoint::scale(Cone& c) {
   const VectorXd s = s_.segment(c.at, c.size), z = z_.segment(c.at, c.size);
-  const double s2 = squareOf(s), z2 = squareOf(z), beta = std::pow(s2 / z2, 0.25);
+  const double s2 = squareOf(s), z2 = squareOf(z), beta = std::sqrt(std::sqrt(s2 / z2));
   VectorXd one = s / std::sqrt(s2), other = z / std::sqrt(z2);
   const double gamma = std::sqrt((1 + one.dot(other)) / 2);
   const Index n = c.size - 1;
@@ -158,7 +158,7 @@ void InteriorPoint::step() {
   direction(-even);
   const double now = gap(), far = std::min({1.0, longest(s_, ds_), longest(z_, dz_)});
   const double towards = (s_ + far * ds_).dot(z_ + far * dz_) / std::max<double>(static_cast<double>(cones_.size()), 1);
-  const double share = now > 0 ? std::clamp(std::pow(towards / now, 3), 1e-4, 1.0) : 0;
+  const double left = towards / now, share = now > 0 ? std::clamp(left * left * left, 1e-4, 1.0) : 0;
   VectorXd q(z_.size());
   for (const Cone& c : cones_) {
     const VectorXd v = even.segment(c.at, c.size), ds = c.inverse * ds_.segment(c.at, c.size),
