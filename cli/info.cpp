@@ -147,7 +147,7 @@ void printPairs(Output& out, const Scene& scene, const ScenePlan& plan) {
     out.text() << '\n' << law;
   }
   if (order.empty()) out.text() << "  none\n";
-  out.text() << "  Contacts of one instant are solved together (equation 4.3).\n";
+  out.text() << "  Contacts of one instant are solved together (equation 4.4).\n";
 }
 
 void printOverlaps(Output& out, const Scene& scene, const ScenePlan& plan) {

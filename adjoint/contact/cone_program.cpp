@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/contact/cone_program.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/contact/alternating_directions.hpp"
 #include "adjoint/contact/cone_terms.hpp"
+#include "adjoint/contact/interior_point.hpp"
 #include "adjoint/contact/symmetric_inverse.hpp"
 
 namespace carom::adjoint_detail {
@@ -15,15 +16,17 @@ namespace {
 
 using Eigen::Index;
 
+// kSettled: what Newton's steps may leave, once they get no further, of what nearly redundant contacts ask of each other. In
+// 32 digits points, which are doubles, are off by so much.
 template <class T>
 struct ConePrecision;
 template <>
 struct ConePrecision<double> {
-  static constexpr double kRounding = 1e-13, kExact = 2e-15;
+  static constexpr double kRounding = 1e-13, kExact = 2e-15, kSettled = 1e-13;
 };
 template <>
 struct ConePrecision<Wide> {
-  static constexpr double kRounding = 1e-27, kExact = 1e-30;
+  static constexpr double kRounding = 1e-27, kExact = 1e-30, kSettled = 1e-13;
 };
 
 template <class T>
@@ -87,7 +90,7 @@ class ActiveSet {
       const T off = largestOf<T>(now.residual), size = T(1) + largestOf<T>(now.f);
       if (!std::isfinite(rounded(off))) return std::nullopt;
       const bool right = i > 0 && holds(now);
-      if (right && off <= T(ConePrecision<T>::kRounding) * size &&
+      if (right && off <= T(ConePrecision<T>::kSettled) * size &&
           (off <= T(ConePrecision<T>::kExact) * size || (kept && !(off < T(0.1) * before))))
         return finished(now);
       kept = right;
@@ -216,15 +219,16 @@ template <class T>
 ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
   const Evened<T> even(program);
   const ActiveSet<T> set(even.q);
-  constexpr int kSteps = 12;
   for (const bool slides : {false, true})
-    if (auto at = set.from(set.guess(slides), kSteps)) return even.asWritten(*at);
-  AlternatingDirections slow(inDoubles<T>(even.q));
-  for (int iterations = 16; iterations <= 16384; iterations *= 2) {
-    slow.iterate(iterations);
-    const auto near = set.near(slow.forces().template cast<T>(), slow.velocities().template cast<T>(),
-                               slow.multipliers().template cast<T>());
-    if (auto at = set.from(near, kSteps)) return even.asWritten(*at);
+    if (auto at = set.from(set.guess(slides), slides ? 5 : 2)) return even.asWritten(*at);
+  InteriorPoint point(inDoubles<T>(even.q));
+  for (int i = 0; i < 60; ++i) {
+    point.step();
+    if (!std::isfinite(point.gap())) break;
+    if (i % 2 == 0 || point.gap() > 1e-5) continue;
+    const auto near = set.near(point.forces().template cast<T>(), point.velocities().template cast<T>(),
+                               point.multipliers().template cast<T>());
+    if (auto at = set.from(near, 6)) return even.asWritten(*at);
   }
   throw NotComputable("the friction of its contacts, which are many or unlike, was not found");
 }

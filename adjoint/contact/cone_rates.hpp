@@ -40,10 +40,12 @@ class ConeSolution {
   ConeSolution(ConeProgramOf<S> program, const ConePointOf<T>& at)
       : q_(std::move(program)), terms_(q_, written(q_, at)), inverse_(inverseOf(terms_)) {
     if constexpr (has_rates<S>) {
-      VectorOf<S> rates = terms_.residual;
-      for (Eigen::Index i = 0; i < rates.size(); ++i) rates[i].value = T(0);
-      terms_.step(VectorOf<S>(-inverse_.template cast<S>() * rates));
-      terms_ = ConeTerms<S>(q_, terms_.at);
+      for (int pass = 0; pass < 2; ++pass) {  // the second one gives back the digits that a stiff set costs
+        VectorOf<S> rates = terms_.residual;
+        for (Eigen::Index i = 0; i < rates.size(); ++i) rates[i].value = T(0);
+        terms_.step(VectorOf<S>(-inverse_.template cast<S>() * rates));
+        terms_ = ConeTerms<S>(q_, terms_.at);
+      }
       if (slipsAway()) terms_ = ConeTerms<S>(q_, terms_.at);
     }
   }

@@ -204,6 +204,30 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
   return spread<T>(A, b, y, list, held);
 }
 
+template <class T>
+std::vector<int> pushingContactsOf(const Matrix<T>& A, const Vector<T>& b, Vector<T> y, const std::vector<char>& held) {
+  Contacts list;
+  for (int i = 0; i < static_cast<int>(y.size()); ++i)
+    if (y[i] > T(0) || isHeld(held, i)) list.push_back(i);
+  while (!list.empty()) {  // on the way to the impulses of least norm the velocities stay
+    const LeastNormSolveOf<T> solve(A(list, list), b(list));
+    T step = T(1);
+    int leave = -1;
+    for (std::size_t c = 0; c < list.size(); ++c) {
+      const T from = y[list[c]], to = solve.y[static_cast<Index>(c)];
+      if (!isHeld(held, list[c]) && to <= T(0) && from / (from - to) < step) step = from / (from - to), leave = list[c];
+    }
+    if (leave < 0) break;
+    y(list) += step * (solve.y - y(list));
+    std::erase(list, leave);
+  }
+  return list;
+}
+
+template std::vector<int> pushingContactsOf(const Matrix<double>&, const Vector<double>&, Vector<double>,
+                                            const std::vector<char>&);
+template std::vector<int> pushingContactsOf(const Matrix<Wide>&, const Vector<Wide>&, Vector<Wide>,
+                                            const std::vector<char>&);
 template std::vector<int> activeContactsOf(const Matrix<double>&, const Vector<double>&, bool,
                                            const std::vector<char>&);
 template std::vector<int> activeContactsOf(const Matrix<Wide>&, const Vector<Wide>&, bool, const std::vector<char>&);

@@ -23,7 +23,7 @@ struct LeastNormSolveOf {
 using LeastNormSolve = LeastNormSolveOf<double>;
 
 /// Contacts, in increasing order, that have an impulse in the solution of y >= 0, A y + b >= 0, complementary, with A
-/// symmetric positive semidefinite and b in its range unless `in_range` is false (equation 4.4). Contacts that are
+/// symmetric positive semidefinite and b in its range unless `in_range` is false (equation 4.5). Contacts that are
 /// `held` (none, or one entry a contact) have impulses of either sign and A y + b = 0. Where redundant contacts leave a
 /// choice, the impulses are spread over all of them. Throws NotComputable for numbers that are not finite, and where a b outside of
 /// the range of A leaves no solution.
@@ -34,5 +34,11 @@ std::vector<int> activeContactsOf(const Eigen::Matrix<T, Eigen::Dynamic, Eigen::
 inline std::vector<int> activeContacts(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool in_range = true) {
   return activeContactsOf<double>(A, b, in_range);
 }
+
+/// Of contacts with impulses y that meet the conditions of activeContactsOf, those whose impulses of least norm push.
+template <class T>
+std::vector<int> pushingContactsOf(const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>& A,
+                                   const Eigen::Matrix<T, Eigen::Dynamic, 1>& b, Eigen::Matrix<T, Eigen::Dynamic, 1> y,
+                                   const std::vector<char>& held);
 
 }  // namespace carom::adjoint_detail

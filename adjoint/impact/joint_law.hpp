@@ -19,7 +19,8 @@
 //   a contact that X would slow down below -e u_n joins, with u_n+ = -e u_n and its own cone: the first one on the way
 //   from P_N to P, and so on. kappa is 1 at the most then.
 // X = 0 is admissible, so X.K X <= -kappa (u + K P_N).X, and the energy grows by (1/2 - 1/kappa) X.K X over that after P_N
-// at the most: never for kappa <= 2. After P_N it has grown by 1/2 sum P_N (1 - e) u_n, which is no growth either.
+// at the most: never for kappa <= 2. Where a contact joins, the point of the way is admissible for the next X, and is below
+// as well. After P_N the energy has grown by 1/2 sum P_N (1 - e) u_n, which is no growth either.
 // Where a kinematic body takes part, u need not be a velocity that impulses can undo. P_N still exists unless a body is
 // squeezed between ones that nothing moves; where no P is found or lets a contact come off slower than its e says, P = P_N.
 // What comes out is held against these conditions: where rounding has spoilt them there is no answer but NotComputable.
@@ -51,20 +52,24 @@ class Branch {
   int lowest_e_t = -1;  // contact that gives kappa, -1: none does
   VectorOf<S> P_N, b;   // b = u + K P_N
   std::vector<DirectedSolve<S>> normal;  // one: P_N
-  Contacts list;                         // contacts of X
+  Contacts list, held;                   // contacts of X; those that are held
   std::unique_ptr<ConeSolution<S>> cone;  // X; null: 0
 
   /// `from_zero`: friction that is 0 is to vary.
   template <class Problem>
   Branch(const Problem& p, bool from_zero) {
     const int n = static_cast<int>(p.normal.size());
+    for (int k = 0; k < n; ++k)
+      if (isHeld(p, k)) held.push_back(k);
     solveNormal(p, n);
     if (!parts(p) || pulls(p))
       throw NotComputable(p.driven ? "no impulses part its contacts, one of which moves by itself"
                                    : "the impulses that part all of its contacts are lost in rounding");
-    const bool rubs = std::any_of(normal_active.begin(), normal_active.end(), [&](int k) { return hasFriction(p, k); });
+    const bool rubs =
+        std::any_of(normal_active.begin(), normal_active.end(), [&](int k) { return hasFriction(p, k) && pushes(p, k); });
     if (normal_active.empty() || !(rubs || from_zero)) return;
     setKappa(p, rubs);
+    if (lowest_e_t < 0) return;
     try {
       addFriction(p);
       if (parts(p)) return;
@@ -93,7 +98,8 @@ class Branch {
     return isIn(normal_active, k) ? ConeState::slides : ConeState::apex;
   }
 
-  // How near X is to another branch: shares of cones that are not full, speeds of what slides.
+  // How near X is to another branch: shares of cones that are not full, speeds of what slides, and what held contacts push
+  // or pull with.
   double margin() const {
     if (!cone) return 1;
     const ConeTerms<S>& t = cone->terms();
@@ -103,6 +109,7 @@ class Branch {
     for (std::size_t k = 0; k < list.size(); ++k) {
       const double mu = rounded(valueOf(q.friction[k]));
       if (!(mu > 0) || !(fastest > 0)) continue;
+      if (isIn(held, list[k])) least = std::min(least, std::abs(rounded(valueOf(speedOf(q, k)))) / fastest);
       const Vec3 n = roundedOf(q.normal[k]), f = roundedOf(V3<S>(t.f.template segment<3>(3 * static_cast<Index>(k)))),
                  v = roundedOf(V3<S>(t.V.template segment<3>(3 * static_cast<Index>(k))));
       const double pressure = n.dot(f) + rounded(valueOf(q.offset[k])), side = (f - n.dot(f) * n).norm();
@@ -113,6 +120,11 @@ class Branch {
       if (t.at.state[k] == ConeState::apex) least = std::min(least, (n.dot(v) - mu * slip) / fastest);
     }
     return std::max(least, 0.0);
+  }
+  // What the normal impulse of a contact gives it.
+  static S speedOf(const ConeProgramOf<S>& q, std::size_t k) {
+    const auto row = 3 * static_cast<Index>(k);
+    return q.offset[k] * q.normal[k].dot(V3<S>(q.K.template block<3, 3>(row, row) * q.normal[k]));
   }
   // The same of contacts without friction that may get some: whether they slip.
   double slipWithoutFriction() const {
@@ -150,10 +162,11 @@ class Branch {
     for (int k = 0; k < n; ++k) all[static_cast<std::size_t>(k)] = k;
     const MatrixOf<S> N = normalsOf<S>(p, all);
     const VectorOf<S> u_n = N.transpose() * p.u;
-    push(p, activeContactsOf<T>(valuesOf(MatrixOf<S>(N.transpose() * p.K * N)),
-                                valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n))), !p.driven, p.held));
+    const MatrixOf<T> A = valuesOf(MatrixOf<S>(N.transpose() * p.K * N));
+    const VectorOf<T> asked = valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n)));
+    push(p, activeContactsOf<T>(A, asked, !p.driven, p.held));
     if (p.driven || parts(p)) return;
-    push(p, pushing(p, share(p, all)));
+    push(p, pushing(p, share(p, all), A, asked));
   }
   template <class Problem>
   void push(const Problem& p, Contacts contacts) {
@@ -165,7 +178,7 @@ class Branch {
   }
   // Far more contacts than a body has ways to move lose the active set; without friction they are a cone program, too.
   template <class Problem>
-  static Contacts pushing(const Problem& p, const VectorOf<S>& shares) {
+  static Contacts pushing(const Problem& p, const VectorOf<S>& shares, const MatrixOf<T>& A, const VectorOf<T>& b) {
     const std::size_t n = p.normal.size();
     ConeProgramOf<T> q{valuesOf(p.K), valuesOf(p.u), {}, std::vector<T>(n, T(0)), std::vector<T>(n, T(0)), p.held, {}, {}};
     q.free.resize(n);
@@ -174,10 +187,10 @@ class Branch {
       q.normal.push_back(valuesOf(p.normal[k]));
     }
     const ConePointOf<T> at = solveConeProgram<T>(q);
-    Contacts found;
+    VectorOf<T> y = VectorOf<T>::Zero(static_cast<Index>(n));
     for (std::size_t k = 0; k < n; ++k)
-      if (at.state[k] != ConeState::apex) found.push_back(static_cast<int>(k));
-    return found;
+      if (at.state[k] != ConeState::apex) y[static_cast<Index>(k)] = at.pressure[k];
+    return pushingContactsOf<T>(A, b, y, p.held);
   }
   template <class Problem>
   static VectorOf<S> share(const Problem& p, const Contacts& contacts) {
@@ -188,10 +201,15 @@ class Branch {
     return s;
   }
   template <class Problem>
+  bool pushes(const Problem& p, int k) const {  // a held contact that pulls has no friction
+    const V3<S> impulse = P_N.template segment<3>(3 * k);
+    return !isHeld(p, k) || p.normal[static_cast<std::size_t>(k)].dot(impulse) > S(0);
+  }
+  template <class Problem>
   void setKappa(const Problem& p, bool rubs) {
     for (int k : normal_active) {
       const S bound = 1 + p.pair[static_cast<std::size_t>(k)].tangential_elasticity;
-      if ((hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa)) kappa = bound, lowest_e_t = k;
+      if (pushes(p, k) && (hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa)) kappa = bound, lowest_e_t = k;
     }
   }
   void leaveOutFriction() {

@@ -99,8 +99,10 @@ ImpactSolutionOf<S> solveLaw(const ImpactProblemOf<S>& p) {
 template <class S>
 ImpactProblemDerivativeOf<S> lawPullback(const ImpactProblemOf<S>& p, const VectorOf<S>& P_bar) {
   if (isOneHeld(p)) {
-    ImpactProblemDerivativeOf<S> bar = lawPullback(asHeld(p), P_bar);
+    const ImpactProblemOf<S> held = asHeld(p);
+    ImpactProblemDerivativeOf<S> bar = lawPullback(held, P_bar);
     bar.pair[0].elasticity = S(0);
+    if (!(held.pair[0].friction > S(0))) bar.pair[0].friction = S(0);
     return bar;
   }
   ImpactProblemDerivativeOf<S> bar(p.contacts());

@@ -139,6 +139,15 @@ TEST(Joint, BallRunsIntoTwoThatTouch) {
   }
 }
 
+// A millionth of a metre is enough for one after another.
+TEST(Joint, BallRunsIntoTwoThatAreApart) {
+  const Motion m = play(
+      makeScene(Vec3::Zero(), 1, 0, {rowBall("a", -0.5, 1), rowBall("b", 0, 0), rowBall("c", 0.2 + 1e-6, 0)}), 0.5);
+  ASSERT_EQ(m.events.size(), 2u);
+  for (int b = 0; b < 3; ++b)
+    expectEntries(m.stateAt(b, 0.5).velocity, Vec3(b == 2 ? 1 : 0, 0, 0), kState, "speeds");
+}
+
 TEST(Joint, BallIsStruckFromBothSides) {
   for (double e : {1.0, 0.5, 0.0}) {
     SCOPED_TRACE(e);

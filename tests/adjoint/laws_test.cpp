@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "adjoint/impact/laws.hpp"
 #include "adjoint/impact/tilt.hpp"
@@ -29,11 +30,13 @@ struct TestedLaw {
   ImpactSolution (*solve)(const ImpactProblem&);
   VectorXd (*tangent)(const ImpactProblem&, const ImpactProblemDerivative& dproblem);
   void (*pullback)(const ImpactProblem&, const VectorXd& P_bar, ImpactProblemDerivative& problem_bar);
+  /// Rates of the pullback along `dproblem`.
+  ImpactProblemDerivative (*second)(const ImpactProblem&, const VectorXd& P_bar, const ImpactProblemDerivative& dproblem);
 };
 
-template <class Law>
-VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
-  using Rate = Dual<1>;
+using Rate = Dual<1>;
+
+ImpactProblemOf<Rate> withRates(const ImpactProblem& p, const ImpactProblemDerivative& d) {
   const auto along = [](double value, double rate) {
     Rate both(value);
     both.rate[0] = rate;
@@ -49,12 +52,32 @@ VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
                          along(p.pair[k].friction, d.pair[k].friction),
                          along(p.pair[k].tangential_elasticity, d.pair[k].tangential_elasticity)});
   }
-  return ratesOf(Law::solve(both).P, 0);
+  return both;
+}
+
+template <class Law>
+VectorXd tangentOf(const ImpactProblem& p, const ImpactProblemDerivative& d) {
+  return ratesOf(Law::solve(withRates(p, d)).P, 0);
+}
+
+template <class Law>
+ImpactProblemDerivative secondOf(const ImpactProblem& p, const VectorXd& P_bar, const ImpactProblemDerivative& d) {
+  ImpactProblemDerivativeOf<Rate> bar(p.contacts());
+  Law::pullback(withRates(p, d), VectorOf<Rate>(P_bar.cast<Rate>()), bar);
+  ImpactProblemDerivative rates(p.contacts());
+  rates.K = ratesOf(bar.K, 0);
+  rates.u = ratesOf(bar.u, 0);
+  for (std::size_t k = 0; k < p.normal.size(); ++k) {
+    rates.normal[k] = ratesOf(bar.normal[k], 0);
+    const auto& c = bar.pair[k];
+    rates.pair[k] = {c.elasticity.rate[0], c.friction.rate[0], c.tangential_elasticity.rate[0]};
+  }
+  return rates;
 }
 
 template <class Law>
 constexpr TestedLaw tested(const char* name) {
-  return {name, &Law::template solve<double>, &tangentOf<Law>, &Law::template pullback<double>};
+  return {name, &Law::template solve<double>, &tangentOf<Law>, &Law::template pullback<double>, &secondOf<Law>};
 }
 const TestedLaw kFrictionlessLaw = tested<FrictionlessLaw>("frictionless"),
                 kFrictionLaw = tested<FrictionLaw>("friction"), kJointLaw = tested<JointLaw>("joint");
@@ -63,9 +86,13 @@ struct LawRow {
   const TestedLaw* law;
   int fewest, most;  // contacts
   bool friction;
+  bool held = false;  // some of them
 };
-const LawRow kLaws[] = {
-    {&kFrictionlessLaw, 1, 1, false}, {&kFrictionLaw, 1, 1, true}, {&kJointLaw, 2, 5, true}, {&kJointLaw, 2, 5, false}};
+const LawRow kLaws[] = {{&kFrictionlessLaw, 1, 1, false},
+                        {&kFrictionLaw, 1, 1, true},
+                        {&kJointLaw, 2, 5, true},
+                        {&kJointLaw, 2, 5, false},
+                        {&kJointLaw, 2, 5, true, true}};
 
 /// K = B B^T and u = B w for bodies of unit mass with velocities w: the kinetic energy is |w|^2/2.
 struct RandomProblem {
@@ -83,6 +110,10 @@ struct RandomProblem {
     for (int k = 0; k < n; ++k) {
       Vec3 normal = random.unit();
       if (normal.dot(p.u.segment<3>(3 * k)) > 0) normal = -normal;
+      if (row.held) {
+        p.held.push_back(k > 0 && random.below(2) == 0);
+        if (p.held.back()) normal = normal.cross(p.u.segment<3>(3 * k)).normalized();
+      }
       p.normal.push_back(normal);
       const double mu = row.friction ? std::pow(10, random.in(-1.5, 0.5)) : 0;
       p.pair.push_back({random.in(0, 1), some_slippery && k == 1 ? 0 : mu, random.in(-1, 1)});
@@ -106,10 +137,12 @@ TEST(Laws, EnergyNeverGrowsAndContactsPart) {
         const Vec3 P = s.P.segment<3>(3 * k);
         const double e = r.p.pair[static_cast<std::size_t>(k)].elasticity,
                      mu = r.p.pair[static_cast<std::size_t>(k)].friction;
-        EXPECT_TRUE(n.dot(P) >= -1e-12) << "contact " << k << " pulls";
-        EXPECT_TRUE((P - n.dot(P) * n).norm() <= mu * n.dot(P) + 1e-11 * (1 + P.norm())) << "contact " << k;
+        const bool held = !r.p.held.empty() && r.p.held[static_cast<std::size_t>(k)];
+        EXPECT_TRUE(held || n.dot(P) >= -1e-12) << "contact " << k << " pulls";
+        EXPECT_TRUE((P - n.dot(P) * n).norm() <= mu * std::max(n.dot(P), 0.0) + 1e-11 * (1 + P.norm())) << "contact " << k;
         const double parting = n.dot(after.segment<3>(3 * k)), least = -e * n.dot(r.p.u.segment<3>(3 * k));
         EXPECT_TRUE(parting >= least - 1e-11) << "contact " << k << " comes off at " << parting << ", least " << least;
+        EXPECT_TRUE(!held || std::abs(parting) <= 1e-11) << "contact " << k << " is let go at " << parting;
         if (r.p.contacts() > 1) continue;
         expectEntries(parting, least, 1e-12, "restitution");
       }
@@ -182,7 +215,26 @@ TEST(Laws, TangentIsTheLimitOfDifferences) {
     }
 }
 
+// bar.d, and the size of its terms.
+struct Product {
+  double sum = 0, size = 0;
+
+  Product(const ImpactProblemDerivative& bar, const ImpactProblemDerivative& d) {
+    add(bar.K.cwiseProduct(d.K));
+    add(bar.u.cwiseProduct(d.u));
+    for (std::size_t k = 0; k < d.normal.size(); ++k) {
+      add(bar.normal[k].cwiseProduct(d.normal[k]));
+      add(Vec3(bar.pair[k].elasticity * d.pair[k].elasticity, bar.pair[k].friction * d.pair[k].friction,
+               bar.pair[k].tangential_elasticity * d.pair[k].tangential_elasticity));
+    }
+  }
+
+ private:
+  void add(const MatrixXd& products) { sum += products.sum(), size += products.cwiseAbs().sum(); }
+};
+
 TEST(Laws, PullbackIsTheTransposeOfTangent) {
+  double worst = 0;
   for (const LawRow& row : kLaws)
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
@@ -193,17 +245,29 @@ TEST(Laws, PullbackIsTheTransposeOfTangent) {
       const VectorXd P_bar = random.vector(r.p.u.size()), dP = row.law->tangent(r.p, d);
       ImpactProblemDerivative bar(r.p.contacts());
       row.law->pullback(r.p, P_bar, bar);
-      double rhs = bar.K.cwiseProduct(d.K).sum() + bar.u.dot(d.u);
-      double size = bar.K.cwiseProduct(d.K).cwiseAbs().sum() + bar.u.cwiseProduct(d.u).cwiseAbs().sum();
-      const auto add = [&](double product) { rhs += product, size += std::abs(product); };
-      for (std::size_t k = 0; k < d.normal.size(); ++k) {
-        for (int i = 0; i < 3; ++i) add(bar.normal[k][i] * d.normal[k][i]);
-        add(bar.pair[k].elasticity * d.pair[k].elasticity);
-        add(bar.pair[k].friction * d.pair[k].friction);
-        add(bar.pair[k].tangential_elasticity * d.pair[k].tangential_elasticity);
-      }
-      expectEntries(P_bar.dot(dP) / size, rhs / size, 1e-12, "dot product");
+      const Product product(bar, d);
+      const double size = product.size + P_bar.cwiseProduct(dP).cwiseAbs().sum();
+      worst = std::max(worst, std::abs(P_bar.dot(dP) - product.sum) / size);
+      expectEntries(P_bar.dot(dP) / size, product.sum / size, 1e-13, "dot product");
     }
+  std::printf("dot products to %.1e\n", worst);
+}
+
+TEST(Laws, SecondDerivativesAreSymmetric) {
+  double worst = 0;
+  for (const LawRow& row : kLaws)
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      SCOPED_TRACE(std::string(row.law->name) + ", seed " + std::to_string(seed));
+      Random random(seed);
+      const RandomProblem r(row, random);
+      const ImpactProblemDerivative one = randomDirection(r.p, random), two = randomDirection(r.p, random);
+      const VectorXd P_bar = random.vector(r.p.u.size());
+      const Product there(row.law->second(r.p, P_bar, one), two), back(row.law->second(r.p, P_bar, two), one);
+      const double size = there.size + back.size;
+      worst = std::max(worst, std::abs(there.sum - back.sum) / size);
+      expectEntries(there.sum / size, back.sum / size, 1e-12, "second derivatives");
+    }
+  std::printf("second derivatives to %.1e\n", worst);
 }
 
 // One contact: the joint law is 4.1; it is 4.2 where the contact sticks, and where it slides in the plane or what pushes
@@ -237,6 +301,9 @@ TEST(Laws, JointLawOfOneContactIsTheLawOfOneContact) {
         stuck += one.mode == ImpactMode::stick;
         expectEntries(joint.P, one.P, 1e-10, "P", 1 + one.P.norm());
         EXPECT_EQ(joint.outcome[0] == ContactOutcome::sticks, one.mode == ImpactMode::stick);
+        const ImpactSolution alone = solveLaw(r.p);
+        EXPECT_EQ(alone.outcome, joint.outcome);
+        EXPECT_EQ(alone.closed, joint.closed);
         if (kind != Kind::any) continue;
         ImpactProblemDerivative d = randomDirection(r.p, random);
         keepSlippery(r.p, d);
@@ -244,6 +311,26 @@ TEST(Laws, JointLawOfOneContactIsTheLawOfOneContact) {
         expectEntries(kJointLaw.tangent(r.p, d), dP, 1e-9, "dP", 1 + dP.norm());
       }
   EXPECT_GT(stuck, 50);
+}
+
+// A contact that is held alone: as of several.
+TEST(Laws, OneHeldContactStaysAndRubsWhereItPushes) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    RandomProblem r(kLaws[1], random);
+    if (seed % 2) r.p.normal[0] = -r.p.normal[0];  // it would leave
+    r.p.held = {1};
+    const ImpactSolution s = solveLaw(r.p);
+    const Vec3 n = r.p.normal[0], u = r.p.u + r.p.K * s.P;
+    EXPECT_TRUE(std::abs(n.dot(u)) <= 1e-12 && s.closed[0]) << "it is let go at " << n.dot(u);
+    EXPECT_TRUE((s.P - n.dot(s.P) * n).norm() <= r.p.pair[0].friction * std::max(n.dot(s.P), 0.0) + 1e-12);
+    const VectorXd P_bar = random.vector(3);
+    const ImpactProblemDerivative d = randomDirection(r.p, random);
+    const Product product(lawPullback(r.p, P_bar), d);
+    const double dot = P_bar.dot(ratesOf(solveLaw(withRates(r.p, d)).P, 0));
+    EXPECT_TRUE(std::abs(dot - product.sum) <= 1e-13 * (product.size + std::abs(dot))) << dot << " and " << product.sum;
+  }
 }
 
 TEST(Tilt, JacobianIsTheLimitOfDifferences) {

@@ -33,7 +33,7 @@ void checkEnergy(const Motion& motion, Findings& findings);
 
 /// The events are those that BruteForce finds when it starts afresh after each of them: the same pairs, within 1e-9 s;
 /// the flights agree; velocities after single contacts follow from the law of tests/random/impact_law.h to 1e-10, and
-/// no contact of a joint impact goes on closing.
+/// the contacts of a joint impact meet what it asks of them as well.
 void checkSequence(const Motion& motion, Findings& findings);
 
 }  // namespace carom::brute

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Impacts of bodies whose masses and moments differ by up to 1e12, on their own: random ones are held to the conditions
-// of equation 4.3, and without friction to a solution in 50 digits.
+// of equation 4.4, and without friction to a solution in 50 digits.
 
 #include <gtest/gtest.h>
 

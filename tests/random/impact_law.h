@@ -22,4 +22,13 @@ std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Ki
                                           const MassProperties& mass_b, const Kinematic& b, const Contact& contact,
                                           const Coefficients& c);
 
+/// One of several contacts of an impact: impulse on a, relative velocities before and after it.
+struct JointContact {
+  Vector n, impulse, before, after;
+  Coefficients pair;
+};
+/// By how much it fails what equation 4.4 asks of it, in m/s and shares of the impulse: P_n >= 0, |P_t| <= mu P_n,
+/// u_n+ >= -e u_n, and equal where P_n > 0.
+Real violationOf(const JointContact& c);
+
 }  // namespace carom::brute

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "adjoint/contact/cone.hpp"
+
+namespace carom::adjoint_detail {
+
+/// The cone program by the primal-dual interior point method with the scaling of Nesterov and Todd (1998) and the steps of
+/// Mehrotra (1992): a dozen steps from anywhere, however weak the forces that decide. All contacts take part alike, so
+/// their order does not matter. It comes close enough to tell the active set. Of numbers of like size.
+class InteriorPoint {
+ public:
+  explicit InteriorPoint(const ConeProgramOf<double>& program);
+
+  void step();
+  double gap() const;  ///< of the cones, f.V each on the average
+  Eigen::VectorXd forces() const { return J_ * y_; }
+  Eigen::VectorXd velocities() const;  ///< V of ConeTerms
+  const Eigen::VectorXd& multipliers() const { return lambda_; }
+
+ private:
+  struct Cone {
+    Eigen::Index at, size;  // rows in s and z; 3, or 1 without friction
+    double mu;
+    Eigen::MatrixXd W, inverse;  // the scaling: W z = W^-1 s
+  };
+  void addContact(const ConeProgramOf<double>& program, int k, Eigen::Index& column);
+  void scale(Cone& cone);
+  /// Directions of y, lambda, s and z for W^-1 ds + W dz = q.
+  void direction(const Eigen::VectorXd& q);
+  double longest(const Eigen::VectorXd& from, const Eigen::VectorXd& along) const;
+
+  std::vector<Cone> cones_;
+  Eigen::MatrixXd J_, D_, K_, G_;  // df/dy, ds/dy, in y; the equations
+  Eigen::VectorXd b_, g_, a_;      // s = D y + a
+  Eigen::VectorXd y_, lambda_, s_, z_, dy_, dlambda_, ds_, dz_;
+  Eigen::MatrixXd H_inverse_, S_inverse_;
+};
+
+}  // namespace carom::adjoint_detail
