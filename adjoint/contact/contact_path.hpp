@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "adjoint/contact/glide_path.hpp"
@@ -81,7 +82,7 @@ struct ContactPath {
   Eigen::RowVectorXd reach_rates;  ///< of the reach by the dimensions of the body
   double start = 0;   ///< s
   /// Elapsed at the end of slip, where the slip is exactly 0; infinite where there is none.
-  double slip_end = kInfinity;
+  double slip_end = std::numeric_limits<double>::infinity();
 
   /// At that end, start + slip_end, exactly slip_end.
   double elapsedAt(double t) const { return t < start + slip_end ? t - start : slip_end; }

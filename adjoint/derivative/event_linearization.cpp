@@ -4,13 +4,12 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/contact/contact_path.hpp"
+#include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/impact/single_laws.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/impact/tilt_frame.hpp"
 #include "adjoint/impact/wide_impact.hpp"
-#include "adjoint/motion/body_geometry.h"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom::adjoint_detail {
@@ -46,25 +45,17 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
 EventGuard<double> guardOf(const Motion& motion, const Event& event, std::vector<Part>& parts) {
   EventGuard<double> guard;
   if (event.kind != EventKind::transition) return guard;
-  const Contact& c = event.contacts[0];
-  const Participant& p = event.participants[0];
-  const ContactPath& path =
-      *motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc)].path();
   if (event.cause == TransitionCause::slip_ends) {
     guard.by_slip = true;
-    guard.slip = (p.body == c.a ? 1 : -1) * slipDirectionAt<double>(path.form, path.inputs, path.slip_end);
+    guard.slip = slipDirectionAtEnd(motion, event);
     return guard;
   }
-  const auto* bodies = dynamic_cast<const BodyGeometry*>(motion.geometry.get());
-  if (event.cause != TransitionCause::leaves || !bodies)
-    throw NotComputable("the derivative by when a body begins to tip is not modelled yet");
-  const Pose A = poseBefore(motion, event, c.a), B = poseBefore(motion, event, c.b);
-  const FeatureLimit limit = bodies->limits(c.a, c.b, c.features, A, B)[static_cast<std::size_t>(event.border)];
-  const Pose& pose = limit.body == c.a ? A : B;
+  const FeatureLimit limit = borderOf(motion, event);
+  const Pose pose = poseBefore(motion, event, limit.body);
   guard.border_body = limit.body;
   guard.border_participant = participantOf(event, limit.body);
   guard.weight = pose.R * limit.point_weight;
-  guard.border_arm = c.at.point - pose.x;
+  guard.border_arm = event.contacts[0].at.point - pose.x;
   if (limit.border_rates.cols() > 0) guard.border_rates = limit.border_rates.transpose() * limit.point_weight;
   parts[0].guard.tail<3>() = guard.weight;
   return guard;

@@ -3,6 +3,8 @@
 
 #include "adjoint/impact/tilt_frame.hpp"
 #include "adjoint/impact/wide_impact.hpp"
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/motion/guard.hpp"
 
 // What EventPass is made of, in dual numbers. Its formulae are those of the reverse pass in doubles; what goes in has
@@ -17,7 +19,7 @@ using Part = ContactPart<Num>;
 class EventMaker {
  public:
   EventMaker(const Lanes& lanes, int event)
-      : lanes_(lanes), event_(lanes.motion().events[static_cast<std::size_t>(event)]) {
+      : lanes_(lanes), index_(event), event_(lanes.motion().events[static_cast<std::size_t>(event)]) {
     for (const Participant& p : event_.participants)
       before_.push_back(
           lanes.stateAt(p.body, p.arc, lanes.eventTime(event), p.before, lanes.tape().arc(p.body, p.arc)));
@@ -32,22 +34,24 @@ class EventMaker {
   EventPass<Num> passOf() const {
     ImpactInputs<Num> inputs;
     std::vector<StateBar> rate_before, rate_after;
+    const Num time = lanes_.eventTime(index_);
     for (std::size_t i = 0; i < before_.size(); ++i) {
       const Participant& p = event_.participants[i];
       const DualModel& m = lanes_.model(p.body);
       const DualState& s = before_[i];
       inputs.bodies.push_back({m.kinematic, m.kinematic ? Num(0) : m.inverse_mass, s.R, m.A, s.x, s.v, s.L});
-      rate_before.push_back(lanes_.rate(p.body, s));
-      rate_after.push_back(lanes_.rate(p.body, lanes_.startOf(p.body, p.arc + 1)));
+      rate_before.push_back(lanes_.rate(p.body, p.arc, time, s));
+      rate_after.push_back(lanes_.rate(p.body, p.arc + 1, time, lanes_.startOf(p.body, p.arc + 1)));
     }
     std::vector<Part> parts;
     const std::vector<double> weights = guardWeights(event_);
     for (std::size_t k = 0; k < weights.size(); ++k) parts.push_back(partOf(event_.contacts[k], weights[k], inputs));
+    EventGuard<Num> guard = guardOf(parts, inputs);
     return {event_,
             usesWide(event_, *lanes_.motion().models),
             std::move(inputs),
             std::move(parts),
-            EventGuard<Num>(),
+            std::move(guard),
             std::move(rate_before),
             std::move(rate_after)};
   }
@@ -78,10 +82,12 @@ class EventMaker {
     Part part;
     part.a = {c.a, participantOf(event_, c.a)};
     part.b = {c.b, participantOf(event_, c.b)};
-    part.guard[0] = weight;
+    part.guard[0] = event_.kind == EventKind::transition ? 0 : weight;
     part.material_a = materialIndexOf(*motion.scene, c.a);
     part.material_b = materialIndexOf(*motion.scene, c.b);
-    part.rules = rulesOf(c, part);
+    part.rules = lanes_.rules(c.a, c.b);
+    if (c.captured || c.kept) part.rules.elasticity = {};
+    if (event_.kind == EventKind::placed) part.rules.friction = {};
     const Pose A = poseBefore(motion, event_, c.a), B = poseBefore(motion, event_, c.b);
     const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, A, B);
     std::vector<PairTangent> along;
@@ -131,24 +137,41 @@ class EventMaker {
     return tilted;
   }
 
-  PairRules<Num> rulesOf(const Contact& c, const Part& part) const {
-    const Scene& scene = *lanes_.motion().scene;
-    const auto coefficients = [&](const Material& material, int m) {
-      MaterialDerivativeOf<Num> out{material.elasticity, material.friction, material.tangential_elasticity};
-      for (std::size_t lane = 0; m >= 0 && lane < lanes_.size(); ++lane) {
-        const MaterialDerivative& d = lanes_.direction(lane).scene.materials[static_cast<std::size_t>(m)];
-        out.elasticity.rate[lane] = d.elasticity;
-        out.friction.rate[lane] = d.friction;
-        out.tangential_elasticity.rate[lane] = d.tangential_elasticity;
-      }
-      return out;
-    };
-    const Material &a = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
-                   &b = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.b)]);
-    return {a, b, coefficients(a, part.material_a), coefficients(b, part.material_b)};
+  EventGuard<Num> guardOf(std::vector<Part>& parts, const ImpactInputs<Num>& inputs) const {
+    EventGuard<Num> guard;
+    if (event_.kind != EventKind::transition) return guard;
+    const Motion& motion = lanes_.motion();
+    const Contact& c = event_.contacts[0];
+    if (event_.cause == TransitionCause::slip_ends) {
+      guard.by_slip = true;
+      guard.slip = constant(slipDirectionAtEnd(motion, event_));
+      return guard;
+    }
+    const FeatureLimit limit = borderOf(motion, event_);
+    if (limit.round) throw NotComputable("the second derivative by when a body leaves a round face is not modelled yet");
+    const Pose pose = poseBefore(motion, event_, limit.body);
+    guard.border_body = limit.body;
+    guard.border_participant = participantOf(event_, limit.body);
+    const Part::Side& side = limit.body == c.a ? parts[0].a : parts[0].b;
+    NMat R = constant(pose.R);
+    NVec x = constant(pose.x);
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+      const PairTangent along = pairTangent(parts[0], lane);
+      const Eigen::Index at = limit.body == c.a ? 0 : 6;
+      setRates(x, Vec3(along.pose.segment<3>(at)), lane);
+      turn(R, along.pose.segment<3>(at + 3), lane);
+    }
+    guard.border_participant = side.participant;
+    guard.weight = R * constant(limit.point_weight);
+    guard.border_arm = inputs.contacts[0].point - x;
+    if (limit.border_rates.cols() > 0)
+      guard.border_rates = Eigen::VectorXd(limit.border_rates.transpose() * limit.point_weight).cast<Num>();
+    parts[0].guard.tail<3>() = guard.weight;
+    return guard;
   }
 
   const Lanes& lanes_;
+  int index_;
   const Event& event_;
   std::vector<DualState> before_;  // of the participants
 };

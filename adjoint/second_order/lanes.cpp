@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/second_order/lanes.hpp"
 
+#include "adjoint/derivative/arc_pass.hpp"
+#include "adjoint/second_order/dual_path.hpp"
+
 namespace carom::adjoint_detail {
 namespace {
 
@@ -56,19 +59,37 @@ DualState Lanes::startOf(int body, int k) const {
   return state;
 }
 
-DualState Lanes::stateAt(int body, int k, const Num& t, const State& now, const RotationSensitivity& S) const {
+DualState Lanes::stateAt(int body, int k, const Num& t, const State& now, const ArcSensitivity& S) const {
   const StateDerivative flow = arc(body, k).rateAt(t.value, now);
   DualState state = dualState(now);
   for (std::size_t lane = 0; lane < size(); ++lane) {
-    StateDerivative d = flightTangent(arc(body, k), t.value, S, tangents_[lane].start(body, k),
-                                      directions_[lane].scene.gravity, tangents_[lane].model(body));
+    StateDerivative d = arcTangent(arc(body, k), t.value, S, tangents_[lane].start(body, k), directions_[lane].scene,
+                                   tangents_[lane].model(body));
     d.addScaled(t.rate[lane], flow);
     setRates(state, d, lane);
   }
   return state;
 }
 
-StateBar Lanes::rate(int body, const DualState& state) const {
+PairRules<Num> Lanes::rules(int a, int b) const {
+  const Scene& scene = *motion().scene;
+  const auto coefficients = [&](const Material& material, int m) {
+    MaterialDerivativeOf<Num> out{material.elasticity, material.friction, material.tangential_elasticity};
+    for (std::size_t lane = 0; m >= 0 && lane < size(); ++lane) {
+      const MaterialDerivative& d = directions_[lane].scene.materials[static_cast<std::size_t>(m)];
+      out.elasticity.rate[lane] = d.elasticity;
+      out.friction.rate[lane] = d.friction;
+      out.tangential_elasticity.rate[lane] = d.tangential_elasticity;
+    }
+    return out;
+  };
+  const Material &of_a = materialOf(scene, scene.bodies[static_cast<std::size_t>(a)]),
+                 &of_b = materialOf(scene, scene.bodies[static_cast<std::size_t>(b)]);
+  return {of_a, of_b, coefficients(of_a, materialIndexOf(scene, a)), coefficients(of_b, materialIndexOf(scene, b))};
+}
+
+StateBar Lanes::rate(int body, int k, const Num& t, const DualState& state) const {
+  if (arc(body, k).path()) return pathRate(*this, body, k, t);
   StateBar F;
   const DualModel& m = model(body);
   if (!m.moving) return F;

@@ -3,6 +3,7 @@
 
 #include "adjoint/derivative/influence.hpp"
 #include "adjoint/derivative/tangent.h"
+#include "adjoint/motion/pair_rules.hpp"
 #include "adjoint/second_order/dual_state.hpp"
 #include "adjoint/second_order/reading_direction.h"
 
@@ -34,9 +35,12 @@ class Lanes {
   /// Just after the event that starts arc k; the time of the event has moved along.
   DualState startOf(int body, int k) const;
   /// State of a body on arc k at time t, which moves along; `now` is its value, `S` the sensitivity up to then.
-  DualState stateAt(int body, int k, const Num& t, const State& now, const RotationSensitivity& S) const;
-  /// d(state)/dt of the flow.
-  StateBar rate(int body, const DualState& state) const;
+  DualState stateAt(int body, int k, const Num& t, const State& now, const ArcSensitivity& S) const;
+  /// d(state)/dt of the flow on arc k at time t, which moves along.
+  StateBar rate(int body, int k, const Num& t, const DualState& state) const;
+  const NVec& gravity() const { return gravity_; }
+  /// Coefficients of the materials of two bodies.
+  PairRules<Num> rules(int a, int b) const;
 
  private:
   const Arc& arc(int body, int k) const {

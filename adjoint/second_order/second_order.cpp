@@ -13,6 +13,7 @@
 #include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/motion/inertia_change.hpp"
 #include "adjoint/second_order/dual_event.hpp"
+#include "adjoint/second_order/dual_path.hpp"
 #include "adjoint/second_order/dual_rotation.hpp"
 
 namespace carom {
@@ -63,7 +64,7 @@ class DualPass {
     const DualState state =
         lanes_.stateAt(seed.body, place.arc, time, place.state, plainSensitivity(seed.body, place.arc, place.time));
     const StateBar bar = seedPullbackOf(lanes_.model(seed.body), state.R, state.L, weights, bars_.model[b]);
-    const auto rate = [&] { return lanes_.rate(seed.body, state); };
+    const auto rate = [&] { return lanes_.rate(seed.body, place.arc, time, state); };
     if (seed.at.event < 0) time_rate = bar.dot(rate()).rate;
     if (seed.at.event >= 0 && bars_.readBefore(seed.at.event, seed.body, bar, weights.time, rate)) return;
     throughFlight(seed.body, place.arc, time, state, bar);
@@ -134,7 +135,10 @@ class DualPass {
     if (!influenced(body, k) && !hasRates(t) && !hasRates(bar)) return;
     const auto b = static_cast<std::size_t>(body);
     StateBar d = bar;
-    if (const DualModel& model = lanes_.model(body); model.moving) {
+    const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
+    if (arc.path()) {
+      d = pathPullback(lanes_, body, k, t, bar, bars_.scene, bars_.model[b]);
+    } else if (const DualModel& model = lanes_.model(body); model.moving) {
       DualSensitivity S;
       if (!isZero(bar.theta)) S = dualSensitivity(body, k, t, lanes_.startOf(body, k), end);
       d = flightPullbackOf(model.gravity_factor, t - lanes_.startTime(body, k), S, bar, bars_.scene.gravity,

@@ -54,13 +54,11 @@ class Search {
     const Mat3 by = pointBy(c);
     const std::vector<FeatureLimit> limits =
         bodies.limits(c.a, c.b, c.features, poseOf(c.a, stateOf(c.a)), poseOf(c.b, stateOf(c.b)));
-    const auto borders = std::ranges::count_if(
-        limits, [&](const FeatureLimit& l) { return l.body == path_.face && !l.point_weight.isZero(0); });
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const FeatureLimit& limit = limits[i];
       if (limit.point_weight.isZero(0) || (only >= 0 && only != static_cast<int>(i))) continue;
       if (limit.body == path_.body && path_.form != PathForm::glide_block) continue;
-      if (limit.body == path_.face && borders == 1) {
+      if (limit.body == path_.face && limit.round) {
         leaveDisc(bodies, k, static_cast<int>(i));
         continue;
       }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ode_bridge/ode_contacts.h"
+#include "tests/support/lasting_scenes.h"
 
 namespace carom::test {
 namespace {
@@ -258,7 +259,7 @@ Scene kinematicAndFixedFriction() { return kinematicAndFixed(0.5); }
 std::ostream& operator<<(std::ostream& out, const DotProductScene& row) { return out << row.name; }
 
 std::vector<DotProductScene> dotProductScenes() {
-  return {
+  std::vector<DotProductScene> rows{
       // impact laws
       {"frictionless", frictionless, 3, {"frictionless"}},
       {"stick", stick, 3, {"stick"}},
@@ -314,6 +315,8 @@ std::vector<DotProductScene> dotProductScenes() {
       {"kinematic_and_fixed_frictionless", kinematicAndFixedFrictionless, 1, {"joint"}},
       {"kinematic_and_fixed_friction", kinematicAndFixedFriction, 1, {"joint"}},
   };
+  for (DotProductScene& row : lastingScenes()) rows.push_back(std::move(row));
+  return rows;
 }
 
 Motion motionOf(const DotProductScene& row) {
@@ -322,7 +325,8 @@ Motion motionOf(const DotProductScene& row) {
   SimulateOptions options;
   options.impact_limit = row.impacts;
   options.asked = row.asked;
-  return simulate(scene, contacts, 3, options);
+  options.lowest_bounce = row.lowest_bounce;
+  return simulate(scene, contacts, row.duration, options);
 }
 
 }  // namespace carom::test

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/second_order/dual_path.hpp"
+
+#include "adjoint/contact/path_sensitivity.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+const Arc& arcOf(const Lanes& lanes, int body, int k) {
+  return lanes.motion().world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(k)];
+}
+
+PathInputs<Num> inputsOf(const Lanes& lanes, int body, int k) {
+  const ContactPath& path = *arcOf(lanes, body, k).path();
+  const DualState start = lanes.startOf(body, k);
+  PathInputs<Num> in;
+  in.x = start.x, in.v = start.v, in.L = start.L, in.R = start.R;
+  in.gravity = lanes.gravity();
+  in.normal = constant(path.inputs.normal);
+  in.friction = lanes.rules(path.body, path.face).friction.value;
+  in.mass = lanes.model(body).mass;
+  in.J = lanes.model(body).J;
+  in.reach = Num(path.inputs.reach);
+  in.axis = constant(path.inputs.axis);
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+    const auto& bodies = lanes.direction(lane).scene.bodies;
+    setRates(in.normal, Vec3(bodies[static_cast<std::size_t>(path.face)].orientation.cross(path.inputs.normal)), lane);
+    if (path.reach_rates.size() > 0)
+      in.reach.rate[lane] = path.reach_rates.dot(bodies[static_cast<std::size_t>(path.body)].size);
+  }
+  return in;
+}
+
+Num elapsedAt(const Lanes& lanes, int body, int k, const Num& t) {
+  Num elapsed = t - lanes.startTime(body, k);
+  elapsed.value = arcOf(lanes, body, k).path()->elapsedAt(t.value);
+  return elapsed;
+}
+
+}  // namespace
+
+StateBar pathRate(const Lanes& lanes, int body, int k, const Num& t) {
+  return pathRateAt<Num>(arcOf(lanes, body, k).path()->form, inputsOf(lanes, body, k), elapsedAt(lanes, body, k, t));
+}
+
+StateBar pathPullback(const Lanes& lanes, int body, int k, const Num& t, const StateBar& end_bar, SceneBar& scene_bar,
+                      ModelBar& model_bar) {
+  const ContactPath& path = *arcOf(lanes, body, k).path();
+  const PathInputs<Num> in = inputsOf(lanes, body, k);
+  const bool orientation = !carom::isZero(end_bar.theta);
+  PathInputsDerivative<Num> bar;
+  const StateBar start_bar =
+      pullback(pathSensitivity<Num>(path.form, in, elapsedAt(lanes, body, k, t), orientation), end_bar, bar);
+  scene_bar.gravity += bar.gravity;
+  scene_bar.bodies[static_cast<std::size_t>(path.face)].orientation += in.normal.cross(bar.normal);
+  const Rule<Num> friction = lanes.rules(path.body, path.face).friction;
+  const auto add = [&](int of, const Num& by) {
+    const int m = materialIndexOf(*lanes.motion().scene, of);
+    if (m >= 0) scene_bar.materials[static_cast<std::size_t>(m)].friction += by * bar.friction;
+  };
+  add(path.body, friction.by_a);
+  add(path.face, friction.by_b);
+  model_bar.mass += bar.mass;
+  model_bar.inertia += bar.inertia;
+  model_bar.products += bar.products;
+  if (path.reach_rates.size() > 0)
+    scene_bar.bodies[static_cast<std::size_t>(path.body)].size +=
+        bar.reach * path.reach_rates.transpose().cast<Num>();
+  return start_bar;
+}
+
+}  // namespace carom::adjoint_detail
