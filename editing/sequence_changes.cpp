@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "adjoint/base/names.hpp"
@@ -33,7 +34,8 @@ struct Sequence {
 
 Bodies bodiesOf(const Event& event) {
   Bodies bodies;
-  for (const Contact& c : event.contacts) bodies.push_back(c.a), bodies.push_back(c.b);
+  for (const Contact& c : event.contacts)
+    if (!c.held) bodies.push_back(c.a), bodies.push_back(c.b);
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   return bodies;
@@ -42,7 +44,7 @@ Bodies bodiesOf(const Event& event) {
 Sequence sequenceOf(const Motion& motion, std::size_t count) {
   Sequence sequence{motion, {}};
   for (std::size_t e = 0; e < std::min(count, motion.events.size()); ++e) {
-    sequence.of[bodiesOf(motion.events[e])].push_back(static_cast<int>(e));
+    if (motion.events[e].counts()) sequence.of[bodiesOf(motion.events[e])].push_back(static_cast<int>(e));
   }
   return sequence;
 }
@@ -152,21 +154,47 @@ void compareBodies(const Sequence& before, const Sequence& after, const Bodies& 
   }
 }
 
-/// The first place at which the same impacts come in another order.
-SequenceChange otherOrder(const Motion& before, const Motion& after, std::size_t count) {
-  std::size_t e = 0;
-  while (e + 1 < count && bodiesOf(before.events[e]) == bodiesOf(after.events[e])) ++e;
-  const auto names = [&](const Motion& motion) { return namesOf(motion, bodiesOf(motion.events[e])); };
-  const int index = static_cast<int>(e);
-  return {Kind::order, index, index,
-          "The impacts come in another order: that of " + names(after) + " is the " + ordinal(index + 1) +
-              " one, where that of " + names(before) + " was."};
+// Those that count, or those that begin, change or end a contact that lasts.
+std::vector<int> eventsOf(const Motion& motion, std::size_t count, bool lasting) {
+  std::vector<int> events;
+  for (std::size_t e = 0; e < std::min(count, motion.events.size()); ++e)
+    if (lasting ? motion.events[e].kind != EventKind::impact : motion.events[e].counts())
+      events.push_back(static_cast<int>(e));
+  return events;
+}
+
+/// The first place at which the same impacts come in another order; nothing where they do not.
+std::optional<SequenceChange> otherOrder(const Motion& before, std::size_t count_before, const Motion& after,
+                                         std::size_t count_after) {
+  const std::vector<int> a = eventsOf(before, count_before, false), b = eventsOf(after, count_after, false);
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const Bodies was = bodiesOf(eventOf(before, a[i])), is = bodiesOf(eventOf(after, b[i]));
+    if (was == is) continue;
+    return SequenceChange{Kind::order, a[i], b[i],
+                          "The impacts come in another order: that of " + namesOf(after, is) + " is the " +
+                              ordinal(static_cast<int>(i) + 1) + " one, where that of " + namesOf(before, was) + " was."};
+  }
+  return std::nullopt;
+}
+
+/// The first place at which contact that lasts goes on otherwise.
+SequenceChange otherContact(const Motion& before, std::size_t count_before, const Motion& after,
+                            std::size_t count_after) {
+  const std::vector<int> a = eventsOf(before, count_before, true), b = eventsOf(after, count_after, true);
+  const auto describe = [](const Motion& motion, const std::vector<int>& events, std::size_t i) {
+    return i < events.size() ? motion.describeEvent(events[i]) : std::string("nothing more");
+  };
+  std::size_t i = 0;
+  while (i < std::min(a.size(), b.size()) && describe(before, a, i) == describe(after, b, i)) ++i;
+  return {Kind::contact, i < a.size() ? a[i] : -1, i < b.size() ? b[i] : -1,
+          "What lasts in contact has changed: " + describe(after, b, i) + ", where it was " + describe(before, a, i) +
+              "."};
 }
 
 }  // namespace
 
 const char* nameOf(SequenceChange::Kind kind) {
-  return nameIn({"went", "came", "moved", "mode", "order"}, kind);
+  return nameIn({"went", "came", "moved", "mode", "order", "contact"}, kind);
 }
 
 std::vector<SequenceChange> sequenceChanges(const Motion& before, std::size_t count_before, const Motion& after,
@@ -180,9 +208,11 @@ std::vector<SequenceChange> sequenceChanges(const Motion& before, std::size_t co
   }
   for (const auto& [bodies, unused] : all) compareBodies(a, b, bodies, changes);
   if (changes.empty()) {
-    changes.push_back(otherOrder(before, after, std::min(count_before, before.events.size())));
+    const auto order = otherOrder(before, count_before, after, count_after);
+    changes.push_back(order ? *order : otherContact(before, count_before, after, count_after));
   }
   const auto timeAt = [&](const SequenceChange& c) {
+    if (c.before < 0 && c.after < 0) return kInfinity;
     return c.before >= 0 ? eventOf(before, c.before).time : eventOf(after, c.after).time;
   };
   std::stable_sort(changes.begin(), changes.end(),

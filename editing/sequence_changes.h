@@ -17,7 +17,8 @@ struct SequenceChange {
     came,   ///< an impact happens that did not
     moved,  ///< other features meet
     mode,   ///< it sticks where it slid, ...
-    order,  ///< the same impacts in another order
+    order,    ///< the same impacts in another order
+    contact,  ///< contact that lasts begins, goes on or ends otherwise
   };
   Kind kind = Kind::order;  ///< what differs
   int before = -1;          ///< event of the motion before, -1 where there is none

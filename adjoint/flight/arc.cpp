@@ -15,7 +15,7 @@ namespace carom {
 
 using namespace adjoint_detail;
 
-const char* nameOf(ArcKind kind) { return nameIn({"flight", "rest", "glide", "roll"}, kind); }
+const char* nameOf(ArcKind kind) { return nameIn({"flight", "rest", "slide", "roll"}, kind); }
 const char* nameOf(Tier tier) { return nameIn({"none", "spherical", "symmetric", "triaxial"}, tier); }
 
 namespace {
@@ -102,7 +102,7 @@ ArcKind Arc::kind() const {
       return ArcKind::rest;
     case PathForm::glide_ball:
     case PathForm::glide_block:
-      return ArcKind::glide;
+      return ArcKind::slide;
     case PathForm::roll_ball:
     case PathForm::roll_axle:
       break;

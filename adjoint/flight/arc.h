@@ -17,8 +17,8 @@ struct ContactPath;
 
 /// What a body does on an arc: it flies freely, or stays in contact with what stands still, where it rests, slides
 /// without turning otherwise than friction makes it, or rolls; see docs/equations.md section 11.
-enum class ArcKind { flight, rest, glide, roll };
-/// "flight", "rest", "glide" or "roll".
+enum class ArcKind { flight, rest, slide, roll };
+/// "flight", "rest", "slide" or "roll".
 const char* nameOf(ArcKind kind);
 
 /// How the rotation of a flight is carried; see docs/equations.md section 2.

@@ -8,7 +8,7 @@
 namespace carom::adjoint_detail {
 
 /// Contacts that last keep their gaps at 0 whatever varies: after an event that begins them, the poses move as little as
-/// possible, as measured by the masses (11.10, in docs/equations.md),
+/// possible, as measured by the masses (11.13 of docs/equations.md),
 ///   dq <- dq - M^-1 G^T (G M^-1 G^T)^+ dgap,  dgap = G dq + the gaps' own change with the scene.
 template <class S>
 class PoseProjection {

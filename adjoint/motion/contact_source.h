@@ -79,7 +79,8 @@ struct PredictedImpact {
 
 /// Two bodies that touch at the start of a scene (see ContactSource::placed).
 struct PlacedContact {
-  int a = 0, b = 0;                   ///< bodies, a < b
+  int a = 0;                          ///< body
+  int b = 0;                          ///< body, above a
   std::vector<FeaturePair> features;  ///< at which they touch: one at least, more where an edge or a face lies on a face
 };
 

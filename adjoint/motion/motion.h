@@ -90,7 +90,7 @@ struct Event {
   /// Doubles are too short for its impulses: they and all derivatives are worked out with 32 digits.
   bool wide = false;
   /// Of a capture of one contact: when endlessly many bounces would have come to an end there, s
-  /// (docs/equations.md, C.7).
+  /// (docs/equations.md, 11.12).
   std::optional<double> settles_at;
 
   const Participant* find(int body) const;  ///< null where the body takes no part

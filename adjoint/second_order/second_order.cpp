@@ -5,6 +5,7 @@
 #include <map>
 
 #include "adjoint/base/arguments.hpp"
+#include "adjoint/base/errors.h"
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/derivative/seed_pass.hpp"
@@ -214,12 +215,22 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 
 }  // namespace
 
+bool hasSecondOrder(const Motion& motion) {
+  return std::ranges::none_of(motion.events, [](const Event& event) {
+    const auto begins = [](const Contact& c) { return c.lasts && !c.held; };
+    return event.kind == EventKind::placed || std::ranges::count_if(event.contacts, begins) > 1;
+  });
+}
+
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
                         std::span<const ReadingDirection> directions, RatesWanted wanted) {
   SecondOrder out;
   Responses responses;
   const Motion& motion = tape.motion();
   for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
+  if (!hasSecondOrder(motion))
+    throw NotComputable("second derivatives are not known of a motion that begins in contact, or in which several "
+                        "contacts begin to last at once");
   for (const ReadingDirection& d : directions) {
     checkDirection("secondOrder", *motion.scene, d.scene);
     if (d.time.size() > 0)

@@ -15,6 +15,10 @@ namespace carom {
 /// where the weights are constant.
 using SeedRates = std::function<std::vector<StateSeed>(std::span<const BodyStateRate> rates)>;
 
+/// Whether second derivatives are known all through a motion. They are not where it begins in contact, or where several
+/// contacts begin to last at once: what then is closed need not meet at the same time in a changed scene.
+bool hasSecondOrder(const Motion& motion);
+
 /// Derivatives, along each direction, of the gradient of the sum of the seeds.
 struct SecondOrder {
   SceneGradient gradient;                     ///< adjoint(tape, seeds), where a direction is given
@@ -30,7 +34,7 @@ enum class RatesWanted { all, varied };
 /// Section 9 of docs/equations.md. Its cost is a few reverse passes a direction, whatever the number of seeds. The
 /// matrix over all scene numbers and reading times is symmetric, but for orientations: world rotation vectors applied
 /// one after another do not commute (equation 9.5), D_a (df.b) - D_b (df.a) = df.(b x a).
-/// Throws InputError like `adjoint`.
+/// Throws InputError like `adjoint`, and NotComputable where !hasSecondOrder(motion).
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
                         std::span<const ReadingDirection> directions, RatesWanted wanted = RatesWanted::all);
 

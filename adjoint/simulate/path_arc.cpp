@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "adjoint/impact/complementarity.hpp"
+#include "adjoint/numeric/so3.hpp"
 
 namespace carom::adjoint_detail {
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time) {
@@ -45,7 +46,7 @@ void closeGaps(const Motion& motion, int body, State& state, std::vector<Contact
   }
   state.x += moved;
   if (turned.norm() > 0)
-    state.q = (Quat(Eigen::AngleAxisd(turned.norm(), turned.normalized())) * state.q).normalized();
+    state.q = (expSO3(turned) * state.q).normalized();
   for (Contact& c : closed) {
     const auto pose = [&](int b) {
       const State& s = b == body ? state : motion.world_lines[asIndex(b)].arcs.back().startState();

@@ -13,7 +13,7 @@ struct PathArc {
 };
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time);
 
-/// The pose with all gaps 0, moved as little as possible as measured by the mass (11.10); the contacts follow.
+/// The pose with all gaps 0, moved as little as possible as measured by the mass (11.13); the contacts follow.
 void closeGaps(const Motion& motion, int body, State& state, std::vector<Contact>& closed);
 
 }  // namespace carom::adjoint_detail

@@ -85,7 +85,7 @@ double Simulator::accelerationOf(const Contact& contact, bool among_closed) cons
 }
 
 // Contacts that leave so slowly that they would be back from less than the lowest bounce part without speed instead
-// (C.6); true where there are more of them than before.
+// (11.11); true where there are more of them than before.
 bool Simulator::captureLow() {
   if (!contactsLast()) return false;
   Event& event = draft_.event;

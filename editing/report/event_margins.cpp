@@ -37,8 +37,10 @@ class MarginReader {
 
   void readEvent(int event) {
     const Event& e = motion_.events[static_cast<std::size_t>(event)];
+    if (!e.counts()) return;
     const int contacts = static_cast<int>(e.contacts.size());
     for (int k = 0; k < contacts; ++k) {
+      if (e.contacts[static_cast<std::size_t>(k)].held) continue;
       grazing(event, k);
       leaving(event, k);
       if (contacts > 1) parting(event, k);
@@ -46,18 +48,22 @@ class MarginReader {
     if (contacts == 1) slipping(event);
   }
 
+  // Of an impact and the next one that counts.
   void readOrder(int event) {
-    const Event &first = eventAt(event), &second = eventAt(event + 1);
+    int next = event + 1;
+    while (next < static_cast<int>(motion_.events.size()) && !eventAt(next).counts()) ++next;
+    if (!eventAt(event).counts() || next == static_cast<int>(motion_.events.size())) return;
+    const Event &first = eventAt(event), &second = eventAt(next);
     EventMargin m = start(Way::order, event);
     m.value = second.time - first.time;
-    m.gradient = timeGradient(event + 1) - timeGradient(event);
-    m.what = name(event, 0) + " and " + name(event + 1, 0) + " change places";
+    m.gradient = timeGradient(next) - timeGradient(event);
+    m.what = name(event, 0) + " and " + name(next, 0) + " change places";
     margins_.push_back(std::move(m));
   }
 
   void readInstant(int event, const ReadInstant& instant) {
     const Event& e = eventAt(event);
-    if (instant.body >= 0 && !e.find(instant.body)) return;
+    if (!e.counts() || (instant.body >= 0 && !e.find(instant.body))) return;
     EventMargin m = start(Way::is_read, event);
     m.value = instant.time - e.time;
     m.gradient = -timeGradient(event);
@@ -242,7 +248,7 @@ std::vector<EventMargin> eventMargins(DerivativeTape& tape, std::size_t count, c
   const int all = static_cast<int>(tape.motion().events.size()), counted = std::min(all, static_cast<int>(count));
   for (int e = 0; e < counted; ++e) {
     reader.readEvent(e);
-    if (e + 1 < all) reader.readOrder(e);
+    reader.readOrder(e);
   }
   for (const ReadInstant& instant : instants)
     for (int e = 0; e < (instant.end ? counted : all); ++e) reader.readInstant(e, instant);

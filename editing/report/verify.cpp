@@ -14,7 +14,10 @@ namespace {
 
 std::vector<std::string> describeEvents(const Motion& motion) {
   std::vector<std::string> lines;
-  for (int i = 0; i < static_cast<int>(motion.events.size()); ++i) lines.push_back(motion.describeEvent(i));
+  for (int i = 0; i < static_cast<int>(motion.events.size()); ++i) {
+    const Event& event = motion.events[static_cast<std::size_t>(i)];
+    if (event.kind != EventKind::impact || event.counts()) lines.push_back(motion.describeEvent(i));
+  }
   return lines;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/second_order/second_order.h"
 #include "editing/problem/hessian.hpp"
 
 namespace carom::editing_detail {
@@ -102,9 +103,9 @@ void EditProgram::learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd
 
 bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                           Eigen::MatrixXd& h) {
-  if (search_.options().second_derivatives == SecondDerivatives::exact) {
-    const EditPointPtr point = at(x);
-    if (!point) return false;
+  const EditPointPtr point = at(x);
+  if (!point) return false;
+  if (search_.options().second_derivatives == SecondDerivatives::exact && hasSecondOrder(point->motion)) {
     const EditProblem& problem = search_.problem();
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(problem.constraints.size());
     for (std::size_t k = 0; k < rows_.size(); ++k)

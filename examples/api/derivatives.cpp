@@ -45,7 +45,8 @@ int main() try {
   const StateDerivative& at_arc = forward.start(1, 1);
   const BodyModelDerivative& of_model = forward.model(1);
   std::printf("d(velocity) after it %.9f, d(mass) %.1f\n", at_arc.v.x(), of_model.mass);
-  const ArcSensitivity& turn = tape.arc(1, 0);
+  const ArcSensitivity& over_arc = tape.arc(1, 0);
+  const RotationSensitivity& turn = over_arc;  // all that a flight needs; a path in contact has more
   const Mat3& by_start = turn.dtheta_dtheta;
   std::printf("d(orientation)/d(its start) over the first flight, first entry %.9f\n", by_start(0, 0));
 

@@ -79,8 +79,8 @@ TEST(MotionAlong, SameSceneGivesTheSameBitsForAllShapesAndLaws) {
   for (const DotProductScene& row : dotProductScenes()) {
     SCOPED_TRACE(row.name);
     const Scene scene = row.scene();
-    const Motion like = play(scene, 3, row.impacts);
-    const MotionAlong same = along(like, scene, 3);
+    const Motion like = motionOf(row);
+    const MotionAlong same = along(like, scene, row.duration);
     ASSERT_TRUE(same.complete) << same.why_not;
     expectSameArcsAndEvents(same.motion, like);
   }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "adjoint/motion/motion.h"
+
+namespace carom::adjoint_detail {
+
+inline std::size_t asIndex(int i) { return static_cast<std::size_t>(i); }
+
+/// Accelerations of a body that nothing touches: of its centre of mass, and angular.
+struct FreeAcceleration {
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+};
+FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, const Vec3& gravity);
+
+/// d^2(gap)/dt^2 of a contact whose bodies have these states and accelerations; null: a body that stays.
+double gapAcceleration(const ContactGeometry& geometry, const BodyModel& model_a, const BodyModel& model_b,
+                       const Contact& contact, const State& a, const State& b, const FreeAcceleration* accelerates_a,
+                       const FreeAcceleration* accelerates_b);
+
+/// When the endlessly many bounces would have come to an end that the capture of a single contact cuts short (11.12);
+/// `after`: the states of the participants.
+std::optional<double> settlesAt(const Motion& motion, const Event& event, const std::vector<State>& after);
+
+}  // namespace carom::adjoint_detail
