@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Index;
 
-// kSettled: what Newton's steps may leave, once they get no further, of what nearly redundant contacts ask of each other. In
-// 32 digits points, which are doubles, are off by so much.
+// kSettled: what Newton's steps may leave, once they get no further, of what nearly redundant contacts ask of each
+// other. In 32 digits points, which are doubles, are off by so much.
 template <class T>
 struct ConePrecision;
 template <>
@@ -105,8 +105,7 @@ class ActiveSet {
   ConePointOf<T> guess(bool slides) const {
     const auto n = static_cast<std::size_t>(q_.contacts());
     ConePointOf<T> at{std::vector<ConeState>(n, ConeState::inside), std::vector<V3<T>>(n, V3<T>::Zero()), q_.offset,
-                      std::vector<V3<T>>(n, V3<T>::Zero()),
-                      VectorOf<T>::Zero(static_cast<Index>(q_.equal.size()))};
+                      std::vector<V3<T>>(n, V3<T>::Zero()), VectorOf<T>::Zero(static_cast<Index>(q_.equal.size()))};
     for (std::size_t k = 0; k < n; ++k) {
       if (q_.free[k]) at.state[k] = ConeState::free, at.pressure[k] = T(0);
       if (q_.free[k] || (!slides && q_.friction[k] > T(0))) continue;

@@ -5,8 +5,8 @@
 
 #include "adjoint/contact/cone_terms.hpp"
 
-/// The solution of a cone program in any number, with the adjoint of it: the active set comes from the values, rates from
-/// its conditions, which hold along with them.
+/// The solution of a cone program in any number, with the adjoint of it: the active set comes from the values, rates
+/// from its conditions, which hold along with them.
 namespace carom::adjoint_detail {
 
 template <class S>
@@ -72,8 +72,11 @@ class ConeSolution {
       V_bar = t.J * z.head(columns) + turns;
     }
     const std::size_t n = q_.normal.size();
-    ConeBarOf<S> bar{MatrixOf<S>::Zero(3 * q_.contacts(), 3 * q_.contacts()), V_bar,
-                     std::vector<V3<S>>(n, V3<S>::Zero()), std::vector<S>(n, S(0)), std::vector<S>(n, S(0)),
+    ConeBarOf<S> bar{MatrixOf<S>::Zero(3 * q_.contacts(), 3 * q_.contacts()),
+                     V_bar,
+                     std::vector<V3<S>>(n, V3<S>::Zero()),
+                     std::vector<S>(n, S(0)),
+                     std::vector<S>(n, S(0)),
                      std::vector<S>(q_.equal.size(), S(0))};
     VectorOf<S> forces = t.f;  // f - sum lambda n
     for (Eigen::Index e = 0; e < equations; ++e) {

@@ -19,9 +19,9 @@ struct ConeTerms {
   ConePointOf<S> at;
   MatrixOf<S> J, C;  // C = K N of the equations
   VectorOf<S> f, V, Kf, residual;
-  MatrixOf<S> M;                // of the Newton step: (dy, dlambda)
-  std::vector<Index> first;     // column of a contact in J
-  std::vector<V3<S>> turned;    // n x t
+  MatrixOf<S> M;              // of the Newton step: (dy, dlambda)
+  std::vector<Index> first;   // column of a contact in J
+  std::vector<V3<S>> turned;  // n x t
 
   ConeTerms(const Program& of, ConePointOf<S> point) : program(&of), at(std::move(point)) { assemble(); }
 

@@ -123,8 +123,7 @@ void InteriorPoint::direction(const VectorXd& q) {
   const VectorXd moved = D_ * dy_;
   ds_ = moved + lacks;
   dz_ = along;
-  for (const Cone& c : cones_)
-    dz_.segment(c.at, c.size) -= c.inverse * (c.inverse * moved.segment(c.at, c.size));
+  for (const Cone& c : cones_) dz_.segment(c.at, c.size) -= c.inverse * (c.inverse * moved.segment(c.at, c.size));
 }
 
 // How far `from` may go before it leaves a cone.

@@ -8,9 +8,9 @@
 
 namespace carom::adjoint_detail {
 
-/// The cone program by the primal-dual interior point method with the scaling of Nesterov and Todd (1998) and the steps of
-/// Mehrotra (1992): a dozen steps from anywhere, however weak the forces that decide. All contacts take part alike, so
-/// their order does not matter. It comes close enough to tell the active set. Of numbers of like size.
+/// The cone program by the primal-dual interior point method with the scaling of Nesterov and Todd (1998) and the steps
+/// of Mehrotra (1992): a dozen steps from anywhere, however weak the forces that decide. All contacts take part alike,
+/// so their order does not matter. It comes close enough to tell the active set. Of numbers of like size.
 class InteriorPoint {
  public:
   explicit InteriorPoint(const ConeProgramOf<double>& program);

@@ -8,8 +8,8 @@
 
 namespace carom::adjoint_detail {
 
-/// A generalised inverse of a symmetric M, found in units of the rows in which its numbers are of like size. T is double
-/// or Wide. Throws NotComputable for numbers that are not finite.
+/// A generalised inverse of a symmetric M, found in units of the rows in which its numbers are of like size. T is
+/// double or Wide. Throws NotComputable for numbers that are not finite.
 template <class T>
 MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units);
 

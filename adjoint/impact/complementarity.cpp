@@ -148,7 +148,8 @@ Contacts spread(const Matrix<T>& A, const Vector<T>& b, const Vector<T>& y, cons
 // Active set of Lawson and Hanson: contacts enter one at a time, the most violated first, and leave at the first
 // impulse that would turn negative.
 template <class T>
-std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool in_range, const std::vector<char>& held) {
+std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool in_range,
+                                  const std::vector<char>& held) {
   using std::sqrt;
   const Index n = b.size();
   requireComputable<T>(A, b);
@@ -183,7 +184,8 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
         int first = -1;
         for (std::size_t c = 0; c < list.size(); ++c) {
           const T rate = -against[static_cast<Index>(c)];
-          if (!isHeld(held, list[c]) && rate < T(-1e-12) * size && -y[list[c]] / rate < most) most = -y[list[c]] / rate, first = list[c];
+          if (!isHeld(held, list[c]) && rate < T(-1e-12) * size && -y[list[c]] / rate < most)
+            most = -y[list[c]] / rate, first = list[c];
         }
         if (first < 0) throw NotComputable("a body is squeezed between others that nothing moves");
         y(list) -= most * against;
@@ -194,7 +196,8 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
       int leave = -1;
       for (std::size_t c = 0; c < list.size(); ++c) {
         const T from = y[list[c]], to = solve.y[static_cast<Index>(c)];
-        if (!isHeld(held, list[c]) && to <= T(0) && from > to && from / (from - to) < step) step = from / (from - to), leave = list[c];
+        if (!isHeld(held, list[c]) && to <= T(0) && from > to && from / (from - to) < step)
+          step = from / (from - to), leave = list[c];
       }
       y(list) += step * (solve.y - y(list));
       feasible = leave < 0;

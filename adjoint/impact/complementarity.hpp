@@ -25,8 +25,8 @@ using LeastNormSolve = LeastNormSolveOf<double>;
 /// Contacts, in increasing order, that have an impulse in the solution of y >= 0, A y + b >= 0, complementary, with A
 /// symmetric positive semidefinite and b in its range unless `in_range` is false (equation 4.5). Contacts that are
 /// `held` (none, or one entry a contact) have impulses of either sign and A y + b = 0. Where redundant contacts leave a
-/// choice, the impulses are spread over all of them. Throws NotComputable for numbers that are not finite, and where a b outside of
-/// the range of A leaves no solution.
+/// choice, the impulses are spread over all of them. Throws NotComputable for numbers that are not finite, and where a
+/// b outside of the range of A leaves no solution.
 template <class T>
 std::vector<int> activeContactsOf(const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>& A,
                                   const Eigen::Matrix<T, Eigen::Dynamic, 1>& b, bool in_range,

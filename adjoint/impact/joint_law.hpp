@@ -13,18 +13,19 @@
 #include "adjoint/numeric/wide.hpp"
 
 // Equation 4.4, contacts of one instant together, each with u_n <= 0 before:
-//   P_N: normal impulses, 0 <= P_N,k, u_n,k+ >= -e_k u_n,k, complementary; those of held contacts have either sign, e = 0;
+//   P_N: normal impulses, 0 <= P_N,k, u_n,k+ >= -e_k u_n,k, complementary; those of held contacts have either sign and
+//   e = 0;
 //   P = P_N + X, X the least of X.K X/2 + kappa (u + K P_N).X with P in the cones of contacts with P_N > 0, whose
 //   velocities along the normals X leaves alone; kappa = 1 + min e_t;
 //   a contact that X would slow down below -e u_n joins, with u_n+ = -e u_n and its own cone: the first one on the way
 //   from P_N to P, and so on. kappa is 1 at the most then.
-// X = 0 is admissible, so X.K X <= -kappa (u + K P_N).X, and the energy grows by (1/2 - 1/kappa) X.K X over that after P_N
-// at the most: never for kappa <= 2. Where a contact joins, the point of the way is admissible for the next X, and is below
-// as well. After P_N the energy has grown by 1/2 sum P_N (1 - e) u_n, which is no growth either.
+// X = 0 is admissible, so X.K X <= -kappa (u + K P_N).X, and the energy grows by (1/2 - 1/kappa) X.K X over that
+// after P_N at the most: never for kappa <= 2. Where a contact joins, the point of the way is admissible for the next
+// X, and is below as well. After P_N the energy has grown by 1/2 sum P_N (1 - e) u_n, which is no growth either.
 // Where a kinematic body takes part, u need not be a velocity that impulses can undo. P_N still exists unless a body is
-// squeezed between ones that nothing moves; where no P is found or lets a contact come off slower than its e says, P = P_N.
-// What comes out is held against these conditions: where rounding has spoilt them there is no answer but NotComputable.
-// Redundant contacts (a face on a plane) make K singular; velocities are unique.
+// squeezed between ones that nothing moves; where no P is found or lets a contact come off slower than its e says, it
+// is P_N. What comes out is held against these conditions: where rounding has spoilt them there is no answer but
+// NotComputable. Redundant contacts (a face on a plane) make K singular; velocities are unique.
 //
 // Written for any number: doubles, numbers of 32 digits, and duals of either, which take the branch of the values. A
 // `Problem` has the fields of ImpactProblem, a `Bar` those of ImpactProblemDerivative.
@@ -49,10 +50,10 @@ class Branch {
   using T = Value<S>;
   Contacts normal_active, joined;  // contacts of P_N; those that friction would press down
   S kappa = 0;
-  int lowest_e_t = -1;  // contact that gives kappa, -1: none does
-  VectorOf<S> P_N, b;   // b = u + K P_N
-  std::vector<DirectedSolve<S>> normal;  // one: P_N
-  Contacts list, held;                   // contacts of X; those that are held
+  int lowest_e_t = -1;                    // contact that gives kappa, -1: none does
+  VectorOf<S> P_N, b;                     // b = u + K P_N
+  std::vector<DirectedSolve<S>> normal;   // one: P_N
+  Contacts list, held;                    // contacts of X; those that are held
   std::unique_ptr<ConeSolution<S>> cone;  // X; null: 0
 
   /// `from_zero`: friction that is 0 is to vary.
@@ -65,8 +66,8 @@ class Branch {
     if (!parts(p) || pulls(p))
       throw NotComputable(p.driven ? "no impulses part its contacts, one of which moves by itself"
                                    : "the impulses that part all of its contacts are lost in rounding");
-    const bool rubs =
-        std::any_of(normal_active.begin(), normal_active.end(), [&](int k) { return hasFriction(p, k) && pushes(p, k); });
+    const bool rubs = std::any_of(normal_active.begin(), normal_active.end(),
+                                  [&](int k) { return hasFriction(p, k) && pushes(p, k); });
     if (normal_active.empty() || !(rubs || from_zero)) return;
     setKappa(p, rubs);
     if (lowest_e_t < 0) return;
@@ -98,8 +99,8 @@ class Branch {
     return isIn(normal_active, k) ? ConeState::slides : ConeState::apex;
   }
 
-  // How near X is to another branch: shares of cones that are not full, speeds of what slides, and what held contacts push
-  // or pull with.
+  // How near X is to another branch: shares of cones that are not full, speeds of what slides, and what held contacts
+  // push or pull with.
   double margin() const {
     if (!cone) return 1;
     const ConeTerms<S>& t = cone->terms();
@@ -180,7 +181,8 @@ class Branch {
   template <class Problem>
   static Contacts pushing(const Problem& p, const VectorOf<S>& shares, const MatrixOf<T>& A, const VectorOf<T>& b) {
     const std::size_t n = p.normal.size();
-    ConeProgramOf<T> q{valuesOf(p.K), valuesOf(p.u), {}, std::vector<T>(n, T(0)), std::vector<T>(n, T(0)), p.held, {}, {}};
+    ConeProgramOf<T> q{valuesOf(p.K),           valuesOf(p.u), {}, std::vector<T>(n, T(0)),
+                       std::vector<T>(n, T(0)), p.held,        {}, {}};
     q.free.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
       q.b.template segment<3>(3 * static_cast<Index>(k)) *= valueOf(shares[static_cast<Index>(k)]);
@@ -209,7 +211,8 @@ class Branch {
   void setKappa(const Problem& p, bool rubs) {
     for (int k : normal_active) {
       const S bound = 1 + p.pair[static_cast<std::size_t>(k)].tangential_elasticity;
-      if (pushes(p, k) && (hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa)) kappa = bound, lowest_e_t = k;
+      if (pushes(p, k) && (hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa))
+        kappa = bound, lowest_e_t = k;
     }
   }
   void leaveOutFriction() {
@@ -242,8 +245,7 @@ class Branch {
       const int k = list[static_cast<std::size_t>(i)];
       const auto kk = static_cast<std::size_t>(k);
       for (Index j = 0; j < n; ++j)
-        q.K.template block<3, 3>(3 * i, 3 * j) =
-            p.K.template block<3, 3>(3 * k, 3 * list[static_cast<std::size_t>(j)]);
+        q.K.template block<3, 3>(3 * i, 3 * j) = p.K.template block<3, 3>(3 * k, 3 * list[static_cast<std::size_t>(j)]);
       q.b.template segment<3>(3 * i) = kappa * b.template segment<3>(3 * k);
       const bool joins = isIn(joined, k);
       q.normal.push_back(p.normal[kk]);
@@ -265,10 +267,7 @@ class Branch {
       list.clear();
       std::ranges::set_union(normal_active, joined, std::back_inserter(list));
       ConeProgramOf<S> q = program(p);
-      const ConePointOf<T> at = [&] {
-        if constexpr (has_rates<S>) return solveConeProgram<T>(valuesOf(q));
-        else return solveConeProgram<T>(q);
-      }();
+      const ConePointOf<T> at = solveConeProgram<T>(valuesOf(q));
       cone = std::make_unique<ConeSolution<S>>(std::move(q), at);
       P = P_N;
       for (std::size_t c = 0; c < list.size(); ++c)

@@ -9,7 +9,8 @@ namespace carom::adjoint_detail {
 
 // Adjoint of P - P_N: to the problem, and to P_N.
 template <class S, class Problem, class Bar>
-void frictionPullback(const Problem& p, const Branch<S>& branch, const VectorOf<S>& P_bar, VectorOf<S>& P_N_bar, Bar& bar) {
+void frictionPullback(const Problem& p, const Branch<S>& branch, const VectorOf<S>& P_bar, VectorOf<S>& P_N_bar,
+                      Bar& bar) {
   const Contacts& list = branch.list;
   const auto n = static_cast<Index>(list.size());
   VectorOf<S> X_bar(3 * n), b_bar = VectorOf<S>::Zero(p.u.size());  // b_bar: of b = u + K P_N
@@ -41,8 +42,7 @@ void frictionPullback(const Problem& p, const Branch<S>& branch, const VectorOf<
     bar.u.template segment<3>(3 * k) -= rise * e * p.normal[kk];
     b_bar.template segment<3>(3 * k) -= rise * p.normal[kk];
   }
-  if (branch.lowest_e_t >= 0)
-    bar.pair[static_cast<std::size_t>(branch.lowest_e_t)].tangential_elasticity += kappa_bar;
+  if (branch.lowest_e_t >= 0) bar.pair[static_cast<std::size_t>(branch.lowest_e_t)].tangential_elasticity += kappa_bar;
   bar.u += b_bar;
   bar.K += b_bar * branch.P_N.transpose();
   P_N_bar += p.K * b_bar;
@@ -59,8 +59,7 @@ void jointPullback(const Problem& p, const VectorOf<S>& P_bar, Bar& bar) {
   for (std::size_t c = 0; c < branch.normal_active.size(); ++c) {
     const int k = branch.normal_active[c];
     bar.normal[static_cast<std::size_t>(k)] += N_bar.template block<3, 1>(3 * k, static_cast<Index>(c));
-    if (!Branch<S>::isHeld(p, k))
-      bar.pair[static_cast<std::size_t>(k)].elasticity += share_bar[static_cast<Index>(c)];
+    if (!Branch<S>::isHeld(p, k)) bar.pair[static_cast<std::size_t>(k)].elasticity += share_bar[static_cast<Index>(c)];
   }
 }
 
