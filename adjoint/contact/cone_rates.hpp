@@ -38,7 +38,7 @@ class ConeSolution {
 
   /// `at`: the solution of the values of the program.
   ConeSolution(ConeProgramOf<S> program, const ConePointOf<T>& at)
-      : q_(std::move(program)), terms_(q_, written(q_, at)), inverse_(inverseOf(terms_)) {
+      : q_(std::move(program)), terms_(q_, written(q_, at)), inverse_(inverseOf(terms_, spectrum_)) {
     if constexpr (has_rates<S>) {
       for (int pass = 0; pass < 2; ++pass) {  // the second one gives back the digits that a stiff set costs
         VectorOf<S> rates = terms_.residual;
@@ -53,6 +53,9 @@ class ConeSolution {
   ConeSolution& operator=(const ConeSolution&) = delete;
 
   const ConeTerms<S>& terms() const { return terms_; }
+  /// Whether redundant contacts lose digits of derivatives: friction that is weak hardly tells how they share their
+  /// load.
+  bool losesDigits() const { return spectrum_.singular && spectrum_.condition > kCondition; }
 
   /// f_bar is in the range of K.
   ConeBarOf<S> pullback(const VectorOf<S>& f_bar) const {
@@ -98,6 +101,8 @@ class ConeSolution {
   }
 
  private:
+  static constexpr double kCondition = 1e4;
+
   // sum z n of the equations
   VectorOf<S> across(const VectorOf<S>& z) const {
     VectorOf<S> sum = VectorOf<S>::Zero(terms_.f.size());
@@ -180,7 +185,9 @@ class ConeSolution {
       return point;
     }
   }
-  static MatrixOf<T> inverseOf(const ConeTerms<S>& t) { return symmetricInverse<T>(valuesOf(t.M), unitsOf(t)); }
+  static MatrixOf<T> inverseOf(const ConeTerms<S>& t, Spectrum& spectrum) {
+    return symmetricInverse<T>(valuesOf(t.M), unitsOf(t), &spectrum);
+  }
 
   // Friction from 0 on has the direction of the slip, which has rates.
   bool slipsAway() {
@@ -199,6 +206,7 @@ class ConeSolution {
 
   ConeProgramOf<S> q_;
   ConeTerms<S> terms_;
+  Spectrum spectrum_;
   MatrixOf<T> inverse_;
 };
 

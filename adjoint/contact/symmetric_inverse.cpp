@@ -34,7 +34,7 @@ std::vector<T> forceUnits(const MatrixOf<T>& K) {
 }
 
 template <class T>
-MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units) {
+MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units, Spectrum* spectrum) {
   using std::sqrt;
   if (M.rows() == 0) return M;
   VectorOf<T> S = units;
@@ -51,15 +51,23 @@ MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units) {
   T most = T(0);
   for (Index i = 0; i < values.size(); ++i) most = std::max({most, values[i], T(-values[i])});
   const T least = T(kNull<T>) * most;
-  for (Index i = 0; i < values.size(); ++i)
-    values[i] = values[i] > least || values[i] < -least ? T(T(1) / values[i]) : T(0);
+  Spectrum found;
+  for (Index i = 0; i < values.size(); ++i) {
+    const bool counts = values[i] > least || values[i] < -least;
+    if (!counts)
+      found.singular = true;
+    else
+      found.condition = std::max(found.condition, std::abs(rounded(T(most / values[i]))));
+    values[i] = counts ? T(T(1) / values[i]) : T(0);
+  }
+  if (spectrum != nullptr) *spectrum = found;
   const MatrixOf<T> scaled = S.asDiagonal() * eigen.eigenvectors();
   return scaled * values.asDiagonal() * scaled.transpose();
 }
 
 template std::vector<double> forceUnits(const MatrixOf<double>&);
 template std::vector<Wide> forceUnits(const MatrixOf<Wide>&);
-template MatrixOf<double> symmetricInverse(const MatrixOf<double>&, const VectorOf<double>&);
-template MatrixOf<Wide> symmetricInverse(const MatrixOf<Wide>&, const VectorOf<Wide>&);
+template MatrixOf<double> symmetricInverse(const MatrixOf<double>&, const VectorOf<double>&, Spectrum*);
+template MatrixOf<Wide> symmetricInverse(const MatrixOf<Wide>&, const VectorOf<Wide>&, Spectrum*);
 
 }  // namespace carom::adjoint_detail

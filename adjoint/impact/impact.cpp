@@ -139,8 +139,11 @@ ImpactOutcome<double> outcomeOf(const ImpactPass<double>& pass, bool& wide) {
   if (!wide) {
     try {
       ImpactSolution solution = pass.solve();
-      auto after = pass.after(solution.P);
-      return {std::move(solution), std::move(after)};
+      wide = solution.loses_digits;
+      if (!wide) {
+        auto after = pass.after(solution.P);
+        return {std::move(solution), std::move(after)};
+      }
     } catch (const NotComputable&) {  // many contacts, nearly redundant
       wide = true;
     }

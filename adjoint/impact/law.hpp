@@ -55,6 +55,7 @@ struct ImpactSolutionOf {
   double stick_slip_margin = 1;  ///< see Margins
   std::vector<ContactOutcome> outcome;  ///< N
   std::vector<char> closed;             ///< N: n.u+ = 0 by the branch, as e = 0 or it is held
+  bool loses_digits = false;            ///< derivatives do, in doubles
 };
 using ImpactSolution = ImpactSolutionOf<double>;
 

@@ -48,7 +48,7 @@ struct JointLaw {  // 4.4
   template <class S>
   static ImpactSolutionOf<S> solve(const ImpactProblemOf<S>& p) {
     const Branch<S> b(p, has_rates<S>);
-    ImpactSolutionOf<S> solution{b.P, ImpactMode::joint, b.margin(), {}, {}};
+    ImpactSolutionOf<S> solution{b.P, ImpactMode::joint, b.margin(), {}, {}, b.cone && b.cone->losesDigits()};
     for (int k = 0; k < p.contacts(); ++k) {
       const ConeState state = b.stateOf(k);
       solution.outcome.push_back(state == ConeState::apex     ? ContactOutcome::off

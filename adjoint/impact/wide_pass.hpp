@@ -41,7 +41,7 @@ ImpactOutcome<S> wideImpact(const ImpactInputs<S>& inputs) {
   const auto pass = widePass(inputs);
   const auto solution = pass.solve();
   ImpactOutcome<S> out{{solution.P.template cast<S>(), solution.mode, solution.stick_slip_margin, solution.outcome,
-                        solution.closed},
+                        solution.closed, solution.loses_digits},
                        {}};
   for (const auto& b : pass.after(solution.P)) out.after.push_back({b.v.template cast<S>(), b.L.template cast<S>()});
   return out;
