@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "adjoint/base/errors.h"
 #include "adjoint/impact/impact_pass.hpp"
@@ -135,20 +136,32 @@ void requireParting(const Event& event, const std::vector<BodyModel>& models, co
   }
 }
 
+// With 32 digits, where they find an answer.
+std::optional<ImpactOutcome<double>> wideOutcomeOf(const ImpactPass<double>& pass) {
+  try {
+    return wideImpact(pass.inputs());
+  } catch (const NotComputable&) {
+    return std::nullopt;
+  }
+}
+
 ImpactOutcome<double> outcomeOf(const ImpactPass<double>& pass, bool& wide) {
-  if (!wide) {
-    try {
-      ImpactSolution solution = pass.solve();
-      wide = solution.loses_digits;
-      if (!wide) {
-        auto after = pass.after(solution.P);
-        return {std::move(solution), std::move(after)};
-      }
-    } catch (const NotComputable&) {  // many contacts, nearly redundant
+  if (wide) return wideImpact(pass.inputs());
+  std::optional<ImpactSolution> solution;
+  try {
+    solution = pass.solve();
+  } catch (const NotComputable&) {  // many contacts, nearly redundant
+    wide = true;
+    return wideImpact(pass.inputs());
+  }
+  if (solution->loses_digits) {
+    if (auto outcome = wideOutcomeOf(pass)) {
       wide = true;
+      return *std::move(outcome);
     }
   }
-  return wideImpact(pass.inputs());
+  auto after = pass.after(solution->P);
+  return {*std::move(solution), std::move(after)};
 }
 
 void record(Contact& c, const Vec3& u, const Vec3& P) {
