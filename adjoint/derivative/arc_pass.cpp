@@ -6,33 +6,19 @@ namespace carom::adjoint_detail {
 PathInputsDerivative<double> PathLinearization::inputs(const ContactPath& path, const SceneTangent& dscene,
                                                        const BodyModelDerivative& dmodel) const {
   PathInputsDerivative<double> d;
-  const auto friction_of = [&](int m) { return m < 0 ? 0 : dscene.materials[static_cast<std::size_t>(m)].friction; };
+  const auto friction_of = [&](int body) {
+    const int m = materialIndexOf(scene, body);
+    return m < 0 ? 0 : dscene.materials[static_cast<std::size_t>(m)].friction;
+  };
   const Eigen::VectorXd& size = dscene.bodies[static_cast<std::size_t>(path.body)].size;
   d.gravity = dscene.gravity;
   d.normal = dscene.bodies[static_cast<std::size_t>(path.face)].orientation.cross(path.inputs.normal);
-  d.friction = friction.by_a * friction_of(material_body) + friction.by_b * friction_of(material_face);
+  d.friction = friction.by_a * friction_of(path.body) + friction.by_b * friction_of(path.face);
   d.mass = dmodel.mass;
   d.inertia = dmodel.inertia;
   d.products = dmodel.products;
   if (path.reach_rates.size() > 0) d.reach = path.reach_rates.dot(size);
   return d;
-}
-
-void PathLinearization::inputsPullback(const ContactPath& path, const PathInputsDerivative<double>& bar,
-                                       SceneGradient& scene_bar, BodyModelDerivative& model_bar) const {
-  const auto add_friction = [&](int m, double by) {
-    if (m >= 0) scene_bar.materials[static_cast<std::size_t>(m)].friction += by * bar.friction;
-  };
-  scene_bar.gravity += bar.gravity;
-  // bar.(theta x n)
-  scene_bar.bodies[static_cast<std::size_t>(path.face)].orientation += path.inputs.normal.cross(bar.normal);
-  add_friction(material_body, friction.by_a);
-  add_friction(material_face, friction.by_b);
-  model_bar.mass += bar.mass;
-  model_bar.inertia += bar.inertia;
-  model_bar.products += bar.products;
-  if (path.reach_rates.size() > 0)
-    scene_bar.bodies[static_cast<std::size_t>(path.body)].size += bar.reach * path.reach_rates.transpose();
 }
 
 std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, const ContactPath& path,
@@ -41,13 +27,10 @@ std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, co
   const auto material = [&](int body) -> const Material& {
     return materialOf(scene, scene.bodies[static_cast<std::size_t>(body)]);
   };
-  auto made = std::make_shared<PathLinearization>();
   const bool orientation = motion.plan.bodies[static_cast<std::size_t>(path.body)].derivative_tier != Tier::none;
-  made->sensitivity = pathSensitivity<double>(path.form, path.inputs, elapsed, orientation);
-  made->material_body = materialIndexOf(scene, path.body);
-  made->material_face = materialIndexOf(scene, path.face);
-  made->friction = rulesOf(material(path.body), material(path.face)).friction;
-  return made;
+  return std::make_shared<PathLinearization>(
+      PathLinearization{pathSensitivity<double>(path.form, path.inputs, elapsed, orientation), scene,
+                        rulesOf(material(path.body), material(path.face)).friction});
 }
 
 StateDerivative arcTangent(const Arc& arc, double t, const ArcSensitivity& S, const StateDerivative& dstart,
@@ -61,7 +44,8 @@ StateDerivative arcPullback(const Arc& arc, double t, const ArcSensitivity& S, c
   if (!S.path) return flightPullback(arc, t, S, end_bar, scene_bar.gravity, model_bar);
   PathInputsDerivative<double> inputs_bar;
   const StateDerivative start_bar = pullback(S.path->sensitivity, end_bar, inputs_bar);
-  S.path->inputsPullback(*arc.path(), inputs_bar, scene_bar, model_bar);
+  const ContactPath& path = *arc.path();
+  pathInputsPullback<double>(S.path->scene, path, path.inputs.normal, S.path->friction, inputs_bar, scene_bar, model_bar);
   return start_bar;
 }
 

@@ -10,16 +10,34 @@
 /// Derivatives over a stretch of an arc, whatever the body does on it: forward and reverse.
 namespace carom::adjoint_detail {
 
+/// From the adjoint of a path's inputs to the scene's and the model's, in any kind of number; `normal` and `friction`:
+/// of the face, and of the two materials, the body's first.
+template <class S>
+void pathInputsPullback(const Scene& scene, const ContactPath& path, const V3<S>& normal, const Rule<S>& friction,
+                        const PathInputsDerivative<S>& bar, SceneDerivativeOf<S>& scene_bar,
+                        BodyModelDerivativeOf<S>& model_bar) {
+  scene_bar.gravity += bar.gravity;
+  // bar.(theta x n)
+  scene_bar.bodies[static_cast<std::size_t>(path.face)].orientation += normal.cross(bar.normal);
+  for (const auto& [body, by] : {std::pair<int, S>(path.body, friction.by_a), std::pair<int, S>(path.face, friction.by_b)})
+    if (const int m = materialIndexOf(scene, body); m >= 0)
+      scene_bar.materials[static_cast<std::size_t>(m)].friction += by * bar.friction;
+  model_bar.mass += bar.mass;
+  model_bar.inertia += bar.inertia;
+  model_bar.products += bar.products;
+  if (path.reach_rates.size() > 0)
+    scene_bar.bodies[static_cast<std::size_t>(path.body)].size +=
+        bar.reach * path.reach_rates.transpose().template cast<S>();
+}
+
 /// A path in lasting contact from its start to one time, linearised, and how its inputs come from the scene.
 struct PathLinearization {
   PathSensitivity<double> sensitivity;
-  int material_body = -1, material_face = -1;
+  const Scene& scene;     // of the motion
   Rule<double> friction;  // of the materials, the body's first
 
   PathInputsDerivative<double> inputs(const ContactPath& path, const SceneTangent& dscene,
                                       const BodyModelDerivative& dmodel) const;
-  void inputsPullback(const ContactPath& path, const PathInputsDerivative<double>& bar, SceneGradient& scene_bar,
-                      BodyModelDerivative& model_bar) const;
 };
 
 std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, const ContactPath& path, double elapsed);

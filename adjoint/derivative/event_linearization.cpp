@@ -34,10 +34,9 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
     part.tilt = tiltJacobian<double>(c.at.normal, tiltOf(*motion.scene, c.tilt_a), tiltOf(*motion.scene, c.tilt_b));
   part.material_a = materialIndexOf(*motion.scene, c.a);
   part.material_b = materialIndexOf(*motion.scene, c.b);
-  part.rules = rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
-                       materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.b)]));
-  if (c.captured || c.kept) part.rules.elasticity = {};
-  if (event.kind == EventKind::placed) part.rules.friction = {};
+  part.rules = inForce(rulesOf(materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.a)]),
+                               materialOf(*motion.scene, motion.scene->bodies[static_cast<std::size_t>(c.b)])),
+                       event, c);
   return part;
 }
 
@@ -52,13 +51,8 @@ EventGuard<double> guardOf(const Motion& motion, const Event& event, std::vector
   }
   const FeatureLimit limit = borderOf(motion, event);
   const Pose pose = poseBefore(motion, event, limit.body);
-  guard.border_body = limit.body;
-  guard.border_participant = participantOf(event, limit.body);
-  guard.weight = pose.R * limit.point_weight;
-  guard.border_arm = event.contacts[0].at.point - pose.x;
-  if (limit.border_rates.cols() > 0) guard.border_rates = limit.border_rates.transpose() * limit.point_weight;
-  parts[0].guard.tail<3>() = guard.weight;
-  return guard;
+  return EventGuard<double>::atBorder(limit, participantOf(event, limit.body), pose.x, pose.R,
+                                      event.contacts[0].at.point, parts[0]);
 }
 
 Pass passOf(const Motion& motion, const Event& event) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/derivative/tangent.h"
 
+#include <algorithm>
+
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/derivative_arguments.hpp"
@@ -64,7 +66,9 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
   const Motion& motion = tape.motion();
   MotionTangent t;
   t.tape_ = &tape;
-  t.direction_ = direction;
+  t.direction_.gravity = direction.gravity;
+  const auto is_impact = [](const Event& event) { return event.kind == EventKind::impact; };
+  if (!std::ranges::all_of(motion.events, is_impact)) t.direction_ = direction;
   t.starts_.resize(motion.world_lines.size());
   for (std::size_t b = 0; b < motion.world_lines.size(); ++b) {
     const Body& body = motion.scene->bodies[b];

@@ -42,7 +42,7 @@ class MotionTangent {
   friend MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction,
                                const adjoint_detail::Influence* influence);
   DerivativeTape* tape_ = nullptr;
-  SceneTangent direction_;
+  SceneTangent direction_;  // gravity alone where no contact lasts: a flight needs no more
   std::vector<BodyModelDerivative> dmodels_;
   std::vector<std::vector<StateDerivative>> starts_;  // of every arc of every body, at fixed time
   std::vector<double> event_time_;

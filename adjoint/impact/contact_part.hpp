@@ -2,9 +2,19 @@
 #pragma once
 
 #include "adjoint/impact/impact_pass.hpp"
+#include "adjoint/motion/motion.h"
 #include "adjoint/motion/pair_rules.hpp"
 
 namespace carom::adjoint_detail {
+
+/// Of the rules of two materials, those that the law goes by: a contact that was captured, or is kept closed, has no
+/// elasticity, and one that a motion begins with no friction either.
+template <class S>
+PairRules<S> inForce(PairRules<S> rules, const Event& event, const Contact& contact) {
+  if (contact.captured || contact.kept) rules.elasticity = {};
+  if (event.kind == EventKind::placed) rules.friction = {};
+  return rules;
+}
 
 /// A contact of an event, linearised.
 template <class S>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adjoint/impact/contact_part.hpp"
+#include "adjoint/motion/body_geometry.h"
 
 namespace carom::adjoint_detail {
 
@@ -16,6 +17,21 @@ struct EventGuard {
   V3<S> weight = V3<S>::Zero();         // world axes
   V3<S> border_arm = V3<S>::Zero();     // p - x
   VectorOf<S> border_rates;             // weight . R d(border)/d(size)
+
+  /// That of a contact which comes to `limit` at `point`, where its body has the pose (x, R); `part` gets the weights of
+  /// the contact.
+  static EventGuard atBorder(const FeatureLimit& limit, int participant, const V3<S>& x, const M3<S>& R,
+                             const V3<S>& point, ContactPart<S>& part) {
+    EventGuard guard;
+    guard.border_body = limit.body;
+    guard.border_participant = participant;
+    guard.weight = R * limit.point_weight.template cast<S>();
+    guard.border_arm = point - x;
+    if (limit.border_rates.cols() > 0)
+      guard.border_rates = Eigen::VectorXd(limit.border_rates.transpose() * limit.point_weight).template cast<S>();
+    part.guard.template tail<3>() = guard.weight;
+    return guard;
+  }
 
   /// d/dt of its part of the guard, beyond that of the contacts.
   S rate(const ImpactPass<S>& impact, const std::vector<StateDerivativeOf<S>>& rates) const {

@@ -3,7 +3,6 @@
 
 #include "adjoint/impact/tilt_frame.hpp"
 #include "adjoint/impact/wide_impact.hpp"
-#include "adjoint/base/errors.h"
 #include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/motion/guard.hpp"
 
@@ -85,9 +84,7 @@ class EventMaker {
     part.guard[0] = event_.kind == EventKind::transition ? 0 : weight;
     part.material_a = materialIndexOf(*motion.scene, c.a);
     part.material_b = materialIndexOf(*motion.scene, c.b);
-    part.rules = lanes_.rules(c.a, c.b);
-    if (c.captured || c.kept) part.rules.elasticity = {};
-    if (event_.kind == EventKind::placed) part.rules.friction = {};
+    part.rules = inForce(lanes_.rules(c.a, c.b), event_, c);
     const Pose A = poseBefore(motion, event_, c.a), B = poseBefore(motion, event_, c.b);
     const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, A, B);
     std::vector<PairTangent> along;
@@ -148,11 +145,7 @@ class EventMaker {
       return guard;
     }
     const FeatureLimit limit = borderOf(motion, event_);
-    if (limit.round) throw NotComputable("the second derivative by when a body leaves a round face is not modelled yet");
     const Pose pose = poseBefore(motion, event_, limit.body);
-    guard.border_body = limit.body;
-    guard.border_participant = participantOf(event_, limit.body);
-    const Part::Side& side = limit.body == c.a ? parts[0].a : parts[0].b;
     NMat R = constant(pose.R);
     NVec x = constant(pose.x);
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
@@ -161,13 +154,7 @@ class EventMaker {
       setRates(x, Vec3(along.pose.segment<3>(at)), lane);
       turn(R, along.pose.segment<3>(at + 3), lane);
     }
-    guard.border_participant = side.participant;
-    guard.weight = R * constant(limit.point_weight);
-    guard.border_arm = inputs.contacts[0].point - x;
-    if (limit.border_rates.cols() > 0)
-      guard.border_rates = Eigen::VectorXd(limit.border_rates.transpose() * limit.point_weight).cast<Num>();
-    parts[0].guard.tail<3>() = guard.weight;
-    return guard;
+    return EventGuard<Num>::atBorder(limit, participantOf(event_, limit.body), x, R, inputs.contacts[0].point, parts[0]);
   }
 
   const Lanes& lanes_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/second_order/dual_path.hpp"
 
-#include "adjoint/contact/path_sensitivity.hpp"
+#include "adjoint/derivative/arc_pass.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -51,21 +51,8 @@ StateBar pathPullback(const Lanes& lanes, int body, int k, const Num& t, const S
   PathInputsDerivative<Num> bar;
   const StateBar start_bar =
       pullback(pathSensitivity<Num>(path.form, in, elapsedAt(lanes, body, k, t), orientation), end_bar, bar);
-  scene_bar.gravity += bar.gravity;
-  scene_bar.bodies[static_cast<std::size_t>(path.face)].orientation += in.normal.cross(bar.normal);
-  const Rule<Num> friction = lanes.rules(path.body, path.face).friction;
-  const auto add = [&](int of, const Num& by) {
-    const int m = materialIndexOf(*lanes.motion().scene, of);
-    if (m >= 0) scene_bar.materials[static_cast<std::size_t>(m)].friction += by * bar.friction;
-  };
-  add(path.body, friction.by_a);
-  add(path.face, friction.by_b);
-  model_bar.mass += bar.mass;
-  model_bar.inertia += bar.inertia;
-  model_bar.products += bar.products;
-  if (path.reach_rates.size() > 0)
-    scene_bar.bodies[static_cast<std::size_t>(path.body)].size +=
-        bar.reach * path.reach_rates.transpose().cast<Num>();
+  pathInputsPullback<Num>(*lanes.motion().scene, path, in.normal, lanes.rules(path.body, path.face).friction, bar,
+                          scene_bar, model_bar);
   return start_bar;
 }
 

@@ -9,6 +9,7 @@
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/derivative/seed_pass.hpp"
+#include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/derivative/waiting_bars.hpp"
 #include "adjoint/flight/flight_pass.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
@@ -216,7 +217,9 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 }  // namespace
 
 bool hasSecondOrder(const Motion& motion) {
-  return std::ranges::none_of(motion.events, [](const Event& event) {
+  return std::ranges::none_of(motion.events, [&](const Event& event) {
+    if (event.kind == EventKind::transition && event.cause != TransitionCause::slip_ends)
+      return event.cause == TransitionCause::tips || borderOf(motion, event).round;
     const auto begins = [](const Contact& c) { return c.lasts && !c.held; };
     return event.kind == EventKind::placed || std::ranges::count_if(event.contacts, begins) > 1;
   });
@@ -230,7 +233,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
   if (!hasSecondOrder(motion))
     throw NotComputable("second derivatives are not known of a motion that begins in contact, or in which several "
-                        "contacts begin to last at once");
+                        "contacts begin to last at once, a body leaves a round face or begins to tip");
   for (const ReadingDirection& d : directions) {
     checkDirection("secondOrder", *motion.scene, d.scene);
     if (d.time.size() > 0)

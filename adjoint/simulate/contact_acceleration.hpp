@@ -16,10 +16,13 @@ struct FreeAcceleration {
 };
 FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, const Vec3& gravity);
 
-/// d^2(gap)/dt^2 of a contact whose bodies have these states and accelerations; null: a body that stays.
-double gapAcceleration(const ContactGeometry& geometry, const BodyModel& model_a, const BodyModel& model_b,
-                       const Contact& contact, const State& a, const State& b, const FreeAcceleration* accelerates_a,
-                       const FreeAcceleration* accelerates_b);
+/// A body at a contact: its state, and its accelerations unless it stays.
+struct ContactSide {
+  const State& state;
+  std::optional<FreeAcceleration> acceleration;
+};
+/// d^2(gap)/dt^2 of a contact.
+double gapAcceleration(const Motion& motion, const Contact& contact, const ContactSide& a, const ContactSide& b);
 
 /// When the endlessly many bounces would have come to an end that the capture of a single contact cuts short (11.12);
 /// `after`: the states of the participants.

@@ -7,6 +7,7 @@
 #include "adjoint/contact/cone_program.hpp"
 #include "adjoint/impact/complementarity.hpp"
 #include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/normal_contacts.hpp"
 #include "adjoint/simulate/support_polygon.hpp"
 
 namespace carom::adjoint_detail {
@@ -20,7 +21,6 @@ constexpr double kNoSlip = 1e-9;
 constexpr double kSameNormal = 1e-9;
 // Acceleration left by the forces of rest, as a share of gravity.
 constexpr double kAtRest = 1e-9;
-
 
 class Chooser {
  public:
@@ -79,40 +79,25 @@ class Chooser {
 
   // Of the closed contacts, those that a force without friction has to keep closed.
   void press(const std::vector<const Contact*>& closed) {
-    const auto n = static_cast<Index>(closed.size());
     free_ = freeAcceleration(model_, state_, scene_.gravity);
-    Eigen::MatrixXd K(n, n);
-    Eigen::VectorXd alpha(n);
-    for (Index k = 0; k < n; ++k) {
-      const Contact& c = *closed[static_cast<std::size_t>(k)];
+    if (closed.empty()) return;
+    Eigen::VectorXd alpha(closed.size());
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      const Contact& c = *closed[k];
+      const ContactSide own{state_, free_},
+          other{motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState(), std::nullopt};
       const bool is_a = c.a == body_;
-      const State& of_other = motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState();
-      alpha[k] = gapAcceleration(*motion_.geometry, (*motion_.models)[asIndex(c.a)], (*motion_.models)[asIndex(c.b)], c,
-                                 is_a ? state_ : of_other, is_a ? of_other : state_, is_a ? &free_ : nullptr,
-                                 is_a ? nullptr : &free_);
-      for (Index l = 0; l < n; ++l) {
-        const Contact& d = *closed[static_cast<std::size_t>(l)];
-        K(k, l) = model_.inverse_mass * normalOf(c).dot(normalOf(d)) +
-                  armOf(c).cross(normalOf(c)).dot(A_ * armOf(d).cross(normalOf(d)));
-      }
+      alpha[static_cast<Index>(k)] = gapAcceleration(motion_, c, is_a ? own : other, is_a ? other : own);
     }
-    if (n == 0) return;
-    const std::vector<int> active = activeContacts(K, alpha);
+    const NormalContacts along(model_, state_, body_, closed);
+    const std::vector<int> active = activeContacts(along.mobility(), alpha);
     if (active.empty()) return;
-    Eigen::MatrixXd K_active(active.size(), active.size());
-    Eigen::VectorXd alpha_active(active.size());
-    for (std::size_t i = 0; i < active.size(); ++i) {
-      pressed_.push_back(closed[asIndex(active[i])]);
-      alpha_active[static_cast<Index>(i)] = alpha[active[i]];
-      for (std::size_t j = 0; j < active.size(); ++j)
-        K_active(static_cast<Index>(i), static_cast<Index>(j)) = K(active[i], active[j]);
-    }
-    const LeastNormSolve forces(K_active, alpha_active);
-    for (std::size_t i = 0; i < pressed_.size(); ++i) {
-      const Vec3 f = forces.y[static_cast<Index>(i)] * normalOf(*pressed_[i]);
-      free_.v += model_.inverse_mass * f;
-      free_.w += A_ * armOf(*pressed_[i]).cross(f);
-    }
+    for (int k : active) pressed_.push_back(closed[asIndex(k)]);
+    const NormalContacts pressing(model_, state_, body_, pressed_);
+    const LeastNormSolve forces(pressing.mobility(), alpha(active));
+    const Eigen::Matrix<double, 6, 1> pushed = pressing.moved * forces.y;
+    free_.v += pushed.head<3>();
+    free_.w += pushed.tail<3>();
   }
 
   bool isOneFace() const {
@@ -197,12 +182,6 @@ class Chooser {
   }
   double heightOf() const { return -armOf(*pressed_.front()).dot(normalOf(*pressed_.front())); }
 
-  bool sameFriction() const {
-    return std::ranges::all_of(pressed_, [&](const Contact* c) {
-      return c->pair.friction == pressed_.front()->pair.friction;
-    });
-  }
-
   ContactChoice ball() {
     const PathInputs<double> in = inputs(heightOf());
     const Tier derivative = motion_.plan.bodies[asIndex(body_)].derivative_tier;
@@ -228,7 +207,6 @@ class Chooser {
   }
 
   ContactChoice block() {
-    if (!sameFriction()) return beyond("sliding over places of different friction is not modelled yet");
     const PathInputs<double> in = inputs(heightOf());
     const Vec3 ahead = slipDirectionAt<double>(PathForm::glide_block, in, 0);
     const SupportPolygon support(pressed_, in.normal);

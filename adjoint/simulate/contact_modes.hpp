@@ -10,6 +10,12 @@
 
 namespace carom::adjoint_detail {
 
+inline std::vector<const Contact*> pointersTo(const std::vector<Contact>& contacts) {
+  std::vector<const Contact*> out;
+  for (const Contact& c : contacts) out.push_back(&c);
+  return out;
+}
+
 /// How a body goes on after an event.
 struct ContactChoice {
   /// Null: it flies, as nothing presses it on, or `beyond` says why no path is known for it.

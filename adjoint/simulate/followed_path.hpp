@@ -8,12 +8,6 @@
 
 namespace carom::adjoint_detail {
 
-inline std::vector<const Contact*> pointersTo(const std::vector<Contact>& contacts) {
-  std::vector<const Contact*> out;
-  for (const Contact& c : contacts) out.push_back(&c);
-  return out;
-}
-
 /// What a body in lasting contact is held by, where its path follows that of another motion.
 struct FollowedPath {
   std::vector<Contact> contacts;

@@ -5,8 +5,10 @@
 
 #include "adjoint/impact/complementarity.hpp"
 #include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/normal_contacts.hpp"
 
 namespace carom::adjoint_detail {
+
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time) {
   const int body = choice.path->body;
   const double left = motion.duration - time;
@@ -22,31 +24,14 @@ PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double ti
 }
 
 void closeGaps(const Motion& motion, int body, State& state, std::vector<Contact>& closed) {
-  const BodyModel& model = (*motion.models)[asIndex(body)];
-  const Mat3 A = model.mobilityWorld(state.q.toRotationMatrix());
-  const auto n = static_cast<Eigen::Index>(closed.size());
-  Eigen::MatrixXd K(n, n);
-  Eigen::VectorXd gaps(n);
-  const auto signOf = [&](const Contact& c) { return c.a == body ? 1.0 : -1.0; };
-  const auto lever = [&](const Contact& c) { return Vec3((c.at.point - state.x).cross(signOf(c) * c.at.normal)); };
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Contact& c = closed[static_cast<std::size_t>(k)];
-    gaps[k] = c.at.gap;
-    for (Eigen::Index l = 0; l < n; ++l) {
-      const Contact& d = closed[static_cast<std::size_t>(l)];
-      K(k, l) = model.inverse_mass * signOf(c) * signOf(d) * c.at.normal.dot(d.at.normal) + lever(c).dot(A * lever(d));
-    }
-  }
-  const LeastNormSolve shares(K, gaps);
-  Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Contact& c = closed[static_cast<std::size_t>(k)];
-    moved += shares.y[k] * model.inverse_mass * signOf(c) * c.at.normal;
-    turned += shares.y[k] * (A * lever(c));
-  }
-  state.x += moved;
-  if (turned.norm() > 0)
-    state.q = (expSO3(turned) * state.q).normalized();
+  const std::vector<const Contact*> contacts = pointersTo(closed);
+  const NormalContacts along((*motion.models)[asIndex(body)], state, body, contacts);
+  Eigen::VectorXd gaps(contacts.size());
+  for (std::size_t k = 0; k < contacts.size(); ++k) gaps[static_cast<Eigen::Index>(k)] = contacts[k]->at.gap;
+  const Eigen::Matrix<double, 6, 1> move = along.moved * LeastNormSolve(along.mobility(), gaps).y;
+  const Vec3 turn = move.tail<3>();
+  state.x += move.head<3>();
+  if (turn.norm() > 0) state.q = (expSO3(turn) * state.q).normalized();
   for (Contact& c : closed) {
     const auto pose = [&](int b) {
       const State& s = b == body ? state : motion.world_lines[asIndex(b)].arcs.back().startState();

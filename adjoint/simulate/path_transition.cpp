@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/base/errors.h"
 #include "adjoint/motion/body_geometry.h"
 #include "adjoint/simulate/support_polygon.hpp"
 
@@ -89,26 +90,20 @@ class Search {
     };
     const double end = std::min(found_.elapsed, 1e9);
     const double slope = path_.inputs.gravity.norm() * (1 + path_.inputs.friction);
-    double t = 0, before = 0;
-    for (int step = 0; step < 2000 && t < end; ++step) {
-      const double left = room(t);
-      if (!std::isfinite(left)) {
-        t += 1e-6;
-        continue;
-      }
-      if (left <= 1e-15 * (1 + choice_.start.x.norm())) {
-        take(t, TransitionCause::leaves, k, i);
-        return;
-      }
-      before = t;
-      const double speed = pathCenterAt(path_.form, path_.inputs, t).v.norm();
+    double t = 0;
+    for (int step = 0; step < 2000; ++step) {
+      if (!(t < end)) return;
+      const double left = room(t), speed = pathCenterAt(path_.form, path_.inputs, t).v.norm();
       // speed dt + slope dt^2 / 2 = left
-      t += 2 * left / (speed + std::sqrt(speed * speed + 2 * slope * left));
-      if (t == before) {
+      const double next =
+          std::isfinite(left) ? t + 2 * left / (speed + std::sqrt(speed * speed + 2 * slope * left)) : t + 1e-6;
+      if (left <= 1e-15 * (1 + choice_.start.x.norm()) || next == t) {
         take(t, TransitionCause::leaves, k, i);
         return;
       }
+      t = next;
     }
+    throw NotComputable("when a body in contact comes to the border of a round face was not found");
   }
 
   // The point that the force of the face goes through is h mu ahead of the foot of the centre of mass, along the slip.

@@ -284,14 +284,13 @@ void Simulator::commit() {
       if (!overlap->parted) overlap->parted = event.time;
     }
   searches_ = 0;
-  counted_.clear();
-  for (const Participant& p : event.participants) counted_.push_back(p.impact > 0);
+  for (const Participant& p : event.participants)
+    if (p.impact > 0) ++impacts_[index(p.body)];
   builder_.add(std::move(event), std::move(draft_.arcs));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {  // the participants
     const int body = bodies_[i];
     arc_[index(body)] = &motion_.world_lines[index(body)].arcs.back();
     if (isMoved(body)) ++version_[index(body)];
-    if (counted_[i]) ++impacts_[index(body)];
     in_draft_[index(body)] = -1;
     onward_[index(body)] = std::move(draft_.onward[i]);
     enter(body, draft_.outlooks[i]);

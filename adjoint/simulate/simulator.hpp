@@ -198,7 +198,6 @@ class Simulator {
   std::vector<Snapshot> snapshots_;
   std::vector<Prediction> same_, found_;
   std::vector<int> bodies_, neighbours_;
-  std::vector<char> counted_;  // of the participants
 };
 
 }  // namespace carom::adjoint_detail

@@ -14,6 +14,8 @@ namespace {
 
 // A bounce that arrives from a lower height than this, as a share of the arm of the contact, is no impact to people.
 constexpr double kUncounted = 1e-6;
+// Accelerations of contacts beyond this, m/s^2, come of spins that no bounce is low at: far most often it tells at once.
+constexpr double kFastestSpin = 1e6;
 // What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
 constexpr double kBeyond = 2e-7;
 
@@ -68,20 +70,15 @@ const State& Simulator::stateAfter(int body) const {
 
 // d^2(gap)/dt^2 after the event; `among_closed`: while those that part without speed stay closed.
 double Simulator::accelerationOf(const Contact& contact, bool among_closed) const {
-  FreeAcceleration of_a, of_b;
-  const auto accelerate = [&](int body, FreeAcceleration& accelerates) -> const FreeAcceleration* {
-    const Arc& arc = motion_.world_lines[index(body)].arcs.back();
-    if (!arc.moving()) return nullptr;
+  const auto sideOf = [&](int body) -> ContactSide {
+    if (!(*motion_.models)[index(body)].moving) return {stateAfter(body), std::nullopt};
     std::vector<const Contact*> closed;
     for (const Contact& c : draft_.event.contacts)
       if (among_closed && c.lasts && (c.a == body || c.b == body) && !isMoved(c.a == body ? c.b : c.a))
         closed.push_back(&c);
-    accelerates = pressedAcceleration(motion_, body, stateAfter(body), closed);
-    return &accelerates;
+    return {stateAfter(body), pressedAcceleration(motion_, body, stateAfter(body), closed)};
   };
-  const FreeAcceleration *a = accelerate(contact.a, of_a), *b = accelerate(contact.b, of_b);
-  return gapAcceleration(*motion_.geometry, (*motion_.models)[index(contact.a)], (*motion_.models)[index(contact.b)],
-                         contact, stateAfter(contact.a), stateAfter(contact.b), a, b);
+  return gapAcceleration(motion_, contact, sideOf(contact.a), sideOf(contact.b));
 }
 
 // Contacts that leave so slowly that they would be back from less than the lowest bounce part without speed instead
@@ -98,8 +95,7 @@ bool Simulator::captureLow() {
       const Kinematics k = arcOf(body).kinematicsOf(stateAfter(body));
       leaves += (body == c.a ? 1 : -1) * c.at.normal.dot(k.v + k.w.cross(c.at.point - k.x));
     }
-    const double fastest = 2 * motion_.lowest_bounce * (scene_.gravity.norm() + 1) * 1e6;
-    if (!(leaves * leaves < fastest)) continue;  // far most often
+    if (!(leaves * leaves < 2 * motion_.lowest_bounce * (kFastestSpin * (scene_.gravity.norm() + 1)))) continue;
     const double alpha = accelerationOf(c, true);
     if (!(alpha < 0 && leaves * leaves < -2 * motion_.lowest_bounce * alpha)) continue;
     more = true;
@@ -120,16 +116,13 @@ bool Simulator::isCounted(const Contact& c, const State& a, const State& b) cons
   for (const auto& [body, s] : {std::pair{c.a, &a}, std::pair{c.b, &b}})
     if (isMoved(body)) reach = std::max(reach, (c.at.point - s->x).norm());
   const double height = kUncounted * reach;
-  if (!(c.approach * c.approach < 2 * height * (1e6 + scene_.gravity.norm()))) return true;
-  FreeAcceleration of_a, of_b;
-  const auto accelerate = [&](int body, const State& s, FreeAcceleration& accelerates) -> const FreeAcceleration* {
-    if (!(*motion_.models)[index(body)].moving) return nullptr;
-    accelerates = freeAcceleration((*motion_.models)[index(body)], s, scene_.gravity);
-    return &accelerates;
+  if (!(c.approach * c.approach < 2 * height * (kFastestSpin + scene_.gravity.norm()))) return true;
+  const auto sideOf = [&](int body, const State& state) -> ContactSide {
+    const BodyModel& model = (*motion_.models)[index(body)];
+    if (!model.moving) return {state, std::nullopt};
+    return {state, freeAcceleration(model, state, scene_.gravity)};
   };
-  const FreeAcceleration *of_first = accelerate(c.a, a, of_a), *of_second = accelerate(c.b, b, of_b);
-  const double alpha = gapAcceleration(*motion_.geometry, (*motion_.models)[index(c.a)],
-                                       (*motion_.models)[index(c.b)], c, a, b, of_first, of_second);
+  const double alpha = gapAcceleration(motion_, c, sideOf(c.a, a), sideOf(c.b, b));
   return !(alpha < 0 && c.approach * c.approach < -2 * height * alpha);
 }
 
@@ -170,17 +163,13 @@ void Simulator::chooseArc(std::size_t participant) {
   }
   State& after = draft_.after[participant];
   ContactChoice choice;
-  const auto choose = [&] {
-    std::vector<const Contact*> contacts;
-    for (const Contact& c : closed) contacts.push_back(&c);
-    choice = chooseContactPath(motion_, body, after, contacts);
-  };
+  const auto choose = [&] { choice = chooseContactPath(motion_, body, after, pointersTo(closed)); };
   if (!closed.empty()) choose();
-  if (choice.path) {  // the contacts that last fix the pose
-    std::vector<Contact> last;
+  if (choice.path && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {
+    std::vector<Contact> last;  // what begins to last fixes the pose
     for (const Contact* c : choice.contacts) last.push_back(*c);
     closed = std::move(last);
-    if (std::ranges::any_of(closed, [](const Contact& c) { return !c.held; })) closeGaps(motion_, body, after, closed);
+    closeGaps(motion_, body, after, closed);
     choose();
   }
   if (!choice.path) {

@@ -164,16 +164,9 @@ TEST(FirstImpactBeside, BallOnTerrain) {
   EXPECT_GT(met, 200);
 }
 
-Body compound(const char* name, std::vector<std::pair<Vec3, Vec3>> boxes) {
-  Compound parts;
-  for (const auto& [size, at] : boxes) {
-    CompoundPart part;
-    part.shape = Box{size};
-    part.position = at;
-    parts.parts.push_back(part);
-  }
+Body compound(const char* name, const std::vector<std::pair<Vec3, Vec3>>& boxes) {
   Body body = makeBox(name, {1, 1, 1}, Vec3::Zero());
-  body.shape = parts;
+  body.shape = shapeOfBoxes(boxes);
   return fixedBody(body);
 }
 

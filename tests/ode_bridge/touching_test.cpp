@@ -33,15 +33,8 @@ Body turned(Body body, const Quat& q) {
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 // Boxes of a table; its tops at z = 0 lie flush.
-Body table(std::vector<std::pair<Vec3, Vec3>> boxes) {
-  Compound parts;
-  for (const auto& [size, at] : boxes) {
-    CompoundPart part;
-    part.shape = Box{size};
-    part.position = at;
-    parts.parts.push_back(part);
-  }
-  return fixedBody(shaped(makeBox("table", {1, 1, 1}, Vec3::Zero()), parts));
+Body table(const std::vector<std::pair<Vec3, Vec3>>& boxes) {
+  return fixedBody(shaped(makeBox("table", {1, 1, 1}, Vec3::Zero()), shapeOfBoxes(boxes)));
 }
 Body twoTops() { return table({{{1, 2, 0.1}, {-0.5, 0, -0.05}}, {{1, 2, 0.1}, {0.5, 0, -0.05}}}); }
 Body oneTop() { return fixedBody(makeBox("table", {2, 2, 0.1}, {0, 0, -0.05})); }

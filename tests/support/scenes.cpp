@@ -45,6 +45,17 @@ Body fixedBody(Body body) {
   return body;
 }
 
+Shape shapeOfBoxes(const std::vector<std::pair<Vec3, Vec3>>& boxes) {
+  Compound compound;
+  for (const auto& [size, at] : boxes) {
+    CompoundPart part;
+    part.shape = Box{size};
+    part.position = at;
+    compound.parts.push_back(part);
+  }
+  return compound;
+}
+
 Scene makeScene(const Vec3& gravity, double elasticity, double friction, std::vector<Body> bodies) {
   Scene s;
   s.gravity = gravity;

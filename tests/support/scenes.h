@@ -19,6 +19,8 @@ Body makePlane(const std::string& name, const Vec3& normal, double offset);
 Body makeBall(const std::string& name, double radius, const Vec3& position, const Vec3& velocity = Vec3::Zero());
 Body makeBox(const std::string& name, const Vec3& size, const Vec3& position, const Vec3& velocity = Vec3::Zero());
 Body fixedBody(Body body);
+/// Boxes as one shape: each its size, and where it is.
+Shape shapeOfBoxes(const std::vector<std::pair<Vec3, Vec3>>& boxes);
 /// One material "m" and these bodies.
 Scene makeScene(const Vec3& gravity, double elasticity, double friction, std::vector<Body> bodies);
 
