@@ -24,6 +24,21 @@ void fixMatrixBlocks() {
   }();
 }
 
+// As positions are known to about 1e-13 S.
+double lowestBounce(const Scene& scene) {
+  double size = 1;
+  for (const Body& body : scene.bodies) {
+    const double radius = kindOf(body.shape).boundingRadius(body.shape);
+    size = std::max({size, body.position.lpNorm<Eigen::Infinity>(), std::isfinite(radius) ? radius : 0});
+  }
+  return 1e-12 * size;
+}
+
+double checkedBounce(double lowest) {
+  if (!(lowest >= 0 && lowest <= 1e9)) refuseNumber("simulate", "lowest bounce", lowest, "a height from 0 to 1e9 m");
+  return lowest;
+}
+
 }  // namespace
 
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options) {
@@ -87,7 +102,8 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
   const std::size_t n = scene.bodies.size();
   motion_.plan = makePlan(scene, options.asked);
   motion_.has_events = options.record_events;
-  motion_.lowest_bounce = options.lowest_bounce;
+  motion_.lowest_bounce =
+      options.lowest_bounce ? checkedBounce(*options.lowest_bounce) : lowestBounce(scene);
   arc_.assign(n, nullptr);
   version_.assign(n, 0);
   impacts_.assign(n, 0);

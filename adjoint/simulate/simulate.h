@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stop_token>
 
 #include "adjoint/motion/motion.h"
@@ -20,8 +21,9 @@ struct SimulateOptions {
   /// true: throws InputError where bodies overlap at the start, rather than leave them alone until they part.
   bool refuse_overlaps = false;
   /// A bounce that would stay lower than this, m, is none: its elasticity is taken for 0, and the bodies stay in contact.
-  /// 0: no contact lasts, and a motion ends at the first that would.
-  double lowest_bounce = 0;
+  /// 0: no contact lasts, and a motion ends at the first that would. By default 1e-12 S, S the largest of 1 m, the
+  /// coordinates of bodies and their sizes.
+  std::optional<double> lowest_bounce = {};
   /// Steps of work, after which the motion ends with MotionStatus::step_limit. A step is one of a search for an impact,
   /// one pair of bodies that is looked at, one impact (of n contacts at once n + n^3 / 10) or one series of a rotation: a
   /// microsecond or some each, but the same number on every machine. Motion::steps says how many were taken.
@@ -33,7 +35,8 @@ struct SimulateOptions {
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.
-/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies); ends
+/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies; a lowest
+/// bounce that is no number of 0 to 1e9 m); ends
 /// early, with a status and a sentence, where the motion cannot be continued. The same input gives the same motion to the
 /// last bit.
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
