@@ -24,6 +24,10 @@ constexpr std::uint64_t kFirstSeed = 20250;
 class Tally {
  public:
   void run(std::uint64_t seed) {
+    for (bool lasts : {false, true}) run(seed, lasts);
+  }
+
+  void run(std::uint64_t seed, bool lasts) {
     const RandomScene random = randomScene(seed);
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] {
@@ -32,6 +36,7 @@ class Tally {
     OdeContacts contacts(random.scene);
     SimulateOptions options;
     options.impact_limit = 2000;
+    if (!lasts) options.lowest_bounce = 0;
     const Motion motion = simulate(random.scene, contacts, random.duration, options);
     const double simulated = seconds();
     Findings findings;
