@@ -27,6 +27,7 @@ struct ContactPart {
   // d(gap, normal, point) by (x_a, theta_a, x_b, theta_b) and by the dimensions
   Eigen::Matrix<S, 7, 12> pose;
   Eigen::Matrix<S, 7, Eigen::Dynamic> size_a, size_b;
+  S gap = 0;  // of a contact that lasts from here on: 0, with the rates that it has
   bool tilted = false;
   Eigen::Matrix<S, 3, 7> tilt;  // d(impulse normal) by (normal, tilt a, tilt b)
   int material_a = -1, material_b = -1;

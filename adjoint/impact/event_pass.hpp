@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 
 #include "adjoint/impact/contact_part.hpp"
 #include "adjoint/impact/event_guard.hpp"
@@ -75,9 +76,24 @@ class EventPass {
     return d;
   }
 
+  /// How the row of a contact's gap varies along a change w of the poses, as a row: by the poses, and by the dimensions.
+  struct Bend {
+    Vec12 pose = Vec12::Zero();
+    VectorOf<S> size_a, size_b;
+  };
+  using Bends = std::function<Bend(std::size_t contact, const Vec12& w)>;
+  /// Of numbers with rates, where the event closes gaps.
+  void setBends(Bends bends) { bends_ = std::move(bends); }
+
   /// Adjoint of (gap, normal, point) of a contact, to the participants or to the scene.
   static void scatter(const Part& part, const Vec7& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar) {
-    const Vec12 d = part.pose.transpose() * bar;
+    Bend d{part.pose.transpose() * bar, {}, {}};
+    if (part.size_a.cols() > 0) d.size_a = part.size_a.transpose() * bar;
+    if (part.size_b.cols() > 0) d.size_b = part.size_b.transpose() * bar;
+    scatter(part, d, before_bar, scene_bar);
+  }
+  static void scatter(const Part& part, const Bend& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar) {
+    const Vec12& d = bar.pose;
     Eigen::Index at = 0;
     for (const auto& side : {part.a, part.b}) {
       auto& body = scene_bar.bodies[static_cast<std::size_t>(side.body)];
@@ -93,10 +109,8 @@ class EventPass {
       }
       at += 6;
     }
-    if (part.size_a.cols() > 0)
-      scene_bar.bodies[static_cast<std::size_t>(part.a.body)].size += part.size_a.transpose() * bar;
-    if (part.size_b.cols() > 0)
-      scene_bar.bodies[static_cast<std::size_t>(part.b.body)].size += part.size_b.transpose() * bar;
+    if (bar.size_a.size() > 0) scene_bar.bodies[static_cast<std::size_t>(part.a.body)].size += bar.size_a;
+    if (bar.size_b.size() > 0) scene_bar.bodies[static_cast<std::size_t>(part.b.body)].size += bar.size_b;
   }
 
   /// The same of what the impact sees of contact k: (gap, normal of the impulse, point) and coefficients.
@@ -125,9 +139,14 @@ class EventPass {
     std::vector<StateBar> before_bar(after_bar.size());
     const bool through = std::any_of(after_bar.begin(), after_bar.end(), [](const auto& s) { return !s.isZero(); });
     if (through && !hasLaw()) before_bar = after_bar;
+    std::vector<StateBar> turned_bar;
+    const auto turned = [&](double share) -> const std::vector<StateBar>& {
+      if (!bends_) return after_bar;
+      return turned_bar = PoseProjection<S>::turnedBack(after_bar, projection_.moveOf(closedGaps()), share);
+    };
     if (through && hasLaw()) {  // lambda- = C_s^T lambda+, u_bar += C_u^T lambda+
       ImpactBars<S> bars =
-          wide_ ? wideImpactPullback(impact_.inputs(), after_bar) : impact_.pullback(P_, after_bar);
+          wide_ ? wideImpactPullback(impact_.inputs(), turned(1)) : impact_.pullback(P_, turned(1));
       before_bar = std::move(bars.before);
       for (std::size_t i = 0; i < bars.model.size(); ++i)
         model_bar[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
@@ -135,12 +154,13 @@ class EventPass {
         contactPullback(k, bars.contact[k], bars.pair[k], before_bar, scene_bar);
     }
     if (through && !projection_.lasting().empty()) {
-      const VectorOf<S> gap_bar = projection_.pullback(after_bar);
+      const VectorOf<S> gap_bar = projection_.pullback(turned(0.5));
       for (std::size_t k = 0; k < projection_.lasting().size(); ++k) {
         Vec7 bar = Vec7::Zero();
         bar[0] = gap_bar[static_cast<Eigen::Index>(k)];
         scatter(parts_[projection_.lasting()[k]], bar, before_bar, scene_bar);
       }
+      if (bends_) closingPullback(after_bar, before_bar, scene_bar, model_bar);
     }
     if (hasFixedTime()) {
       for (std::size_t i = 0; i < before_bar.size(); ++i) before_bar[i] += read_bar[i];
@@ -159,6 +179,45 @@ class EventPass {
   }
 
  private:
+  VectorOf<S> closedGaps() const {
+    const std::vector<std::size_t>& lasting = projection_.lasting();
+    VectorOf<S> gaps(lasting.size());
+    for (std::size_t k = 0; k < lasting.size(); ++k) gaps[static_cast<Eigen::Index>(k)] = parts_[lasting[k]].gap;
+    return gaps;
+  }
+
+  // Of the rows and the masses that close the gaps, whose rates are not 0.
+  void closingPullback(const std::vector<StateBar>& after_bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar,
+                       std::vector<ModelBar>& model_bar) const {
+    const std::vector<std::size_t>& lasting = projection_.lasting();
+    const auto bars = projection_.bars(closedGaps(), after_bar, impact_.inputs());
+    for (std::size_t k = 0; k < lasting.size(); ++k) {
+      const Part& part = parts_[lasting[k]];
+      Vec12 w = Vec12::Zero();
+      Eigen::Index at = 0;
+      for (const auto& side : {part.a, part.b}) {
+        if (side.participant >= 0)
+          w.template segment<6>(at) =
+              bars.rows.template block<1, 6>(static_cast<Eigen::Index>(k), 6 * side.participant).transpose();
+        at += 6;
+      }
+      scatter(part, bends_(lasting[k], w), before_bar, scene_bar);
+    }
+    ImpactBars<S> through = impact_.noBars();
+    auto between = impact_.nothingBetween();
+    for (std::size_t i = 0; i < before_bar.size(); ++i) {
+      if (impact_.inputs().bodies[i].kinematic) continue;
+      const auto row = 6 * static_cast<Eigen::Index>(i);
+      between.inverse_mass[i] -= bars.held.template segment<3>(row).dot(bars.pushed.template segment<3>(row));
+      between.A[i] -= bars.held.template segment<3>(row + 3) * bars.pushed.template segment<3>(row + 3).transpose();
+    }
+    impact_.betweenPullback(between, through);
+    for (std::size_t i = 0; i < before_bar.size(); ++i) {
+      before_bar[i] += through.before[i];
+      model_bar[static_cast<std::size_t>(event_.participants[i].body)] += through.model[i];
+    }
+  }
+
   // Of what the guard has beyond the gaps, normals and points of contacts.
   void guardPullback(const S& sigma, std::vector<StateBar>& before_bar, SceneBar& scene_bar,
                      std::vector<ModelBar>& model_bar) const {
@@ -191,6 +250,7 @@ class EventPass {
   std::vector<Part> parts_;
   EventGuard<S> guard_;
   PoseProjection<S> projection_;
+  Bends bends_;
   std::vector<StateBar> rate_before_, rate_after_;
   S guard_rate_ = 0;
 };

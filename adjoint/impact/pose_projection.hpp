@@ -45,21 +45,68 @@ class PoseProjection {
 
   /// Moves the poses of the participants, where the gaps of `lasting()` have these tangents.
   void apply(const VectorOf<S>& gaps, std::vector<StateDerivativeOf<S>>& after) const {
-    const VectorOf<S> move = -(moved_ * (inverse_ * gaps));
+    const VectorOf<S> move = moveOf(gaps);
     for (std::size_t i = 0; i < after.size(); ++i) {
       after[i].x += move.template segment<3>(6 * static_cast<Eigen::Index>(i));
       after[i].theta += move.template segment<3>(6 * static_cast<Eigen::Index>(i) + 3);
     }
   }
+  /// m = -M^-1 G^T K^+ gap, by which poses move.
+  VectorOf<S> moveOf(const VectorOf<S>& gaps) const { return -(moved_ * (inverse_ * gaps)); }
+
+  /// Turns do not commute with the turn of a move m, which has nothing but rates. Adjoints of poses exp(m) q by q, for a
+  /// share of 1, and by m, for a share of 1/2: theta_bar - share m x theta_bar.
+  static std::vector<StateDerivativeOf<S>> turnedBack(std::vector<StateDerivativeOf<S>> after_bar, const VectorOf<S>& move,
+                                                      double share) {
+    for (std::size_t i = 0; i < after_bar.size(); ++i) {
+      const V3<S> turn = move.template segment<3>(6 * static_cast<Eigen::Index>(i) + 3);
+      after_bar[i].theta -= share * V3<S>(turn.cross(after_bar[i].theta));
+    }
+    return after_bar;
+  }
+
+  /// What the step has of the adjoint of its rows and of M^-1: nothing but rates, as the gaps have no values. With
+  /// y = K^+ gap, p = K^+ G M^-1 q_bar and K = G M^-1 G^T:
+  ///   G_bar = p (M^-1 G^T y)^T - y (M^-1 (q_bar - G^T p))^T,  M^-1_bar = -(q_bar - G^T p) (G^T y)^T.
+  struct Bars {
+    MatrixOf<S> rows;               // of G
+    VectorOf<S> held, pushed;       // q_bar - G^T p, G^T y
+  };
+  Bars bars(const VectorOf<S>& gaps, const std::vector<StateDerivativeOf<S>>& after_bar,
+            const ImpactInputs<S>& in) const {
+    const VectorOf<S> q_bar = posesOf(after_bar), y = inverse_ * gaps, p = inverse_ * (moved_.transpose() * q_bar);
+    Bars out;
+    out.held = q_bar - G_.transpose() * p;
+    out.pushed = G_.transpose() * y;
+    out.rows = p * (moved_ * y).transpose() - y * mobile(in, out.held).transpose();
+    return out;
+  }
+
   /// The adjoints of the gaps of `lasting()`.
   VectorOf<S> pullback(const std::vector<StateDerivativeOf<S>>& after_bar) const {
-    VectorOf<S> bar(moved_.rows());
-    for (std::size_t i = 0; i < after_bar.size(); ++i)
-      bar.template segment<6>(6 * static_cast<Eigen::Index>(i)) << after_bar[i].x, after_bar[i].theta;
-    return -(inverse_ * (moved_.transpose() * bar));
+    return -(inverse_ * (moved_.transpose() * posesOf(after_bar)));
   }
 
  private:
+  VectorOf<S> posesOf(const std::vector<StateDerivativeOf<S>>& states) const {
+    VectorOf<S> poses(moved_.rows());
+    for (std::size_t i = 0; i < states.size(); ++i)
+      poses.template segment<6>(6 * static_cast<Eigen::Index>(i)) << states[i].x, states[i].theta;
+    return poses;
+  }
+  // M^-1 q
+  static VectorOf<S> mobile(const ImpactInputs<S>& in, const VectorOf<S>& q) {
+    VectorOf<S> out = VectorOf<S>::Zero(q.size());
+    for (std::size_t i = 0; i < in.bodies.size(); ++i) {
+      const auto& b = in.bodies[i];
+      if (b.kinematic) continue;
+      const auto row = 6 * static_cast<Eigen::Index>(i);
+      out.template segment<3>(row) = b.inverse_mass * q.template segment<3>(row);
+      out.template segment<3>(row + 3) = b.R * (b.D * (b.R.transpose() * q.template segment<3>(row + 3)));
+    }
+    return out;
+  }
+
   std::vector<std::size_t> lasting_;
   MatrixOf<S> G_, moved_, inverse_;  // rows of the gaps by the poses; M^-1 G^T; (G M^-1 G^T)^+
 };

@@ -26,10 +26,45 @@ class EventMaker {
 
   DualEvent take() {
     EventPass<Num> pass = passOf();
+    const auto begins = [](const Contact& c) { return c.lasts && !c.held; };
+    if (std::ranges::any_of(event_.contacts, begins)) {
+      const Motion& motion = lanes_.motion();
+      pass.setBends([&motion, &event = event_, lanes = lanes_.size()](std::size_t contact, const auto& w) {
+        return bendOf(motion, event, lanes, event.contacts[contact], w);
+      });
+    }
     return {std::move(before_), std::move(pass)};
   }
 
  private:
+  // w has no values, so that only its rates count. Turns do not commute: (9.5).
+  static EventPass<Num>::Bend bendOf(const Motion& motion, const Event& event, std::size_t lanes, const Contact& c,
+                                     const EventPass<Num>::Vec12& w) {
+    const Pose A = poseBefore(motion, event, c.a), B = poseBefore(motion, event, c.b);
+    const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, A, B);
+    std::vector<PairTangent> along(lanes);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      along[lane].pose = ratesOf(w, lane);
+      along[lane].size_a = Eigen::VectorXd::Zero(J.size_a.cols());
+      along[lane].size_b = Eigen::VectorXd::Zero(J.size_b.cols());
+    }
+    const std::vector<ContactJacobian> dJ = motion.geometry->jacobianRates(c.a, c.b, c.features, A, B, along);
+    EventPass<Num>::Bend bend;
+    bend.size_a = VectorOf<Num>::Zero(J.size_a.cols());
+    bend.size_b = VectorOf<Num>::Zero(J.size_b.cols());
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      Eigen::Matrix<double, 12, 1> pose = dJ[lane].pose.row(0).transpose();
+      for (const Eigen::Index theta : {3, 9}) {
+        const Vec3 row = J.pose.block<1, 3>(0, theta).transpose(), turn = along[lane].pose.segment<3>(theta);
+        pose.segment<3>(theta) += row.cross(turn);
+      }
+      setRates(bend.pose, pose, lane);
+      setRates(bend.size_a, Eigen::VectorXd(dJ[lane].size_a.row(0).transpose()), lane);
+      setRates(bend.size_b, Eigen::VectorXd(dJ[lane].size_b.row(0).transpose()), lane);
+    }
+    return bend;
+  }
+
   EventPass<Num> passOf() const {
     ImpactInputs<Num> inputs;
     std::vector<StateBar> rate_before, rate_after;
@@ -104,6 +139,8 @@ class EventMaker {
       if (J.size_b.cols() > 0) d += J.size_b * along[lane].size_b;
       setRates(at, d, lane);
     }
+    part.gap = at[0];
+    part.gap.value = 0;
     const NVec normal = tiltNormal(c, at.segment<3>(1), part);
     inputs.contacts.push_back({part.a.participant, part.b.participant, at.tail<3>(), normal, part.rules.values(), c.kept});
     return part;

@@ -218,10 +218,8 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 
 bool hasSecondOrder(const Motion& motion) {
   return std::ranges::none_of(motion.events, [&](const Event& event) {
-    if (event.kind == EventKind::transition && event.cause != TransitionCause::slip_ends)
-      return event.cause == TransitionCause::tips || borderOf(motion, event).round;
-    const auto begins = [](const Contact& c) { return c.lasts && !c.held; };
-    return event.kind == EventKind::placed || std::ranges::count_if(event.contacts, begins) > 1;
+    if (event.kind != EventKind::transition || event.cause == TransitionCause::slip_ends) return false;
+    return event.cause == TransitionCause::tips || borderOf(motion, event).round;
   });
 }
 
@@ -232,8 +230,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   const Motion& motion = tape.motion();
   for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
   if (!hasSecondOrder(motion))
-    throw NotComputable("second derivatives are not known of a motion that begins in contact, or in which several "
-                        "contacts begin to last at once, a body leaves a round face or begins to tip");
+    throw NotComputable("second derivatives are not known of a motion in which a body leaves a round face or begins to tip");
   for (const ReadingDirection& d : directions) {
     checkDirection("secondOrder", *motion.scene, d.scene);
     if (d.time.size() > 0)

@@ -49,11 +49,6 @@ class Chooser {
 
   ContactChoice choose() {
     if (pressed_.empty()) return {};
-    for (const Contact* c : pressed_) {
-      const int other = otherOf(*c);
-      if (!scene_.bodies[asIndex(other)].fixed)
-        return beyond("rest, rolling and sliding on bodies that move are not modelled yet");
-    }
     if (isSlow(state_.v) && isSlow(reach_ * omega_) && canRest()) return stays(PathForm::rest, 1);
     const bool one_face = isOneFace();
     if (isBall()) {

@@ -26,7 +26,7 @@ struct ContactChoice {
 };
 
 /// The same where contacts that do not rub keep the body from what they are with; `closed` are those with n.u = 0, and
-/// what they are with stays.
+/// what they are with is fixed.
 FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State& state,
                                      const std::vector<const Contact*>& closed);
 
@@ -34,7 +34,7 @@ FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State
 ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
                             const std::vector<const Contact*>& contacts, PathForm form);
 
-/// The path of a body from `state` on, where `closed` are its contacts that part without speed: rest wherever rest is
+/// The path of a body from `state` on, where `closed` are its contacts with fixed bodies that part without speed: rest where rest is
 /// possible; sliding or rolling of what has a closed form (docs/equations.md section 11).
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
                                 const std::vector<const Contact*>& closed);

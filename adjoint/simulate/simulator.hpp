@@ -126,6 +126,7 @@ class Simulator {
   void fly(std::size_t participant);
   void chooseArc(std::size_t participant);
   bool presses(const Contact& contact) const;
+  void endBeyond(const Contact& contact, const std::string& why);
   bool isCounted(const Contact& contact, const State& a, const State& b) const;
   double accelerationOf(const Contact& contact, bool among_closed) const;
   const State& stateAfter(int body) const;
@@ -173,6 +174,7 @@ class Simulator {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   Arc& arcOf(int body) { return *arc_[index(body)]; }
   // Whether impacts move a body. They neither join through one that they do not move nor change its path.
+  bool isFixed(int body) const { return scene_.bodies[index(body)].fixed; }
   bool isMoved(int body) const {
     const BodyModel& model = (*motion_.models)[index(body)];
     return model.moving && !model.kinematic;

@@ -81,7 +81,7 @@ double Simulator::accelerationOf(const Contact& contact, bool among_closed) cons
     if (!(*motion_.models)[index(body)].moving) return {stateAfter(body), std::nullopt};
     std::vector<const Contact*> closed;
     for (const Contact& c : draft_.event.contacts)
-      if (among_closed && c.lasts && (c.a == body || c.b == body) && !isMoved(c.a == body ? c.b : c.a))
+      if (among_closed && c.lasts && (c.a == body || c.b == body) && isFixed(c.a == body ? c.b : c.a))
         closed.push_back(&c);
     return {stateAfter(body), pressedAcceleration(motion_, body, stateAfter(body), closed)};
   };
@@ -150,8 +150,8 @@ bool Simulator::isCounted(const Contact& c, const State& a, const State& b) cons
   return !(alpha < 0 && c.approach * c.approach < -2 * height * alpha);
 }
 
-// Whether a contact between bodies that move, which part without speed, goes on pressing.
-bool Simulator::presses(const Contact& c) const { return accelerationOf(c, false) < 0; }
+// Whether a contact between bodies that move, which part without speed, goes on pressing while what stands still holds them.
+bool Simulator::presses(const Contact& c) const { return accelerationOf(c, true) < 0; }
 
 // How every participant goes on.
 void Simulator::chooseArcs() {
@@ -183,6 +183,15 @@ void Simulator::fly(std::size_t participant) {
   in_draft_[index(body)] = static_cast<int>(participant);
 }
 
+// The motion ends with the event, as a contact lasts in a way that is not known.
+void Simulator::endBeyond(const Contact& c, const std::string& why) {
+  if (!draft_.beyond.empty()) return;
+  const Event& event = draft_.event;
+  draft_.beyond = textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.settles_at.value_or(event.time),
+                         " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
+                         motion_.impacts + 1, " impacts; ", why, ", so the motion ends there");
+}
+
 void Simulator::chooseArc(std::size_t participant) {
   const Event& event = draft_.event;
   const int body = bodies_[participant];
@@ -190,8 +199,10 @@ void Simulator::chooseArc(std::size_t participant) {
   if (contactsLast() && isMoved(body)) {
     for (const Contact& c : event.contacts) {
       if (!c.lasts || (c.a != body && c.b != body)) continue;
-      const int other = c.a == body ? c.b : c.a;
-      if (!scene_.bodies[index(other)].fixed && !presses(c)) continue;
+      if (!isFixed(c.a == body ? c.b : c.a)) {
+        if (presses(c)) endBeyond(c, "rest, rolling and sliding on bodies that move are not modelled yet");
+        continue;
+      }
       closed.push_back(c);
       closed.back().pair = builder_.pairOf(c.a, c.b);
     }
@@ -209,11 +220,7 @@ void Simulator::chooseArc(std::size_t participant) {
   }
   if (!choice.path) {
     fly(participant);
-    if (choice.beyond.empty() || !draft_.beyond.empty()) return;
-    const Contact& c = *choice.contacts.front();
-    draft_.beyond = textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.settles_at.value_or(event.time),
-                           " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
-                           motion_.impacts + 1, " impacts; ", choice.beyond, ", so the motion ends there");
+    if (!choice.beyond.empty()) endBeyond(*choice.contacts.front(), choice.beyond);
     return;
   }
   Onward& onward = draft_.onward[participant];

@@ -78,7 +78,7 @@ bool Simulator::accumulates() {
     finish(MotionStatus::cascade, event.time,
            textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.time + (e < 1 ? gap / (1 - e) : gap),
                   " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
-                  motion_.impacts + 1, " impacts; lasting contact is not modelled, so the motion ends there"));
+                  motion_.impacts + 1, " impacts; no contact lasts where the lowest bounce is 0, so the motion ends there"));
     return true;
   }
   for (const Participant& p : event.participants) {

@@ -24,7 +24,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN(), kUnbounded = std::numeric_limits<double>::infinity();
 
 // A motion of three bodies with impacts, and what is made of it.
 struct Made {
@@ -60,7 +60,7 @@ std::vector<Misuse> misusesOfMotions() {
       {"stateAt, body -1", [](Made& m) { m.motion.stateAt(-1, 0.1); }, {"body -1"}},
       {"stateAt, no such name", [](Made& m) { m.motion.stateAt("nobody", 0.1); }, {"'nobody'", "'ball'"}},
       {"stateAt, after the end", [](Made& m) { m.motion.stateAt(0, 1); }, {"the time 1", "[0, 0.9"}},
-      {"stateAt, NaN", [](Made& m) { m.motion.stateAt(0, kNan); }, {"nan"}},
+      {"stateAt, NaN", [](Made& m) { m.motion.stateAt(0, kNotANumber); }, {"nan"}},
       {"stateBefore, event 99", [](Made& m) { m.motion.stateBefore(99, 0); }, {"event 99"}},
       {"stateBefore, event -1", [](Made& m) { m.motion.stateBefore(-1, 0); }, {"event -1"}},
       {"stateBefore, body 3", [](Made& m) { m.motion.stateBefore(0, 3); }, {"body 3"}},
@@ -69,11 +69,11 @@ std::vector<Misuse> misusesOfMotions() {
       {"findImpact, with 3", [](Made& m) { m.motion.findImpact(0, 1, 3); }, {"other body 3"}},
       {"findImpact, with -2", [](Made& m) { m.motion.findImpact(0, 1, -2); }, {"other body -2"}},
       {"arcAt, body -1", [](Made& m) { m.motion.arcAt(-1, 0); }, {"body -1"}},
-      {"arcAt, NaN", [](Made& m) { m.motion.arcAt(0, kNan); }, {"time nan"}},
+      {"arcAt, NaN", [](Made& m) { m.motion.arcAt(0, kNotANumber); }, {"time nan"}},
       {"describeEvent, after the last", [](Made& m) { m.motion.describeEvent(m.events); }, {"event"}},
       {"describeEvent, -1", [](Made& m) { m.motion.describeEvent(-1); }, {"event -1"}},
       {"materialIndexOf, body 3", [](Made& m) { materialIndexOf(m.scene, 3); }, {"body 3"}},
-      {"simulate, a duration of NaN", [](Made& m) { simulate(m.scene, m.contacts, kNan); }, {"nan"}},
+      {"simulate, a duration of NaN", [](Made& m) { simulate(m.scene, m.contacts, kNotANumber); }, {"nan"}},
       {"simulate, a duration of 2e9", [](Made& m) { simulate(m.scene, m.contacts, 2e9); }, {"2000000000"}},
       {"simulate, asked of one body",
        [](Made& m) {
@@ -83,10 +83,10 @@ std::vector<Misuse> misusesOfMotions() {
        },
        {"1 bodies asked for", "expected 3"}},
       {"simulateAlong, a duration of infinity",
-       [](Made& m) { simulateAlong(m.motion, m.scene, m.motion.geometry, kInfinity); },
+       [](Made& m) { simulateAlong(m.motion, m.scene, m.motion.geometry, kUnbounded); },
        {"inf"}},
       {"simulateAlong, no geometry", [](Made& m) { simulateAlong(m.motion, m.scene, nullptr, 1); }, {"geometry"}},
-      {"Arc::extendTo, infinity", [](Made& m) { m.motion.world_lines[1].arcs[0].extendTo(kInfinity); }, {"inf"}},
+      {"Arc::extendTo, infinity", [](Made& m) { m.motion.world_lines[1].arcs[0].extendTo(kUnbounded); }, {"inf"}},
       {"a rotation that was not extended",
        [](Made&) {
          TriaxialRotation rotation;
@@ -104,12 +104,12 @@ std::vector<Misuse> misusesOfDerivatives() {
       {"adjoint, event 99", [](Made& m) { gradient(m, seedAt(0, Instant::before(99))); }, {"event 99"}},
       {"adjoint, event -2", [](Made& m) { gradient(m, seedAt(0, Instant::before(-2))); }, {"event -2"}},
       {"adjoint, after the end", [](Made& m) { gradient(m, seedAt(0, Instant::at(2))); }, {"the time 2"}},
-      {"adjoint, a time of NaN", [](Made& m) { gradient(m, seedAt(0, Instant::at(kNan))); }, {"nan"}},
-      {"adjoint, a weight of NaN", [](Made& m) { gradient(m, seedAt(0, Instant::at(0.1), kNan)); }, {"weight", "nan"}},
+      {"adjoint, a time of NaN", [](Made& m) { gradient(m, seedAt(0, Instant::at(kNotANumber))); }, {"nan"}},
+      {"adjoint, a weight of NaN", [](Made& m) { gradient(m, seedAt(0, Instant::at(0.1), kNotANumber)); }, {"weight", "nan"}},
       {"adjoint, a weight of infinity",
        [](Made& m) {
          StateSeed seed = seedAt(0, Instant::before(0));
-         seed.time = kInfinity;
+         seed.time = kUnbounded;
          gradient(m, seed);
        },
        {"weight", "inf"}},
@@ -119,14 +119,14 @@ std::vector<Misuse> misusesOfDerivatives() {
       {"tape, arc of body 3", [](Made& m) { m.tape.arc(3, 0); }, {"body 3"}},
       {"tape, an arc without an event", [](Made& m) { m.tape.arc(2, 0); }, {"arc", "there are none"}},
       {"tape, arc 99", [](Made& m) { m.tape.arc(0, 99); }, {"99"}},
-      {"tape, arc until NaN", [](Made& m) { m.tape.arcUntil(0, 0, kNan); }, {"nan"}},
+      {"tape, arc until NaN", [](Made& m) { m.tape.arcUntil(0, 0, kNotANumber); }, {"nan"}},
       {"tape, arc 99 until 0.1", [](Made& m) { m.tape.arcUntil(0, 99, 0.1); }, {"arc 99"}},
       {"tape, event 99", [](Made& m) { m.tape.event(99); }, {"event 99"}},
       {"reliability of event 99", [](Made& m) { Reliability{}.pass(m.motion, 99); }, {"event 99"}},
       {"tangent, of another scene", [](Made& m) { tangent(m.tape, SceneTangent()); }, {"0 bodies", "expected 3"}},
       {"tangent, NaN",
        [](Made& m) {
-         m.direction.bodies[0].velocity.y() = kNan;
+         m.direction.bodies[0].velocity.y() = kNotANumber;
          tangent(m.tape, m.direction);
        },
        {"a body", "nan"}},
@@ -183,7 +183,7 @@ std::vector<Misuse> misusesOfShapes() {
       {"rates of a capsule", rate(Capsule{}, 1), {"expected 2"}},
       {"rates of a cylinder", rate(Cylinder{}, 1), {"expected 2"}},
       {"rates of a compound", rate(Compound{{{Box{}}, {Sphere{}}}}, 3), {"expected 4"}},
-      {"an inertia of NaN", [](Made&) { Inertia::fromMatrix(Mat3::Constant(kNan)); }, {"nan"}},
+      {"an inertia of NaN", [](Made&) { Inertia::fromMatrix(Mat3::Constant(kNotANumber)); }, {"nan"}},
       {"a polygon of two corners",
        [](Made&) {
          assembleSurface({Vec3::Zero(), Vec3::UnitX()}, {{0, 1}});

@@ -8,6 +8,7 @@
 
 #include "adjoint/contact/path_sensitivity.hpp"
 #include "tests/support/compare.h"
+#include "tests/support/scaled.h"
 
 namespace carom::contact_paths {
 
@@ -312,7 +313,7 @@ TEST_F(ContactPathsAtRandom, SecondDerivativesAreRatesOfTheFirst) {
 }
 
 TEST_F(ContactPathsAtRandom, BoundsHold) {
-  for (int k = 0; k < 200; ++k) {
+  for (int k = 0; k < test::scaled(200); ++k) {
     PathInputs<double> in = slope();
     in.axis = Vec3::UnitX();
     const PathForm form = kForms[k % 5];
@@ -330,7 +331,7 @@ TEST_F(ContactPathsAtRandom, BoundsHold) {
 
 TEST_F(ContactPathsAtRandom, FirstDescentIsWhereASearchFindsIt) {
   int found = 0;
-  for (int k = 0; k < 1000; ++k) {
+  for (int k = 0; k < test::scaled(1000); ++k) {
     const PathInputs<double> in = slope(0.6);
     const PathForm form = k % 2 ? PathForm::glide_ball : k % 4 ? PathForm::glide_block : PathForm::roll_ball;
     const double end = slipEnd(form, in).value_or(1.5), until = end * (1 - 1e-3 * std::abs(number()));
@@ -355,7 +356,7 @@ TEST_F(ContactPathsAtRandom, FirstDescentIsWhereASearchFindsIt) {
     }
     expectEntries(*descent, after, 1e-12, "descent " + std::to_string(k));
   }
-  EXPECT_GT(found, 100);
+  EXPECT_GT(found, test::scaled(1000) / 10);
 }
 
 }  // namespace

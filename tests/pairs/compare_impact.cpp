@@ -2,7 +2,6 @@
 #include "tests/pairs/compare_impact.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 
 #include "ode_bridge/ode_contacts.h"
@@ -85,11 +84,6 @@ std::string Agreement::summary() const {
   out << " replaced " << doubtful;
   for (const auto& [why, count] : doubts) out << " [" << why << ": " << count << "]";
   return out.str();
-}
-
-int scaled(int throws) {
-  const char* scale = std::getenv("CAROM_TEST_SCALE");
-  return std::max(1, static_cast<int>(throws * (scale ? std::atof(scale) : 1.0)));
 }
 
 }  // namespace carom::pairs

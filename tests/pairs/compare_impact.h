@@ -6,6 +6,7 @@
 
 #include "adjoint/simulate/simulate.h"
 #include "tests/pairs/encounter.h"
+#include "tests/support/scaled.h"
 
 namespace carom::pairs {
 
@@ -40,7 +41,6 @@ class Agreement {
 /// The kinds of features, such as "vertex on face".
 std::string withoutNumbers(const std::string& features);
 
-/// Scales a number of throws by CAROM_TEST_SCALE.
-int scaled(int throws);
+using test::scaled;
 
 }  // namespace carom::pairs

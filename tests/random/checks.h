@@ -28,12 +28,13 @@ struct Findings {
 /// times over the motion, at any impact and 1e-7 s before and after it. Overlap is that of tests/random/solid.h.
 void checkStates(const Motion& motion, int samples, Findings& findings);
 
-/// Energy of the participants does not grow over an event; that of a body is constant between events.
+/// Energy of the participants does not grow over an event; that of a body is constant in flight, and does not grow in
+/// lasting contact.
 void checkEnergy(const Motion& motion, Findings& findings);
 
 /// The events are those that BruteForce finds when it starts afresh after each of them: the same pairs, within 1e-9 s;
 /// the flights agree; velocities after single contacts follow from the law of tests/random/impact_law.h to 1e-10, and
-/// the contacts of a joint impact meet what it asks of them as well.
+/// the contacts of a joint impact meet what it asks of them as well. Up to the first event after which a contact lasts.
 void checkSequence(const Motion& motion, Findings& findings);
 
 }  // namespace carom::brute

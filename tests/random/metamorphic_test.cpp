@@ -22,6 +22,7 @@
 #include "ode_bridge/ode_contacts.h"
 #include "tests/random/scene_changes.h"
 #include "tests/random/scenes.h"
+#include "tests/support/scaled.h"
 
 namespace carom::metamorphic {
 namespace {
@@ -369,8 +370,7 @@ TEST_P(Metamorphic, ScenesThatAreTheSameMoveTheSame) {
     if (GetParam() == 0) suite.run(std::strtoull(seed, nullptr, 10)), suite.report();
     return;
   }
-  const char* scale = std::getenv("CAROM_TEST_SCALE");
-  const int scenes = std::max(1, static_cast<int>(kScenes / kBlocks * (scale ? std::atof(scale) : 1.0)));
+  const int scenes = test::scaled(kScenes / kBlocks);
   for (int i = 0; i < scenes; ++i) suite.run(kFirstSeed + static_cast<std::uint64_t>(GetParam() + kBlocks * i));
   suite.report();
 }

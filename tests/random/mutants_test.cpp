@@ -42,6 +42,7 @@ int failuresWith(Mutant::Change change) {
     Mutant contacts(random.scene, change);
     SimulateOptions options;
     options.impact_limit = 30;
+    options.lowest_bounce = 0;
     const Motion motion = simulate(random.scene, contacts, random.duration, options);
     Findings findings;
     checkSequence(motion, findings);

@@ -11,6 +11,7 @@
 #include "ode_bridge/ode_contacts.h"
 #include "tests/random/checks.h"
 #include "tests/random/scenes.h"
+#include "tests/support/scaled.h"
 
 // Random scenes against an independent brute-force search for impacts. CAROM_TEST_SCALE multiplies their number;
 // CAROM_TEST_SEED runs the scene of one seed, which every failure names.
@@ -24,6 +25,10 @@ constexpr std::uint64_t kFirstSeed = 20250;
 class Tally {
  public:
   void run(std::uint64_t seed) {
+    for (bool lasts : {false, true}) run(seed, lasts);
+  }
+
+  void run(std::uint64_t seed, bool lasts) {
     const RandomScene random = randomScene(seed);
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] {
@@ -32,6 +37,7 @@ class Tally {
     OdeContacts contacts(random.scene);
     SimulateOptions options;
     options.impact_limit = 2000;
+    if (!lasts) options.lowest_bounce = 0;
     const Motion motion = simulate(random.scene, contacts, random.duration, options);
     const double simulated = seconds();
     Findings findings;
@@ -71,11 +77,10 @@ TEST_P(RandomScenes, agreeWithBruteForce) {
     if (GetParam() == 0) tally.run(std::strtoull(seed, nullptr, 10)), tally.report();
     return;
   }
-  const char* scale = std::getenv("CAROM_TEST_SCALE");
-  const int scenes = std::max(1, static_cast<int>(kScenes / kBlocks * (scale ? std::atof(scale) : 1.0)));
+  const int scenes = test::scaled(kScenes / kBlocks);
   for (int i = 0; i < scenes; ++i) tally.run(kFirstSeed + static_cast<std::uint64_t>(GetParam() + kBlocks * i));
   tally.report();
-  if (!scale) {
+  if (test::testScale() >= 1) {
     EXPECT_GT(tally.all().events, 5 * scenes);
   }
 }

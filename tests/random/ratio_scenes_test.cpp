@@ -8,13 +8,14 @@
 #include <map>
 
 #include "tests/support/scenes.h"
+#include "tests/support/scaled.h"
 
 namespace carom {
 namespace {
 
 using namespace test;
 
-constexpr int kStacks = 400;
+const int kStacks = test::scaled(400);
 
 struct Stack {
   Scene scene;
@@ -56,7 +57,7 @@ Stack randomStack(std::uint64_t seed) {
 TEST(RatioScenes, StacksAreRightOrSayWhyNot) {
   int events = 0, joint = 0;
   std::map<std::string, int> statuses;
-  for (std::uint64_t seed = 1; seed <= kStacks; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kStacks); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Stack stack = randomStack(seed);
     const Motion m = play(stack.scene, stack.duration, 100);

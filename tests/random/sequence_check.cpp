@@ -38,6 +38,7 @@ class SequenceCheck {
         compareLaw(event);
       else
         compareJoint(event);
+      if (std::ranges::any_of(event.contacts, [](const carom::Contact& c) { return c.lasts; })) return;
       restart(event);
     }
     if (!findings_.failures.empty()) return;
@@ -134,7 +135,8 @@ class SequenceCheck {
     ++findings_.single;
     const int a = event.contacts[0].a, b = event.contacts[0].b;
     const auto& bodies = motion_.scene->bodies;
-    const auto c = combined(*motion_.scene, bodies[static_cast<std::size_t>(a)], bodies[static_cast<std::size_t>(b)]);
+    auto c = combined(*motion_.scene, bodies[static_cast<std::size_t>(a)], bodies[static_cast<std::size_t>(b)]);
+    if (event.contacts[0].captured) c.elasticity = 0;
     const Kinematic ka = brute_.stateAt(a, event.time), kb = brute_.stateAt(b, event.time);
     const Kinematic found_a = after(event, a), found_b = after(event, b);
     const auto candidates = contactsOf(brute_.solid(a), {ka.x, ka.R}, brute_.solid(b), {kb.x, kb.R}, kTie);
@@ -159,7 +161,8 @@ class SequenceCheck {
     const auto& bodies = motion_.scene->bodies;
     for (const carom::Contact& c : event.contacts) {
       const Vector p = widen(c.at.point);
-      const auto pair = combined(*motion_.scene, bodies[static_cast<std::size_t>(c.a)], bodies[static_cast<std::size_t>(c.b)]);
+      auto pair = combined(*motion_.scene, bodies[static_cast<std::size_t>(c.a)], bodies[static_cast<std::size_t>(c.b)]);
+      if (c.captured) pair.elasticity = 0;
       const JointContact one{
           widen(c.at.normal), widen(c.impulse),
           velocityAt(p, brute_.stateAt(c.a, event.time)) - velocityAt(p, brute_.stateAt(c.b, event.time)),

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "adjoint/motion/body_geometry.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/support/scaled.h"
 #include "tests/support/scenes.h"
 #include "tests/support/transposed.h"
 
@@ -16,7 +18,8 @@ namespace {
 
 using namespace test;
 
-constexpr int kWorlds = 400, kSamples = 60;
+constexpr int kSamples = 60;
+const int kWorlds = scaled(400);
 constexpr double kDepth = 1e-9;
 
 Scene randomWorld(std::uint64_t seed) {
@@ -85,7 +88,7 @@ Vec3 velocityAfter(const Motion& m, const Event& e, const Contact& c) {
 
 TEST(Worlds, MeetWhomTheyMayAndNobodyElse) {
   int events = 0, joint = 0, overlapping = 0, parted = 0, with_kinematic = 0;
-  for (std::uint64_t seed = 1; seed <= kWorlds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kWorlds); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Motion m = play(randomWorld(seed), 0.8, 60);
     const auto& bodies = m.scene->bodies;
@@ -135,14 +138,14 @@ TEST(Worlds, MeetWhomTheyMayAndNobodyElse) {
     }
   }
   EXPECT_GT(events, 5 * kWorlds);
-  EXPECT_GT(joint, 100);
+  EXPECT_GT(joint, kWorlds / 4);
   EXPECT_GT(with_kinematic, kWorlds / 2);
-  EXPECT_GT(overlapping, 50);
-  EXPECT_GT(parted, 20);
+  EXPECT_GT(overlapping, kWorlds / 8);
+  EXPECT_GT(parted, kWorlds / 20);
 }
 
 TEST(Worlds, InReverseOrderAreTheSame) {
-  for (std::uint64_t seed = 1; seed <= kWorlds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kWorlds); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Scene scene = randomWorld(seed);
     Scene reversed = scene;
@@ -157,13 +160,17 @@ TEST(Worlds, InReverseOrderAreTheSame) {
 
 // With many bodies neighbours are listed in another way.
 TEST(Worlds, AmongManyAreTheSame) {
-  for (std::uint64_t seed = 1; seed <= kWorlds / 2; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kWorlds / 2); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Scene scene = randomWorld(seed);
     Scene crowded = scene;
     for (int i = 0; i < 45; ++i)
       crowded.bodies.push_back(fixedBody(makeBox("far" + std::to_string(i), {1, 1, 1}, {2.0 * i, 0, 60})));
-    const Motion m = play(scene, 0.8, 4), c = play(crowded, 0.8, 4);
+    SimulateOptions options;
+    options.impact_limit = 4;
+    options.lowest_bounce = 1e-11;  // by default it grows with the coordinates of what is far off
+    OdeContacts few(scene), many(crowded);
+    const Motion m = simulate(scene, few, 0.8, options), c = simulate(crowded, many, 0.8, options);
     ASSERT_EQ(m.overlaps.size(), c.overlaps.size());
     for (std::size_t i = 0; i < m.overlaps.size(); ++i) {
       ASSERT_EQ(m.overlaps[i].parted.has_value(), c.overlaps[i].parted.has_value());
@@ -175,7 +182,7 @@ TEST(Worlds, AmongManyAreTheSame) {
 }
 
 TEST(Worlds, DerivativesAreTransposed) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(scaled(40)); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Motion m = play(randomWorld(seed), 0.8, 3);
     if (m.events.empty()) continue;

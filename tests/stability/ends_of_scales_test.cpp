@@ -156,14 +156,15 @@ TEST(StickSlip, BothSidesOfTheBoundary) {
 }
 
 // From 1 m, with 1 - e as small as 1e-6 and e as small as 1e-3.
-TEST(Cascade, EndsWhereItMustAndSaysSo) {
+TEST(Cascade, SettlesWhereItMust) {
   const double t1 = std::sqrt(2 / 9.81);
   for (const double e : {1e-3, 1e-2, 0.5, 0.9}) {
     SCOPED_TRACE(e);
     const Motion m = play(makeScene({0, 0, -9.81}, e, 0, {makeBall("ball", 0.1, {0, 0, 1.1}), floorPlane()}), 60);
-    EXPECT_EQ(m.status, MotionStatus::cascade) << m.message;
-    expectEntries(m.end, t1 * (1 + e) / (1 - e), 2e-5, "end of the cascade");
-    EXPECT_NE(m.message.find("stay in contact"), std::string::npos) << m.message;
+    EXPECT_EQ(m.status, MotionStatus::complete) << m.message;
+    ASSERT_TRUE(m.events.back().settles_at.has_value());
+    expectEntries(*m.events.back().settles_at, t1 * (1 + e) / (1 - e), 1e-11, "end of the cascade");
+    EXPECT_EQ(m.stateAt("ball", 60).position.z(), 0.1);
   }
 }
 
