@@ -10,7 +10,34 @@ FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, co
   return {model.gravity_factor * gravity, -(A * (A * state.L).cross(state.L))};
 }
 
+namespace {
+
+// Between balls, and of a ball and a plane that stands still, as most contacts are; nothing for others.
+std::optional<double> ofABall(const Motion& motion, const Contact& contact, const ContactSide& a, const ContactSide& b) {
+  const auto isBall = [&](int body) {
+    return std::holds_alternative<Sphere>(motion.scene->bodies[asIndex(body)].shape) &&
+           (*motion.models)[asIndex(body)].center.isZero(0);
+  };
+  const auto stands = [&](int body, const ContactSide& side) {
+    return !side.acceleration && std::holds_alternative<Plane>(motion.scene->bodies[asIndex(body)].shape);
+  };
+  const Vec3& n = contact.at.normal;
+  const bool first = isBall(contact.a), second = isBall(contact.b);
+  if (first && a.acceleration && stands(contact.b, b)) return n.dot(a.acceleration->v);
+  if (second && b.acceleration && stands(contact.a, a)) return -n.dot(b.acceleration->v);
+  if (!first || !second) return std::nullopt;
+  const auto speed = [](const ContactSide& side) { return side.acceleration ? side.state.v : Vec3(Vec3::Zero()); };
+  const auto pull = [](const ContactSide& side) { return side.acceleration ? side.acceleration->v : Vec3(Vec3::Zero()); };
+  const Vec3 apart = a.state.x - b.state.x, u = speed(a) - speed(b);
+  const double distance = apart.norm();
+  if (!(distance > 0)) return std::nullopt;
+  return n.dot(pull(a) - pull(b)) + n.cross(u).squaredNorm() / distance;
+}
+
+}  // namespace
+
 double gapAcceleration(const Motion& motion, const Contact& contact, const ContactSide& a, const ContactSide& b) {
+  if (const auto alpha = ofABall(motion, contact, a, b)) return *alpha;
   Eigen::Matrix<double, 12, 1> velocity = Eigen::Matrix<double, 12, 1>::Zero(), acceleration = velocity;
   const auto place = [&](int body, const ContactSide& side, Eigen::Index at) {
     const BodyModel& model = (*motion.models)[asIndex(body)];
