@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "adjoint/derivative/adjoint.h"
 #include "adjoint/simulate/simulate.h"
@@ -74,6 +75,33 @@ void simulateThreeImpacts(benchmark::State& state) {
   state.counters["seconds"] = 0.999 * duration;
 }
 
+// A ball of 0.1 m on a floor: how long an event, with the path or flight after it, takes.
+void simulateBall(benchmark::State& state, double elasticity, double friction, double height, double speed) {
+  Scene scene;
+  scene.materials.push_back({.name = "ivory", .elasticity = elasticity, .friction = friction});
+  Body floor, ball;
+  floor.name = "floor", floor.fixed = true, floor.material = "ivory", floor.shape = Plane{};
+  ball.name = "ball", ball.material = "ivory", ball.mass = 1, ball.shape = Sphere{0.1};
+  ball.position = {0, 0, 0.1 + height}, ball.velocity = {speed, 0, 0};
+  scene.bodies = {floor, ball};
+  OdeContacts contacts(scene);
+  std::size_t events = 0;
+  for (auto _ : state) {
+    const Motion motion = simulate(scene, contacts, 60);
+    if (motion.status != MotionStatus::complete) return state.SkipWithError(motion.message.c_str());
+    events = motion.events.size();
+    benchmark::DoNotOptimize(motion.end);
+  }
+  state.counters["events"] = static_cast<double>(events);
+  if (events == 0) return;
+  state.counters["seconds_per_event"] = benchmark::Counter(
+      static_cast<double>(events), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+// A scene without events, to be taken off the next two; 218 bounces and a rest; a slide and rolling.
+void ballFlies(benchmark::State& state) { simulateBall(state, 0, 0, 2e4, 3); }
+void ballBouncesToRest(benchmark::State& state) { simulateBall(state, 0.95, 0, 1, 0); }
+void ballSlidesAndRolls(benchmark::State& state) { simulateBall(state, 0, 0.3, 0, 3); }
+
 void simulateAgain(benchmark::State& state, const std::string& name) {
   Case& c = caseOf(name);
   std::size_t impacts = 0;
@@ -138,6 +166,10 @@ int main(int argc, char** argv) {
   }
   benchmark::RegisterBenchmark("simulate/box_three_impacts", carom::simulateThreeImpacts)
       ->Unit(benchmark::kMicrosecond);
+  for (const auto& [name, function] : {std::pair("simulate/ball_flies", &carom::ballFlies),
+                                       std::pair("simulate/ball_bounces_to_rest", &carom::ballBouncesToRest),
+                                       std::pair("simulate/ball_slides_and_rolls", &carom::ballSlidesAndRolls)})
+    benchmark::RegisterBenchmark(name, function)->Unit(benchmark::kMicrosecond);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

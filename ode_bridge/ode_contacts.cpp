@@ -191,13 +191,13 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
   const carom::State& s = arc.startState();
   const Acceleration acceleration{arc.acceleration(), arc.accelerationVariation()};
   state_->neighbours.setPath(body, {s.x, s.v, arc.start(), 0}, acceleration, from, until);
-  state_->keepVaried(body, arc);
+  if (acceleration.variation > 0 || !state_->varied.empty()) state_->keepVaried(body, arc);
 }
 
 void OdeContacts::State::keepVaried(int body, const Arc& arc) {
   if (arc.accelerationVariation() > 0) {
     varied.insert_or_assign(body, arc);
-  } else if (!varied.empty()) {
+  } else {
     varied.erase(body);
   }
 }

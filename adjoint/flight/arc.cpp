@@ -88,8 +88,8 @@ Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, c
   spin_rate_bound_ = largestSpinRate(I, M.cwiseQuotient(I), spin_bound_);
 }
 
-Arc::Arc(const BodyModel& model, Tier tier, std::shared_ptr<const ContactPath> path, double start, const State& state)
-    : model_(&model), tier_(tier), start_(start), path_(std::move(path)), state_(state) {
+Arc::Arc(const BodyModel& model, Tier tier, const ContactPath& path, double start, const State& state)
+    : model_(&model), tier_(tier), start_(start), path_(std::make_unique<ContactPath>(path)), state_(state) {
   acceleration_ = path_->bounds.acceleration;
   spin_bound_ = path_->bounds.spin;
   spin_rate_bound_ = path_->bounds.spin_rate;
@@ -128,7 +128,7 @@ Arc::Arc(const Arc& o)
       spin_bound_(o.spin_bound_),
       spin_rate_bound_(o.spin_rate_bound_),
       triaxial_(o.triaxial_ ? std::make_unique<TriaxialRotation>(*o.triaxial_) : nullptr),
-      path_(o.path_),
+      path_(o.path_ ? std::make_unique<ContactPath>(*o.path_) : nullptr),
       acceleration_(o.acceleration_),
       state_(o.state_) {}
 
@@ -161,14 +161,19 @@ Quat Arc::rotationAt(double s) const {
   return state_.q;
 }
 
+// Apart, so that flights do without its stack.
+[[gnu::noinline]] static PathCenter<double> centerOn(const ContactPath& path, double t) {
+  return pathCenterAt(path.form, path.inputs, path.elapsedAt(t));
+}
+
 Vec3 Arc::positionAt(double t) const {
   const double s = t - start_;
-  if (path_ && !path_->bounds.straight) return pathCenterAt(path_->form, path_->inputs, path_->elapsedAt(t)).x;
+  if (path_ && !path_->bounds.straight) return centerOn(*path_, t).x;
   return state_.x + s * (state_.v + 0.5 * s * acceleration_);
 }
 
 Vec3 Arc::velocityAt(double t) const {
-  if (path_ && !path_->bounds.straight) return pathCenterAt(path_->form, path_->inputs, path_->elapsedAt(t)).v;
+  if (path_ && !path_->bounds.straight) return centerOn(*path_, t).v;
   return state_.v + (t - start_) * acceleration_;
 }
 

@@ -42,8 +42,7 @@ class Arc {
   /// A flight under the scene's gravity, or the model's share of it, from the given state.
   Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
   /// A path in lasting contact.
-  Arc(const BodyModel& model, Tier tier, std::shared_ptr<const adjoint_detail::ContactPath> path, double start,
-      const State& state);
+  Arc(const BodyModel& model, Tier tier, const adjoint_detail::ContactPath& path, double start, const State& state);
   Arc(const Arc& other);             ///< keeps what was made available
   Arc& operator=(const Arc& other);  ///< the same
   Arc(Arc&&) noexcept;               ///< leaves an arc that can only be destroyed or assigned to
@@ -107,8 +106,9 @@ class Arc {
   int symmetry_axis_ = 2;
   double start_;
   double spin_bound_ = 0, spin_rate_bound_ = 0;
-  std::unique_ptr<adjoint_detail::TriaxialRotation> triaxial_;  // apart, so that the arcs of the other tiers are small
-  std::shared_ptr<const adjoint_detail::ContactPath> path_;     // null: a flight
+  // Apart, so that most arcs are small.
+  std::unique_ptr<adjoint_detail::TriaxialRotation> triaxial_;
+  std::unique_ptr<const adjoint_detail::ContactPath> path_;  // null: a flight
   Vec3 acceleration_;
   State state_;
 };

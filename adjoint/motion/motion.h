@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ struct BodyState {
 };
 
 /// Branch of the impact law: without friction, sticking, sliding, or several contacts together.
-enum class ImpactMode { frictionless, stick, slide, joint };
+enum class ImpactMode : std::uint8_t { frictionless, stick, slide, joint };
 /// "frictionless", "stick", "slide" or "joint".
 const char* nameOf(ImpactMode mode);
 /// A contact without friction is one that slides with a coefficient of 0: a motion varies smoothly from the one to the
@@ -29,13 +30,13 @@ inline ImpactMode branchOf(ImpactMode mode) { return mode == ImpactMode::frictio
 
 /// What happens at an event. An impact; one after which contacts last that did not before; a change of how a body in
 /// contact goes on, without an impulse; or the start of a motion that begins in contact.
-enum class EventKind { impact, capture, transition, placed };
+enum class EventKind : std::uint8_t { impact, capture, transition, placed };
 /// "impact", "capture", "transition" or "placed".
 const char* nameOf(EventKind kind);
 
 /// Why a body in lasting contact goes on otherwise: its slip comes to an end, a contact comes to the border of the feature
 /// that it is at, or the force at a corner comes to 0.
-enum class TransitionCause { none, slip_ends, leaves, tips };
+enum class TransitionCause : std::uint8_t { none, slip_ends, leaves, tips };
 /// "none", "slip ends", "leaves" or "tips".
 const char* nameOf(TransitionCause cause);
 
@@ -82,13 +83,13 @@ struct Event {
   double time = 0;                             ///< s
   EventKind kind = EventKind::impact;          ///< what happens
   TransitionCause cause = TransitionCause::none;  ///< of a transition
-  int border = -1;  ///< the first contact leaves its feature: which of BodyGeometry::limits it comes to
   ImpactMode mode = ImpactMode::frictionless;  ///< branch of the impact law that was taken
+  /// Doubles are too short for its impulses: they and all derivatives are worked out with 32 digits.
+  bool wide = false;
+  int border = -1;  ///< the first contact leaves its feature: which of BodyGeometry::limits it comes to
   std::vector<Contact> contacts;               ///< in increasing order of bodies
   std::vector<Participant> participants;  ///< in increasing order of body
   Margins margins;                        ///< to where derivatives stop
-  /// Doubles are too short for its impulses: they and all derivatives are worked out with 32 digits.
-  bool wide = false;
   /// Of a capture of one contact: when endlessly many bounces would have come to an end there, s
   /// (docs/equations.md, 11.12).
   std::optional<double> settles_at;

@@ -16,7 +16,7 @@ PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double ti
   const PathTransition transition = firstTransition(motion, choice, left);
   choice.path->bounds =
       pathBounds(choice.path->form, choice.path->inputs, 0, std::min(transition.elapsed, left));
-  PathArc made{Arc((*motion.models)[asIndex(body)], motion.plan.bodies[asIndex(body)].tier, choice.path, time, choice.start),
+  PathArc made{Arc((*motion.models)[asIndex(body)], motion.plan.bodies[asIndex(body)].tier, *choice.path, time, choice.start),
                {},
                transition};
   for (const Contact* c : choice.contacts) made.held.push_back(*c);

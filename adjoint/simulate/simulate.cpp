@@ -108,6 +108,8 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
   version_.assign(n, 0);
   impacts_.assign(n, 0);
   in_draft_.assign(n, -1);
+  for (const Body& body : scene.bodies)
+    simple_.push_back(std::holds_alternative<Sphere>(body.shape) || std::holds_alternative<Plane>(body.shape));
   outlook_.resize(n);
   onward_.resize(n);
   for (std::size_t i = 0; i < scene.tilts.size(); ++i)
@@ -118,6 +120,7 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
 bool Simulator::start() {
   const int n = static_cast<int>(scene_.bodies.size());
   builder_.start();
+  setSpeedsOfContact();
   for (int b = 0; b < n; ++b) arc_[index(b)] = &motion_.world_lines[index(b)].arcs.back();
   contacts_.begin(scene_);
   motion_.geometry = contacts_.geometry();
@@ -188,6 +191,7 @@ void Simulator::addTouching(double time, int a, int b, const FeaturePair& featur
   std::vector<Contact>& contacts = draft_.event.contacts;
   if (inDraft(a, b, features)) return;
   contacts.push_back(makeContact(time, a, b, features));
+  if (simple_[index(a)] && simple_[index(b)]) return;
   const double reach = kInstant * std::abs(contacts.back().approach);
   for (const FeaturePair& f : contacts_.touching(a, b, arcOf(a), arcOf(b), time, reach)) {
     if (inDraft(a, b, f)) continue;
@@ -308,7 +312,7 @@ void Simulator::commit() {
     arc_[index(body)] = &motion_.world_lines[index(body)].arcs.back();
     if (isMoved(body)) ++version_[index(body)];
     in_draft_[index(body)] = -1;
-    onward_[index(body)] = std::move(draft_.onward[i]);
+    if (any_lasted_) onward_[index(body)] = draft_.onward.empty() ? kInFlight : std::move(draft_.onward[i]);
     enter(body, draft_.outlooks[i]);
   }
 }

@@ -74,6 +74,7 @@ class Simulator {
     double transition = EventQueue::kNever;
     PathTransition why;
   };
+  static const Onward kInFlight;
   // An event that is worked out but not yet part of the motion. Its storage is used again and again.
   struct Draft {
     Event event;
@@ -81,7 +82,7 @@ class Simulator {
     std::vector<Arc> arcs;          // of the participants, from the event on
     std::vector<Prediction> found;  // of the participants' pairs, on those arcs
     std::vector<Outlook> outlooks;  // of the participants
-    std::vector<Onward> onward;     // of the participants
+    std::vector<Onward> onward;     // of the participants; empty where all of them fly
     std::string beyond;             // why the motion cannot go on: contact that lasts, of a kind that is not known
   };
   // A body just before the event that is being worked out.
@@ -117,10 +118,12 @@ class Simulator {
   void solvePlaced(int body);
   void resolveTransition(int body);
   std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
+  void setSpeedsOfContact();
   void addHeld();
   void solveLaw();
   bool captureLow();
   void chooseArcs();
+  void fly(std::size_t participant);
   void chooseArc(std::size_t participant);
   bool presses(const Contact& contact) const;
   void endBeyond(const Contact& contact, const std::string& why);
@@ -129,9 +132,10 @@ class Simulator {
   const State& stateAfter(int body) const;
   const Onward& onwardOf(int body) const {
     const int i = in_draft_[index(body)];
-    return i < 0 ? onward_[index(body)] : draft_.onward[index(i)];
+    if (i < 0) return onward_[index(body)];
+    return draft_.onward.empty() ? kInFlight : draft_.onward[index(i)];
   }
-  std::vector<FeaturePair> heldBetween(int a, int b) const;
+  std::optional<PredictedImpact> besideHeld(int a, int b, double from, double until);
 
   // simulator_search.cpp: predictions
   void predictDraft();
@@ -189,8 +193,11 @@ class Simulator {
   // a body each
   std::vector<Arc*> arc_;  // the last one of its world-line
   std::vector<int> version_, impacts_, in_draft_;
+  std::vector<char> simple_;  // a ball or a plane: two of these touch in one place
   std::vector<Outlook> outlook_;
   std::vector<Onward> onward_;
+  double lowest_speed_ = 0, counted_speed_ = 0;  // see setSpeedsOfContact
+  bool any_lasted_ = false;  // a body has been in lasting contact
   EventQueue queue_;
 
   std::vector<double> overlaps_until_;  // of motion_.overlaps: known to overlap up to here

@@ -19,18 +19,25 @@ constexpr double kFastestSpin = 1e6;
 // What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
 constexpr double kBeyond = 2e-7;
 
+bool isTilted(const Contact& c) { return c.tilt_a >= 0 || c.tilt_b >= 0; }
+
 }  // namespace
 
-std::vector<FeaturePair> Simulator::heldBetween(int a, int b) const {
+const Simulator::Onward Simulator::kInFlight = {};
+
+// The first impact of a pair besides the contacts that hold them to each other.
+std::optional<PredictedImpact> Simulator::besideHeld(int a, int b, double from, double until) {
   std::vector<FeaturePair> held;
   for (int body : {a, b})
     for (const Contact& c : onwardOf(body).held)
       if (c.a == a && c.b == b) held.push_back(c.features);
-  return held;
+  if (held.empty()) return contacts_.firstImpact(a, b, pathOf(a), pathOf(b), from, until);
+  return contacts_.firstImpactBeside(a, b, held, pathOf(a), pathOf(b), from, until);
 }
 
 // The contacts that the participants are held by take part in whatever happens to them.
 void Simulator::addHeld() {
+  if (!any_lasted_) return;
   std::vector<Contact>& contacts = draft_.event.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (int body : {contacts[k].a, contacts[k].b})
@@ -81,11 +88,28 @@ double Simulator::accelerationOf(const Contact& contact, bool among_closed) cons
   return gapAcceleration(motion_, contact, sideOf(contact.a), sideOf(contact.b));
 }
 
+// What no contact is faster than if it is to be low, and if it is not to count: squares of speeds, m^2/s^2.
+void Simulator::setSpeedsOfContact() {
+  const double pull = scene_.gravity.norm();
+  lowest_speed_ = 2 * motion_.lowest_bounce * kFastestSpin * (pull + 1);
+  double reach = 0;
+  for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
+    if (isMoved(static_cast<int>(i)))
+      reach = std::max(reach, kindOf(scene_.bodies[i].shape).boundingRadius(scene_.bodies[i].shape) +
+                                  (*motion_.models)[i].center.norm());
+  counted_speed_ = contactsLast() ? 2.1 * kUncounted * reach * (kFastestSpin + pull) : 0;
+}
+
 // Contacts that leave so slowly that they would be back from less than the lowest bounce part without speed instead
 // (11.11); true where there are more of them than before.
 bool Simulator::captureLow() {
   if (!contactsLast()) return false;
   Event& event = draft_.event;
+  if (event.contacts.size() == 1 && !isTilted(event.contacts[0])) {
+    const Contact& c = event.contacts[0];
+    const double leaves = c.pair.elasticity * c.approach;
+    if (leaves * leaves > 2 * lowest_speed_) return false;  // twice, for rounding
+  }
   bool more = false;
   for (Contact& c : event.contacts) {
     if (c.lasts || c.kept || c.captured) continue;
@@ -95,7 +119,7 @@ bool Simulator::captureLow() {
       const Kinematics k = arcOf(body).kinematicsOf(stateAfter(body));
       leaves += (body == c.a ? 1 : -1) * c.at.normal.dot(k.v + k.w.cross(c.at.point - k.x));
     }
-    if (!(leaves * leaves < 2 * motion_.lowest_bounce * (kFastestSpin * (scene_.gravity.norm() + 1)))) continue;
+    if (!(leaves * leaves < lowest_speed_)) continue;
     const double alpha = accelerationOf(c, true);
     if (!(alpha < 0 && leaves * leaves < -2 * motion_.lowest_bounce * alpha)) continue;
     more = true;
@@ -112,11 +136,11 @@ bool Simulator::captureLow() {
 // Whether a contact arrives from high enough to be an impact to people.
 bool Simulator::isCounted(const Contact& c, const State& a, const State& b) const {
   if (!contactsLast()) return true;
+  if (c.approach * c.approach > counted_speed_) return true;
   double reach = 0;
   for (const auto& [body, s] : {std::pair{c.a, &a}, std::pair{c.b, &b}})
     if (isMoved(body)) reach = std::max(reach, (c.at.point - s->x).norm());
   const double height = kUncounted * reach;
-  if (!(c.approach * c.approach < 2 * height * (kFastestSpin + scene_.gravity.norm()))) return true;
   const auto sideOf = [&](int body, const State& state) -> ContactSide {
     const BodyModel& model = (*motion_.models)[index(body)];
     if (!model.moving) return {state, std::nullopt};
@@ -134,7 +158,12 @@ void Simulator::chooseArcs() {
   Event& event = draft_.event;
   draft_.beyond.clear();
   draft_.arcs.clear();
-  draft_.onward.assign(bodies_.size(), {});
+  draft_.onward.clear();
+  if (std::ranges::none_of(event.contacts, &Contact::lasts)) {  // far most often
+    for (std::size_t i = 0; i < bodies_.size(); ++i) fly(i);
+    return;
+  }
+  draft_.onward.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) chooseArc(i);
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
@@ -145,7 +174,13 @@ void Simulator::chooseArcs() {
     });
     if (c.lasts && !c.held && event.kind == EventKind::impact) event.kind = EventKind::capture;
   }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) in_draft_[index(bodies_[i])] = static_cast<int>(i);
+}
+
+void Simulator::fly(std::size_t participant) {
+  const int body = bodies_[participant];
+  draft_.arcs.push_back(builder_.flight(body, draft_.event.time, draft_.after[participant]));
+  requireFlight(body, draft_.arcs.back());
+  in_draft_[index(body)] = static_cast<int>(participant);
 }
 
 // The motion ends with the event, as a contact lasts in a way that is not known.
@@ -184,8 +219,7 @@ void Simulator::chooseArc(std::size_t participant) {
     choose();
   }
   if (!choice.path) {
-    draft_.arcs.push_back(builder_.flight(body, event.time, after));
-    requireFlight(body, draft_.arcs.back());
+    fly(participant);
     if (!choice.beyond.empty()) endBeyond(*choice.contacts.front(), choice.beyond);
     return;
   }
@@ -196,6 +230,8 @@ void Simulator::chooseArc(std::size_t participant) {
   if (onward.why.cause != TransitionCause::none) onward.transition = event.time + onward.why.elapsed;
   after = choice.start;
   draft_.arcs.push_back(std::move(made.arc));
+  in_draft_[index(body)] = static_cast<int>(participant);
+  any_lasted_ = true;
 }
 
 // What touches a body where a contact of it leaves its feature: what it has a little later on the same path.

@@ -49,13 +49,15 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
     if (!parted) return std::nullopt;
     from = std::max(from, *parted);
   }
-  const auto stays = [](const Arc& arc) { return !arc.moving() || arc.kind() == ArcKind::rest; };
-  if (stays(arc_a) && stays(arc_b)) return std::nullopt;
   const std::size_t series = arc_a.series() + arc_b.series();
-  const std::vector<FeaturePair> held = heldBetween(a, b);
-  const std::optional<PredictedImpact> impact =
-      held.empty() ? contacts_.firstImpact(a, b, arc_a, arc_b, from, until)
-                   : contacts_.firstImpactBeside(a, b, held, arc_a, arc_b, from, until);
+  std::optional<PredictedImpact> impact;
+  if (arc_a.path() || arc_b.path()) {
+    const auto stays = [](const Arc& arc) { return !arc.moving() || arc.kind() == ArcKind::rest; };
+    if (stays(arc_a) && stays(arc_b)) return std::nullopt;
+    impact = besideHeld(a, b, from, until);
+  } else {
+    impact = contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
+  }
   work_.step(1 + arc_a.series() + arc_b.series() - series);
   return impact;
 }

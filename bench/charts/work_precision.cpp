@@ -14,7 +14,7 @@
 #include "bench/charts/error.h"
 #include "bench/charts/frozen_flights.h"
 #include "ode_bridge/ode_contacts.h"
-#include "tests/reference/along.h"
+#include "tests/reference/replayed.h"
 
 namespace carom::charts {
 namespace {

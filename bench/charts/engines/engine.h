@@ -41,6 +41,7 @@ PairCoefficients commonPair(const Scene& scene);
 
 // One file each.
 EngineKind odeStep();
+EngineKind odeStepWithDefaultCfm();
 EngineKind odeQuickStep();
 EngineKind bullet();
 EngineKind mujoco();
