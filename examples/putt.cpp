@@ -11,7 +11,8 @@ using namespace carom;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979324, kRadius = 0.0213, kHole = 0.108;  // m
+constexpr double kPi = 3.14159265358979324;
+constexpr double kRadius = 0.0213, kHole = 0.108;  // m
 
 CompoundPart turf(const Vec3& from, const Vec3& to) {
   CompoundPart part;
@@ -43,11 +44,8 @@ void putt(const char* name, double least) {
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 4);
   edit.vary(velocity("ball").only({"x", "y"}));
-  // At some moment it is over the middle of the hole, and falling; at the end it is in it.
+  // At some moment it is over the middle of the hole, and falling.
   edit.nail("ball", between(2, 3.5)).position(3, 0, within(least, kRadius));
-  Region hole;
-  hole.shape = Box{{kHole, kHole, 0.1}}, hole.position = {3, 0, -0.05}, hole.during = {{3.9, 4}};
-  edit.nail("ball", 0.0).inside(hole);
 
   const EditResult result = edit.solve();
   const Vec3 aim = result.scene.bodies[1].velocity;
@@ -60,6 +58,8 @@ void putt(const char* name, double least) {
     std::printf("  %.3f s: %s\n", arc.start(), nameOf(arc.kind()));
   }
   std::printf("  %.3f s: over the hole\n", over_hole);
+  const double end = result.motion.stateAt("ball", result.motion.end).position.z() - kRadius;
+  std::printf("  at the end %.1f cm below the green\n", -100 * end);
   std::printf("  largest error below 1e-9: %s\n", result.residual < 1e-9 ? "yes" : "no");
 }
 
@@ -67,5 +67,5 @@ void putt(const char* name, double least) {
 
 int main() {
   putt("soft", 0);
-  putt("firm", 0.008);
+  putt("firm", 0.011);
 }
