@@ -44,10 +44,9 @@ double clearanceAt(const Motion& motion, const BoundRegion& bound, int component
 
 // Samples, and those around the least one again and again.
 double sampledLeast(const Motion& motion, const BoundRegion& bound, int component) {
-  double from = bound.from, to = bound.to, least = std::numeric_limits<double>::infinity();
+  double from = bound.from, to = bound.to, at = from, least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 11; ++round) {
     const int count = round == 0 ? 3000 : 60;
-    double at = from;
     for (int i = 0; i <= count; ++i) {
       const double t = from + (to - from) * i / count, value = clearanceAt(motion, bound, component, t);
       if (value < least) least = value, at = t;
