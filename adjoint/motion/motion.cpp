@@ -6,6 +6,7 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/errors.h"
 #include "adjoint/base/names.hpp"
+#include "adjoint/motion/event_features.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
 namespace carom {
@@ -113,15 +114,21 @@ std::string Motion::describeEvent(int index) const {
   return text + " " + nameOf(event.mode);
 }
 
+std::vector<std::array<int, 6>> adjoint_detail::sortedFeatures(const Event& event) {
+  std::vector<std::array<int, 6>> features;
+  for (const Contact& c : event.contacts)
+    features.push_back({c.a, c.b, c.features.kind, c.features.a, c.features.b, c.features.sign});
+  std::sort(features.begin(), features.end());
+  return features;
+}
+
 std::string Motion::signature(std::size_t count) const {
   std::string text;
   for (std::size_t i = 0; i < std::min(count, events.size()); ++i) {
     const Event& event = events[i];
     if (event.kind == EventKind::impact && !event.counts()) continue;
-    for (const Contact& c : event.contacts)
-      for (int part : {c.a, c.b, static_cast<int>(c.features.kind), static_cast<int>(c.features.a),
-                       static_cast<int>(c.features.b), static_cast<int>(c.features.sign)})
-        text += std::to_string(part) + ",";
+    for (const std::array<int, 6>& features : sortedFeatures(event))
+      for (int part : features) text += std::to_string(part) + ",";
     text += nameOf(branchOf(event.mode));
     if (event.kind != EventKind::impact) text += nameOf(event.kind);
     text += ';';
