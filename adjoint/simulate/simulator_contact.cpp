@@ -179,7 +179,7 @@ void Simulator::chooseArc(std::size_t participant) {
     const Contact& c = *choice.contacts.front();
     draft_.beyond = textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.settles_at.value_or(event.time),
                            " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
-                           motion_.impacts + 1, " impacts; ", choice.beyond, ", so the motion ends there");
+                           impactsWithDraft(), "; ", choice.beyond, ", so the motion ends there");
     return;
   }
   Onward& onward = draft_.onward[participant];
