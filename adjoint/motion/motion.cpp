@@ -15,7 +15,7 @@ using namespace adjoint_detail;
 
 const char* nameOf(EventKind kind) { return nameIn({"impact", "capture", "transition", "placed"}, kind); }
 
-const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip ends", "leaves", "tips"}, cause); }
+const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip_ends", "leaves", "tips"}, cause); }
 
 const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 
@@ -91,27 +91,6 @@ std::optional<int> Motion::findImpact(int body, int n, int with) const {
     if (++count == n) return e;
   }
   return std::nullopt;
-}
-
-std::string Motion::describeEvent(int index) const {
-  const Event& event = events[checkedIndex("describeEvent", "event", index, events.size())];
-  std::string text;
-  for (const Contact& c : event.contacts) {
-    if (!text.empty()) text += " + ";
-    text += scene->bodies[static_cast<std::size_t>(c.a)].name + "-" +
-            scene->bodies[static_cast<std::size_t>(c.b)].name + " (" + geometry->describe(c.a, c.b, c.features) + ")";
-  }
-  switch (event.kind) {
-    case EventKind::impact:
-      break;
-    case EventKind::capture:
-      return text + " " + nameOf(event.mode) + ", and stays";
-    case EventKind::transition:
-      return text + " " + nameOf(event.cause);
-    case EventKind::placed:
-      return text + " in contact from the start";
-  }
-  return text + " " + nameOf(event.mode);
 }
 
 std::vector<std::array<int, 6>> adjoint_detail::sortedFeatures(const Event& event) {
