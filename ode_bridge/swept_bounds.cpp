@@ -34,11 +34,16 @@ double roundingRoom(const Bounds& b) {
 // Along each axis by the parabola of the least and that of the greatest acceleration.
 double leavingTime(const FlightPath& path, const Acceleration& acceleration, double from, const Bounds& bounds) {
   const Vec3& g = acceleration.mean;
-  const double more = acceleration.variation, before = from - path.start;
-  const double faster = more * before, further = 0.5 * faster * before;
   const Vec3 p = path.positionAt(from, g), v = path.velocityAt(from, g);
   const auto across = [](double room, double speed, double pull) { return room > 0 ? timeTo(room, speed, pull) : 0; };
   double s = std::numeric_limits<double>::infinity();
+  if (acceleration.variation == 0) {
+    for (int k = 0; k < 3; ++k)
+      s = std::min({s, across(bounds.high[k] - p[k], v[k], g[k]), across(p[k] - bounds.low[k], -v[k], -g[k])});
+    return from + s;
+  }
+  const double more = acceleration.variation, before = from - path.start;
+  const double faster = more * before, further = 0.5 * faster * before;
   for (int k = 0; k < 3; ++k)
     s = std::min({s, across(bounds.high[k] - p[k] - further, v[k] + faster, g[k] + more),
                   across(p[k] - bounds.low[k] - further, faster - v[k], more - g[k])});

@@ -239,7 +239,7 @@ int Simulator::tiltOf(int body, int impact) const {
 // Participants, impulses and the arcs that follow.
 void Simulator::solveDraft() {
   Event& event = draft_.event;
-  addHeld();
+  if (any_lasted_) addHeld();
   const std::size_t n = event.contacts.size();
   work_.step(n + n * n * n / 10);  // what many contacts at once cost
   for (const Participant& p : event.participants) in_draft_[index(p.body)] = -1;

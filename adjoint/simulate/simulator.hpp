@@ -121,6 +121,7 @@ class Simulator {
   void setSpeedsOfContact();
   void addHeld();
   void solveLaw();
+  bool leavesFast() const;
   bool captureLow();
   void chooseArcs();
   void fly(std::size_t participant);

@@ -37,7 +37,6 @@ std::optional<PredictedImpact> Simulator::besideHeld(int a, int b, double from, 
 
 // The contacts that the participants are held by take part in whatever happens to them.
 void Simulator::addHeld() {
-  if (!any_lasted_) return;
   std::vector<Contact>& contacts = draft_.event.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (int body : {contacts[k].a, contacts[k].b})
@@ -65,8 +64,9 @@ void Simulator::solveLaw() {
     } catch (const NotComputable& error) {
       giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
     }
-  } while (captureLow());
-  event.settles_at = settlesAt(motion_, event, draft_.after);
+  } while (contactsLast() && !leavesFast() && captureLow());
+  event.settles_at.reset();
+  if (event.contacts[0].captured) event.settles_at = settlesAt(motion_, event, draft_.after);
 }
 
 const State& Simulator::stateAfter(int body) const {
@@ -100,16 +100,18 @@ void Simulator::setSpeedsOfContact() {
   counted_speed_ = contactsLast() ? 2.1 * kUncounted * reach * (kFastestSpin + pull) : 0;
 }
 
+// A lone contact leaves far too fast to be low: most events are that.
+bool Simulator::leavesFast() const {
+  const Contact& c = draft_.event.contacts[0];
+  if (draft_.event.contacts.size() > 1 || isTilted(c)) return false;
+  const double leaves = c.pair.elasticity * c.approach;
+  return leaves * leaves > 2 * lowest_speed_;  // twice, for rounding
+}
+
 // Contacts that leave so slowly that they would be back from less than the lowest bounce part without speed instead
 // (11.11); true where there are more of them than before.
 bool Simulator::captureLow() {
-  if (!contactsLast()) return false;
   Event& event = draft_.event;
-  if (event.contacts.size() == 1 && !isTilted(event.contacts[0])) {
-    const Contact& c = event.contacts[0];
-    const double leaves = c.pair.elasticity * c.approach;
-    if (leaves * leaves > 2 * lowest_speed_) return false;  // twice, for rounding
-  }
   bool more = false;
   for (Contact& c : event.contacts) {
     if (c.lasts || c.kept || c.captured) continue;
