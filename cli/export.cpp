@@ -128,7 +128,7 @@ Exit exportScene(const ExportArguments& options, Output& out) {
     out.document(exportJson(options.output, bytes, motion));
   else
     sayWritten(out, options.output,
-               " (" + out.number(motion.end) + " s, " + counted(motion.events.size(), "impact") + ", " +
+               " (" + out.number(motion.end) + " s, " + counted(motion.impacts, "impact") + ", " +
                    std::to_string(bytes) + " bytes)");
   return Exit::done;
 }

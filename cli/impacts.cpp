@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <vector>
 
+#include "adjoint/motion/lasting_contact.h"
 #include "cli/table.h"
 
 namespace carom::cli {
@@ -22,17 +22,55 @@ std::string pairName(const Motion& motion, const std::pair<int, int>& pair) {
   return nameOfBody(motion, pair.first) + "-" + nameOfBody(motion, pair.second);
 }
 
-/// One row an impact.
-void printRows(Output& out, const Motion& motion, const std::vector<std::size_t>& impacts) {
-  Table table({">", ">time [s]", "bodies", "mode", "point [m]", "normal", ">elasticity", ">margin"});
-  for (const std::size_t index : impacts) {
-    const Event& event = motion.events[index];
+/// Of every event: which impact it is, 1 = the motion's first; nothing where it is none to people.
+std::vector<std::string> impactNumbers(const Motion& motion) {
+  std::vector<std::string> numbers;
+  std::size_t impacts = 0;
+  for (const Event& event : motion.events) numbers.push_back(event.counts() ? std::to_string(++impacts) : "");
+  return numbers;
+}
+
+/// "ball-floor + box-floor (4 contacts)"
+std::string pairNames(const Motion& motion, const Event& event) {
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<int> counts;
+  for (const Contact& contact : event.contacts) {
+    const auto at = std::ranges::find(pairs, std::pair(contact.a, contact.b)) - pairs.begin();
+    if (at == std::ssize(pairs)) pairs.emplace_back(contact.a, contact.b), counts.push_back(0);
+    ++counts[static_cast<std::size_t>(at)];
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    names.push_back(pairName(motion, pairs[i]));
+    if (counts[i] > 1) names.back() += " (" + std::to_string(counts[i]) + " contacts)";
+  }
+  return joined(names, " + ");
+}
+
+/// One row an event. How bodies go on in contact has a column where any does.
+void printRows(Output& out, const Motion& motion, const std::vector<std::size_t>& events) {
+  const std::vector<std::string> numbers = impactNumbers(motion);
+  std::vector<std::string> changes;
+  for (const std::size_t index : events) changes.push_back(describeChanges(motion, static_cast<int>(index)));
+  const bool any = std::ranges::any_of(changes, [](const std::string& text) { return !text.empty(); });
+  std::vector<std::string> headings{">",         ">time [s]", "bodies",      "mode",
+                                    "point [m]", "normal",    ">elasticity", ">margin"};
+  if (any) headings.emplace_back("then");
+  Table table(headings);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Event& event = motion.events[events[i]];
     const Contact& first = event.contacts.front();
-    std::vector<std::string> names;
-    for (const Contact& contact : event.contacts) names.push_back(pairName(motion, {contact.a, contact.b}));
-    table.row({std::to_string(index + 1), out.number(event.time), joined(names, " + "), nameOf(event.mode),
-               out.vector(first.at.point), out.vector(first.at.normal), out.number(first.pair.elasticity),
-               out.number(event.margins.smallest())});
+    const bool law = event.kind == EventKind::impact || event.kind == EventKind::capture;
+    std::vector<std::string> cells{numbers[events[i]],
+                                   out.number(event.time),
+                                   pairNames(motion, event),
+                                   law ? nameOf(event.mode) : "",
+                                   out.vector(first.at.point),
+                                   out.vector(first.at.normal),
+                                   law ? out.number(first.pair.elasticity) : "",
+                                   law ? out.number(event.margins.smallest()) : ""};
+    if (any) cells.push_back(changes[i]);
+    table.row(cells);
   }
   table.print(out);
 }
@@ -75,9 +113,26 @@ void printTallies(Output& out, const std::string& title, const char* heading, co
   table.print(out);
 }
 
-std::size_t nearestToTheEdge(const std::vector<Event>& events) {
-  const auto less = [](const Event& a, const Event& b) { return a.margins.smallest() < b.margins.smallest(); };
-  return static_cast<std::size_t>(std::min_element(events.begin(), events.end(), less) - events.begin());
+std::size_t nearestToTheEdge(const Motion& motion, const std::vector<std::size_t>& impacts) {
+  const auto margin = [&](std::size_t index) { return motion.events[index].margins.smallest(); };
+  return *std::ranges::min_element(impacts, {}, margin);
+}
+
+std::vector<std::size_t> countedEvents(const Motion& motion) {
+  std::vector<std::size_t> impacts;
+  for (std::size_t i = 0; i < motion.events.size(); ++i)
+    if (motion.events[i].counts()) impacts.push_back(i);
+  return impacts;
+}
+
+/// Pairs of bodies that have an impact to people in an event; those that touch in several places meet once.
+std::vector<std::pair<int, int>> pairsOf(const Event& event) {
+  std::vector<std::pair<int, int>> met;
+  for (const Contact& contact : event.contacts)
+    if (event.meets(contact.a, contact.b)) met.emplace_back(contact.a, contact.b);
+  std::ranges::sort(met);
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  return met;
 }
 
 /// Lines from one on, so many at most.
@@ -117,35 +172,41 @@ void printSequences(Output& out, const std::vector<std::string>& before, const s
   }
 }
 
+std::vector<std::size_t> toldEvents(const Motion& motion) {
+  std::vector<std::size_t> told;
+  for (std::size_t i = 0; i < motion.events.size(); ++i)
+    if (motion.events[i].kind != EventKind::impact || motion.events[i].counts()) told.push_back(i);
+  return told;
+}
+
 void printImpacts(Output& out, const Motion& motion) {
-  if (motion.events.empty()) return;
-  std::vector<std::size_t> all(motion.events.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  printRows(out, motion, all);
+  const std::vector<std::size_t> told = toldEvents(motion);
+  if (!told.empty()) printRows(out, motion, told);
 }
 
 void printImpactSummary(Output& out, const Motion& motion) {
   std::map<ImpactMode, Tally> modes;
   std::map<std::pair<int, int>, Tally> pairs;
   std::map<int, Tally> bodies;
-  for (const Event& event : motion.events) {
+  const std::vector<std::size_t> impacts = countedEvents(motion);
+  for (const std::size_t index : impacts) {
+    const Event& event = motion.events[index];
     modes[event.mode].add(event.time);
-    for (const Participant& participant : event.participants) bodies[participant.body].add(event.time);
-    std::vector<std::pair<int, int>> met;  // bodies that touch in several places meet once
-    for (const Contact& contact : event.contacts) met.emplace_back(contact.a, contact.b);
-    std::sort(met.begin(), met.end());
-    met.erase(std::unique(met.begin(), met.end()), met.end());
-    for (const auto& pair : met) pairs[pair].add(event.time);
+    for (const Participant& participant : event.participants)
+      if (participant.impact > 0) bodies[participant.body].add(event.time);
+    for (const auto& pair : pairsOf(event)) pairs[pair].add(event.time);
   }
   printTallies(out, "Impacts by mode", "mode", modes, [](ImpactMode mode) { return std::string(nameOf(mode)); });
   printTallies(out, "Pairs that meet most often", "bodies", pairs,
                [&](const auto& pair) { return pairName(motion, pair); });
   printTallies(out, "Moving bodies with most impacts", "body", bodies,
                [&](int body) { return nameOfBody(motion, body); });
-  out.text() << "\nThe first impact, the one nearest to where derivatives stop, and the last:\n";
-  std::vector<std::size_t> chosen{0, nearestToTheEdge(motion.events), motion.events.size() - 1};
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-  printRows(out, motion, chosen);
+  if (!impacts.empty()) {
+    out.text() << "\nThe first impact, the one nearest to where derivatives stop, and the last:\n";
+    std::vector<std::size_t> chosen{impacts.front(), nearestToTheEdge(motion, impacts), impacts.back()};
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    printRows(out, motion, chosen);
+  }
   out.text() << "--impacts lists all of them.\n";
 }
 

@@ -13,10 +13,14 @@ namespace carom::cli {
 /// More impacts than these are summed up.
 inline constexpr std::size_t kMostListed = 50;
 
-/// One row an impact.
+/// The events that people are told of, in their order: impacts, and changes of what lasts. Bounces too low to be
+/// impacts are left out.
+std::vector<std::size_t> toldEvents(const Motion& motion);
+
+/// One row for each of them; impacts are numbered.
 void printImpacts(Output& out, const Motion& motion);
 
-/// How many there are by mode, pair and body, and the ones that stand out.
+/// How many impacts there are by mode, pair and body, and the ones that stand out.
 void printImpactSummary(Output& out, const Motion& motion);
 
 /// A sequence of impacts, one line each; of more than kMostListed only the first, unless `all` are asked for.

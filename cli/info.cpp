@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "adjoint/scene/body_model.h"
+#include "adjoint/simulate/lasting_kinds.hpp"
 #include "carom/version.h"
 #include "cli/build_facts.h"
 #include "cli/command.h"
@@ -58,6 +59,17 @@ ScenePlan::Pair pairOf(const Output& out, const Scene& scene, int a, int b) {
   return pair;
 }
 
+std::vector<ScenePlan::Lasting> lastingOf(const Scene& scene, const Plan& plan) {
+  std::vector<ScenePlan::Lasting> lasting(scene.bodies.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.immovable()) continue;
+    auto [kinds, ends] = adjoint_detail::lastingKindsOf(body.shape, modelOf(body), plan.bodies[i].derivative_tier);
+    lasting[i] = {std::move(kinds), std::move(ends)};
+  }
+  return lasting;
+}
+
 ScenePlan planOf(const Output& out, Loaded& loaded) {
   const Document& document = loaded.document;
   const Scene& scene = document.scene;
@@ -70,6 +82,7 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
   const bool edits = plan.controls > 0 && plan.rows > 0;
   plan.asked = edits ? "edit" : "simulate";
   plan.plan = makePlan(scene, edits ? problem.asked : std::vector<Asked>{});
+  plan.lasting = lastingOf(scene, plan.plan);
   loaded.contacts.begin(scene);
   plan.overlaps = loaded.contacts.overlaps();
   const int count = static_cast<int>(scene.bodies.size());
@@ -125,29 +138,58 @@ void printShapes(Output& out, const Scene& scene) {
   sayMoreBodies(out, scene);
 }
 
+/// Names with what is said of each, in the order in which it was first said.
+class Sayings {
+ public:
+  void add(const std::string& name, const std::string& text) {
+    auto& names = names_[text];
+    if (names.empty()) order_.push_back(text);
+    names.push_back(name);
+  }
+  bool empty() const { return order_.empty(); }
+  void print(Output& out) const {
+    for (const std::string& text : order_) {
+      const auto& names = names_.at(text);
+      out.text() << "  ";
+      for (std::size_t i = 0; i < std::min(names.size(), kMostPairs); ++i)
+        out.text() << (i > 0 ? ", " : "") << names[i];
+      if (names.size() > kMostPairs) out.text() << " and " << names.size() - kMostPairs << " more";
+      out.text() << '\n' << text;
+    }
+  }
+
+ private:
+  std::vector<std::string> order_;
+  std::map<std::string, std::vector<std::string>> names_;
+};
+
 // Pairs of the same materials have the same law and coefficients.
 void printPairs(Output& out, const Scene& scene, const ScenePlan& plan) {
   out.text() << "\nPairs that can touch, with their impact law:\n";
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<std::string>> members;
-  for (const ScenePlan::Pair& pair : plan.pairs) {
-    const std::string law = "    " + pair.why + "\n    elasticity " + pair.elasticity_why + "\n    friction " +
-                            pair.friction_why + "\n    tangential elasticity " +
-                            out.number(pair.coefficients.tangential_elasticity) + "\n";
-    auto& names = members[law];
-    if (names.empty()) order.push_back(law);
-    names.push_back(scene.bodies[static_cast<std::size_t>(pair.a)].name + "-" +
-                    scene.bodies[static_cast<std::size_t>(pair.b)].name);
-  }
-  for (const std::string& law : order) {
-    const auto& names = members[law];
-    out.text() << "  ";
-    for (std::size_t i = 0; i < std::min(names.size(), kMostPairs); ++i) out.text() << (i > 0 ? ", " : "") << names[i];
-    if (names.size() > kMostPairs) out.text() << " and " << names.size() - kMostPairs << " more";
-    out.text() << '\n' << law;
-  }
-  if (order.empty()) out.text() << "  none\n";
+  Sayings laws;
+  for (const ScenePlan::Pair& pair : plan.pairs)
+    laws.add(scene.bodies[static_cast<std::size_t>(pair.a)].name + "-" +
+                 scene.bodies[static_cast<std::size_t>(pair.b)].name,
+             "    " + pair.why + "\n    elasticity " + pair.elasticity_why + "\n    friction " + pair.friction_why +
+                 "\n    tangential elasticity " + out.number(pair.coefficients.tangential_elasticity) + "\n");
+  laws.print(out);
+  if (laws.empty()) out.text() << "  none\n";
   out.text() << "  Contacts of one instant are solved together (equation 4.4).\n";
+}
+
+void printLasting(Output& out, const Scene& scene, const ScenePlan& plan) {
+  Sayings all;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const ScenePlan::Lasting& lasting = plan.lasting[i];
+    if (lasting.kinds.empty()) continue;
+    std::vector<std::string> kinds;
+    for (const ArcKind kind : lasting.kinds) kinds.push_back(nameOf(kind));
+    all.add(scene.bodies[i].name, "    " + joined(kinds, ", ") + "; the motion ends where it " + lasting.ends + "\n");
+  }
+  if (all.empty()) return;
+  out.text() << "\nContact with fixed bodies lasts, and is known in closed form (section 11 of the equations):\n";
+  all.print(out);
+  out.text() << "  Lasting contact of bodies that all move ends the motion.\n";
 }
 
 void printOverlaps(Output& out, const Scene& scene, const ScenePlan& plan) {
@@ -173,6 +215,7 @@ Exit describeScene(const std::string& path, Output& out) {
   printShapes(out, document.scene);
   printBodies(out, document.scene, plan);
   printPairs(out, document.scene, plan);
+  printLasting(out, document.scene, plan);
   printOverlaps(out, document.scene, plan);
   return Exit::done;
 }
@@ -219,7 +262,8 @@ const Command kInfoCommand{
     "info", "How a scene is computed, and why; or about this program",
     "For a scene: the shape and mass properties of every body, its flight model, for motion and for\n"
     "derivatives, the impact law and the combined coefficients of every pair that can touch, each with its\n"
-    "reason, and how many numbers may vary and are held. Without a scene: version, build, libraries and formats.\n"
+    "reason, what each body can do in lasting contact, and how many numbers may vary and are held. Without\n"
+    "a scene: version, build, libraries and formats.\n"
     "\n"
     "Examples:\n"
     "  carom info scene.json\n"

@@ -7,6 +7,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "cli/command.h"
 #include "cli/impacts.h"
+#include "cli/lasting_contacts.h"
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/table.h"
@@ -52,17 +53,18 @@ void printEnd(Output& out, const Motion& motion) {
 
 void printMotion(Output& out, const Motion& motion, const SimulateArguments& arguments,
                  const std::vector<double>& times) {
-  out.text() << counted(motion.events.size(), "impact") << " in " << out.number(motion.end) << " s";
+  out.text() << counted(motion.impacts, "impact") << " in " << out.number(motion.end) << " s";
   if (motion.status != MotionStatus::complete)
     out.text() << "; " << out.styled(Look::warning, "the motion ends there") << " (" << nameOf(motion.status)
                << "): " << motion.message;
   out.text() << '\n';
   for (const StartOverlap& overlap : motion.overlaps)
     out.text() << describeOverlap(*motion.scene, overlap) << '\n';
-  if (arguments.impacts || motion.events.size() <= kMostListed)
+  if (arguments.impacts || toldEvents(motion).size() <= kMostListed)
     printImpacts(out, motion);
   else
     printImpactSummary(out, motion);
+  printLastingContacts(out, motion, arguments.impacts);
   if (times.empty()) printEnd(out, motion);
   for (const double time : times) printStates(out, motion, time);
 }
@@ -110,8 +112,10 @@ Action declareSimulate(CLI::App& app) {
 const Command kSimulateCommand{
     "simulate", "Simulate a scene: every impact, and states at any time",
     "Prints every impact (time, bodies, contact point and normal, mode, and the margin to where\n"
-    "derivatives stop) and the state at the end of the motion, or at the times asked for. Of more than\n"
-    "50 impacts it prints how many there are by mode, pair and body instead, if not --impacts.\n"
+    "derivatives stop), which bodies rest, slide and roll on what and how long, and the state at the end of\n"
+    "the motion, or at the times asked for. Bounces lower than a millionth of a body are no impacts; --json\n"
+    "has them. Of more than 50 impacts it prints how many there are by mode, pair and body instead, if not\n"
+    "--impacts.\n"
     "A motion that cannot be continued ends early: the answer says where, when and why. So does one that\n"
     "takes more steps of work than --step-limit, or that Ctrl-C stops (then the command ends with 130).\n"
     "\n"

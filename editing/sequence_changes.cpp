@@ -8,6 +8,7 @@
 
 #include "adjoint/base/names.hpp"
 #include "adjoint/impact/law.hpp"
+#include "adjoint/motion/event_features.hpp"
 #include "editing/detail/messages.hpp"
 
 namespace carom {
@@ -51,11 +52,7 @@ Sequence sequenceOf(const Motion& motion, std::size_t count) {
 
 const Event& eventOf(const Motion& motion, int index) { return motion.events[static_cast<std::size_t>(index)]; }
 
-bool sameFeatures(const Event& a, const Event& b) {
-  return std::equal(
-      a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
-      [](const Contact& c, const Contact& d) { return c.a == d.a && c.b == d.b && c.features == d.features; });
-}
+bool sameFeatures(const Event& a, const Event& b) { return sortedFeatures(a) == sortedFeatures(b); }
 
 int differenceOf(const Event& a, const Event& b) {
   return (sameFeatures(a, b) ? 0 : kOtherFeatures) + (branchOf(a.mode) == branchOf(b.mode) ? 0 : kOtherMode);
@@ -181,14 +178,19 @@ std::optional<SequenceChange> otherOrder(const Motion& before, std::size_t count
 SequenceChange otherContact(const Motion& before, std::size_t count_before, const Motion& after,
                             std::size_t count_after) {
   const std::vector<int> a = eventsOf(before, count_before, true), b = eventsOf(after, count_after, true);
-  const auto describe = [](const Motion& motion, const std::vector<int>& events, std::size_t i) {
-    return i < events.size() ? motion.describeEvent(events[i]) : std::string("nothing more");
+  const auto alike = [](const Event& x, const Event& y) {
+    return x.kind == y.kind && x.cause == y.cause && branchOf(x.mode) == branchOf(y.mode) && sameFeatures(x, y);
   };
   std::size_t i = 0;
-  while (i < std::min(a.size(), b.size()) && describe(before, a, i) == describe(after, b, i)) ++i;
-  return {Kind::contact, i < a.size() ? a[i] : -1, i < b.size() ? b[i] : -1,
-          "What lasts in contact has changed: " + describe(after, b, i) + ", where it was " + describe(before, a, i) +
-              "."};
+  while (i < std::min(a.size(), b.size()) && alike(eventOf(before, a[i]), eventOf(after, b[i]))) ++i;
+  const int was = i < a.size() ? a[i] : -1, is = i < b.size() ? b[i] : -1;
+  if (was < 0 && is < 0)
+    return {Kind::contact, was, is, "What lasts in contact has changed: it begins or ends between other impacts."};
+  std::string what = "What lasts in contact has changed: ";
+  if (is < 0) return {Kind::contact, was, is, what + before.describeEvent(was) + " no longer comes."};
+  what += after.describeEvent(is);
+  if (was < 0) return {Kind::contact, was, is, what + " comes anew."};
+  return {Kind::contact, was, is, what + ", where it was " + before.describeEvent(was) + "."};
 }
 
 }  // namespace

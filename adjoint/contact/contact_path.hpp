@@ -31,9 +31,10 @@ GlidePath<S> glideOf(PathForm form, const PathInputs<S>& in) {
 }
 
 /// A time after the start; of a glide not past the end of its slip, where it stays.
+/// `turning`: with the orientation.
 template <class S>
-PathState<S> pathStateAt(PathForm form, const PathInputs<S>& in, const S& elapsed) {
-  return withPath<S>(form, in, [&](const auto& path) { return path.stateAt(elapsed); });
+PathState<S> pathStateAt(PathForm form, const PathInputs<S>& in, const S& elapsed, bool turning = true) {
+  return withPath<S>(form, in, [&](const auto& path) { return path.stateAt(elapsed, turning); });
 }
 /// The centre of mass alone.
 template <class S>
@@ -54,8 +55,8 @@ std::optional<S> slipEnd(PathForm form, const PathInputs<S>& in) {
 }
 /// There the slip is exactly 0: a ball rolls, a block rests. `form`: a glide that ends.
 template <class S>
-PathState<S> pathStateAtSlipEnd(PathForm form, const PathInputs<S>& in) {
-  return glideOf(form, in).stateAtEnd();
+PathState<S> pathStateAtSlipEnd(PathForm form, const PathInputs<S>& in, bool turning = true) {
+  return glideOf(form, in).stateAtEnd(turning);
 }
 /// Unit vector along the slip of a glide; at the end the limit. Zero where there is no slip, and no slope to start it.
 template <class S>
@@ -86,7 +87,10 @@ struct ContactPath {
 
   /// At that end, start + slip_end, exactly slip_end.
   double elapsedAt(double t) const { return t < start + slip_end ? t - start : slip_end; }
-  State stateAt(const State& start_state, double t) const;
+  /// `turning`: with the orientation; else it stays that of the start.
+  State stateAt(const State& start_state, double t, bool turning = true) const;
+  /// Until then a number of series carry the orientation.
+  double followedUntil(double series) const;
 };
 
 /// The first time in (0, until] at which weight.(x + ahead * slip direction) falls through `value`: nothing where it

@@ -35,13 +35,19 @@ PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, 
   return withPath<double>(form, in, [&](const auto& path) { return boundsOf(path, from, until); });
 }
 
-State ContactPath::stateAt(const State& start_state, double t) const {
+State ContactPath::stateAt(const State& start_state, double t, bool turning) const {
   const double elapsed = elapsedAt(t);
   if (form == PathForm::rest || elapsed == 0) return start_state;
   const PathState<double> now =
-      elapsed == slip_end ? pathStateAtSlipEnd(form, inputs) : pathStateAt(form, inputs, elapsed);
-  const bool turns = form != PathForm::glide_block;
+      elapsed == slip_end ? pathStateAtSlipEnd(form, inputs, turning) : pathStateAt(form, inputs, elapsed, turning);
+  const bool turns = turning && form != PathForm::glide_block;
   return {now.x, turns ? Quat(now.R).normalized() : start_state.q, now.v, now.L};
+}
+
+double ContactPath::followedUntil(double series) const {
+  // The shortest are 1.2/(|w| + sqrt|w'|). At a constant spin there are none.
+  if (bounds.spin_rate == 0) return std::numeric_limits<double>::infinity();
+  return start + 1.2 * series / (bounds.spin + std::sqrt(bounds.spin_rate));
 }
 
 }  // namespace carom::adjoint_detail

@@ -138,12 +138,16 @@ Arc& Arc::operator=(Arc&&) noexcept = default;
 Arc::~Arc() = default;
 
 double Arc::availableUntil() const {
+  if (path_ && tier_ != Tier::none) return path_->followedUntil(TriaxialRotation::kMostSegments);
   return triaxial_ ? start_ + triaxial_->availableUntil() : std::numeric_limits<double>::infinity();
 }
 std::size_t Arc::series() const { return triaxial_ ? triaxial_->series() : 0; }
 
 void Arc::extendTo(double t) {
   if (triaxial_) triaxial_->extendTo(t - start_);
+  if (path_ && !(t <= availableUntil()))
+    throw NotComputable("its rotation takes more than " + std::to_string(TriaxialRotation::kMostSegments) +
+                        " series to follow");
 }
 
 Quat Arc::rotationAt(double s) const {
@@ -178,7 +182,7 @@ Vec3 Arc::velocityAt(double t) const {
 }
 
 State Arc::stateAt(double t) const {
-  if (path_) return path_->stateAt(state_, t);
+  if (path_) return path_->stateAt(state_, t, tier_ != Tier::none);
   return {positionAt(t), rotationAt(t - start_), velocityAt(t), state_.L};
 }
 

@@ -6,6 +6,7 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/errors.h"
 #include "adjoint/base/names.hpp"
+#include "adjoint/motion/event_features.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
 namespace carom {
@@ -14,7 +15,7 @@ using namespace adjoint_detail;
 
 const char* nameOf(EventKind kind) { return nameIn({"impact", "capture", "transition", "placed"}, kind); }
 
-const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip ends", "leaves", "tips"}, cause); }
+const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip_ends", "leaves", "tips"}, cause); }
 
 const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 
@@ -92,25 +93,12 @@ std::optional<int> Motion::findImpact(int body, int n, int with) const {
   return std::nullopt;
 }
 
-std::string Motion::describeEvent(int index) const {
-  const Event& event = events[checkedIndex("describeEvent", "event", index, events.size())];
-  std::string text;
-  for (const Contact& c : event.contacts) {
-    if (!text.empty()) text += " + ";
-    text += scene->bodies[static_cast<std::size_t>(c.a)].name + "-" +
-            scene->bodies[static_cast<std::size_t>(c.b)].name + " (" + geometry->describe(c.a, c.b, c.features) + ")";
-  }
-  switch (event.kind) {
-    case EventKind::impact:
-      break;
-    case EventKind::capture:
-      return text + " " + nameOf(event.mode) + ", and stays";
-    case EventKind::transition:
-      return text + " " + nameOf(event.cause);
-    case EventKind::placed:
-      return text + " in contact from the start";
-  }
-  return text + " " + nameOf(event.mode);
+std::vector<std::array<int, 6>> adjoint_detail::sortedFeatures(const Event& event) {
+  std::vector<std::array<int, 6>> features;
+  for (const Contact& c : event.contacts)
+    features.push_back({c.a, c.b, c.features.kind, c.features.a, c.features.b, c.features.sign});
+  std::sort(features.begin(), features.end());
+  return features;
 }
 
 std::string Motion::signature(std::size_t count) const {
@@ -118,10 +106,8 @@ std::string Motion::signature(std::size_t count) const {
   for (std::size_t i = 0; i < std::min(count, events.size()); ++i) {
     const Event& event = events[i];
     if (event.kind == EventKind::impact && !event.counts()) continue;
-    for (const Contact& c : event.contacts)
-      for (int part : {c.a, c.b, static_cast<int>(c.features.kind), static_cast<int>(c.features.a),
-                       static_cast<int>(c.features.b), static_cast<int>(c.features.sign)})
-        text += std::to_string(part) + ",";
+    for (const std::array<int, 6>& features : sortedFeatures(event))
+      for (int part : features) text += std::to_string(part) + ",";
     text += nameOf(branchOf(event.mode));
     if (event.kind != EventKind::impact) text += nameOf(event.kind);
     text += ';';

@@ -37,7 +37,7 @@ const char* nameOf(EventKind kind);
 /// Why a body in lasting contact goes on otherwise: its slip comes to an end, a contact comes to the border of the feature
 /// that it is at, or the force at a corner comes to 0.
 enum class TransitionCause : std::uint8_t { none, slip_ends, leaves, tips };
-/// "none", "slip ends", "leaves" or "tips".
+/// "none", "slip_ends", "leaves" or "tips".
 const char* nameOf(TransitionCause cause);
 
 /// One contact of an event, between bodies a and b at frozen features.
@@ -109,7 +109,7 @@ struct WorldLine {
 /// Why a motion ends.
 enum class MotionStatus {
   complete,          ///< known up to the asked duration
-  impact_limit,      ///< stopped after the allowed number of impacts
+  impact_limit,      ///< stopped after the allowed number of events
   cascade,           ///< impacts accumulate: infinitely many in finite time, or bodies stay in contact
   unresolved_impact,  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach), or a
                       ///< contact without a normal
@@ -128,7 +128,8 @@ struct Motion {
   Plan plan;                                             ///< how each body was computed
   std::vector<WorldLine> world_lines;  ///< one a body
   std::vector<Event> events;           ///< in increasing order of time; empty when they were not recorded
-  std::size_t impacts = 0;             ///< number of events, recorded or not
+  std::size_t impacts = 0;             ///< events that are impacts to people (Event::counts), recorded or not
+  std::size_t event_count = 0;         ///< all events, recorded or not
   std::size_t steps = 0;               ///< of work that it took, see SimulateOptions::step_limit
   bool has_events = true;              ///< false: paths alone, which cannot be differentiated
   std::vector<StartOverlap> overlaps;  ///< pairs that did not collide until they had parted

@@ -7,6 +7,7 @@
 #include "adjoint/contact/cone_program.hpp"
 #include "adjoint/impact/complementarity.hpp"
 #include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/lasting_kinds.hpp"
 #include "adjoint/simulate/normal_contacts.hpp"
 #include "adjoint/simulate/support_polygon.hpp"
 
@@ -143,17 +144,13 @@ class Chooser {
     return (gravity_ + model_.inverse_mass * force).norm() <= most && (A_ * moment).norm() * reach_ <= most;
   }
 
-  bool isBall() const {
-    return std::holds_alternative<Sphere>(scene_.bodies[asIndex(body_)].shape) && model_.center.isZero(0) &&
-           model_.inertia.minCoeff() == model_.inertia.maxCoeff();
-  }
+  bool isBall() const { return isUniformBall(scene_.bodies[asIndex(body_)].shape, model_); }
   // Of a cylinder or capsule that lies on its side, all of whose contacts are on the line below its axis.
   bool isAxle() const {
     const Shape& shape = scene_.bodies[asIndex(body_)].shape;
     const auto* cylinder = std::get_if<Cylinder>(&shape);
-    const auto* capsule = std::get_if<Capsule>(&shape);
-    if ((!cylinder && !capsule) || model_.center.norm() > 0) return false;
-    const double radius = cylinder ? cylinder->radius : capsule->radius;
+    if (!isRoundAboutAxis(shape, model_)) return false;
+    const double radius = cylinder ? cylinder->radius : std::get<Capsule>(shape).radius;
     const Vec3 axis = R_ * axisOf(), n = normalOf(*pressed_.front());
     if (pressed_.size() < 2 || std::abs(axis.dot(n)) > kSameNormal) return false;
     if (!(omega_ - axis.dot(omega_) * axis).isZero(kNoSlip * omega_.norm())) return false;
@@ -180,7 +177,7 @@ class Chooser {
   ContactChoice ball() {
     const PathInputs<double> in = inputs(heightOf());
     const Tier derivative = motion_.plan.bodies[asIndex(body_)].derivative_tier;
-    if (derivative != Tier::spherical && derivative != Tier::none)
+    if (!keepsBall(derivative))
       return beyond("a ball whose moments of inertia vary one by one is not modelled yet where it rolls or slides");
     if (slipOf(*pressed_.front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
     const Vec3 slope = alongFace(in.normal, in.gravity);

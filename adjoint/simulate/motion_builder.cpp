@@ -54,7 +54,8 @@ const Contact* MotionBuilder::notParted(const Event& event, const std::vector<St
 }
 
 void MotionBuilder::add(Event&& event, std::vector<Arc>&& arcs) {
-  const int number = static_cast<int>(motion.impacts++);
+  const int number = static_cast<int>(motion.event_count++);
+  if (event.counts()) ++motion.impacts;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     WorldLine& line = motion.world_lines[index(event.participants[i].body)];
     line.arcs.push_back(std::move(arcs[i]));

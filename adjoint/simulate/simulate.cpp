@@ -75,9 +75,9 @@ bool Simulator::follow() {
   if (!start()) return false;
   for (Prediction next; takeNext(next);) {
     work_.step();
-    if (motion_.impacts >= impact_limit_) {
+    if (motion_.event_count >= impact_limit_) {
       finish(MotionStatus::impact_limit, next.time,
-             "stopped after " + std::to_string(impact_limit_) + " impacts, the limit that was set");
+             "stopped after " + eventsSoFar() + ", the limit that was set");
       return false;
     }
     if (next.isTransition()) {

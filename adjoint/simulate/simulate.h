@@ -13,7 +13,9 @@ namespace carom {
 
 /// How far to simulate, and what to keep.
 struct SimulateOptions {
-  std::size_t impact_limit = 20000;  ///< events, after which the motion ends with MotionStatus::impact_limit
+  /// Events of every kind, bounces too low to be impacts to people among them, after which the motion ends with
+  /// MotionStatus::impact_limit.
+  std::size_t impact_limit = 20000;
   std::vector<Asked> asked;          ///< a body each; empty asks for everything
   /// false: the arcs of the bodies alone are kept, in less than half of the memory. Such a motion has no events, so it
   /// cannot be differentiated, and times cannot be given as the n-th impact.

@@ -158,6 +158,8 @@ class Simulator {
 
   // simulator_endings.cpp: outcomes that end a motion early
   std::string namesOf(int a, int b) const;  // "'a' and 'b'"
+  std::string impactsWithDraft() const;
+  std::string eventsSoFar() const;
   bool isExplained(const Prediction& next);
   bool separates();
   bool accumulates();

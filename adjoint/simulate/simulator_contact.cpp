@@ -191,7 +191,7 @@ void Simulator::endBeyond(const Contact& c, const std::string& why) {
   const Event& event = draft_.event;
   draft_.beyond = textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.settles_at.value_or(event.time),
                          " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
-                         motion_.impacts + 1, " impacts; ", why, ", so the motion ends there");
+                         impactsWithDraft(), "; ", why, ", so the motion ends there");
 }
 
 void Simulator::chooseArc(std::size_t participant) {

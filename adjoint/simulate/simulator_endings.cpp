@@ -13,6 +13,18 @@ std::string Simulator::namesOf(int a, int b) const {
   return "'" + scene_.bodies[index(a)].name + "' and '" + scene_.bodies[index(b)].name + "'";
 }
 
+// "3 impacts", to people, the draft among them.
+std::string Simulator::impactsWithDraft() const {
+  const std::size_t count = motion_.impacts + (draft_.event.counts() ? 1 : 0);
+  return std::to_string(count) + (count == 1 ? " impact" : " impacts");
+}
+
+// What the limit of events has let through: most often all of them are impacts.
+std::string Simulator::eventsSoFar() const {
+  if (motion_.impacts == motion_.event_count) return std::to_string(motion_.impacts) + " impacts";
+  return std::to_string(motion_.event_count) + " events, " + std::to_string(motion_.impacts) + " of them impacts";
+}
+
 // Bodies may come to overlap where no features say how they meet.
 bool Simulator::isExplained(const Prediction& next) {
   if (next.explained()) return true;
@@ -78,7 +90,7 @@ bool Simulator::accumulates() {
     finish(MotionStatus::cascade, event.time,
            textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.time + (e < 1 ? gap / (1 - e) : gap),
                   " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
-                  motion_.impacts + 1, " impacts; no contact lasts where the lowest bounce is 0, so the motion ends there"));
+                  impactsWithDraft(), "; no contact lasts where the lowest bounce is 0, so the motion ends there"));
     return true;
   }
   for (const Participant& p : event.participants) {
@@ -167,7 +179,8 @@ void Simulator::forgetAfter(double end) {
     }
   if (!motion_.has_events) return;
   while (!motion_.events.empty() && motion_.events.back().time > end) motion_.events.pop_back();
-  motion_.impacts = motion_.events.size();
+  motion_.event_count = motion_.events.size();
+  motion_.impacts = static_cast<std::size_t>(std::ranges::count_if(motion_.events, &Event::counts));
 }
 
 }  // namespace carom::adjoint_detail

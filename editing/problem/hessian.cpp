@@ -2,6 +2,7 @@
 #include "editing/problem/hessian.hpp"
 
 #include "adjoint/second_order/second_order.h"
+#include "editing/problem/rows/region_way.hpp"
 
 // With v the control values, t the free times and z the unknowns, v = v(z) and t = t(z) each by each:
 //   d^2 f/dz^2 = diag(v') d^2 f/d(v, t)^2 diag(v') + diag(df/dv v'').
@@ -42,13 +43,14 @@ Eigen::VectorXd clearanceTimeRate(const Clearance& c, DerivativeTape& tape,
   const int k = motion.arcAt(c.seed.body, c.time);
   const Arc& arc = motion.world_lines[static_cast<std::size_t>(c.seed.body)].arcs[static_cast<std::size_t>(k)];
   const Vec3 v = arc.velocityAt(c.time), n = c.seed.center_of_mass;
+  const double bend = n.dot(accelerationAt(arc, c.time)) + v.dot(c.bend * v);  // of the clearance by the time
   for (std::size_t j = 0; j < controls.size(); ++j) {
     const BodyStateRate d = tangent(tape, controls[j].scene).at(c.seed.body, Instant::at(c.time));
     const auto at = static_cast<Eigen::Index>(j);
     if (c.keeps == Clearance::Keeps::two_faces) {
       r[at] = -c.between.dot(d.center_of_mass) / c.between.dot(v);
     } else {
-      r[at] = -(n.dot(d.velocity) + v.dot(c.bend * d.center_of_mass)) / (n.dot(arc.acceleration()) + v.dot(c.bend * v));
+      r[at] = -(n.dot(d.velocity) + v.dot(c.bend * d.center_of_mass)) / bend;
     }
   }
   return r;

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "adjoint/derivative/adjoint.h"
+#include "adjoint/motion/lasting_contact.h"
 #include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
 
@@ -22,21 +23,22 @@ int main() {
   scene.bodies = {ball, table, floor};
   for (Body& body : scene.bodies) body.material = "wood";
 
-  SimulateOptions options;
-  options.lowest_bounce = 1e-12;  // m
   OdeContacts contacts(scene);
-  const Motion motion = simulate(scene, contacts, 1.3, options);
+  const Motion motion = simulate(scene, contacts, 1.3);
   std::printf("%s\n", motion.message.c_str());
-  ArcKind before = ArcKind::flight;
-  for (const Event& event : motion.events) {
-    const Participant* participant = event.find(0);
-    const Arc& arc = motion.world_lines[0].arcs[static_cast<std::size_t>(participant->arc) + 1];
-    if (event.kind == EventKind::transition)
-      std::printf("%.9f s: %s\n", event.time, event.cause == TransitionCause::leaves ? "leaves the table"
-                                                                                      : nameOf(event.cause));
-    if (event.settles_at) std::printf("%.9f s: endless bounces would have ended\n", *event.settles_at);
-    if (arc.kind() != before) std::printf("%.9f s: %s\n", event.time, nameOf(before = arc.kind()));
+  std::printf("%zu impacts among %zu events\n", motion.impacts, motion.event_count);
+  for (int e = 0; e < static_cast<int>(motion.events.size()); ++e) {
+    const Event& event = motion.events[static_cast<std::size_t>(e)];
+    if (event.kind == EventKind::impact && !event.counts()) continue;  // lower than a millionth of the ball
+    std::printf("%.9f s: %s, %s", event.time, nameOf(event.kind), motion.describeEvent(e).c_str());
+    if (event.kind == EventKind::transition && event.cause == TransitionCause::slip_ends) std::printf(", as slip ends");
+    if (event.settles_at) std::printf("; endless bounces would have ended at %.9f s", *event.settles_at);
+    std::printf("\n");
   }
+  const auto name = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].name.c_str(); };
+  for (const LastingContact& c : lastingContacts(motion))
+    std::printf("%s %s on %s from %.9f s to %.9f s\n", name(c.body), c.kind == ArcKind::roll ? "rolls" : "slides",
+                name(c.with), c.from, c.to);
 
   StateSeed place;
   place.body = 0;

@@ -34,7 +34,14 @@ void writeFilter(JsonWriter& out, const CollisionFilter& filter) {
   out.members("not_collide_with", filter.not_collide_with).endObject();
 }
 
-void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
+void writeLasting(JsonWriter& out, const ScenePlan::Lasting& lasting) {
+  if (lasting.kinds.empty()) return;
+  std::vector<std::string> kinds;
+  for (const ArcKind kind : lasting.kinds) kinds.push_back(nameOf(kind));
+  out.members("lasting_contact", kinds, "lasting_contact_ends", lasting.ends);
+}
+
+void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan, const ScenePlan::Lasting& lasting) {
   out.members("name", body.name).unlessEmpty("notes", body.notes);
   writeShapeOf(out, body);
   writeMassProperties(out, body);
@@ -43,6 +50,7 @@ void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan) {
   writeFilter(out, body.collision_filter);
   out.members("tier", nameOf(plan.tier), "why", plan.why);
   out.members("derivative_tier", nameOf(plan.derivative_tier), "derivative_why", plan.derivative_why);
+  writeLasting(out, lasting);
 }
 
 }  // namespace
@@ -58,8 +66,10 @@ std::string infoJson(const Document& document, const ScenePlan& plan) {
   out.members("name", textOrNone(document.name), "notes", textOrNone(document.notes));
   out.members("duration", document.duration, "asked", plan.asked);
   std::size_t i = 0;
-  out.objects("bodies", scene.bodies, Layout::block,
-              [&](const Body& body) { writeBody(out, body, plan.plan.bodies[i++]); });
+  out.objects("bodies", scene.bodies, Layout::block, [&](const Body& body) {
+    writeBody(out, body, plan.plan.bodies[i], plan.lasting[i]);
+    ++i;
+  });
   out.objects("overlaps", plan.overlaps, Layout::line,
               [&](const StartOverlap& overlap) { out.members("bodies", names(overlap), "depth", overlap.depth); });
   out.objects("pairs", plan.pairs, Layout::block, [&](const ScenePlan::Pair& pair) {

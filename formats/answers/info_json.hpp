@@ -22,8 +22,14 @@ struct ScenePlan {
     std::string elasticity_why;     ///< how the materials' elasticities were combined
     std::string friction_why;       ///< how their frictions were combined
   };
+  /// What a moving body can do in lasting contact.
+  struct Lasting {
+    std::vector<ArcKind> kinds;  ///< empty of bodies that impacts do not move
+    std::string ends;            ///< the motion ends where it does this, in words
+  };
   std::string asked;                   ///< what the tiers are chosen for: "edit" or "simulate"
   Plan plan;                           ///< of the bodies
+  std::vector<Lasting> lasting;        ///< one a body
   std::vector<Pair> pairs;             ///< that can touch
   std::vector<StartOverlap> overlaps;  ///< at the start, without when they part
   int controls = 0;                    ///< numbers that may vary
@@ -33,8 +39,9 @@ struct ScenePlan {
 /// The answer of `carom info S.json --json`: name and notes (null where the document has none), duration, asked, bodies
 /// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
 /// principal moments (kg m^2), of those that differ kinematic, gravity_factor and collision_filter, tier, why,
-/// derivative_tier, derivative_why}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity, friction,
-/// tangential_elasticity}, controls, rows.
+/// derivative_tier, derivative_why, of those that impacts move lasting_contact (kinds, as of LastingContact) and
+/// lasting_contact_ends (where it ends the motion)}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity,
+/// friction, tangential_elasticity}, controls, rows.
 std::string infoJson(const Document& document, const ScenePlan& plan);
 
 }  // namespace carom::formats_detail

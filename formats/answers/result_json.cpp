@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "formats/answers/result_json.hpp"
 
+#include <algorithm>
+
+#include "adjoint/motion/lasting_contact.h"
 #include "formats/json/json_writer.hpp"
 
 namespace carom::formats_detail {
@@ -21,6 +24,8 @@ class MotionWriter {
       out_.members("bodies", names(overlap), "depth", overlap.depth, "parted", overlap.parted);
     });
     out_.objects("events", motion_.events, Layout::block, [&](const Event& event) { writeEvent(event); });
+    const auto lasting = motion_.has_events ? lastingContacts(motion_) : std::vector<LastingContact>();
+    out_.objects("contacts", lasting, Layout::line, [&](const LastingContact& contact) { writeLasting(contact); });
     out_.objects("states", at.empty() ? std::vector{motion_.end} : at, Layout::block,
                  [&](double time) { writeStates(time); });
     out_.endObject();
@@ -28,9 +33,9 @@ class MotionWriter {
   }
 
  private:
+  const std::string& name(int body) const { return bodies_.at(static_cast<std::size_t>(body)).name; }
   template <class Pair>
   std::array<std::string, 2> names(const Pair& pair) const {
-    const auto name = [&](int body) { return bodies_.at(static_cast<std::size_t>(body)).name; };
     return {name(pair.a), name(pair.b)};
   }
 
@@ -39,14 +44,28 @@ class MotionWriter {
     out_.members("elasticity", contact.pair.elasticity);
   }
 
+  void writeLasting(const LastingContact& contact) {
+    const auto [a, b] = std::minmax(contact.body, contact.with);  // in the order of events
+    std::vector<std::string> features;
+    for (const FeaturePair& pair : contact.features) features.push_back(motion_.geometry->describe(a, b, pair));
+    out_.members("bodies", std::array{name(contact.body), name(contact.with)}, "kind", nameOf(contact.kind));
+    out_.members("features", features, "from", contact.from, "to", contact.to);
+  }
+
   void writeEvent(const Event& event) {
-    out_.members("time", event.time);
+    out_.members("time", event.time, "kind", nameOf(event.kind), "counts", event.counts());
+    if (event.kind == EventKind::transition) out_.members("cause", nameOf(event.cause));
+    if (event.settles_at) out_.members("settles_at", *event.settles_at);
     if (!event.contacts.empty()) writeContact(event.contacts.front());
+    if (event.kind != EventKind::transition) writeLaw(event);
+    if (event.mode == ImpactMode::joint || event.contacts.size() > 1)
+      out_.objects("contacts", event.contacts, Layout::line, [&](const Contact& contact) { writeContact(contact); });
+  }
+
+  void writeLaw(const Event& event) {
     out_.members("mode", nameOf(event.mode), "margin", event.margins.smallest());
     out_.key("margins").beginObject(Layout::line);
     out_.members("grazing", event.margins.grazing, "stick_slip", event.margins.stick_slip).endObject();
-    if (event.mode == ImpactMode::joint)
-      out_.objects("contacts", event.contacts, Layout::line, [&](const Contact& contact) { writeContact(contact); });
   }
 
   void writeStates(double time) {

@@ -25,12 +25,31 @@ Vec3 centreAt(const Motion& motion, int body, double t) {
   return motion.world_lines[body].arcs[motion.arcAt(body, t)].positionAt(t);
 }
 
+namespace {
+
+// Of what is no parabola: places on it, and how far it is from the lines between them at most.
+void extendByCurve(const Arc& arc, double end, Extent& extent) {
+  constexpr int kParts = 64;
+  const double step = (end - arc.start()) / kParts;
+  const double off = 0.125 * step * step * (arc.acceleration().norm() + arc.accelerationVariation());
+  for (int i = 0; i <= kParts; ++i) {
+    const Vec3 x = arc.positionAt(i < kParts ? arc.start() + i * step : end);
+    extent.extend(Vec3(x.array() - off)), extent.extend(Vec3(x.array() + off));
+  }
+}
+
+}  // namespace
+
 Extent pathExtent(const Motion& motion, int body) {
   Extent extent;
   const auto& arcs = motion.world_lines[checkedIndex("pathExtent", "body", body, motion.world_lines.size())].arcs;
   for (int k = 0; k < static_cast<int>(arcs.size()); ++k) {
     const Arc& arc = arcs[k];
     const double end = arcEnd(motion, body, k);
+    if (arc.accelerationVariation() > 0) {
+      extendByCurve(arc, end, extent);
+      continue;
+    }
     extent.extend(arc.positionAt(arc.start()));
     extent.extend(arc.positionAt(end));
     const Vec3 v = arc.velocityAt(arc.start());

@@ -15,7 +15,8 @@ double arcEnd(const Motion& motion, int body, int k);
 /// Centre of mass of a body at a time; of a fixed body its shape's origin.
 Vec3 centreAt(const Motion& motion, int body, double t);
 
-/// Smallest axis-aligned box around the path of a body's centre of mass, exact for parabolas.
+/// Smallest axis-aligned box around the path of a body's centre of mass, exact for parabolas; of a slide round a bend a
+/// little larger.
 Extent pathExtent(const Motion& motion, int body);
 
 /// Box around everything that moves, shapes included; a unit box at the origin when nothing does.

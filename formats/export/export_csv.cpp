@@ -18,7 +18,8 @@ constexpr const char* kColumns =
     "time [s],body,kind,event,position.x [m],position.y [m],position.z [m],"
     "orientation.w,orientation.x,orientation.y,orientation.z,"
     "velocity.x [m/s],velocity.y [m/s],velocity.z [m/s],"
-    "angular_velocity.x [rad/s],angular_velocity.y [rad/s],angular_velocity.z [rad/s]\r\n";
+    "angular_velocity.x [rad/s],angular_velocity.y [rad/s],angular_velocity.z [rad/s],"
+    "path\r\n";
 
 constexpr double kMostRows = 2e6;  // half a gigabyte
 
@@ -39,7 +40,7 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-bool hasImpactAt(const Motion& motion, int body, double t) {
+bool hasEventAt(const Motion& motion, int body, double t) {
   const auto& events = motion.world_lines[body].events;
   const auto first = std::lower_bound(events.begin(), events.end(), t,
                                       [&](int e, double time) { return motion.events[e].time < time; });
@@ -48,14 +49,14 @@ bool hasImpactAt(const Motion& motion, int body, double t) {
 
 void addSamples(const Motion& motion, int body, double rate, std::vector<CsvRow>& rows) {
   const auto add = [&](double t) {
-    if (!hasImpactAt(motion, body, t)) rows.push_back({t, body, RowKind::sample, -1});
+    if (!hasEventAt(motion, body, t)) rows.push_back({t, body, RowKind::sample, -1});
   };
   long k = 0;
   for (; static_cast<double>(k) / rate < motion.end; ++k) add(static_cast<double>(k) / rate);
   add(motion.end);
 }
 
-// Null when the motion ends in the impact.
+// Null when the motion ends in the event.
 const Arc* arcAfter(const Motion& motion, const Participant& p) {
   const auto& arcs = motion.world_lines[p.body].arcs;
   return p.arc + 1 < static_cast<int>(arcs.size()) ? &arcs[p.arc + 1] : nullptr;
@@ -72,12 +73,12 @@ std::vector<CsvRow> rowsOf(const Motion& motion, double rate) {
     for (const Participant& p : participants)
       if (arcAfter(motion, p)) rows.push_back({motion.events[e].time, p.body, RowKind::after, e});
   }
-  // Stable: rows of one time keep the order they were made in, samples first, then the impacts in their order.
+  // Stable: rows of one time keep the order they were made in, samples first, then the events in their order.
   std::stable_sort(rows.begin(), rows.end(), [](const CsvRow& a, const CsvRow& b) { return a.time < b.time; });
   return rows;
 }
 
-// Of several impacts of one instant, the state after one of them is the state before the next.
+// Of several events of one instant, the state after one of them is the state before the next.
 BodyState stateAfter(const Motion& motion, int event, int body) {
   const Arc* next = arcAfter(motion, *motion.events[event].find(body));
   return toBodyState(next->model(), next->startState());
@@ -87,6 +88,16 @@ BodyState stateOf(const Motion& motion, const CsvRow& row) {
   if (row.kind == RowKind::before) return motion.stateBefore(row.event, row.body);
   if (row.kind == RowKind::after) return stateAfter(motion, row.event, row.body);
   return motion.stateAt(row.body, row.time);
+}
+
+// What the body does there: before an event what it did, at the time of a sample what it does from then on. Nothing
+// where the motion ends as it is not known.
+std::string pathOf(const Motion& motion, const CsvRow& row) {
+  if (row.kind == RowKind::after && row.time == motion.end && motion.status != MotionStatus::complete) return "";
+  const int arc = row.kind == RowKind::sample   ? motion.arcAt(row.body, row.time)
+                  : row.kind == RowKind::before ? motion.events[row.event].find(row.body)->arc
+                                                : motion.events[row.event].find(row.body)->arc + 1;
+  return nameOf(motion.world_lines[row.body].arcs[arc].kind());
 }
 
 std::string allDigits(double value) {
@@ -109,7 +120,7 @@ void appendRow(std::string& out, const Motion& motion, const CsvRow& row) {
                        "its motion holds a number that is not finite; nothing was written");
     out += "," + allDigits(value);
   }
-  out += "\r\n";
+  out += "," + pathOf(motion, row) + "\r\n";
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ constexpr Layer kLayers[] = {{drawFixedBodies, kFixedLevels, 60'000},
                              {drawImpactCells, 1, 50'000},
                              {drawRegions, 1, 20'000},
                              {drawPathsBefore, kBeforeLevels, 40'000},
-                             {drawGhosts, kGhostLevels, 75'000},
+                             {drawGhosts, kGhostLevels, 60'000},
+                             {drawContacts, kContactLevels, 15'000},
                              {drawPaths, 1, kPathBytes + 15'000},
                              {drawNails, 1, 25'000},
                              {drawImpactMarks, 1, 40'000},
@@ -59,7 +60,7 @@ void addLayer(const Layer& layer, const Picture& picture, const std::vector<View
 std::string subtitleOf(const Picture& picture) {
   const Motion& motion = picture.motion;
   std::string words = counted(movingCount(*motion.scene), "moving body", "moving bodies");
-  words += " · " + counted(motion.events.size(), "impact") + " · " + shortNumber(motion.end) + " s";
+  words += " · " + counted(motion.impacts, "impact") + " · " + shortNumber(motion.end) + " s";
   if (motion.status != MotionStatus::complete)
     words += " of " + shortNumber(motion.duration) + " s (" + nameOf(motion.status) + ")";
   return words;
@@ -69,7 +70,7 @@ std::string descriptionOf(const Picture& picture) {
   const Motion& motion = picture.motion;
   std::string words = "Side view and top view, to scale, of " +
                       counted(movingCount(*motion.scene), "moving body", "moving bodies") + " with " +
-                      counted(motion.events.size(), "impact") + " in " + shortNumber(motion.end) + " seconds";
+                      counted(motion.impacts, "impact") + " in " + shortNumber(motion.end) + " seconds";
   if (picture.before) words += ", and of the motion before the edit";
   if (!picture.nails.empty()) words += ", with " + counted(picture.nails.size(), "nail");
   words += ". Paths of the centres of mass are off by at most " + shortNumber(picture.paths.tolerance) + " pixels.";

@@ -21,10 +21,12 @@ std::vector<ImpactMark> markedImpacts(const Motion& motion, const View& view) {
   std::vector<ImpactMark> marks;
   std::unordered_map<long, std::vector<std::size_t>> squares;
   const auto keyOf = [](long column, long row) { return column * 1'000'003L + row; };
-  for (std::size_t e = 0; e < motion.events.size(); ++e) {
-    const Vec2 p = view.pixel(impactPlace(motion.events[e]));
+  int number = 0;
+  for (const Event& event : motion.events) {
+    if (!event.counts()) continue;
+    ++number;
+    const Vec2 p = view.pixel(impactPlace(event));
     const long column = std::lround(p.x() / kImpactsApart), row = std::lround(p.y() / kImpactsApart);
-    const int number = static_cast<int>(e) + 1;
     ImpactMark* near = nullptr;
     for (long i = -1; i <= 1 && !near; ++i)
       for (long j = -1; j <= 1 && !near; ++j)
@@ -59,7 +61,7 @@ std::string ImpactMark::words() const {
 
 ImpactPlan planImpacts(const Motion& motion, const std::vector<View>& views) {
   ImpactPlan plan;
-  const std::size_t count = motion.events.size();
+  const std::size_t count = motion.impacts;
   if (count == 0) return plan;
   if (count <= kMostMarks) {
     bool apart = true;  // most of them
@@ -76,7 +78,8 @@ ImpactPlan planImpacts(const Motion& motion, const std::vector<View>& views) {
   double most = 1;
   for (const View& view : views) {
     plan.cells.emplace_back(view.panel, kImpactCell);
-    for (const Event& event : motion.events) plan.cells.back().add(view.pixel(impactPlace(event)), 1);
+    for (const Event& event : motion.events)
+      if (event.counts()) plan.cells.back().add(view.pixel(impactPlace(event)), 1);
     most = std::max(most, plan.cells.back().largest());
   }
   plan.classes = countClasses(static_cast<int>(most));

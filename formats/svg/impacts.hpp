@@ -17,7 +17,8 @@ struct ImpactMark {
   std::string words() const;
 };
 
-/// How the impacts are drawn: one by one with numbers, one by one, or summed in cells when they could not be told apart.
+/// How the impacts that are such to people (Event::counts) are drawn: one by one with numbers, one by one, or summed in
+/// cells when they could not be told apart.
 struct ImpactPlan {
   enum class As { none, numbered, marks, cells };
   As as = As::none;

@@ -69,6 +69,9 @@ void drawGhosts(const LayerPage& page);
 inline constexpr int kGhostLevels = 6;
 /// When the ghosts are, with all detail.
 std::vector<double> ghostTimes(const Picture& picture);
+/// Where bodies that have lines roll, slide and rest: below their lines.
+void drawContacts(const LayerPage& page);
+inline constexpr int kContactLevels = 2;
 void drawPaths(const LayerPage& page);
 void drawNails(const LayerPage& page);
 void drawImpactMarks(const LayerPage& page);

@@ -31,13 +31,16 @@ struct MarkRow {
   const char* dashes = nullptr;
 };
 // In the order of Mark.
-constexpr std::array<MarkRow, 18> kMarks = {{
+constexpr std::array<MarkRow, 21> kMarks = {{
     {.name = "path", .swatch = Swatch::line},
     {.name = "crowd-path", .swatch = Swatch::line},
     {.name = "crowd-shade", .swatch = Swatch::scale},
     {.name = "before", .swatch = Swatch::line},
     {.name = "start", .swatch = Swatch::circle, .radius = 3.2, .fill = "#ffffff", .stroke_width = "1.6"},
     {.name = "end", .swatch = Swatch::circle, .radius = 4, .fill = kOwn, .stroke = nullptr},
+    {.name = "roll", .swatch = Swatch::line},
+    {.name = "slide", .swatch = Swatch::line},
+    {.name = "rest", .swatch = Swatch::box, .fill = "#ffffff", .stroke_width = "1.6"},
     {.name = "ghost", .swatch = Swatch::box, .fill = kOwn, .fill_opacity = "0.25"},
     {.name = "crowd-ghost", .swatch = Swatch::circle, .radius = 6, .fill = "#ffffff", .stroke_width = "0.8"},
     {.name = "impact", .swatch = Swatch::diamond, .fill = kOwn, .stroke = nullptr},

@@ -48,8 +48,8 @@ void drawImpactCells(const LayerPage& page) {
                          {"stroke", kImpactColour},
                          {"stroke-linecap", "round"},
                          {"stroke-opacity", "0.85"}});
-  const std::size_t events = page.picture.motion.events.size();
-  Legend::Entry entry{Mark::impact_cell, counted(events, "impact") + ", as many in a cell:", kImpactColour};
+  const std::string impacts = counted(page.picture.motion.impacts, "impact");
+  Legend::Entry entry{Mark::impact_cell, impacts + ", as many in a cell:", kImpactColour};
   int low = 1;
   for (std::size_t k = 0; k < plan.classes.size(); ++k) {
     const double size = kDotSizes[k + kDotSizes.size() - plan.classes.size()];

@@ -10,10 +10,22 @@
 namespace carom::formats_detail {
 namespace {
 
+double accelerationOf(const Arc& arc, const View& view) {
+  return view.scale * (view.project(arc.acceleration()).norm() + arc.accelerationVariation());
+}
+
 /// How far an arc that ends at a time is from the line between its ends, in pixels, at most.
 double bulgeOf(const Arc& arc, double to, const View& view) {
   const double elapsed = to - arc.start();
-  return 0.125 * elapsed * elapsed * view.scale * view.project(arc.acceleration()).norm();
+  return 0.125 * elapsed * elapsed * accelerationOf(arc, view);
+}
+
+/// Of an arc that is no parabola: places after its start, the last one at its end, so near that the lines between them
+/// are off by `flat` pixels at most.
+void addCurve(const Arc& arc, double to, const View& view, double flat, std::vector<Vec2>& run) {
+  const double from = arc.start(), count = std::ceil(std::sqrt(bulgeOf(arc, to, view) / flat));
+  for (double i = 1; i < count; ++i) run.push_back(view.pixel(arc.positionAt(from + i / count * (to - from))));
+  run.push_back(view.pixel(arc.positionAt(to)));
 }
 
 double lengthOfArc(const Arc& arc, double to, const View& view) {
@@ -34,22 +46,32 @@ std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, const Vec2& normal, 
 }
 
 std::string pathData(const Motion& motion, int body, const View& view, double tolerance) {
+  const std::size_t arcs = motion.world_lines[static_cast<std::size_t>(body)].arcs.size();
+  return pathData(motion, body, view, tolerance, {0, static_cast<int>(arcs) - 1});
+}
+
+std::string pathData(const Motion& motion, int body, const View& view, double tolerance, const ArcRange& range) {
   // What the rounding leaves is shared by the arcs that are taken as lines and by the points that are left out.
   const double flat = 0.4 * (tolerance - kPathRounding), near = 0.6 * (tolerance - kPathRounding);
   const auto& arcs = motion.world_lines[static_cast<std::size_t>(body)].arcs;
   SvgPath path;
-  std::vector<Vec2> run{view.pixel(arcs.front().positionAt(arcs.front().start()))};  // joined by lines, drawn up to its first
+  const Arc& first = arcs[static_cast<std::size_t>(range.first)];
+  std::vector<Vec2> run{view.pixel(first.positionAt(first.start()))};  // joined by lines, drawn up to its first
   path.move(run.front());
   const auto drawRun = [&] {
     const std::vector<Vec2> kept = simplified(run, near);
     for (std::size_t i = 1; i < kept.size(); ++i) path.line(kept[i]);
   };
-  for (int k = 0; k < static_cast<int>(arcs.size()); ++k) {
+  for (int k = range.first; k <= range.last; ++k) {
     const Arc& arc = arcs[static_cast<std::size_t>(k)];
     const double from = arc.start(), to = arcEnd(motion, body, k);
     const Vec2 end = view.pixel(arc.positionAt(to));
     if (bulgeOf(arc, to, view) <= flat) {
       run.push_back(end);
+      continue;
+    }
+    if (arc.accelerationVariation() > 0) {
+      addCurve(arc, to, view, flat, run);
       continue;
     }
     drawRun();

@@ -36,9 +36,15 @@ struct View {
 std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, const Vec2& normal, double offset);
 
 /// SVG path data of the path of a body's centre of mass: off by at most `tolerance` pixels, which is more than
-/// 2 kPathRounding. Arcs of flight that are seen as curves are parabolas, which SVG draws exactly; of flat ones the ends
-/// are joined, and thinned out.
+/// 2 kPathRounding. Arcs that are seen as curves are parabolas, which SVG draws exactly; of flat ones the ends are joined,
+/// and thinned out, as are places on slides round a bend.
 std::string pathData(const Motion& motion, int body, const View& view, double tolerance);
+/// Arcs of a body from one to another.
+struct ArcRange {
+  int first = 0, last = 0;
+};
+/// The part of it on some arcs.
+std::string pathData(const Motion& motion, int body, const View& view, double tolerance, const ArcRange& range);
 
 /// A place of a path with the time that it stands for.
 struct PathSample {

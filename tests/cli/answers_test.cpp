@@ -70,12 +70,15 @@ TEST_P(OnScene, SimulateGivesTheMotionToTheLastBit) {
   OdeContacts contacts(document.scene);
   const Motion motion = simulate(document.scene, contacts, document.duration);
   const json answer = runJson({"simulate", path(), "--at", "0.125", "--at", "0.7"});
-  EXPECT_EQ(membersOf(answer), (Names{"end", "events", "message", "overlaps", "states", "status"}));
+  EXPECT_EQ(membersOf(answer), (Names{"contacts", "end", "events", "message", "overlaps", "states", "status"}));
   EXPECT_EQ(answer["status"], nameOf(motion.status));
   ASSERT_EQ(answer["events"].size(), motion.events.size());
   for (std::size_t i = 0; i < motion.events.size(); ++i) {
     const json& event = answer["events"][i];
     EXPECT_EQ(event["time"].get<double>(), motion.events[i].time);
+    EXPECT_EQ(event["kind"], nameOf(motion.events[i].kind));
+    EXPECT_EQ(event["counts"], motion.events[i].counts());
+    if (event["kind"] == "transition") continue;
     EXPECT_EQ(event["mode"], nameOf(motion.events[i].mode));
     expectVector(event["point"], motion.events[i].contacts[0].at.point);
     expectVector(event["normal"], motion.events[i].contacts[0].at.normal);
@@ -215,7 +218,8 @@ TEST_P(OnScene, ValidateAcceptsAndInfoExplains) {
   EXPECT_EQ(info["bodies"].size(), readDocument(path()).scene.bodies.size());
   for (const json& body : info["bodies"]) {
     Names members{"derivative_tier", "derivative_why", "dimensions", "name", "shape", "tier", "why"};
-    if (body.contains("mass")) members.insert(members.end(), {"center_of_mass", "mass", "moments"});  // moving
+    if (body.contains("mass"))  // moving
+      members.insert(members.end(), {"center_of_mass", "lasting_contact", "lasting_contact_ends", "mass", "moments"});
     std::sort(members.begin(), members.end());
     EXPECT_EQ(membersOf(body), members);
     EXPECT_NE(body["why"], "");

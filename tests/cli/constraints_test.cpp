@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/cli/run_command.h"
+#include "tests/cli/tipping_box.h"
 
 namespace carom::test {
 namespace {
@@ -110,12 +111,13 @@ struct Beyond {
 };
 std::ostream& operator<<(std::ostream& out, const Beyond& row) { return out << row.name; }
 
-/// Two balls come to rest on the floor in less than their duration: what lies after that is not there.
+/// A motion that ends before its duration: what lies after that is not there.
 class BeyondTheEnd : public testing::TestWithParam<Beyond> {};
 
 TEST_P(BeyondTheEnd, IsNamed) {
   json scene = sceneOfEveryConstraint();
   scene["duration"] = 20;
+  addTippingBox(scene, 1);
   scene["constraints"] = json::array({json::parse(GetParam().constraint)});
   const std::string path = written(scene);
   for (const char* command : {"gradient", "edit", "validate"}) {

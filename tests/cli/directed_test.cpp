@@ -43,7 +43,7 @@ BodyState before(const Motion& motion, const std::string& name, int n, const std
 class DirectedScene : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, DirectedScene,
                          testing::Values("book-on-shelf", "hat-on-coatrack", "mug-on-mark", "meeting", "ball-into-cup",
-                                         "die-face-down", "only-causes"),
+                                         "die-face-down", "only-causes", "curling", "off-the-table", "putt"),
                          [](const auto& scene) {
                            std::string name = scene.param;
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -104,6 +104,31 @@ TEST(DirectedGallery, OnlyElasticityAndInertiaChange) {
     EXPECT_EQ(after.bodies[i].angular_velocity, start.bodies[i].angular_velocity);
     EXPECT_EQ(after.bodies[i].mass, start.bodies[i].mass);
   }
+}
+
+TEST(DirectedGallery, TheStoneRestsOnTheTeeBehindTheGuard) {
+  const Motion motion = direct("curling").motion;
+  const BodyState end = motion.stateAt("stone", motion.end);
+  EXPECT_TRUE(std::hypot(end.position.x() - 10, end.position.y()) <= 1e-9) << end.position.transpose();
+  EXPECT_EQ(end.velocity, Vec3(0, 0, 0));
+  EXPECT_FALSE(motion.findImpact(2, 1, 1).has_value());
+}
+
+TEST(DirectedGallery, TheBallRollsOffTheTableIntoTheCup) {
+  const Motion motion = direct("off-the-table").motion;
+  const Vec3 x = motion.stateAt("ball", motion.end).position - Vec3(1.1, 0.1, 0);
+  EXPECT_LE(std::abs(x.x()), 0.055 + 1e-9);
+  EXPECT_LE(std::abs(x.y()), 0.055 + 1e-9);
+  EXPECT_LT(x.z(), 0.08);
+}
+
+TEST(DirectedGallery, ThePuttIsAimedUpTheSlopeAndFalls) {
+  const Directed putt = direct("putt");
+  EXPECT_LT(putt.document.scene.bodies[1].velocity.y(), -0.2);
+  const Vec3 x = putt.motion.stateAt("ball", putt.motion.end).position - Vec3(3, 0, 0);
+  EXPECT_LE(std::abs(x.x()), 0.0327 + 1e-9);
+  EXPECT_LE(std::abs(x.y()), 0.0327 + 1e-9);
+  EXPECT_LT(x.z(), -0.05);
 }
 
 }  // namespace

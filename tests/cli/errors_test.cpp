@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/cli/run_command.h"
+#include "tests/cli/tipping_box.h"
 
 namespace carom::test {
 namespace {
@@ -267,11 +268,12 @@ TEST(Outcomes, AMotionThatEndsEarlySaysSo) {
   json scene = twoBalls(1);
   scene["duration"] = 20;
   scene["gravity"] = {0, 0, -9.81};
-  scene["bodies"].push_back(
-      {{"name", "floor"}, {"fixed", true}, {"shape", {{"plane", {{"normal", {0, 0, 1}}, {"offset", -1}}}}}});
-  const std::string path = writeTemporary("rests.json", scene.dump());
+  addTippingBox(scene, 1);
+  const std::string path = writeTemporary("tips.json", scene.dump());
   const json answer = runJson({"simulate", path});
   EXPECT_EQ(answer["status"], "cascade");
+  EXPECT_NE(answer["message"].get<std::string>().find("after 1 impact; lasting contact of a body that turns"), std::string::npos)
+      << answer["message"];
   EXPECT_LT(answer["end"].get<double>(), 20);
   EXPECT_EQ(answer["states"][0]["time"], answer["end"]);
   const CommandRun run = runCommand({"simulate", path, "--json"});

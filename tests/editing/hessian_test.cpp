@@ -167,6 +167,36 @@ TEST(Hessian, OfRegions) {
   }
 }
 
+// A ball lands with spin on a slope and slides round a bend, where its acceleration is another one at every time.
+TEST(Hessian, OfRegionsOnASlideRoundABend) {
+  Scene scene;
+  scene.gravity = {0, 1.2, -9.7};
+  scene.materials.push_back({.name = "wood", .elasticity = 0, .friction = 0.2});
+  Body floor, ball;
+  floor.name = "floor", floor.fixed = true, floor.shape = Plane{}, floor.material = "wood";
+  ball.name = "ball", ball.material = "wood", ball.mass = 2, ball.shape = Sphere{0.1}, ball.position = {0, 0, 0.11};
+  ball.velocity = {3, -1.4, 0}, ball.angular_velocity = {-20, -12, 3};
+  scene.bodies = {floor, ball};
+  OdeContacts contacts(scene);
+  const Motion motion = simulate(scene, contacts, 0.6);
+  ASSERT_GT(motion.world_lines[1].arcs[1].accelerationVariation(), 0.1);
+  const Vec3 middle = motion.stateAt("ball", 0.4).position;
+  const Quat turned(Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()));
+  std::vector<Constraint> constraints;
+  const auto keep = [&](Region::Side what, std::variant<Sphere, Box> shape, const Vec3& at) {
+    Constraint c{"ball", 0.0, {}};
+    c.regions = {{what, shape, at, turned, std::pair(0.1, 0.6), 0.0}};
+    constraints.push_back(c);
+  };
+  keep(Region::Side::avoid, Sphere{0.1}, middle + Vec3(0.1, 0.2, 0.15));
+  keep(Region::Side::inside, Sphere{3}, middle + Vec3(-0.1, 0.3, 0.3));
+  keep(Region::Side::avoid, Box{{0.1, 0.2, 0.3}}, middle + Vec3(0.05, 0.15, 0));
+  keep(Region::Side::inside, Box{{3, 4, 5}}, middle);
+  const EditProblem problem(scene, contacts, 0.6, {velocity("ball"), angularVelocity("ball"), friction("wood")},
+                            constraints);
+  expectDerivative(problem, someUnknowns(problem, 0.001), someWeights(problem.constraints.size()));
+}
+
 TEST(Hessian, OfValidity) {
   const Scene scene = thrownBox();
   OdeContacts contacts(scene);

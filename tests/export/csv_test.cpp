@@ -39,12 +39,12 @@ TEST(ExportCsv, EveryNumberIsReadBackExactly) {
   exportMotion(path, handDocument(), motion, {.csv_rate = 50});
   const auto rows = rowsOf(contentOf(path));
   ASSERT_GT(rows.size(), 100u);
-  ASSERT_EQ(rows[0].size(), 17u);
+  ASSERT_EQ(rows[0].size(), 18u);
   EXPECT_EQ(rows[0][0], "time [s]");
   double last = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const Cells& row = rows[i];
-    ASSERT_EQ(row.size(), 17u) << i;
+    ASSERT_EQ(row.size(), 18u) << i;
     EXPECT_GE(std::stod(row[0]), last);
     last = std::stod(row[0]);
     const BodyState s = expected(motion, row);
@@ -53,6 +53,7 @@ TEST(ExportCsv, EveryNumberIsReadBackExactly) {
                               s.velocity.y(),        s.velocity.z(),    s.angular_velocity.x(), s.angular_velocity.y(),
                               s.angular_velocity.z()};
     for (std::size_t k = 0; k < 13; ++k) EXPECT_EQ(std::stod(row[4 + k]), numbers[k]) << "row " << i << " cell " << k;
+    EXPECT_EQ(row[17], "flight");
   }
   EXPECT_EQ(last, motion.end);
 }

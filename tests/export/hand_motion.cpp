@@ -41,6 +41,7 @@ void bounce(Motion& motion, const Bounce& b) {
   line.events.push_back(static_cast<int>(motion.events.size()));
   line.arcs.push_back(next);
   motion.events.push_back(event);
+  motion.impacts = motion.event_count = motion.events.size();
 }
 
 Body moving(const std::string& name, const Shape& shape, const Vec3& x, const Vec3& v, const Vec3& w) {

@@ -116,6 +116,32 @@ TEST(MotionJson, events) {
   EXPECT_EQ(answer["events"][1]["contacts"][1]["point"], json({3, 4, 0}));
 }
 
+TEST(MotionJson, aTransitionHasACauseAndNoLaw) {
+  Motion motion = fallingBall();
+  Event impact;
+  impact.contacts = {contactAt({1, 2, 0})};
+  impact.participants = {{1, 0, 1, {}}};
+  Event transition = impact;
+  transition.kind = EventKind::transition;
+  transition.cause = TransitionCause::leaves;
+  transition.participants[0].impact = 0;
+  Event capture = impact;
+  capture.kind = EventKind::capture;
+  capture.settles_at = 0.1 + 0.2;
+  motion.events = {impact, transition, capture};
+  const json events = json::parse(motionJson(motion, {}))["events"];
+  const std::string kinds[] = {"impact", "transition", "capture"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(events[i]["kind"], kinds[i]);
+    EXPECT_EQ(events[i]["counts"], i != 1);
+    EXPECT_EQ(events[i].contains("cause"), i == 1);
+    EXPECT_EQ(events[i].contains("settles_at"), i == 2);
+    for (const char* of_the_law : {"mode", "margin", "margins"}) EXPECT_EQ(events[i].contains(of_the_law), i != 1);
+  }
+  EXPECT_EQ(events[1]["cause"], "leaves");
+  EXPECT_EQ(events[2]["settles_at"].get<double>(), 0.1 + 0.2);
+}
+
 TEST(MotionJson, numbersThatAreNotFiniteAreNull) {
   Motion motion = fallingBall();
   Event event;

@@ -2,9 +2,11 @@
 // Every sample file: import, save, read, simulate, derivatives, and the way through an export.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 
+#include "adjoint/motion/lasting_contact.h"
 #include "adjoint/simulate/simulate.h"
 #include "editing/problem/jacobian.hpp"
 #include "formats/documents/save_with_meshes.h"
@@ -92,6 +94,33 @@ TEST_P(EveryFile, ComesBackFromAnExport) {
   EXPECT_TRUE(again.report.warnings.empty()) << listOf(again.report);
   expectSameScene(again.document.scene, document.scene);
   expectSameEdit(again.document, document);
+}
+
+// Two balls of the public sample Materials_Restitution bounce until they rest, and their films do not grow with the rest.
+TEST(SampleOfRestitution, PlaysToItsEnd) {
+  const std::vector<std::string> files = allFiles();
+  const auto sample = std::ranges::find_if(files, [](const std::string& path) {
+    return std::filesystem::path(path).filename() == "Materials_Restitution.gltf";
+  });
+  if (sample == files.end()) GTEST_SKIP() << "CAROM_GLTF_SAMPLES is not set, or does not have it";
+  Document document = importGltf(*sample).document;
+  OdeContacts contacts(document.scene);
+  const Motion motion = simulate(document.scene, contacts, 5);
+  EXPECT_EQ(motion.status, MotionStatus::complete) << motion.message;
+  EXPECT_LT(motion.impacts, motion.event_count);
+  const std::vector<LastingContact> all = lastingContacts(motion);
+  ASSERT_EQ(all.size(), 2u);
+  for (const LastingContact& c : all) {
+    EXPECT_EQ(c.kind, ArcKind::rest);
+    EXPECT_EQ(c.to, 5);
+  }
+  const Motion longer = simulate(document.scene, contacts, 65);
+  const auto sizeOf = [&](const Motion& of) {
+    const std::string path = temporaryPath("rest.glb");
+    exportMotion(path, document, of);
+    return std::filesystem::file_size(path);
+  };
+  EXPECT_TRUE(sizeOf(longer) <= sizeOf(motion) + 64) << sizeOf(longer) << " and " << sizeOf(motion);
 }
 
 }  // namespace

@@ -2,153 +2,11 @@
 #include "editing/problem/rows/region_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "editing/problem/rows/polynomial.hpp"
+#include "editing/problem/rows/region_way.hpp"
 
 namespace carom::editing_detail {
-
-namespace {
-
-// A stretch of an arc, s seconds after its start, seen from the region: y(s) by components.
-struct Stretch {
-  std::array<Polynomial<2>, 3> y;
-  Mat3 R;  // region to world
-  double start = 0, lo = 0, hi = 0;
-  int event = -1;  // that ends it
-
-  Vec3 placeAt(double s) const { return {valueAt<2>(y[0], s), valueAt<2>(y[1], s), valueAt<2>(y[2], s)}; }
-  Vec3 velocityAt(double s) const {
-    Vec3 v;
-    for (std::size_t k = 0; k < 3; ++k) v[static_cast<Eigen::Index>(k)] = valueAt<1>(derivativeOf<2>(y[k]), s);
-    return v;
-  }
-  Polynomial<4> squaredDistance() const {
-    Polynomial<4> sum{};
-    for (const Polynomial<2>& p : y)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) sum[i + j] += p[i] * p[j];
-    return sum;
-  }
-};
-
-// A clearance at s, and its gradient by the place in the axes of the region.
-struct PlaceOnWay {
-  double value = std::numeric_limits<double>::infinity();
-  double s = 0;
-  Vec3 gradient = Vec3::Zero();
-  double bend = 0;              // second derivative across the gradient, the same in both directions
-  Vec3 between = Vec3::Zero();  // of two faces: difference of their normals
-};
-
-void keepLower(PlaceOnWay& best, const PlaceOnWay& candidate) {
-  if (candidate.value < best.value) best = candidate;
-}
-
-// Where a distance y(s) -> sum of gradients may be least: the ends, and where the derivative vanishes.
-template <int N>
-std::vector<double> stationary(const Polynomial<N>& p, double lo, double hi) {
-  std::vector<double> times = rootsIn<N - 1>(derivativeOf<N>(p), lo, hi);
-  times.insert(times.begin(), hi);
-  times.push_back(lo);
-  return times;
-}
-
-PlaceOnWay leastToSphere(const Stretch& stretch, double radius, double margin, double side) {
-  PlaceOnWay best;
-  for (double s : stationary<4>(stretch.squaredDistance(), stretch.lo, stretch.hi)) {
-    const Vec3 y = stretch.placeAt(s);
-    const double distance = y.norm();
-    const Vec3 out = distance > 0 ? Vec3(y / distance) : stretch.velocityAt(s).unitOrthogonal();
-    const double bend = distance > 0 ? side / distance : 0;
-    keepLower(best, {side * (distance - radius) - margin, s, side * out, bend});
-  }
-  return best;
-}
-
-// Face 2 k is that on the side of +e_k, face 2 k + 1 that of -e_k; distance to it, positive outside.
-Polynomial<2> faceDistance(const Stretch& stretch, const Vec3& half, int face) {
-  const double sign = face % 2 == 0 ? 1 : -1;
-  Polynomial<2> d = stretch.y[static_cast<std::size_t>(face / 2)];
-  for (double& c : d) c *= sign;
-  d[0] -= half[face / 2];
-  return d;
-}
-Vec3 faceNormal(int face) { return (face % 2 == 0 ? 1 : -1) * Vec3::Unit(face / 2); }
-
-PlaceOnWay leastToFace(const Stretch& stretch, const Vec3& half, double margin, int face) {
-  const Polynomial<2> d = faceDistance(stretch, half, face);
-  PlaceOnWay best;
-  for (double s : stationary<2>(d, stretch.lo, stretch.hi))
-    keepLower(best, {-valueAt<2>(d, s) - margin, s, -faceNormal(face)});
-  return best;
-}
-
-// The upper envelope of the distances to the six faces is least at an end, at the vertex of one of them, or where two
-// of them cross; there its derivative is the mean of theirs that is stationary in time.
-PlaceOnWay leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
-  std::array<Polynomial<2>, 6> d;
-  for (int f = 0; f < 6; ++f) d[static_cast<std::size_t>(f)] = faceDistance(stretch, half, f);
-  const auto highest = [&](double s) {
-    int best = 0;
-    for (int f = 1; f < 6; ++f)
-      if (valueAt<2>(d[static_cast<std::size_t>(f)], s) > valueAt<2>(d[static_cast<std::size_t>(best)], s)) best = f;
-    return best;
-  };
-  PlaceOnWay best;
-  const auto tryAt = [&](double s) {
-    const int face = highest(s);
-    keepLower(best, {valueAt<2>(d[static_cast<std::size_t>(face)], s) - margin, s, faceNormal(face)});
-  };
-  for (std::size_t f = 0; f < 6; ++f)
-    for (double s : stationary<2>(d[f], stretch.lo, stretch.hi)) tryAt(s);
-  for (std::size_t f = 0; f < 6; ++f)
-    for (std::size_t g = f + 1; g < 6; ++g) {
-      Polynomial<2> difference;
-      for (std::size_t k = 0; k < 3; ++k) difference[k] = d[f][k] - d[g][k];
-      for (double s : rootsIn<2>(difference, stretch.lo, stretch.hi)) {
-        const double value = std::max(valueAt<2>(d[f], s), valueAt<2>(d[g], s));
-        const auto top = static_cast<std::size_t>(highest(s));
-        if (valueAt<2>(d[top], s) > value) continue;
-        const double rate_f = valueAt<1>(derivativeOf<2>(d[f]), s), rate_g = valueAt<1>(derivativeOf<2>(d[g]), s);
-        if (!(rate_f * rate_g < 0)) continue;  // the envelope goes on falling, or rising
-        const double weight = rate_g / (rate_g - rate_f);
-        const PlaceOnWay crossing{
-            value - margin, s,
-            weight * faceNormal(static_cast<int>(f)) + (1 - weight) * faceNormal(static_cast<int>(g)), 0,
-            faceNormal(static_cast<int>(f)) - faceNormal(static_cast<int>(g))};
-        // the ends of the other candidates may fall on the same time with one face alone
-        if (crossing.value <= best.value) best = crossing;
-      }
-    }
-  return best;
-}
-
-PlaceOnWay least(const Stretch& stretch, const BoundRegion& bound, int component) {
-  const bool avoid = bound.region.side == Region::Side::avoid;
-  if (const auto* sphere = std::get_if<Sphere>(&bound.region.shape))
-    return leastToSphere(stretch, sphere->radius, bound.margin, avoid ? 1 : -1);
-  const Vec3 half = 0.5 * std::get<Box>(bound.region.shape).size;
-  return avoid ? leastToBox(stretch, half, bound.margin) : leastToFace(stretch, half, bound.margin, component);
-}
-
-Stretch stretchOf(const Arc& arc, const Region& region, double from, double to) {
-  Stretch stretch;
-  stretch.R = region.orientation.normalized().toRotationMatrix();
-  stretch.start = arc.start();
-  stretch.lo = from - arc.start(), stretch.hi = to - arc.start();
-  const State& state = arc.startState();
-  const Vec3 y = stretch.R.transpose() * (state.x - region.position), v = stretch.R.transpose() * state.v,
-             g = stretch.R.transpose() * arc.acceleration();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    stretch.y[k] = {y[i], v[i], 0.5 * g[i]};
-  }
-  return stretch;
-}
-
-}  // namespace
 
 int rowsOf(const Region& region) {
   return region.side == Region::Side::inside && std::holds_alternative<Box>(region.shape) ? 6 : 1;
@@ -163,6 +21,7 @@ std::string rowName(const Region& region, int component) {
 std::optional<Clearance> leastClearance(const Motion& motion, int body, const BoundRegion& bound, int component) {
   if (!(motion.end >= bound.to)) return std::nullopt;
   const WorldLine& line = motion.world_lines[static_cast<std::size_t>(body)];
+  const Mat3 R = bound.region.orientation.normalized().toRotationMatrix();
   Clearance clearance;
   clearance.value = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < line.arcs.size(); ++k) {
@@ -170,25 +29,23 @@ std::optional<Clearance> leastClearance(const Motion& motion, int body, const Bo
     const double end = last ? motion.end : line.arcs[k + 1].start();
     if (end < bound.from || line.arcs[k].start() > bound.to) continue;
     const double from = std::max(bound.from, line.arcs[k].start()), to = std::min(bound.to, end);
-    const Stretch stretch = stretchOf(line.arcs[k], bound.region, from, to);
-    const PlaceOnWay candidate = least(stretch, bound, component);
+    const PlaceOnWay candidate = leastOnArc(line.arcs[k], bound, component, from, to);
     if (!(candidate.value < clearance.value)) continue;
     // the start of a later arc is the end of the one before
-    if (candidate.s == stretch.lo && from > bound.from && clearance.value < std::numeric_limits<double>::infinity())
-      continue;
+    if (candidate.first && from > bound.from && clearance.value < std::numeric_limits<double>::infinity()) continue;
     clearance.value = candidate.value;
-    clearance.time = stretch.start + candidate.s;
+    clearance.time = candidate.time;
     clearance.seed = {};
     clearance.seed.body = body;
-    clearance.seed.center_of_mass = stretch.R * candidate.gradient;
+    clearance.seed.center_of_mass = R * candidate.gradient;
     // at an impact the place is read at a time that moves with the causes
-    const bool at_event = !last && candidate.s == stretch.hi && to == end && end < bound.to;
-    const bool inside = candidate.s != stretch.lo && candidate.s != stretch.hi;
-    clearance.between = stretch.R * candidate.between;
+    const bool at_event = !last && candidate.last && to == end && end < bound.to;
+    const bool inside = !candidate.first && !candidate.last;
+    clearance.between = R * candidate.between;
     clearance.keeps = !clearance.between.isZero(0) ? Clearance::Keeps::two_faces
                       : inside                     ? Clearance::Keeps::least
                                                    : Clearance::Keeps::place;
-    const Vec3 n = stretch.R * candidate.gradient.normalized();
+    const Vec3 n = R * candidate.gradient.normalized();
     clearance.bend = candidate.bend * (Mat3::Identity() - n * n.transpose());
     clearance.seed.at = at_event ? Instant::before(line.events[k]) : Instant::at(clearance.time);
   }

@@ -21,8 +21,8 @@ struct KeyPiece {
   double from, to;
 };
 
-// The flights of a body, whole.
-std::vector<KeyPiece> flightsOf(const Motion& motion, int body) {
+// The arcs of a body, whole.
+std::vector<KeyPiece> arcsOf(const Motion& motion, int body) {
   const auto& arcs = motion.world_lines[body].arcs;
   std::vector<KeyPiece> pieces;
   for (int k = 0; k < static_cast<int>(arcs.size()); ++k)
@@ -40,7 +40,7 @@ double rateOfTurns(const Arc& arc) {
 // How many keep straight lines near enough: h^2/8 |acceleration of the origin|, which is that of the centre of mass and
 // c (omega^2 + |d omega/dt|) at a distance c from it.
 double rateOfLines(const Arc& arc, double tolerance) {
-  double acceleration = arc.acceleration().norm();
+  double acceleration = arc.acceleration().norm() + arc.accelerationVariation();
   if (arc.tier() != Tier::none)
     acceleration += arc.model().center.norm() * (arc.spinBound() * arc.spinBound() + arc.spinRateBound());
   return std::sqrt(acceleration / (8 * tolerance));
@@ -48,7 +48,11 @@ double rateOfLines(const Arc& arc, double tolerance) {
 
 // Cubics between keys h apart leave the circle of radius c that the origin turns on by c (omega h)^4 / 384. The rate of
 // change of omega counts as spin of its own.
+//
+// A path whose acceleration stays within V of a constant is h^2/16 V from them at most; such bodies turn about their
+// origin, or not at all.
 double rateOfSwings(const Arc& arc) {
+  if (arc.accelerationVariation() > 0) return std::sqrt(arc.accelerationVariation() / (16 * kShare * kCubicTolerance));
   const double c = arc.model().center.norm();
   if (c == 0 || arc.tier() == Tier::none) return 0;
   const double spin = arc.spinBound() + std::sqrt(arc.spinRateBound());
@@ -67,12 +71,12 @@ void requireFew(double keys, const Motion& motion, int body) {
                        "; a shorter motion, fewer frames a second, a larger tolerance or cubic keys need less");
 }
 
-// The flights, each in equal parts.
+// The arcs, each in equal parts.
 template <class Rate>
 std::vector<KeyPiece> evenPieces(const Motion& motion, int body, const Rate& rate) {
   std::vector<KeyPiece> cut;
   double total = 1;
-  for (const auto& [arc, from, to] : flightsOf(motion, body)) {
+  for (const auto& [arc, from, to] : arcsOf(motion, body)) {
     const double count = std::max(1.0, std::ceil((to - from) * rate(*arc))), step = (to - from) / count;
     requireFew(total += count, motion, body);
     for (double i = 0; i < count; ++i) cut.push_back({arc, from + i * step, i + 1 < count ? from + (i + 1) * step : to});
@@ -80,11 +84,11 @@ std::vector<KeyPiece> evenPieces(const Motion& motion, int body, const Rate& rat
   return cut;
 }
 
-// The flights, each cut at its multiples of a frame's part.
+// The arcs, each cut at its multiples of a frame's part.
 std::vector<KeyPiece> framePieces(const Motion& motion, int body, double fps, double tolerance) {
   std::vector<KeyPiece> cut;
   double total = 1;
-  for (const auto& [arc, start, to] : flightsOf(motion, body)) {
+  for (const auto& [arc, start, to] : arcsOf(motion, body)) {
     const double need = std::max(rateOfTurns(*arc), rateOfLines(*arc, tolerance));
     const double parts = std::ceil(need / fps), rate = parts * fps;
     requireFew(total += (to - start) * rate + 1, motion, body);

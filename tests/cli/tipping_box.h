@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace carom::test {
+
+/// Adds to a scene, 40 m away along x, a box that falls from a height of `drop` metres onto an edge and stays on it:
+/// contact that lasts there is not modelled, so that the motion ends. Gravity points down z.
+void addTippingBox(nlohmann::json& scene, double drop);
+
+}  // namespace carom::test
