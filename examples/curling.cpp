@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A curling stone is to rest on the tee, behind a guard that it strikes as thrown: it slides, curls down the slope of the
-// sheet, and stops. Then: how far off it would stop on other ice.
+// A curling stone is to rest on the tee, behind a guard that it strikes as thrown: it slides, curls down the slope of
+// the sheet, and stops. Then: how far off it would stop on other ice.
 #include <cmath>
 #include <cstdio>
 
@@ -18,10 +18,11 @@ Scene sheet() {
   scene.gravity = {0, 0.0294, -9.81};
   scene.materials.push_back({.name = "ice", .elasticity = 0.2, .friction = 0.01});
   scene.materials.push_back({.name = "granite", .elasticity = 0.7, .friction = 0.2});
+  scene.materials.push_back({.name = "polished", .elasticity = 0.7, .friction = 0});
   for (Material& material : scene.materials) material.combine_friction = Combine::minimum;
   Body ice, guard, stone;
   ice.name = "ice", ice.fixed = true, ice.material = "ice", ice.shape = Plane{};
-  guard.name = "guard", guard.fixed = true, guard.material = "granite", guard.shape = Cylinder{0.145, 0.11};
+  guard.name = "guard", guard.fixed = true, guard.material = "polished", guard.shape = Cylinder{0.145, 0.11};
   guard.position = {7, 0, 0.055};
   stone.name = "stone", stone.material = "granite", stone.mass = 19, stone.shape = Cylinder{0.145, 0.11};
   stone.position = {0, 0, 0.055}, stone.velocity = {1.4, -0.05, 0};

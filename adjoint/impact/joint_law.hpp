@@ -67,7 +67,7 @@ class Branch {
       throw NotComputable(p.driven ? "no impulses part its contacts, one of which moves by itself"
                                    : "the impulses that part all of its contacts are lost in rounding");
     const bool rubs = std::any_of(normal_active.begin(), normal_active.end(),
-                                  [&](int k) { return hasFriction(p, k) && pushes(p, k); });
+                                  [&](int k) { return hasFriction(p, k) && !isPulled(p, k); });
     if (normal_active.empty() || !(rubs || from_zero)) return;
     setKappa(p, rubs);
     if (lowest_e_t < 0) return;
@@ -91,6 +91,13 @@ class Branch {
   }
   static bool isIn(const Contacts& contacts, int k) { return std::binary_search(contacts.begin(), contacts.end(), k); }
 
+  // A held contact that pulls has no friction, and X may not pull there: else the pressure of other contacts, and with
+  // it their friction, would grow at will against that pull.
+  template <class Problem>
+  bool isPulled(const Problem& p, int k) const {
+    return isHeld(p, k) && isIn(normal_active, k) && !(loadOf(k, p.normal[static_cast<std::size_t>(k)]) > S(0));
+  }
+  S loadOf(int k, const V3<S>& n) const { return n.dot(V3<S>(P_N.template segment<3>(3 * k))); }
   // The state of contact k in its cone; without friction it slides.
   ConeState stateOf(int k) const {
     const auto at = std::ranges::lower_bound(list, k);
@@ -109,8 +116,9 @@ class Branch {
     for (Index i = 0; i < q.b.size(); ++i) fastest = std::max(fastest, std::abs(rounded(valueOf(q.b[i]))));
     for (std::size_t k = 0; k < list.size(); ++k) {
       const double mu = rounded(valueOf(q.friction[k]));
+      if (fastest > 0 && isIn(held, list[k]))
+        least = std::min(least, std::abs(rounded(valueOf(speedOf(q, k)))) / fastest);
       if (!(mu > 0) || !(fastest > 0)) continue;
-      if (isIn(held, list[k])) least = std::min(least, std::abs(rounded(valueOf(speedOf(q, k)))) / fastest);
       const Vec3 n = roundedOf(q.normal[k]), f = roundedOf(V3<S>(t.f.template segment<3>(3 * static_cast<Index>(k)))),
                  v = roundedOf(V3<S>(t.V.template segment<3>(3 * static_cast<Index>(k))));
       const double pressure = n.dot(f) + rounded(valueOf(q.offset[k])), side = (f - n.dot(f) * n).norm();
@@ -123,9 +131,9 @@ class Branch {
     return std::max(least, 0.0);
   }
   // What the normal impulse of a contact gives it.
-  static S speedOf(const ConeProgramOf<S>& q, std::size_t k) {
+  S speedOf(const ConeProgramOf<S>& q, std::size_t k) const {
     const auto row = 3 * static_cast<Index>(k);
-    return q.offset[k] * q.normal[k].dot(V3<S>(q.K.template block<3, 3>(row, row) * q.normal[k]));
+    return loadOf(list[k], q.normal[k]) * q.normal[k].dot(V3<S>(q.K.template block<3, 3>(row, row) * q.normal[k]));
   }
   // The same of contacts without friction that may get some: whether they slip.
   double slipWithoutFriction() const {
@@ -203,24 +211,16 @@ class Branch {
     return s;
   }
   template <class Problem>
-  bool pushes(const Problem& p, int k) const {  // a held contact that pulls has no friction
-    const V3<S> impulse = P_N.template segment<3>(3 * k);
-    return !isHeld(p, k) || p.normal[static_cast<std::size_t>(k)].dot(impulse) > S(0);
-  }
-  template <class Problem>
   void setKappa(const Problem& p, bool rubs) {
     for (int k : normal_active) {
       const S bound = 1 + p.pair[static_cast<std::size_t>(k)].tangential_elasticity;
-      if (pushes(p, k) && (hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa))
+      if (!isPulled(p, k) && (hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa))
         kappa = bound, lowest_e_t = k;
     }
   }
   void leaveOutFriction() {
-    P = P_N;
-    cone.reset();
-    list.clear();
-    joined.clear();
-    lowest_e_t = -1;
+    P = P_N, lowest_e_t = -1;
+    cone.reset(), list.clear(), joined.clear();
   }
 
   // The least velocity along the normal of contact k after the impact, and what its velocity is after P_N.
@@ -250,8 +250,9 @@ class Branch {
       const bool joins = isIn(joined, k);
       q.normal.push_back(p.normal[kk]);
       q.friction.push_back(p.pair[kk].friction);
-      q.offset.push_back(joins ? S(0) : S(p.normal[kk].dot(V3<S>(P_N.template segment<3>(3 * k)))));
-      q.free.push_back(!joins && isHeld(p, k) && !(q.offset.back() > S(0)));
+      if (isPulled(p, k)) q.friction.back() = S(0);
+      q.offset.push_back(joins || isPulled(p, k) ? S(0) : loadOf(k, p.normal[kk]));
+      q.free.push_back(false);
       q.equal.push_back(static_cast<int>(i));
       q.rise.push_back(joins ? S(leastOf(p, k) - afterNormal(p, k)) : S(0));
     }

@@ -28,6 +28,7 @@ void frictionPullback(const Problem& p, const Branch<S>& branch, const VectorOf<
     kappa_bar += own.dot(before);
     b_bar.template segment<3>(3 * k) += branch.kappa * own;
     bar.normal[kk] += cone.normal[cc];
+    if (branch.isPulled(p, k)) continue;
     bar.pair[kk].friction += cone.friction[cc];
     if (!Branch<S>::isIn(branch.joined, k)) {
       P_N_bar.template segment<3>(3 * k) += cone.offset[cc] * p.normal[kk];
