@@ -13,7 +13,8 @@ namespace {
 /// How far an arc that ends at a time is from the line between its ends, in pixels, at most.
 double bulgeOf(const Arc& arc, double to, const View& view) {
   const double elapsed = to - arc.start();
-  return 0.125 * elapsed * elapsed * view.scale * view.project(arc.acceleration()).norm();
+  const double acceleration = view.project(arc.acceleration()).norm() + arc.accelerationVariation();
+  return 0.125 * elapsed * elapsed * view.scale * acceleration;
 }
 
 double lengthOfArc(const Arc& arc, double to, const View& view) {
@@ -48,7 +49,10 @@ std::string pathData(const Motion& motion, int body, const View& view, double to
     const Arc& arc = arcs[static_cast<std::size_t>(k)];
     const double from = arc.start(), to = arcEnd(motion, body, k);
     const Vec2 end = view.pixel(arc.positionAt(to));
-    if (bulgeOf(arc, to, view) <= flat) {
+    const double bulge = bulgeOf(arc, to, view);
+    if (bulge <= flat || arc.accelerationVariation() > 0) {  // a slide round a bend is no parabola
+      const double count = std::clamp(std::ceil(std::sqrt(bulge / flat)), 1.0, 2000.0);
+      for (double i = 1; i < count; ++i) run.push_back(view.pixel(arc.positionAt(from + (to - from) * (i / count))));
       run.push_back(end);
       continue;
     }
