@@ -33,6 +33,8 @@ Extent pathExtent(const Motion& motion, int body) {
     const double end = arcEnd(motion, body, k);
     extent.extend(arc.positionAt(arc.start()));
     extent.extend(arc.positionAt(end));
+    if (arc.accelerationVariation() > 0)  // round a bend: near enough for a picture
+      for (int i = 1; i < 200; ++i) extent.extend(arc.positionAt(arc.start() + (end - arc.start()) * i / 200));
     const Vec3 v = arc.velocityAt(arc.start());
     for (int axis = 0; axis < 3; ++axis) {
       const double turn = arc.start() - v[axis] / arc.acceleration()[axis];  // not finite without acceleration

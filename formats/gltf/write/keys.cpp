@@ -40,7 +40,7 @@ double rateOfTurns(const Arc& arc) {
 // How many keep straight lines near enough: h^2/8 |acceleration of the origin|, which is that of the centre of mass and
 // c (omega^2 + |d omega/dt|) at a distance c from it.
 double rateOfLines(const Arc& arc, double tolerance) {
-  double acceleration = arc.acceleration().norm();
+  double acceleration = arc.acceleration().norm() + arc.accelerationVariation();
   if (arc.tier() != Tier::none)
     acceleration += arc.model().center.norm() * (arc.spinBound() * arc.spinBound() + arc.spinRateBound());
   return std::sqrt(acceleration / (8 * tolerance));
