@@ -50,9 +50,10 @@ double rateOfLines(const Arc& arc, double tolerance) {
 // change of omega counts as spin of its own.
 double rateOfSwings(const Arc& arc) {
   const double c = arc.model().center.norm();
-  if (c == 0 || arc.tier() == Tier::none) return 0;
+  const double bend = std::sqrt(arc.accelerationVariation() / (16 * kShare * kCubicTolerance));  // of a slide
+  if (c == 0 || arc.tier() == Tier::none) return bend;
   const double spin = arc.spinBound() + std::sqrt(arc.spinRateBound());
-  return spin / std::pow(384 * kShare * kCubicTolerance / c, 0.25);
+  return bend + spin / std::pow(384 * kShare * kCubicTolerance / c, 0.25);
 }
 
 void requireFew(double keys, const Motion& motion, int body) {
