@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A curling stone is to rest on the tee, behind a guard that it strikes as thrown: it slides, curls down the slope of
-// the sheet, and stops. Then: how far off it would stop on other ice.
+// A curling stone is to rest on the tee behind a guard. As thrown it passes the guard on the lower side; the edit
+// brings it round the other side: it slides, curls down the slope, and stops. Then: how far off on other ice.
 #include <cmath>
 #include <cstdio>
 
@@ -25,7 +25,7 @@ Scene sheet() {
   guard.name = "guard", guard.fixed = true, guard.material = "polished", guard.shape = Cylinder{0.145, 0.11};
   guard.position = {7, 0, 0.055};
   stone.name = "stone", stone.material = "granite", stone.mass = 19, stone.shape = Cylinder{0.145, 0.11};
-  stone.position = {0, 0, 0.055}, stone.velocity = {1.4, -0.05, 0};
+  stone.position = {0, 0, 0.055}, stone.velocity = {1.4, 0.05, 0};
   scene.bodies = {ice, guard, stone};
   return scene;
 }

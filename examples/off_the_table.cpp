@@ -30,7 +30,7 @@ Scene tableAndCup() {
                         board({0.006, 0.172, 0.1}, {0.083, 0, 0.05}), board({0.16, 0.006, 0.1}, {0, -0.083, 0.05}),
                         board({0.16, 0.006, 0.1}, {0, 0.083, 0.05})}};
   ball.name = "ball", ball.material = "beech", ball.mass = 0.045, ball.shape = Sphere{0.025};
-  ball.position = {-0.4, -0.1, 0.775}, ball.velocity = {1.5, 0, 0};
+  ball.position = {-0.4, -0.1, 0.775}, ball.velocity = {1.5, 0.05, 0};
   scene.bodies = {floor, table, cup, ball};
   return scene;
 }
