@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "adjoint/contact/path_inputs.hpp"
@@ -18,6 +19,7 @@ class ContactPath {
   Real friction, mass, inertia, reach;
   bool slides = true, turns = true;
 
+  ContactPath() = default;
   ContactPath(adjoint_detail::PathForm form, const adjoint_detail::PathInputs<double>& in)
       : x(in.x), v(in.v), gravity(in.gravity), normal(in.normal), friction(in.friction), mass(in.mass),
         inertia(in.J(0, 0)), reach(in.reach) {
@@ -42,6 +44,34 @@ class ContactPath {
       left -= step;
     }
     momentum = turns ? inertia * spin : RVec();
+  }
+  /// Up to the end of the slip, and how long it takes: by steps down to the last 1e-12 of it, which are a line. (What
+  /// is left of the time is as small, and of its derivatives by anything, too.)
+  Real slideToEnd() {
+    normal = unit(normal);
+    v = v - dot(v, normal) * normal;
+    spin = turns ? (1 / inertia) * momentum : RVec();
+    Real elapsed = 0;
+    for (;;) {
+      const RVec u = slip();
+      const Real size = norm(u), brake = friction * pressure();
+      const Real rate = dot(u, slope()) / size - brake * (turns ? 1 + mass * reach * reach / inertia : 1);
+      if (!(rate < 0)) throw std::runtime_error("the slip does not end");
+      const Real left = -size / rate;
+      if (left < Real("1e-12")) {
+        const RVec direction = (1 / size) * u;
+        x = x + left * v;
+        if (turns) R = rotationBy(left * spin) * R;
+        v = v + left * (slope() - brake * direction);
+        if (turns) spin = spin + (left * brake * mass * reach / inertia) * cross(normal, direction);
+        momentum = turns ? inertia * spin : RVec();
+        return elapsed + left;
+      }
+      Real step = longest();
+      if (left / 2 < step) step = left / 2;
+      take(step);
+      elapsed += step;
+    }
   }
   RVec slip() const { return turns ? v - reach * cross(spin, normal) : v; }
 
