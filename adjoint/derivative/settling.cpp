@@ -59,8 +59,8 @@ Settling settlingOf(const Motion& motion, int index) {
   };
   const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, poseOf(static_cast<std::size_t>(c.a)),
                                                       poseOf(static_cast<std::size_t>(c.b)));
-  if (!std::holds_alternative<Sphere>(scene.bodies[body].shape) || !model.center.isZero(0) || !scene.bodies[face].fixed ||
-      !isFlat(J, is_a))
+  if (!std::holds_alternative<Sphere>(scene.bodies[body].shape) || !model.center.isZero(0) ||
+      !scene.bodies[face].fixed || !isFlat(J, is_a))
     throw NotComputable(textOf(6, "the derivative of the time at which '", scene.bodies[body].name, "' settles on '",
                                scene.bodies[face].name, "' is known for balls on flat faces of fixed bodies alone"));
 

@@ -38,8 +38,7 @@ std::vector<Change> changes() {
            [=](SceneTangent& t) { t.bodies[0].orientation = turn; }},
           {"position", [=](Scene& s, double h) { s.bodies[0].position += h * shift; },
            [=](SceneTangent& t) { t.bodies[0].position = shift; }},
-          {"size",
-           [](Scene& s, double h) { std::get<Box>(s.bodies[0].shape).size += h * Vec3(0.1, -0.2, 0.3); },
+          {"size", [](Scene& s, double h) { std::get<Box>(s.bodies[0].shape).size += h * Vec3(0.1, -0.2, 0.3); },
            [](SceneTangent& t) { t.bodies[0].size = Vec3(0.1, -0.2, 0.3); }},
           {"floor",
            [=](Scene& s, double h) {
@@ -97,8 +96,9 @@ class ClosingGaps {
 };
 
 TEST(ClosingGaps, SecondDerivatives) {
-  Scene scene = makeScene({0.3, 0.1, -9.81}, 0, 0.3,
-                          {makeBox("slab", {0.4, 0.3, 0.1}, {0, 0, 0.05}, {4, 0.4, 0}), makePlane("floor", Vec3::UnitZ(), 0)});
+  Scene scene =
+      makeScene({0.3, 0.1, -9.81}, 0, 0.3,
+                {makeBox("slab", {0.4, 0.3, 0.1}, {0, 0, 0.05}, {4, 0.4, 0}), makePlane("floor", Vec3::UnitZ(), 0)});
   scene.bodies[0].orientation = Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));
   ClosingGaps closing(scene);
   const Motion& m = closing.motion();

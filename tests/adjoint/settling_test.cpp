@@ -27,8 +27,9 @@ int settlesIn(const Motion& m) {
 
 // Thrown onto a slope, with spin: it bounces, settles, and rolls on.
 Scene slope() {
-  Scene s = makeScene({0.2, -0.1, -9.81}, 0.4, 0.3,
-                      {makeBall("ball", 0.1, {0, 0, 0.6}, {0.5, 0.2, 0.3}), makeBox("slab", {6, 6, 0.2}, {0, 0, -0.1})});
+  Scene s =
+      makeScene({0.2, -0.1, -9.81}, 0.4, 0.3,
+                {makeBall("ball", 0.1, {0, 0, 0.6}, {0.5, 0.2, 0.3}), makeBox("slab", {6, 6, 0.2}, {0, 0, -0.1})});
   s.bodies[0].angular_velocity = {1, 5, -2};
   s.bodies[1].fixed = true;
   s.bodies[1].orientation = Quat(Eigen::AngleAxisd(0.1, Vec3(0.6, 0.8, 0)));
@@ -44,9 +45,10 @@ TEST(Settling, HasTheDerivativesOfTheClosedForm) {
   for (double e : {0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95}) {
     SCOPED_TRACE(e);
     const double height = 0.8, g = 9.81, t1 = std::sqrt(2 * height / g), ratio = (1 + e) / (1 - e);
-    const Motion m = play(makeScene({0, 0, -g}, e, 0.3,
-                                    {makeBall("ball", 0.1, {0, 0, height + 0.1}), makePlane("floor", Vec3::UnitZ(), 0)}),
-                          60);
+    const Motion m =
+        play(makeScene({0, 0, -g}, e, 0.3,
+                       {makeBall("ball", 0.1, {0, 0, height + 0.1}), makePlane("floor", Vec3::UnitZ(), 0)}),
+             60);
     DerivativeTape tape(m);
     const SceneGradient d = settlesAtGradient(tape, settlesIn(m));
     expectEntries(d.materials[0].elasticity, 2 * t1 / ((1 - e) * (1 - e)), 1e-11, "by e", t1 / ((1 - e) * (1 - e)));
@@ -75,10 +77,10 @@ TEST(Settling, IsTheLimitOfDifferences) {
     SCOPED_TRACE(k);
     const Vec3 axis = Vec3::Unit(k);
     expectEntries(d.gravity[k], difference([&](Scene& s, double h) { s.gravity += h * axis; }), 1e-8, "gravity");
-    expectEntries(d.bodies[0].velocity[k], difference([&](Scene& s, double h) { s.bodies[0].velocity += h * axis; }), 1e-8,
-                  "velocity");
-    expectEntries(d.bodies[0].position[k], difference([&](Scene& s, double h) { s.bodies[0].position += h * axis; }), 1e-8,
-                  "position");
+    expectEntries(d.bodies[0].velocity[k], difference([&](Scene& s, double h) { s.bodies[0].velocity += h * axis; }),
+                  1e-8, "velocity");
+    expectEntries(d.bodies[0].position[k], difference([&](Scene& s, double h) { s.bodies[0].position += h * axis; }),
+                  1e-8, "position");
     expectEntries(d.bodies[1].orientation[k], difference([&](Scene& s, double h) {
                     s.bodies[1].orientation = Quat(Eigen::AngleAxisd(h, axis)) * s.bodies[1].orientation;
                   }),
@@ -102,7 +104,8 @@ TEST(Settling, IsTransposedInAnyOrderOfBodies) {
       const SceneTangent direction = randomDirection(scene, random);
       const double rate = settlesAtRate(tape, direction, event);
       const double size = flatten(gradient).cwiseAbs().dot(flatten(direction).cwiseAbs());
-      EXPECT_TRUE(std::abs(rate - gradient.dot(direction)) <= 1e-13 * size) << "seed " << seed << ": " << rate << " " << rate - gradient.dot(direction) << " of " << size;
+      EXPECT_TRUE(std::abs(rate - gradient.dot(direction)) <= 1e-13 * size)
+          << "seed " << seed << ": " << rate << " " << rate - gradient.dot(direction) << " of " << size;
     }
     EXPECT_EQ(m.signature(), before);
   }

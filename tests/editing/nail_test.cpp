@@ -144,7 +144,7 @@ TEST_F(Nails, ResultsTellRangesAndTimes) {
   EXPECT_EQ(r.residuals[1].lower, 1.2);
   EXPECT_EQ(r.residuals[1].upper, 1.25);
   EXPECT_TRUE(r.residuals[1].value >= 1.2 - 1e-9 && r.residuals[1].value <= 1.25 + 1e-9) << r.residuals[1].value;
-  EXPECT_EQ(r.residuals[2].lower, -kInfinity);
+  EXPECT_EQ(r.residuals[2].lower, -carom::kInfinity);
   EXPECT_EQ(r.residuals[2].upper, 1);
   const Vec3 place = r.motion.stateAt("ball", r.times[0].time).position;
   EXPECT_EQ(place.x(), r.residuals[0].value);

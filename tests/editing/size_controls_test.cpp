@@ -7,6 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/tangent.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "editing/problem/controls/control_set.hpp"
 #include "tests/editing/scenes.h"
