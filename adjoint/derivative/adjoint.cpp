@@ -16,15 +16,15 @@ namespace {
 
 class ReversePass {
  public:
-  explicit ReversePass(DerivativeTape& tape)
-      : tape_(tape), motion_(tape.motion()), bars_(motion_) {}
+  ReversePass(DerivativeTape& tape, Reliability* reliability)
+      : tape_(tape), motion_(tape.motion()), reliability_(reliability), bars_(motion_) {}
 
-  SceneGradient run(std::span<const StateSeed> seeds, Reliability* reliability) {
+  SceneGradient run(std::span<const StateSeed> seeds) {
     for (const StateSeed& seed : seeds) plant(seed);
     bars_.eachEvent([&](int event, const Bars::AtEvent& at) {
-      if (reliability) {
-        reliability->pass(motion_, event);
-        reliability->passFriction(motion_, event, tape_.event(event).frictionFromZero());
+      if (reliability_) {
+        reliability_->pass(motion_, event);
+        reliability_->passFriction(motion_, event, tape_.event(event).frictionFromZero());
       }
       throughEvent(event, at);
     });
@@ -50,6 +50,7 @@ class ReversePass {
   void throughArc(int body, int k, double t, const ArcSensitivity& S, const StateDerivative& bar) {
     const auto b = static_cast<std::size_t>(body);
     const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
+    if (reliability_) reliability_->passArc(motion_, body, k);
     bars_.arriveAt(body, k, arcPullback(arc, t, S, bar, bars_.scene, bars_.model[b]));
   }
 
@@ -76,6 +77,7 @@ class ReversePass {
 
   DerivativeTape& tape_;
   const Motion& motion_;
+  Reliability* reliability_;
   Bars bars_;
 };
 
@@ -83,7 +85,7 @@ class ReversePass {
 
 SceneGradient adjoint(DerivativeTape& tape, std::span<const StateSeed> seeds, Reliability* reliability) {
   for (const StateSeed& seed : seeds) checkSeed("adjoint", tape.motion(), seed);
-  return ReversePass(tape).run(seeds, reliability);
+  return ReversePass(tape, reliability).run(seeds);
 }
 
 SceneGradient adjoint(const Motion& motion, std::span<const StateSeed> seeds, Reliability* reliability) {

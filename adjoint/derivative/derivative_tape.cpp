@@ -6,6 +6,7 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/contact/contact_path.hpp"
 #include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/impact/tilt.hpp"
@@ -125,12 +126,31 @@ void Reliability::passFriction(const Motion& motion, int index, double margin) {
                              "): the derivative by its friction is one-sided, and another one next to it");
 }
 
-void Reliability::askFriction(int material) {
-  if (std::find(frictions.begin(), frictions.end(), material) == frictions.end()) return;
-  smallest_margin = 0;
-  if (!reliable) return;
-  reliable = false;
-  message = friction_message;
+void Reliability::passArc(const Motion& motion, int body, int k) {
+  const std::size_t b = checkedIndex("Reliability::passArc", "body", body, motion.world_lines.size());
+  const std::vector<Arc>& arcs = motion.world_lines[b].arcs;
+  const Arc& arc = arcs[checkedIndex("Reliability::passArc", "arc", k, arcs.size())];
+  if (arc.kind() != ArcKind::slide || arc.path()->form != PathForm::glide_block) return;
+  if (std::find(sliding.begin(), sliding.end(), body) != sliding.end()) return;
+  sliding.push_back(body);
+  if (!sliding_message.empty()) return;
+  sliding_message = textOf(6, "'", motion.scene->bodies[b].name, "' slides without turning from t = ", arc.start(),
+                           " s on: its derivative by its spin leaves out the turn that friction would make of it");
 }
+
+namespace {
+
+void doubt(Reliability& reliability, const std::vector<int>& doubtful, int asked, const std::string& why) {
+  if (std::find(doubtful.begin(), doubtful.end(), asked) == doubtful.end()) return;
+  reliability.smallest_margin = 0;
+  if (!reliability.reliable) return;
+  reliability.reliable = false;
+  reliability.message = why;
+}
+
+}  // namespace
+
+void Reliability::askFriction(int material) { doubt(*this, frictions, material, friction_message); }
+void Reliability::askSpin(int body) { doubt(*this, sliding, body, sliding_message); }
 
 }  // namespace carom

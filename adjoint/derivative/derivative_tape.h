@@ -58,13 +58,21 @@ struct Reliability {
   /// Materials by whose friction, which is 0, the derivative cannot be trusted; and why, by the first such event.
   std::vector<int> frictions;
   std::string friction_message;  ///< why; empty where there are none
+  /// Bodies by whose spin the derivative cannot be trusted: they slide without turning, and the turn that friction
+  /// would make of a little spin is left out.
+  std::vector<int> sliding;
+  std::string sliding_message;  ///< why; empty where there are none
 
   /// Counts an event that the derivative passes through.
   void pass(const Motion& motion, int event);
   /// `margin`: EventLinearization::frictionFromZero.
   void passFriction(const Motion& motion, int event, double margin);
+  /// Counts an arc of a body that the derivative passes through.
+  void passArc(const Motion& motion, int body, int arc);
   /// The derivative by the friction of a material is asked for, too.
   void askFriction(int material);
+  /// The derivative by the spin of a body is asked for, too.
+  void askSpin(int body);
 };
 
 /// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.

@@ -78,12 +78,13 @@ class Chooser {
     free_ = freeAcceleration(model_, state_, scene_.gravity);
     if (closed.empty()) return;
     Eigen::VectorXd alpha(closed.size());
-    for (std::size_t k = 0; k < closed.size(); ++k) {
-      const Contact& c = *closed[k];
-      const ContactSide own{state_, free_},
-          other{motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState(), std::nullopt};
-      const bool is_a = c.a == body_;
-      alpha[static_cast<Index>(k)] = gapAcceleration(motion_, c, is_a ? own : other, is_a ? other : own);
+    for (std::size_t k = 0; k < closed.size(); ++k) alpha[static_cast<Index>(k)] = freeGapAcceleration(*closed[k]);
+    if (closed.size() == 1) {
+      if (!(alpha[0] < 0)) return;
+      pressed_ = closed;
+      const NormalContacts pressing(model_, state_, body_, pressed_);
+      push(-alpha[0] / pressing.mobility()(0, 0) * pressing.moved.col(0));
+      return;
     }
     const NormalContacts along(model_, state_, body_, closed);
     const std::vector<int> active = activeContacts(along.mobility(), alpha);
@@ -91,9 +92,17 @@ class Chooser {
     for (int k : active) pressed_.push_back(closed[asIndex(k)]);
     const NormalContacts pressing(model_, state_, body_, pressed_);
     const LeastNormSolve forces(pressing.mobility(), alpha(active));
-    const Eigen::Matrix<double, 6, 1> pushed = pressing.moved * forces.y;
-    free_.v += pushed.head<3>();
-    free_.w += pushed.tail<3>();
+    push(pressing.moved * forces.y);
+  }
+
+  double freeGapAcceleration(const Contact& c) const {
+    const ContactSide own{state_, free_},
+        other{motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState(), std::nullopt};
+    return c.a == body_ ? gapAcceleration(motion_, c, own, other) : gapAcceleration(motion_, c, other, own);
+  }
+  void push(const Eigen::Matrix<double, 6, 1>& acceleration) {
+    free_.v += acceleration.head<3>();
+    free_.w += acceleration.tail<3>();
   }
 
   bool isOneFace() const {

@@ -211,14 +211,13 @@ void Simulator::chooseArc(std::size_t participant) {
   }
   State& after = draft_.after[participant];
   ContactChoice choice;
-  const auto choose = [&] { choice = chooseContactPath(motion_, body, after, pointersTo(closed)); };
-  if (!closed.empty()) choose();
+  if (!closed.empty()) choice = chooseContactPath(motion_, body, after, pointersTo(closed));
   if (choice.path && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {
     std::vector<Contact> last;  // what begins to last fixes the pose
     for (const Contact* c : choice.contacts) last.push_back(*c);
     closed = std::move(last);
     closeGaps(motion_, body, after, closed);
-    choose();
+    choice = contactPathOf(motion_, body, after, pointersTo(closed), choice.path->form);
   }
   if (!choice.path) {
     fly(participant);

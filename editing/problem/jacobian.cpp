@@ -130,9 +130,11 @@ MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& val
   return simulateAlong(like, scene, source.geometry(), until);
 }
 
-void askFrictions(const ControlSet& controls, Reliability& reliability) {
-  for (const BoundControl& c : controls.controls())
+void askControls(const ControlSet& controls, Reliability& reliability) {
+  for (const BoundControl& c : controls.controls()) {
     if (c.kind->is_friction) reliability.askFriction(static_cast<int>(c.owner.material));
+    if (c.kind->is_spin) reliability.askSpin(c.owner.body);
+  }
 }
 
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
@@ -144,7 +146,7 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
     if (rows.seeds[i].empty()) continue;
     const SceneGradient gradient = adjoint(tape, rows.seeds[i], reliability ? &(*reliability)[i] : nullptr);
     J.row(i) = problem.controls.gather(gradient, values).transpose();
-    if (reliability) askFrictions(problem.controls, (*reliability)[i]);
+    if (reliability) askControls(problem.controls, (*reliability)[i]);
     if (!reliability || J.row(i).allFinite()) continue;
     (*reliability)[i].reliable = false;
     (*reliability)[i].message =

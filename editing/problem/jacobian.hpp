@@ -67,8 +67,8 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
 MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
                           ContactSource* contacts = nullptr);
 
-/// Tells the reliability of a row which coefficients of friction vary.
-void askFrictions(const ControlSet& controls, Reliability& reliability);
+/// Tells the reliability of a row which coefficients of friction and which spins vary.
+void askControls(const ControlSet& controls, Reliability& reliability);
 
 /// d(rows)/d(values) of a motion simulated at `values`: one reverse pass a row, whatever the number of controls.
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,

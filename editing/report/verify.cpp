@@ -65,7 +65,7 @@ Reliability reliabilityOf(const EditProblem& problem, const Motion& motion, cons
     if (seeds.empty()) continue;
     Reliability one;
     adjoint(tape, seeds, &one);
-    askFrictions(problem.controls, one);
+    askControls(problem.controls, one);
     worst.events = std::max(worst.events, one.events);
     worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
     if (worst.reliable && !one.reliable) worst.message = one.message;

@@ -3,7 +3,7 @@
 // place where it lands varies with the throw.
 #include <cstdio>
 
-#include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/settling.h"
 #include "adjoint/motion/lasting_contact.h"
 #include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
@@ -40,11 +40,16 @@ int main() {
     std::printf("%s %s on %s from %.9f s to %.9f s\n", name(c.body), c.kind == ArcKind::roll ? "rolls" : "slides",
                 name(c.with), c.from, c.to);
 
+  DerivativeTape tape(motion);
+  for (int e = 0; e < static_cast<int>(motion.events.size()); ++e)
+    if (motion.events[static_cast<std::size_t>(e)].settles_at)
+      std::printf("d(when it settles)/d(elasticity) %.9f s\n", settlesAtGradient(tape, e).materials[0].elasticity);
+
   StateSeed place;
   place.body = 0;
   place.at = Instant::before(*motion.findImpact(0, 1, 2));
   place.position = Vec3::UnitX();
-  const SceneGradient gradient = adjoint(motion, {&place, 1});
+  const SceneGradient gradient = adjoint(tape, {&place, 1});
   std::printf("lands at x = %.9f m; dx/d(speed) %.9f s\n",
               motion.stateBefore(place.at.event, 0).position.x(), gradient.bodies[0].velocity.x());
 }

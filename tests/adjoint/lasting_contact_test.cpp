@@ -259,5 +259,26 @@ TEST(LastingContact, IsFollowedToTheLastBit) {
   }
 }
 
+// What friction would make of a little spin is left out of the derivative, which says so to whom asks for it.
+TEST(LastingContact, DerivativesByTheSpinOfASlidingBlockAreInDoubt) {
+  const Motion m = play(onFloor(kDown, 0.5, 0.3, makeBox("block", {0.4, 0.3, 0.2}, {0, 0, 0.1}, {1, 0, 0})), 1);
+  const StateSeed seed = readX(Instant::at(1));
+  Reliability of_block;
+  adjoint(m, std::span<const StateSeed>(&seed, 1), &of_block);
+  EXPECT_TRUE(of_block.reliable) << of_block.message;
+  of_block.askSpin(1);
+  EXPECT_TRUE(of_block.reliable) << of_block.message;
+  of_block.askSpin(0);
+  EXPECT_FALSE(of_block.reliable);
+  EXPECT_EQ(of_block.smallest_margin, 0);
+  EXPECT_NE(of_block.message.find("'block' slides without turning"), std::string::npos) << of_block.message;
+
+  const Motion rolls = play(onFloor(kDown, 0.5, 0.3, ballWith(0.1, {1, 0, 0})), 1);
+  Reliability of_ball;
+  adjoint(rolls, std::span<const StateSeed>(&seed, 1), &of_ball);
+  of_ball.askSpin(0);
+  EXPECT_TRUE(of_ball.reliable) << of_ball.message;
+}
+
 }  // namespace
 }  // namespace carom::lasting_contact

@@ -97,6 +97,7 @@ const ControlKind kAngularVelocityControl{
     .gather = AngularVelocity::gather,
     .scatter = AngularVelocity::scatter,
     .scale = bodyScale<&NaturalScales::angular_velocity>,
+    .is_spin = true,
 };
 
 const ControlKind kGravityControl{
