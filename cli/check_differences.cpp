@@ -32,13 +32,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The impacts, and changes of what lasts, up to the last one that can matter to the rows.
 std::vector<std::string> sequenceOf(const EditProblem& problem, const Motion& motion, const Eigen::VectorXd& times) {
-  std::vector<std::string> lines;
-  const int count = static_cast<int>(problem.constraints.extentIn(motion, times).events);
-  for (int i = 0; i < count; ++i) {
-    const Event& event = motion.events[static_cast<std::size_t>(i)];
-    if (event.kind != EventKind::impact || event.counts()) lines.push_back(motion.describeEvent(i));
-  }
-  return lines;
+  return motion.describeEvents(problem.constraints.extentIn(motion, times).events);
 }
 std::string signatureOf(const EditProblem& problem, const Motion& motion, const Eigen::VectorXd& times) {
   return motion.signature(problem.constraints.extentIn(motion, times).events);

@@ -175,7 +175,7 @@ void printSequences(Output& out, const std::vector<std::string>& before, const s
 std::vector<std::size_t> toldEvents(const Motion& motion) {
   std::vector<std::size_t> told;
   for (std::size_t i = 0; i < motion.events.size(); ++i)
-    if (motion.events[i].kind != EventKind::impact || motion.events[i].counts()) told.push_back(i);
+    if (!motion.events[i].tooLow()) told.push_back(i);
   return told;
 }
 

@@ -110,7 +110,8 @@ void ofFace(const Limits& limits, int f, const Vec3& point) {
     if (across.norm() == 0) return;
     const Vec3 out = across.normalized();
     limits.point(-out, face.point + face.disc * out, face, border);
-    limits.out.back().round = true;
+    limits.out.back().radius = face.disc;
+    limits.out.back().axis = face.direction;
     return;
   }
   for (int i = 0; i < face.count; ++i) {

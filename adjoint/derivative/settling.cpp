@@ -6,6 +6,7 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/errors.h"
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/motion/guard.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 
 namespace carom {
@@ -53,12 +54,8 @@ Settling settlingOf(const Motion& motion, int index) {
   const bool is_a = p.body == c.a;
   const auto body = static_cast<std::size_t>(p.body), face = static_cast<std::size_t>(is_a ? c.b : c.a);
   const BodyModel& model = (*motion.models)[body];
-  const auto poseOf = [&](std::size_t b) {
-    const State& s = b == body ? p.before : motion.world_lines[b].arcs.back().startState();
-    return Pose{s.x, (*motion.models)[b].shapeToWorld(s.q.toRotationMatrix())};
-  };
-  const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, poseOf(static_cast<std::size_t>(c.a)),
-                                                      poseOf(static_cast<std::size_t>(c.b)));
+  const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, poseBefore(motion, event, c.a),
+                                                      poseBefore(motion, event, c.b));
   if (!std::holds_alternative<Sphere>(scene.bodies[body].shape) || !model.center.isZero(0) ||
       !scene.bodies[face].fixed || !isFlat(J, is_a))
     throw NotComputable(textOf(6, "the derivative of the time at which '", scene.bodies[body].name, "' settles on '",

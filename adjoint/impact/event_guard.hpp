@@ -25,8 +25,14 @@ struct EventGuard {
     EventGuard guard;
     guard.border_body = limit.body;
     guard.border_participant = participant;
-    guard.weight = R * limit.point_weight.template cast<S>();
     guard.border_arm = point - x;
+    V3<S> weight = limit.point_weight.template cast<S>();
+    if (limit.radius > 0) {  // towards the axis of the circle, wherever the point goes on it
+      const V3<S> along = limit.axis.cross(limit.point_weight).template cast<S>();
+      const V3<S> beside = R.transpose() * guard.border_arm - limit.border.template cast<S>();
+      weight -= along * (along.dot(beside) / S(limit.radius));
+    }
+    guard.weight = R * weight;
     if (limit.border_rates.cols() > 0)
       guard.border_rates = Eigen::VectorXd(limit.border_rates.transpose() * limit.point_weight).template cast<S>();
     part.guard.template tail<3>() = guard.weight;

@@ -19,7 +19,8 @@ struct FeatureLimit {
   Vec3 normal_weight = Vec3::Zero();  ///< of the normal, unit or zero
   Eigen::Matrix3Xd border_rates;  ///< of `border` by the dimensions of the body; none where it has no part
   Eigen::Matrix3Xd normal_rates;  ///< of `normal_weight` likewise; none where it keeps its direction
-  bool round = false;  ///< the border is a circle: the weight turns as the contact point goes round it
+  double radius = 0;         ///< m, of a border that is a circle: its weight turns as the contact point goes round; or 0
+  Vec3 axis = Vec3::Zero();  ///< of that circle, a unit vector
   std::string beyond;             ///< what the contact moves to: "the border of face +z"
 };
 

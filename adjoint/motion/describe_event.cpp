@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/motion/lasting_contact.h"
 
@@ -24,6 +26,13 @@ std::string Motion::describeEvent(int index) const {
   }
   const std::string changes = describeChanges(*this, index);
   return changes.empty() ? text : text + ": " + changes;
+}
+
+std::vector<std::string> Motion::describeEvents(std::size_t count) const {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(count, events.size()); ++i)
+    if (!events[i].tooLow()) lines.push_back(describeEvent(static_cast<int>(i)));
+  return lines;
 }
 
 }  // namespace carom

@@ -25,11 +25,14 @@ int participantOf(const Event& event, int body) {
   return p ? static_cast<int>(p - event.participants.data()) : -1;
 }
 
+Pose shapePose(const Motion& motion, int body, const State& state) {
+  return {state.x, (*motion.models)[static_cast<std::size_t>(body)].shapeToWorld(state.q.toRotationMatrix())};
+}
+
 Pose poseBefore(const Motion& motion, const Event& event, int body) {
-  const BodyModel& model = (*motion.models)[static_cast<std::size_t>(body)];
   const Participant* p = event.find(body);
-  const State& s = p ? p->before : motion.world_lines[static_cast<std::size_t>(body)].arcs[0].startState();
-  return {s.x, model.shapeToWorld(s.q.toRotationMatrix())};
+  return shapePose(motion, body,
+                   p ? p->before : motion.world_lines[static_cast<std::size_t>(body)].arcs[0].startState());
 }
 
 }  // namespace carom::adjoint_detail

@@ -41,6 +41,7 @@ bool Event::meets(int body, int with) const {
 }
 
 bool Event::counts() const { return std::ranges::any_of(participants, [](const Participant& p) { return p.impact > 0; }); }
+bool Event::tooLow() const { return kind == EventKind::impact && !counts(); }
 
 BodyState toBodyState(const BodyModel& model, const State& s) {
   BodyState out;
@@ -105,7 +106,7 @@ std::string Motion::signature(std::size_t count) const {
   std::string text;
   for (std::size_t i = 0; i < std::min(count, events.size()); ++i) {
     const Event& event = events[i];
-    if (event.kind == EventKind::impact && !event.counts()) continue;
+    if (event.tooLow()) continue;
     for (const std::array<int, 6>& features : sortedFeatures(event))
       for (int part : features) text += std::to_string(part) + ",";
     text += nameOf(branchOf(event.mode));

@@ -98,6 +98,7 @@ struct Event {
   bool touches(int body, int with) const;  ///< has a contact between the two
   bool meets(int body, int with) const;    ///< has an impact between the two that counts
   bool counts() const;                     ///< is an impact to people, of some body
+  bool tooLow() const;                     ///< is an impact, but none to people: of bounces that arrive from too low
 };
 
 /// The path of one body: arcs, joined by events.
@@ -159,6 +160,8 @@ struct Motion {
   std::string signature(std::size_t count = static_cast<std::size_t>(-1)) const;
   /// The same for people: one line an event.
   std::string describeEvent(int event) const;
+  /// Of the first `count` events, but those that are too low.
+  std::vector<std::string> describeEvents(std::size_t count = static_cast<std::size_t>(-1)) const;
 };
 
 /// A state of the integrator as people write it.

@@ -9,7 +9,6 @@
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/derivative/seed_pass.hpp"
-#include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/derivative/waiting_bars.hpp"
 #include "adjoint/flight/flight_pass.hpp"
 #include "adjoint/flight/flight_symmetric.hpp"
@@ -217,10 +216,8 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 }  // namespace
 
 bool hasSecondOrder(const Motion& motion) {
-  return std::ranges::none_of(motion.events, [&](const Event& event) {
-    if (event.kind != EventKind::transition || event.cause == TransitionCause::slip_ends) return false;
-    return event.cause == TransitionCause::tips || borderOf(motion, event).round;
-  });
+  return std::ranges::none_of(motion.events,
+                              [](const Event& event) { return event.cause == TransitionCause::tips; });
 }
 
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
@@ -230,7 +227,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   const Motion& motion = tape.motion();
   for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
   if (!hasSecondOrder(motion))
-    throw NotComputable("second derivatives are not known of a motion in which a body leaves a round face or begins to tip");
+    throw NotComputable("second derivatives are not known of a motion in which a body begins to tip");
   for (const ReadingDirection& d : directions) {
     checkDirection("secondOrder", *motion.scene, d.scene);
     if (d.time.size() > 0)

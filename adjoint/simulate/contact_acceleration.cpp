@@ -10,6 +10,12 @@ FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, co
   return {model.gravity_factor * gravity, -(A * (A * state.L).cross(state.L))};
 }
 
+ContactSide freeSide(const Motion& motion, int body, const State& state) {
+  const BodyModel& model = (*motion.models)[asIndex(body)];
+  if (!model.moving) return {state, std::nullopt};
+  return {state, freeAcceleration(model, state, motion.scene->gravity)};
+}
+
 namespace {
 
 // Between balls, and of a ball and a plane that stands still, as most contacts are; nothing for others.
@@ -68,11 +74,10 @@ std::optional<double> settlesAt(const Motion& motion, const Event& event, const 
   const Scene& scene = *motion.scene;
   const auto material = [&](int body) { return materialOf(scene, scene.bodies[asIndex(body)]); };
   const double e = combine(material(c.a), material(c.b)).elasticity;
-  const auto sideOf = [&](int body) -> ContactSide {
+  const auto sideOf = [&](int body) {
     const Participant* p = event.find(body);
-    if (!p) return {motion.world_lines[asIndex(body)].arcs.back().startState(), std::nullopt};
-    const State& state = after[static_cast<std::size_t>(p - event.participants.data())];
-    return {state, freeAcceleration((*motion.models)[asIndex(body)], state, scene.gravity)};
+    return freeSide(motion, body, p ? after[static_cast<std::size_t>(p - event.participants.data())]
+                                    : motion.world_lines[asIndex(body)].arcs.back().startState());
   };
   const double alpha = gapAcceleration(motion, c, sideOf(c.a), sideOf(c.b));
   if (!(alpha < 0 && e < 1)) return std::nullopt;

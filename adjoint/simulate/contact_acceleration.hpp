@@ -21,6 +21,8 @@ struct ContactSide {
   const State& state;
   std::optional<FreeAcceleration> acceleration;
 };
+/// Of a body that nothing touches.
+ContactSide freeSide(const Motion& motion, int body, const State& state);
 /// d^2(gap)/dt^2 of a contact.
 double gapAcceleration(const Motion& motion, const Contact& contact, const ContactSide& a, const ContactSide& b);
 

@@ -6,6 +6,7 @@
 
 #include "adjoint/contact/cone_program.hpp"
 #include "adjoint/impact/complementarity.hpp"
+#include "adjoint/motion/guard.hpp"
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/simulate/lasting_kinds.hpp"
 #include "adjoint/simulate/normal_contacts.hpp"
@@ -116,8 +117,7 @@ class Chooser {
 
   ContactJacobian jacobianOf(const Contact& c) const {
     const auto poseOf = [&](int body) {
-      const State& s = body == body_ ? state_ : motion_.world_lines[asIndex(body)].arcs.back().startState();
-      return Pose{s.x, (*motion_.models)[asIndex(body)].shapeToWorld(s.q.toRotationMatrix())};
+      return shapePose(motion_, body, body == body_ ? state_ : motion_.world_lines[asIndex(body)].arcs.back().startState());
     };
     return motion_.geometry->jacobian(c.a, c.b, c.features, poseOf(c.a), poseOf(c.b));
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "adjoint/impact/complementarity.hpp"
+#include "adjoint/motion/guard.hpp"
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/simulate/normal_contacts.hpp"
 
@@ -34,8 +35,7 @@ void closeGaps(const Motion& motion, int body, State& state, std::vector<Contact
   if (turn.norm() > 0) state.q = (expSO3(turn) * state.q).normalized();
   for (Contact& c : closed) {
     const auto pose = [&](int b) {
-      const State& s = b == body ? state : motion.world_lines[asIndex(b)].arcs.back().startState();
-      return Pose{s.x, (*motion.models)[asIndex(b)].shapeToWorld(s.q.toRotationMatrix())};
+      return shapePose(motion, b, b == body ? state : motion.world_lines[asIndex(b)].arcs.back().startState());
     };
     c.at = motion.geometry->contact(c.a, c.b, c.features, pose(c.a), pose(c.b));
   }

@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/motion/body_geometry.h"
+#include "adjoint/motion/guard.hpp"
 #include "adjoint/simulate/support_polygon.hpp"
 
 namespace carom::adjoint_detail {
@@ -35,9 +36,7 @@ class Search {
  private:
   void take(double elapsed, TransitionCause cause, int contact, int limit) { found_ = {elapsed, cause, contact, limit}; }
 
-  Pose poseOf(int body, const State& s) const {
-    return {s.x, (*motion_.models)[asIndex(body)].shapeToWorld(s.q.toRotationMatrix())};
-  }
+  Pose poseOf(int body, const State& s) const { return shapePose(motion_, body, s); }
   const State& stateOf(int body) const {
     return body == path_.body ? choice_.start : motion_.world_lines[asIndex(body)].arcs.back().startState();
   }
@@ -59,7 +58,7 @@ class Search {
       const FeatureLimit& limit = limits[i];
       if (limit.point_weight.isZero(0) || (only >= 0 && only != static_cast<int>(i))) continue;
       if (limit.body == path_.body && path_.form != PathForm::glide_block) continue;
-      if (limit.body == path_.face && limit.round) {
+      if (limit.body == path_.face && limit.radius > 0) {
         leaveDisc(bodies, k, static_cast<int>(i));
         continue;
       }

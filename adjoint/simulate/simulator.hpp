@@ -129,7 +129,7 @@ class Simulator {
   bool presses(const Contact& contact) const;
   void endBeyond(const Contact& contact, const std::string& why);
   bool isCounted(const Contact& contact, const State& a, const State& b) const;
-  double accelerationOf(const Contact& contact, bool among_closed) const;
+  double accelerationOf(const Contact& contact) const;
   const State& stateAfter(int body) const;
   const Onward& onwardOf(int body) const {
     const int i = in_draft_[index(body)];

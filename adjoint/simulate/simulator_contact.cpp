@@ -75,13 +75,13 @@ const State& Simulator::stateAfter(int body) const {
   return draft_.after[static_cast<std::size_t>(p - draft_.event.participants.data())];
 }
 
-// d^2(gap)/dt^2 after the event; `among_closed`: while those that part without speed stay closed.
-double Simulator::accelerationOf(const Contact& contact, bool among_closed) const {
+// d^2(gap)/dt^2 after the event, while contacts with fixed bodies that part without speed stay closed.
+double Simulator::accelerationOf(const Contact& contact) const {
   const auto sideOf = [&](int body) -> ContactSide {
     if (!(*motion_.models)[index(body)].moving) return {stateAfter(body), std::nullopt};
     std::vector<const Contact*> closed;
     for (const Contact& c : draft_.event.contacts)
-      if (among_closed && c.lasts && (c.a == body || c.b == body) && isFixed(c.a == body ? c.b : c.a))
+      if (c.lasts && (c.a == body || c.b == body) && isFixed(c.a == body ? c.b : c.a))
         closed.push_back(&c);
     return {stateAfter(body), pressedAcceleration(motion_, body, stateAfter(body), closed)};
   };
@@ -122,7 +122,7 @@ bool Simulator::captureLow() {
       leaves += (body == c.a ? 1 : -1) * c.at.normal.dot(k.v + k.w.cross(c.at.point - k.x));
     }
     if (!(leaves * leaves < lowest_speed_)) continue;
-    const double alpha = accelerationOf(c, true);
+    const double alpha = accelerationOf(c);
     if (!(alpha < 0 && leaves * leaves < -2 * motion_.lowest_bounce * alpha)) continue;
     more = true;
     if (c.held || !(c.approach < 0)) {
@@ -143,17 +143,12 @@ bool Simulator::isCounted(const Contact& c, const State& a, const State& b) cons
   for (const auto& [body, s] : {std::pair{c.a, &a}, std::pair{c.b, &b}})
     if (isMoved(body)) reach = std::max(reach, (c.at.point - s->x).norm());
   const double height = kUncounted * reach;
-  const auto sideOf = [&](int body, const State& state) -> ContactSide {
-    const BodyModel& model = (*motion_.models)[index(body)];
-    if (!model.moving) return {state, std::nullopt};
-    return {state, freeAcceleration(model, state, scene_.gravity)};
-  };
-  const double alpha = gapAcceleration(motion_, c, sideOf(c.a, a), sideOf(c.b, b));
+  const double alpha = gapAcceleration(motion_, c, freeSide(motion_, c.a, a), freeSide(motion_, c.b, b));
   return !(alpha < 0 && c.approach * c.approach < -2 * height * alpha);
 }
 
 // Whether a contact between bodies that move, which part without speed, goes on pressing while what stands still holds them.
-bool Simulator::presses(const Contact& c) const { return accelerationOf(c, true) < 0; }
+bool Simulator::presses(const Contact& c) const { return accelerationOf(c) < 0; }
 
 // How every participant goes on.
 void Simulator::chooseArcs() {
@@ -302,7 +297,7 @@ bool Simulator::placeAtStart() {
       if (arcOf(p.a == body ? p.b : p.a).moving()) continue;  // they meet at once, or part
       for (const FeaturePair& f : p.features) {
         Contact c = makeContact(0, p.a, p.b, f);
-        const double alpha = accelerationOf(c, false);
+        const double alpha = accelerationOf(c);
         if (!(alpha < 0 && c.approach * c.approach < -2 * motion_.lowest_bounce * alpha)) continue;
         c.counted = false;
         c.kept = true;

@@ -12,15 +12,6 @@
 namespace carom::editing_detail {
 namespace {
 
-std::vector<std::string> describeEvents(const Motion& motion) {
-  std::vector<std::string> lines;
-  for (int i = 0; i < static_cast<int>(motion.events.size()); ++i) {
-    const Event& event = motion.events[static_cast<std::size_t>(i)];
-    if (event.kind != EventKind::impact || event.counts()) lines.push_back(motion.describeEvent(i));
-  }
-  return lines;
-}
-
 std::vector<ChangedNumber> changesOf(const ControlSet& controls, const Eigen::VectorXd& values) {
   std::vector<ChangedNumber> changed;
   for (int i = 0; i < controls.size(); ++i) {
@@ -105,7 +96,7 @@ void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditRe
   result.times = metTimes(problem.constraints, rows);
   result.residual = largest(rows.residuals);
   result.scaled_residual = largest(rows.scaled);
-  result.sequence_after = describeEvents(result.motion);
+  result.sequence_after = result.motion.describeEvents();
   result.reliability = reliabilityOf(problem, result.motion, rows);
 }
 
@@ -162,8 +153,8 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   result.signature_changed = !result.sequence_changes.empty();
 
   result.motion = simulateScene(problem, result.scene, problem.duration);
-  result.sequence_before = untouched ? describeEvents(result.motion)
-                                     : describeEvents(simulateScene(problem, written, problem.duration));
+  result.sequence_before = untouched ? result.motion.describeEvents()
+                                     : simulateScene(problem, written, problem.duration).describeEvents();
   readMotion(problem, problem.timesOf(point.changes), result);
   if (search.options().certify && search.halt() != Halt::cancelled) {
     Certificate& certificate = result.certificate = certificateOf(problem, point, untouched, result.motion);

@@ -40,6 +40,14 @@ BodyState before(const Motion& motion, const std::string& name, int n, const std
   return motion.stateBefore(event.value_or(0), body);
 }
 
+/// The ball is at the end within `reach` of an opening's middle, along both sides, and below `height` of it.
+void expectEndsIn(const Motion& motion, const Vec3& middle, double reach, double height) {
+  const Vec3 x = motion.stateAt("ball", motion.end).position - middle;
+  EXPECT_LE(std::abs(x.x()), reach + 1e-9);
+  EXPECT_LE(std::abs(x.y()), reach + 1e-9);
+  EXPECT_LT(x.z(), height);
+}
+
 class DirectedScene : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, DirectedScene,
                          testing::Values("book-on-shelf", "hat-on-coatrack", "mug-on-mark", "meeting", "ball-into-cup",
@@ -83,11 +91,7 @@ TEST(DirectedGallery, BallAndCrateMeetAtTheNail) {
 }
 
 TEST(DirectedGallery, TheBallEndsInTheCup) {
-  const Motion motion = direct("ball-into-cup").motion;
-  const Vec3 x = motion.stateAt("ball", motion.end).position - Vec3(0.55, 0, 0);
-  EXPECT_LE(std::abs(x.x()), 0.04 + 1e-9);
-  EXPECT_LE(std::abs(x.y()), 0.04 + 1e-9);
-  EXPECT_LT(x.z(), 0.08);
+  expectEndsIn(direct("ball-into-cup").motion, {0.55, 0, 0}, 0.04, 0.08);
 }
 
 TEST(DirectedGallery, TheChosenFaceIsDown) {
@@ -115,20 +119,13 @@ TEST(DirectedGallery, TheStoneRestsOnTheTeeBehindTheGuard) {
 }
 
 TEST(DirectedGallery, TheBallRollsOffTheTableIntoTheCup) {
-  const Motion motion = direct("off-the-table").motion;
-  const Vec3 x = motion.stateAt("ball", motion.end).position - Vec3(1.1, 0.1, 0);
-  EXPECT_LE(std::abs(x.x()), 0.055 + 1e-9);
-  EXPECT_LE(std::abs(x.y()), 0.055 + 1e-9);
-  EXPECT_LT(x.z(), 0.08);
+  expectEndsIn(direct("off-the-table").motion, {1.1, 0.1, 0}, 0.055, 0.08);
 }
 
 TEST(DirectedGallery, ThePuttIsAimedUpTheSlopeAndFalls) {
   const Directed putt = direct("putt");
   EXPECT_LT(putt.document.scene.bodies[1].velocity.y(), -0.2);
-  const Vec3 x = putt.motion.stateAt("ball", putt.motion.end).position - Vec3(3, 0, 0);
-  EXPECT_LE(std::abs(x.x()), 0.0327 + 1e-9);
-  EXPECT_LE(std::abs(x.y()), 0.0327 + 1e-9);
-  EXPECT_LT(x.z(), -0.05);
+  expectEndsIn(putt.motion, {3, 0, 0}, 0.0327, -0.05);
 }
 
 }  // namespace

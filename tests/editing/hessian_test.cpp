@@ -131,23 +131,29 @@ TEST(Hessian, OfRowsAtAFreeTime) {
   expectDerivative(problem, someUnknowns(problem, 0.01), someWeights(problem.constraints.size()));
 }
 
+// All the time, in or out of a shape that is turned.
+Constraint inRegion(const std::string& body, std::pair<double, double> during, Region::Side side,
+                    std::variant<Sphere, Box> shape, const Vec3& at) {
+  Constraint c{body, 0.0, {}};
+  const Quat turned(Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()));
+  c.regions = {{side, std::move(shape), at, turned, during, 0.0}};
+  return c;
+}
+
 TEST(Hessian, OfRegions) {
   const Scene scene = thrownBox();
   OdeContacts contacts(scene);
   const Motion motion = simulate(scene, contacts, 0.6);
   const Vec3 middle = motion.stateAt("box", 0.2).position, side = motion.stateAt("box", 0.25).position;
-  const Quat turned(Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()));
-  std::vector<Constraint> constraints;
-  const auto keep = [&](Region::Side what, std::variant<Sphere, Box> shape, const Vec3& at) {
-    Constraint c{"box", 0.0, {}};
-    c.regions = {{what, shape, at, turned, std::pair(0.02, 0.5), 0.0}};
-    constraints.push_back(c);
+  const auto keep = [](Region::Side what, std::variant<Sphere, Box> shape, const Vec3& at) {
+    return inRegion("box", {0.02, 0.5}, what, std::move(shape), at);
   };
-  keep(Region::Side::avoid, Sphere{0.1}, middle + Vec3(0.1, 0.2, 0.15));
-  keep(Region::Side::inside, Sphere{3}, side + Vec3(0.1, 0.2, 0.3));
-  keep(Region::Side::avoid, Box{{0.1, 0.2, 0.3}}, side + Vec3(0.02, 0.2, 0.1));
-  keep(Region::Side::avoid, Box{{0.3, 0.1, 0.2}}, middle + Vec3(0, 0.01, 0.3));
-  keep(Region::Side::inside, Box{{3, 4, 5}}, side);
+  const std::vector<Constraint> constraints{
+      keep(Region::Side::avoid, Sphere{0.1}, middle + Vec3(0.1, 0.2, 0.15)),
+      keep(Region::Side::inside, Sphere{3}, side + Vec3(0.1, 0.2, 0.3)),
+      keep(Region::Side::avoid, Box{{0.1, 0.2, 0.3}}, side + Vec3(0.02, 0.2, 0.1)),
+      keep(Region::Side::avoid, Box{{0.3, 0.1, 0.2}}, middle + Vec3(0, 0.01, 0.3)),
+      keep(Region::Side::inside, Box{{3, 4, 5}}, side)};
   const EditProblem problem(scene, contacts, 0.6, {velocity("box"), position("box"), elasticity("felt")}, constraints);
   const Eigen::VectorXd at = someUnknowns(problem, 0.003);
   const EditPointPtr point = pointAt(problem, at, problem.horizon, false);
@@ -181,17 +187,14 @@ TEST(Hessian, OfRegionsOnASlideRoundABend) {
   const Motion motion = simulate(scene, contacts, 0.6);
   ASSERT_GT(motion.world_lines[1].arcs[1].accelerationVariation(), 0.1);
   const Vec3 middle = motion.stateAt("ball", 0.4).position;
-  const Quat turned(Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()));
-  std::vector<Constraint> constraints;
-  const auto keep = [&](Region::Side what, std::variant<Sphere, Box> shape, const Vec3& at) {
-    Constraint c{"ball", 0.0, {}};
-    c.regions = {{what, shape, at, turned, std::pair(0.1, 0.6), 0.0}};
-    constraints.push_back(c);
+  const auto keep = [](Region::Side what, std::variant<Sphere, Box> shape, const Vec3& at) {
+    return inRegion("ball", {0.1, 0.6}, what, std::move(shape), at);
   };
-  keep(Region::Side::avoid, Sphere{0.1}, middle + Vec3(0.1, 0.2, 0.15));
-  keep(Region::Side::inside, Sphere{3}, middle + Vec3(-0.1, 0.3, 0.3));
-  keep(Region::Side::avoid, Box{{0.1, 0.2, 0.3}}, middle + Vec3(0.05, 0.15, 0));
-  keep(Region::Side::inside, Box{{3, 4, 5}}, middle);
+  const std::vector<Constraint> constraints{
+      keep(Region::Side::avoid, Sphere{0.1}, middle + Vec3(0.1, 0.2, 0.15)),
+      keep(Region::Side::inside, Sphere{3}, middle + Vec3(-0.1, 0.3, 0.3)),
+      keep(Region::Side::avoid, Box{{0.1, 0.2, 0.3}}, middle + Vec3(0.05, 0.15, 0)),
+      keep(Region::Side::inside, Box{{3, 4, 5}}, middle)};
   const EditProblem problem(scene, contacts, 0.6, {velocity("ball"), angularVelocity("ball"), friction("wood")},
                             constraints);
   expectDerivative(problem, someUnknowns(problem, 0.001), someWeights(problem.constraints.size()));

@@ -42,6 +42,13 @@ Scene rollsOffATable() {
                    {ballAt({0.3, 0.1, 0.1}, {2, 0.2, 0}), fixedBody(makeBox("table", {2, 2, 0.5}, {0, 0, -0.25})),
                     floorAt(-0.5)});
 }
+// Past the middle, so that the border is met aslant.
+Scene rollsOffARoundTable() {
+  Scene scene = rollsOffATable();
+  scene.bodies[1].shape = Cylinder{1.1, 0.5};
+  scene.bodies[1].position = {0.1, -0.3, -0.25};
+  return scene;
+}
 Scene landsOnATable() {
   Scene scene = rollsOffATable();
   scene.bodies[0].position.z() += 0.1;
@@ -105,6 +112,8 @@ std::vector<DotProductScene> lastingScenes() {
       row("lasting_rolls", rolls, 1),
       row("lasting_rolls_off_a_table", rollsOffATable, 0.75),
       row("lasting_rolls_off_and_lands", rollsOffATable, 1.2),
+      row("lasting_rolls_off_a_round_table", rollsOffARoundTable, 0.75),
+      row("lasting_rolls_off_a_round_table_and_lands", rollsOffARoundTable, 1.2),
       row("lasting_lands_and_leaves_a_table", landsOnATable, 0.9),
       row("lasting_lands_twice", landsOnATable, 1.4),
       row("lasting_lands_and_bends", landsAndBends, 0.5),
