@@ -15,11 +15,9 @@
 #include <variant>
 
 #include "studio/protocol.h"
+#include "studio/socket_id.h"
 
 namespace carom::studio {
-
-/// A socket, by a number that is given once.
-using SocketId = std::uint64_t;
 
 /// A command and who sent it.
 struct Letter {
