@@ -166,7 +166,7 @@ void saveJournal(const std::string& path, const JournalDocument& journal) {
   inFile(path, [&] {
     const std::string text = writeJournal(moved);
     parseJournal(text, path, moved.folder);
-    writeFile(path, text);
+    writeFileDurably(path, text);
   });
 }
 
