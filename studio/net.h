@@ -56,8 +56,9 @@ class Net {
   void close(SocketId socket, CloseReason reason, std::chrono::milliseconds after = {});
   void resume(SocketId socket);  ///< may be read again
 
+  struct State;  // of net.cpp
+
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

@@ -201,7 +201,7 @@ FileStamp Workspace::save(const std::string& path, std::string_view text, const 
   if (!there && known && !replace)
     throw FileConflict("'" + shown(path) + "' is no longer there");
   try {
-    formats_detail::writeFile(underKernel(folder.get(), parts.back()), text);
+    formats_detail::writeFileDurably(underKernel(folder.get(), parts.back()), text);
   } catch (const InputError& error) {
     failAt(path, error.message());
   }
