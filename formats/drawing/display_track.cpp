@@ -19,14 +19,14 @@ constexpr double kBendTolerance = 5e-10;  // m
 // Shortest turns stay this much of the tolerance away from the motion. They leave it by h^2/8 |d omega/dt| and, since
 // axes turn with the body, by at most as much again where it turns by 1 rad from key to key.
 constexpr double kTurnShare = 0.5;
-constexpr double kMostTurn = 1;  // rad
+constexpr double kMostBetweenKeys = 1;  // rad
 
-Vec3 accelerationAt(const Arc& arc, double t) { return arc.rateAt(t, {}).v; }
+Vec3 pathAcceleration(const Arc& arc, double t) { return arc.rateAt(t, {}).v; }
 
 // Hermite's polynomial of degree 5: place, velocity and acceleration of the path at t and h seconds later.
 DisplayTrack::ArcKey keyOver(const Arc& arc, double t, double h) {
-  DisplayTrack::ArcKey key{t, arc.positionAt(t), arc.velocityAt(t), accelerationAt(arc, t)};
-  const Vec3 a = h * h * (accelerationAt(arc, t + h) - key.acceleration);
+  DisplayTrack::ArcKey key{t, arc.positionAt(t), arc.velocityAt(t), pathAcceleration(arc, t)};
+  const Vec3 a = h * h * (pathAcceleration(arc, t + h) - key.acceleration);
   const Vec3 v = h * (arc.velocityAt(t + h) - key.velocityAt(t + h));
   const Vec3 x = arc.positionAt(t + h) - key.positionAt(t + h);
   key.third = (10 * x - 4 * v + 0.5 * a) / (h * h * h);
@@ -62,7 +62,7 @@ class BendKeys {
       if (last) h = to - t;
       const bool is_short = !(h > harmless);
       const DisplayTrack::ArcKey key =
-          is_short ? DisplayTrack::ArcKey{t, arc.positionAt(t), arc.velocityAt(t), accelerationAt(arc, t)}
+          is_short ? DisplayTrack::ArcKey{t, arc.positionAt(t), arc.velocityAt(t), pathAcceleration(arc, t)}
                    : keyOver(arc, t, h);
       const double error = is_short ? 0 : distanceFrom(arc, key, h);
       const double next = error > 0 ? 0.9 * std::pow(tolerance / error, 1.0 / 6) : 4;
@@ -98,7 +98,7 @@ void addArcs(const Motion& motion, int body, DisplayTrack& track) {
 }
 
 void addTurns(const Motion& motion, int body, double tolerance, DisplayTrack& track) {
-  const TurnSpacing spacing{kTurnShare * tolerance, kMostTurn};
+  const TurnSpacing spacing{kTurnShare * tolerance, kMostBetweenKeys};
   const RotationKeys keys =
       turnKeys(evenPieces(motion, body, [&](const Arc& arc) { return rateOfTurns(arc, spacing); }));
   for (std::size_t k = 0; k < keys.times.size(); ++k) {
