@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "studio/frames.h"
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -88,22 +88,25 @@ Json impactsOf(const MotionView& view) {
 }
 
 Json trackOf(const DisplayTrack& track, std::size_t body, Blocks& blocks) {
-  constexpr std::size_t kArcRow = 10, kTurnRow = 5;
+  constexpr std::size_t kParabola = 10, kBend = 19, kTurn = 5;
+  const bool straight = std::ranges::all_of(track.arcs, &DisplayTrack::ArcKey::isParabola);
+  const std::size_t stride = straight ? kParabola : kBend;
   std::vector<double> arcs;
-  arcs.reserve(kArcRow * track.arcs.size());
+  arcs.reserve(stride * track.arcs.size());
   for (const DisplayTrack::ArcKey& key : track.arcs) {
     arcs.push_back(key.time);
-    for (const Vec3* v : {&key.position, &key.velocity, &key.acceleration})
-      arcs.insert(arcs.end(), v->begin(), v->end());
+    for (const Vec3* v : {&key.position, &key.velocity, &key.acceleration, &key.third, &key.fourth, &key.fifth})
+      if (arcs.size() % stride != 0) arcs.insert(arcs.end(), v->begin(), v->end());
   }
   std::vector<float> turns;
-  turns.reserve(kTurnRow * track.turns.size());
+  turns.reserve(kTurn * track.turns.size());
   for (const DisplayTrack::TurnKey& key : track.turns)
     turns.insert(turns.end(), {key.time, key.w, key.x, key.y, key.z});
-  return {{"body", body},
-          {"arcs", blocks.add<double>(arcs, kArcRow)},
-          {"turns", blocks.add<float>(turns, kTurnRow)},
-          {"center", listOf(track.center)}};
+  Json json = {{"body", body}, {"arcs", blocks.add<double>(arcs, stride)}};
+  if (!straight) json["stride"] = stride;
+  json["turns"] = blocks.add<float>(turns, kTurn);
+  json["center"] = listOf(track.center);
+  return json;
 }
 
 Json bodyOf(const BodyView& body, std::size_t index, Blocks& blocks) {

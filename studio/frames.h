@@ -15,9 +15,9 @@
 namespace carom::studio {
 
 /// Type "motion": end, status, message, gravity, impacts [{t, point, bodies, nth, pairs, mode}] and tracks
-/// [{body, arcs, turns, center}], where rows of `arcs` are float64 [t, x, y, z, vx, vy, vz, ax, ay, az] and those of
-/// `turns` float32 [t, w, x, y, z], see DisplayTrack. Tracks that equal those of `sent`, which the reader has, are left
-/// out.
+/// [{body, arcs, stride, turns, center}]. Rows of `arcs` are float64 [t, position, velocity, acceleration], 10 numbers;
+/// where the track has a `stride` of 19, followed by [third, fourth, fifth]. Rows of `turns` are float32
+/// [t, w, x, y, z]. See DisplayTrack. Tracks that equal those of `sent`, which the reader has, are left out.
 std::string motionFrame(const MotionView& view, std::string_view members = "{}", const MotionView* sent = nullptr);
 
 /// Type "scene": count (bodies that the scene has), extent {min, max} and bodies [{body, name, fixed, colour, center,

@@ -71,7 +71,7 @@ SceneView sceneViewOf(const Motion& motion) {
     const double radius = radiusAbout(written.shape, drawn.center);
     if (std::isfinite(radius)) drawn.radius = radius;
     if (const Plane* plane = std::get_if<Plane>(&written.shape))
-      drawn.plane = BodyView::PlaneView{plane->normal, plane->offset};
+      drawn.plane = PlaneView{plane->normal, plane->offset};
     else
       drawn.mesh = displayMesh(scene, body, kAnyHalfWidth);
     view.bodies.push_back(std::move(drawn));

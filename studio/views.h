@@ -36,24 +36,25 @@ struct MotionView {
 /// Throws InputError as displayTrack does.
 MotionView viewOf(const Motion& motion);
 
+/// An endless plane: its points x, in the axes of the shape, have normal . x = offset.
+struct PlaneView {
+  Vec3 normal = Vec3::UnitZ();  ///< unit
+  double offset = 0;            ///< m
+
+  bool operator==(const PlaneView&) const = default;  ///< the same numbers
+};
+
 /// A body as it is drawn.
 struct BodyView {
-  std::string name;               ///< in the scene
-  bool fixed = false;             ///< never moves
-  std::string colour;             ///< "#rrggbb"
-  std::optional<double> radius;   ///< m, of a ball about the centre of mass that holds it; none of an endless plane
-  Vec3 center = Vec3::Zero();     ///< of mass, in the axes of the shape, m
-  Vec3 position = Vec3::Zero();   ///< m, of the shape's origin at the start
+  std::string name;                     ///< in the scene
+  bool fixed = false;                   ///< never moves
+  std::string colour;                   ///< "#rrggbb"
+  std::optional<double> radius;         ///< m, of a ball about the centre of mass that holds it; none of a plane
+  Vec3 center = Vec3::Zero();           ///< of mass, in the axes of the shape, m
+  Vec3 position = Vec3::Zero();         ///< m, of the shape's origin at the start
   Quat orientation = Quat::Identity();  ///< shape to world at the start
-  /// Of an endless plane: its points x, in the axes of the shape, have normal . x = offset.
-  struct PlaneView {
-    Vec3 normal = Vec3::UnitZ();  ///< unit
-    double offset = 0;            ///< m
-
-    bool operator==(const PlaneView&) const = default;  ///< the same numbers
-  };
-  std::optional<PlaneView> plane;  ///< which then has no mesh
-  DisplayMesh mesh;                ///< in the axes of the shape
+  std::optional<PlaneView> plane;       ///< where it is one, which has no mesh
+  DisplayMesh mesh;                     ///< in the axes of the shape
 
   /// Whether they look alike; where a body starts does not count, but for fixed ones.
   bool looksLike(const BodyView& other) const;

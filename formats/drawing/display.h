@@ -27,20 +27,25 @@ DisplayMesh displayMesh(const Scene& scene, int body, double plane_half_width);
 /// The path of a body for drawing: enough to evaluate any time of the motion without a simulator.
 ///
 /// Its centre of mass at time t, by the last of `arcs` that does not begin after t and s = t - time:
-///   x(t) = position + s (velocity + s/2 acceleration),   v(t) = velocity + s acceleration.
+///   x(t) = position + velocity s + acceleration s^2/2 + third s^3 + fourth s^4 + fifth s^5.
 /// Its orientation by the two `turns` about t and spherical interpolation (slerp), before the first and after the last
 /// that one itself. The origin of its shape is then x(t) - q(t) center.
 struct DisplayTrack {
-  /// Begins a parabola, which goes on to the next key or the end of the motion. A flight, a rest, a roll and a slide
-  /// along a line is one, and exact. A slide round a bend, where friction turns with the slip, is cut: position and
-  /// velocity of each key are those of the motion, and the acceleration is such that the parabola meets the next key;
-  /// between keys it stays within 1e-9 m of the motion.
+  /// Begins a polynomial, which goes on to the next key or the end of the motion. A flight, a rest, a roll and a slide
+  /// along a line is an exact parabola. A slide round a bend, where friction turns with the slip, is cut: between keys,
+  /// which have the motion's place, velocity and acceleration, the polynomial stays within 1e-9 m of it.
   struct ArcKey {
-    double time = 0;                    ///< s
-    Vec3 position = Vec3::Zero();       ///< m, of the centre of mass; of a fixed body its shape's origin
-    Vec3 velocity = Vec3::Zero();       ///< m/s
-    Vec3 acceleration = Vec3::Zero();   ///< m/s^2: the body's share of gravity, and what contacts do
+    double time = 0;                   ///< s
+    Vec3 position = Vec3::Zero();      ///< m, of the centre of mass; of a fixed body its shape's origin
+    Vec3 velocity = Vec3::Zero();      ///< m/s
+    Vec3 acceleration = Vec3::Zero();  ///< m/s^2: the body's share of gravity, and what contacts do
+    Vec3 third = Vec3::Zero();         ///< m/s^3, and so on; 0 but round bends
+    Vec3 fourth = Vec3::Zero();        ///< m/s^4
+    Vec3 fifth = Vec3::Zero();         ///< m/s^5
 
+    bool isParabola() const;                         ///< third, fourth and fifth are 0
+    Vec3 positionAt(double t) const;                 ///< m, of the centre of mass
+    Vec3 velocityAt(double t) const;                 ///< m/s
     bool operator==(const ArcKey&) const = default;  ///< the same numbers
   };
   /// An orientation, shape to world.

@@ -14,31 +14,38 @@ using namespace formats_detail;
 
 namespace {
 
-// Of what is asked of a path that is no parabola, half is for rounding.
+// Of the 1e-9 m that are promised round bends half is for rounding.
 constexpr double kBendTolerance = 5e-10;  // m
 // Shortest turns stay this much of the tolerance away from the motion. They leave it by h^2/8 |d omega/dt| and, since
 // axes turn with the body, by at most as much again where it turns by 1 rad from key to key.
 constexpr double kTurnShare = 0.5;
-constexpr double kMostTurn = 1;  // rad
+constexpr double kMostBetweenKeys = 1;  // rad
 
-// From the state at t over h seconds to where the path then is.
-DisplayTrack::ArcKey parabolaOver(const Arc& arc, double t, double h) {
-  const Vec3 x = arc.positionAt(t), v = arc.velocityAt(t);
-  return {t, x, v, (arc.positionAt(t + h) - x - h * v) * (2 / (h * h))};
+Vec3 pathAcceleration(const Arc& arc, double t) { return arc.rateAt(t, {}).v; }
+
+// Hermite's polynomial of degree 5: place, velocity and acceleration of the path at t and h seconds later.
+DisplayTrack::ArcKey keyOver(const Arc& arc, double t, double h) {
+  DisplayTrack::ArcKey key{t, arc.positionAt(t), arc.velocityAt(t), pathAcceleration(arc, t)};
+  const Vec3 a = h * h * (pathAcceleration(arc, t + h) - key.acceleration);
+  const Vec3 v = h * (arc.velocityAt(t + h) - key.velocityAt(t + h));
+  const Vec3 x = arc.positionAt(t + h) - key.positionAt(t + h);
+  key.third = (10 * x - 4 * v + 0.5 * a) / (h * h * h);
+  key.fourth = (-15 * x + 7 * v - a) / (h * h * h * h);
+  key.fifth = (6 * x - 3 * v + 0.5 * a) / (h * h * h * h * h);
+  return key;
 }
 
-// How far it is from the path where a cubic is farthest from such a parabola, and before that.
+// How far it is from the path between its ends.
 double distanceFrom(const Arc& arc, const DisplayTrack::ArcKey& key, double h) {
   double worst = 0;
-  for (const double share : {1.0 / 3, 2.0 / 3}) {
-    const double s = share * h;
-    const Vec3 x = key.position + s * (key.velocity + 0.5 * s * key.acceleration);
-    worst = std::max(worst, (x - arc.positionAt(key.time + s)).norm());
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const double t = key.time + share * h;
+    worst = std::max(worst, (key.positionAt(t) - arc.positionAt(t)).norm());
   }
   return worst;
 }
 
-// Steps as long as the last one and its error let expect: the error goes with the cube of the length.
+// Steps as long as the last one and its error let expect: the error goes with the sixth power of the length.
 class BendKeys {
  public:
   BendKeys(const Motion& motion, int body, DisplayTrack& track) : motion_(motion), body_(body), track_(track) {}
@@ -47,23 +54,27 @@ class BendKeys {
     const double variation = arc.accelerationVariation();
     const double rounding = 16 * std::numeric_limits<double>::epsilon() * arc.positionAt(from).norm();
     const double tolerance = kBendTolerance + rounding;
-    // Within this time no acceleration that varies by no more than that can do harm.
+    // In this time an acceleration that varies by no more than that does no harm: a parabola will do.
     const double harmless = std::sqrt(tolerance / variation);
     double t = from, h = to - from;
     while (t < to) {
       const bool last = t + h * (1 + 1e-9) >= to;
       if (last) h = to - t;
-      const DisplayTrack::ArcKey key = parabolaOver(arc, t, h);
-      const double error = h > harmless ? distanceFrom(arc, key, h) : 0;
+      const bool is_short = !(h > harmless);
+      const DisplayTrack::ArcKey key =
+          is_short ? DisplayTrack::ArcKey{t, arc.positionAt(t), arc.velocityAt(t), pathAcceleration(arc, t)}
+                   : keyOver(arc, t, h);
+      const double error = is_short ? 0 : distanceFrom(arc, key, h);
+      const double next = error > 0 ? 0.9 * std::pow(tolerance / error, 1.0 / 6) : 4;
       if (error > tolerance) {
-        h = std::max(harmless, h * std::clamp(0.9 * std::cbrt(tolerance / error), 0.1, 0.9));
+        h = std::max(harmless, h * std::max(next, 0.1));
         continue;
       }
       requireFew(static_cast<double>(track_.arcs.size()) + 1, motion_, body_);
       track_.arcs.push_back(key);
       if (last || !(t + h > t)) return;
       t += h;
-      h *= error > 0 ? std::clamp(0.9 * std::cbrt(tolerance / error), 0.5, 4.0) : 4;
+      h *= std::clamp(next, 0.5, 4.0);
     }
   }
 
@@ -87,7 +98,7 @@ void addArcs(const Motion& motion, int body, DisplayTrack& track) {
 }
 
 void addTurns(const Motion& motion, int body, double tolerance, DisplayTrack& track) {
-  const TurnSpacing spacing{kTurnShare * tolerance, kMostTurn};
+  const TurnSpacing spacing{kTurnShare * tolerance, kMostBetweenKeys};
   const RotationKeys keys =
       turnKeys(evenPieces(motion, body, [&](const Arc& arc) { return rateOfTurns(arc, spacing); }));
   for (std::size_t k = 0; k < keys.times.size(); ++k) {
@@ -102,6 +113,19 @@ void addTurns(const Motion& motion, int body, double tolerance, DisplayTrack& tr
 }
 
 }  // namespace
+
+bool DisplayTrack::ArcKey::isParabola() const { return third.isZero(0) && fourth.isZero(0) && fifth.isZero(0); }
+
+Vec3 DisplayTrack::ArcKey::positionAt(double t) const {
+  const double s = t - time;
+  const Vec3 parabola = position + s * (velocity + 0.5 * s * acceleration);
+  return isParabola() ? parabola : Vec3(parabola + s * s * s * (third + s * (fourth + s * fifth)));
+}
+
+Vec3 DisplayTrack::ArcKey::velocityAt(double t) const {
+  const double s = t - time;
+  return velocity + s * (acceleration + s * (3 * third + s * (4 * fourth + 5 * s * fifth)));
+}
 
 DisplayTrack displayTrack(const Motion& motion, int body, double turn_tolerance) {
   const std::size_t b = checkedIndex("displayTrack", "body", body, motion.world_lines.size());

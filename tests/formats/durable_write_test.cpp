@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is saved is on the disk when the call returns, and what cannot be saved leaves the old file. fsync stands here in
-// place of the C library's: it notes what it is asked for, does it, and fails when it is told to.
+// What is saved is on the disk when the call returns, and what cannot be saved leaves the old file. fsync stands here
+// in place of the C library's: it notes what it is asked for, does it, and fails when it is told to.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
