@@ -172,7 +172,8 @@ void Socket::close(const CloseReason& reason) {
   closing_ = true;
   // a peer that does not take what is being written never gets to the close
   after(net_.limits.handshake, [this] { drop(); });
-  stream_.async_close({reason.code, reason.text}, [self = shared_from_this()](Error) { self->end(); });
+  const websocket::close_reason said(static_cast<websocket::close_code>(reason.code), reason.text);
+  stream_.async_close(said, [self = shared_from_this()](Error) { self->end(); });
 }
 
 void Socket::end() {
