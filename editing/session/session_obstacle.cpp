@@ -14,7 +14,8 @@ namespace {
 
 using Obstacle = SessionObstacle::Kind;
 
-/// A step that would bring the goal nearer by more than this share could have been taken.
+/// A step that would bring the goal nearer by more than this share could have been taken; nails alone have to be met
+/// together, so that of them no more than this share may be left.
 constexpr double kCouldGoOn = 0.05;
 /// A number this near to its bound, of its natural scale, is at it.
 constexpr double kAtBound = 1e-9;
@@ -53,10 +54,10 @@ std::vector<std::string> controlsAtBounds(const ControlSet& controls, const Eige
   return names;
 }
 
-/// Whether a step brings the soft rows nearer to 0, to first order.
-bool goesOn(const StepProblem& problem) {
+/// Whether a step leaves no more than a share of the soft rows, to first order.
+bool leaves(double share, const StepProblem& problem) {
   const Step step = hierarchicalStep(problem);
-  return step.free_for_soft && step.soft_after <= (1 - kCouldGoOn) * problem.soft.r.norm();
+  return step.free_for_soft && step.soft_after <= share * problem.soft.r.norm();
 }
 
 StepProblem withoutBounds(StepProblem problem) {
@@ -105,6 +106,7 @@ SessionObstacle SessionSolver::obstacleHere() {
     out.kind = kind, out.sentence = sentence;
     return out;
   };
+  const auto goesOn = [&](const StepProblem& p) { return leaves(nails_alone ? kCouldGoOn : 1 - kCouldGoOn, p); };
   if (problem.soft.J.isZero(0)) return out;
   if (problem.soft.r.norm() <= options_.tolerance) return is(Obstacle::nails, "Not all nails are met.");
   if (goesOn(problem)) {
