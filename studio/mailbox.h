@@ -39,6 +39,7 @@ class Mailbox {
     const bool is_drag = std::holds_alternative<Drag>(letter.command.what);
     if (is_drag || endsDrag(letter.command)) dropDrag(letter.from);
     if (interrupts(letter.command)) work_.request_stop();
+    if (endsHold(letter.command)) drag_.request_stop();
     rest_.request_stop();
     std::size_t& waiting = waiting_[letter.from];
     ++waiting;
@@ -68,13 +69,16 @@ class Mailbox {
 
   /// For work that a command stops, but for drags and what only asks; stopped at once where one waits already.
   std::stop_token beginWork() { return begin(work_, [](const Letter& letter) { return interrupts(letter.command); }); }
+  /// For one update of a drag, which runs to its end unless what it is for ends.
+  std::stop_token beginDrag() { return begin(drag_, [](const Letter& letter) { return endsHold(letter.command); }); }
   /// For work while the hand rests, which any command stops.
   std::stop_token beginRest() { return begin(rest_, [](const Letter&) { return true; }); }
-  /// Stops both: the program ends.
+  /// Stops all of them: the program ends.
   void stopAll() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     work_.request_stop();
+    drag_.request_stop();
     rest_.request_stop();
   }
 
@@ -110,7 +114,7 @@ class Mailbox {
   std::condition_variable_any filled_;
   std::deque<Letter> letters_;
   std::map<SocketId, std::size_t> waiting_;
-  std::stop_source work_, rest_;
+  std::stop_source work_, drag_, rest_;
   bool closed_ = false;
   std::function<void(SocketId)> on_room_;
 };

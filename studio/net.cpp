@@ -8,6 +8,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -91,7 +92,6 @@ class Socket final : public Peer, public std::enable_shared_from_this<Socket> {
   const SocketId id_;
   bool reading_ = false, paused_ = false, writing_ = false, closing_ = false;
 };
-
 Socket::Socket(Net::State& net, beast::tcp_stream stream, SocketId id)
     : net_(net),
       stream_(std::move(stream)),
@@ -220,7 +220,7 @@ std::vector<std::string> allOf(const HttpRequest& request, http::field field) {
 void Visitor::read() {
   parser_.emplace();
   parser_->header_limit(static_cast<std::uint32_t>(net_.limits.header));
-  parser_->body_limit(boost::none);
+  parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // the gate says what of bodies
   stream_.expires_after(net_.limits.handshake);
   http::async_read_header(stream_, buffer_, *parser_,
                           [self = shared_from_this()](Error error, std::size_t) { self->onHeader(error); });

@@ -157,6 +157,8 @@ bool interrupts(const Command& command) {
   return !isOneOf<Hello, Drag, Release, Save, List, Gallery, Gone>(command);
 }
 
+bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
+
 bool endsDrag(const Command& command) { return isOneOf<Release, Cancel, Undo, Redo, Gone>(command); }
 
 Command readCommand(std::string_view text) {

@@ -114,6 +114,8 @@ struct Command {
 
 /// Stops a release, or nails that are being met.
 bool interrupts(const Command& command);
+/// Ends a gesture as if it had not been, or asks for less: what a drag under way comes to does not matter.
+bool endsHold(const Command& command);
 /// After it, where the hand was before does not matter.
 bool endsDrag(const Command& command);
 

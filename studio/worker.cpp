@@ -110,7 +110,7 @@ void Worker::sayAll(const Asker& asker) {
 // --------------------------------------------------------------------------------------------------------------- drags
 
 void Worker::dragThere(const Vec3& place, const std::optional<Quat>& orientation) {
-  const std::stop_token stop = mailbox_.beginWork();
+  const std::stop_token stop = mailbox_.beginDrag();
   const SessionUpdate update =
       orientation ? session().dragTo(place, *orientation, stop) : session().dragTo(place, stop);
   hold_->resting = !update.reached;

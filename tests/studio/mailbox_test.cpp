@@ -80,6 +80,17 @@ TEST(Mailbox, AHandThatMovesEndsItsRest) {
   EXPECT_FALSE(mailbox.beginWork().stop_requested());
 }
 
+TEST(Mailbox, AnUpdateOfADragRunsToItsEndUnlessTheGestureEnds) {
+  Mailbox mailbox;
+  const std::stop_token update = mailbox.beginDrag();
+  mailbox.put(drag(1, 1));
+  mailbox.put(letter<Release>(1, 2));
+  mailbox.put(letter<Grab>(1, 3));
+  EXPECT_FALSE(update.stop_requested());
+  mailbox.put(letter<Cancel>(1, 4));
+  EXPECT_TRUE(update.stop_requested());
+}
+
 TEST(Mailbox, WorkIsStoppedByWhatWaitsAlready) {
   Mailbox mailbox;
   mailbox.put(letter<Stop>(1, 1));

@@ -92,12 +92,12 @@ struct WorkerTest {
   std::unique_ptr<Worker> worker;
   std::int64_t id = 0;
 
-  explicit WorkerTest(const std::string& scene = kTestScene) {
+  explicit WorkerTest(const std::string& scene = kTestScene, const SessionOptions& solving = solvingWithoutClock()) {
     folder.write("bounce.json", scene);
     workspace = std::make_unique<Workspace>(folder.path());
     WorkerOptions options;
     options.session = "s1";
-    options.solving = solvingWithoutClock();
+    options.solving = solving;
     worker = std::make_unique<Worker>(
         mailbox, *workspace, Post{[this](SocketId to, const Outgoing& message) { received.add(to, message); }}, options);
     worker->openFirst("bounce.json");
