@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "editing/session_numbers.h"
 #include "formats/documents/journal_json.h"
@@ -71,10 +72,10 @@ void writeContent(JsonWriter& out, const SessionGesture& gesture, const std::str
     document.constraints.push_back(constraint);
   }
   writeDocument(out.key("content"), document);
-  out.key("ids").beginArray();
-  for (const auto& [id, constraint] : content.nails) out.value(id == NailId() ? std::nullopt : std::optional(id.value));
-  out.endArray();
-  out.unlessEmpty("name", gesture.name);
+  std::vector<std::optional<int>> ids;
+  for (const auto& [id, constraint] : content.nails)
+    ids.push_back(id == NailId() ? std::nullopt : std::optional(id.value));
+  out.members("ids", ids).unlessEmpty("name", gesture.name);
 }
 
 /// What is done, by its kind.
