@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Prints where the page's own modules draw every body of a motion frame: node page_motion.mjs PAGE FRAME TIMES
-// PAGE is the folder of frames.js and motion.js, TIMES a JSON list. The answer, as JSON: a list a body of
-// [x, y, z, qw, qx, qy, qz, ox, oy, oz] a time: centre of mass, turn of the shape, origin of the shape.
-import { readFileSync } from 'node:fs';
+// Where the page's own modules draw the bodies of motion frames: node page_motion.mjs PAGE FOLDER
+// PAGE has frames.js and motion.js. For every NAME.frame of FOLDER, with the times of NAME.times (a JSON list), writes
+// NAME.poses: a JSON list a body of [x, y, z, qw, qx, qy, qz, ox, oy, oz] a time: centre of mass, turn and origin of the
+// shape.
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 
-const [page, file, times] = process.argv.slice(2);
+const [page, folder] = process.argv.slice(2);
 const moduleOf = (name) => import(pathToFileURL(`${page}/${name}`).href);
 const { decodeFrame, motionOf } = await moduleOf('frames.js');
 const { centreAt, turnAt, poseAt } = await moduleOf('motion.js');
 
-const bytes = readFileSync(file);
-const frame = decodeFrame(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-const at = JSON.parse(readFileSync(times, 'utf8'));
-const poses = motionOf(frame, null).tracks.map((track) =>
-  at.map((t) => [...centreAt(track, t), ...turnAt(track, t), ...poseAt(track, t).place]));
-process.stdout.write(JSON.stringify(poses));
+for (const file of readdirSync(folder).filter((name) => name.endsWith('.frame'))) {
+  const stem = `${folder}/${file.slice(0, -'.frame'.length)}`;
+  const bytes = readFileSync(`${stem}.frame`), times = JSON.parse(readFileSync(`${stem}.times`, 'utf8'));
+  const frame = decodeFrame(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+  const poses = motionOf(frame, null).tracks.map((track) =>
+    times.map((t) => [...centreAt(track, t), ...turnAt(track, t), ...poseAt(track, t).place]));
+  writeFileSync(`${stem}.poses`, JSON.stringify(poses));
+}

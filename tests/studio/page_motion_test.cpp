@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The page's own modules, run in node, against the motion: frames decoded by frames.js, poses of motion.js. Where node
-// or the page is missing these tests are skipped, but not with CAROM_REQUIRE_THREE set.
+// is missing these tests are skipped, but not with CAROM_REQUIRE_THREE set.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -30,49 +29,57 @@ constexpr double kMove = 1e-9, kTurn = 2e-3;  // m, rad
 constexpr int kTimes = 200;
 const std::string kPage = CAROM_SOURCE_DIR "/studio/page";
 
-std::string outputOf(const std::string& command) {
-  std::string out;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return out;
-  std::array<char, 65536> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), n);
-  return pclose(pipe) == 0 ? out : std::string();
-}
+bool runs(const std::string& command) { return std::system(command.c_str()) == 0; }
 
 class PageMotion : public testing::Test {
  protected:
   void SetUp() override {
-    const bool has_page = fs::exists(kPage + "/motion.js") && fs::exists(kPage + "/frames.js");
-    if (!has_page || outputOf("node --version 2>/dev/null").empty()) {
-      if (std::getenv("CAROM_REQUIRE_THREE") != nullptr) FAIL() << "node or studio/page is missing";
-      GTEST_SKIP() << "node or studio/page is missing";
+    if (!fs::exists(kPage + "/motion.js")) GTEST_SKIP() << "studio/page is missing";
+    if (!runs("node --version >/dev/null 2>&1")) {
+      if (std::getenv("CAROM_REQUIRE_THREE") != nullptr) FAIL() << "node is missing: scripts/setup three";
+      GTEST_SKIP() << "node is missing: scripts/setup three";
     }
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Poses of every body at the times, as the page has them.
-  json played(const Motion& motion, const std::vector<double>& times) const {
-    const std::string frame = (folder_ / "frame").string(), list = (folder_ / "times.json").string();
-    std::ofstream(frame, std::ios::binary) << studio::motionFrame(studio::viewOf(motion), R"({"rev": 1})");
-    std::ofstream(list) << json(times).dump();
-    const std::string script = CAROM_SOURCE_DIR "/tests/studio/page_motion.mjs";
-    const std::string answer = outputOf("node '" + script + "' '" + kPage + "' '" + frame + "' '" + list + "'");
-    EXPECT_FALSE(answer.empty());
-    return answer.empty() ? json::array() : json::parse(answer);
-  }
-
-  void expectPage(const Motion& motion, std::uint64_t seed) const {
-    test::Random random(seed);
+  void add(const std::string& name, Motion motion) {
+    test::Random random(6);
     std::vector<double> times = {0, motion.end};
     for (int i = 0; i < kTimes; ++i) times.push_back(random.in(0, motion.end));
-    const json poses = played(motion, times);
-    ASSERT_EQ(poses.size(), motion.scene->bodies.size());
-    for (std::size_t body = 0; body < poses.size(); ++body)
-      for (std::size_t k = 0; k < times.size(); ++k) {
-        expectPose(motion, static_cast<int>(body), times[k], poses[body].at(k).get<std::array<double, 10>>());
+    std::ofstream(folder_ / (name + ".times")) << json(times).dump();
+    std::ofstream(folder_ / (name + ".frame"), std::ios::binary)
+        << studio::motionFrame(studio::viewOf(motion), R"({"rev": 1})");
+    shown_.push_back({name, std::move(motion), std::move(times)});
+  }
+
+  void expectPage() const {
+    const std::string script = CAROM_SOURCE_DIR "/tests/studio/page_motion.mjs";
+    ASSERT_TRUE(runs("node '" + script + "' '" + kPage + "' '" + folder_.string() + "'"));
+    for (const Shown& shown : shown_) expectPoses(shown);
+  }
+
+ private:
+  struct Shown {
+    std::string name;
+    Motion motion;
+    std::vector<double> times;
+  };
+
+  void expectPoses(const Shown& shown) const {
+    SCOPED_TRACE(shown.name);
+    std::ifstream in(folder_ / (shown.name + ".poses"));
+    ASSERT_TRUE(in);
+    const json poses = json::parse(in);
+    ASSERT_EQ(poses.size(), shown.motion.scene->bodies.size());
+    for (std::size_t body = 0; body < poses.size(); ++body) {
+      ASSERT_EQ(poses[body].size(), shown.times.size());
+      for (std::size_t k = 0; k < shown.times.size(); ++k) {
+        const auto page = poses[body][k].get<std::array<double, 10>>();
+        expectPose(shown.motion, static_cast<int>(body), shown.times[k], page);
         if (testing::Test::HasFailure()) return;  // one is enough
       }
+    }
   }
 
   static void expectPose(const Motion& motion, int body, double t, const std::array<double, 10>& page) {
@@ -91,26 +98,25 @@ class PageMotion : public testing::Test {
   }
 
   fs::path folder_ = fs::path(testing::TempDir()) / ("carom-page-motion-" + std::to_string(getpid()));
+  std::vector<Shown> shown_;
 };
 
 TEST_F(PageMotion, IsTheMotionOfEveryExample) {
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes")) {
     if (entry.path().extension() != ".json") continue;
-    SCOPED_TRACE(entry.path().filename().string());
     const Document document = readDocument(entry.path().string());
     OdeContacts contacts(document.scene);
-    expectPage(simulate(document.scene, contacts, document.duration), 6);
+    add(entry.path().stem().string(), simulate(document.scene, contacts, document.duration));
     ++scenes;
   }
   EXPECT_GE(scenes, 20);
+  expectPage();
 }
 
 TEST_F(PageMotion, IsTheMotionOfWhatLasts) {
-  for (const test::DotProductScene& row : test::lastingScenes()) {
-    SCOPED_TRACE(row.name);
-    expectPage(test::motionOf(row), 7);
-  }
+  for (const test::DotProductScene& row : test::lastingScenes()) add(row.name, test::motionOf(row));
+  expectPage();
 }
 
 }  // namespace
