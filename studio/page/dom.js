@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Elements made by scripts. Children that are text become text nodes: nothing from a document is ever read as HTML.
 
+import { icon } from './icons.js';
+
 /** @param {string} id @returns {HTMLElement} of the page; throws where it has none */
 export function byId(id) {
   const element = document.getElementById(id);
@@ -24,8 +26,8 @@ export function el(tag, properties = {}, ...children) {
   return element;
 }
 
-/** A button with a picture for a name. @param {string} picture @param {string} name @param {() => void} act
+/** A button with a picture, and a name for those who do not see it. @param {string} picture see icons.js @param {string} name @param {() => void} act
  * @param {Record<string, unknown>} more */
 export function iconButton(picture, name, act, more = {}) {
-  return el('button', { type: 'button', class: 'icon', title: name, 'aria-label': name, onclick: act, ...more }, picture);
+  return el('button', { type: 'button', class: 'icon', title: name, 'aria-label': name, onclick: act, ...more }, icon(picture));
 }

@@ -17,8 +17,8 @@ export function showReadout(store) {
     const at = Math.min(time, motion.end), [x, y, z] = centreAt(track, at).map((c) => c.toFixed(3).replace('-', '−'));
     const [words, kind] = standing(state);
     readout.replaceChildren(
-      el('strong', {}, body.name), el('span', { class: 'dim' }, `${at.toFixed(3)} s`),
-      el('span', { class: 'dim' }, `${x} ${y} ${z} m`), el('span', { class: kind }, words), el('span', { class: 'dim' }, gesture.axis && `along ${axisText(gesture.axis)}`));
+      el('strong', { class: 'cut' }, body.name), el('span', { class: 'dim' }, `${at.toFixed(3)} s`), el('span', { class: 'dim' }, `${x} ${y} ${z} m`),
+      ...(words ? [el('span', { class: kind }, words)] : []), ...(gesture.axis ? [el('span', { class: 'dim' }, `along ${axisText(gesture.axis)}`)] : []));
   });
   let spoken = '';
   store.on(['selected', 'gesture'], ({ selected, document, gesture }) => {

@@ -7,6 +7,7 @@ import { ask, askName } from './dialogs/ask.js';
 import { showEmpty } from './dialogs/open.js';
 import { byId } from './dom.js';
 import { Gesture } from './gesture.js';
+import { drawIcons, icon } from './icons.js';
 import { showHeader } from './header.js';
 import { listenToKeys, listenToPointer } from './input.js';
 import { showReadout } from './live.js';
@@ -45,6 +46,7 @@ function tabName() {
 }
 
 function start() {
+  drawIcons(document);
   const renderer = rendererName();
   if (!renderer) {
     byId('blocked').hidden = false;
@@ -147,7 +149,7 @@ function showLayout(store) {
     document.body.classList.toggle('folded', !panel);
     fold.setAttribute('aria-expanded', String(panel));
     fold.setAttribute('aria-label', panel ? 'Fold the panel' : 'Unfold the panel');
-    fold.textContent = panel ? '›' : '‹';
+    fold.replaceChildren(icon(panel ? 'unfolded' : 'folded'));
   });
   fold.addEventListener('click', () => store.set({ panel: !store.state.panel }));
 }

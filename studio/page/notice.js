@@ -18,7 +18,7 @@ export function showNotices(store) {
       act();
       if (name === 'Undo') close();
     } }, name));
-    place.append(el('span', {}, shown.message), ...buttons, iconButton('✕', 'Close', close));
+    place.append(el('span', {}, shown.message), ...buttons, iconButton('close', 'Close', close));
   };
   store.on(['notice'], (state) => {
     show(notice, state.notice, () => store.set({ notice: null, changesShown: false }));

@@ -2,6 +2,7 @@
 // Playing: the play head follows the page's own clock, never the server.
 
 import { byId } from './dom.js';
+import { icon } from './icons.js';
 
 /** @param {import('./store.js').Store<import('./types.js').State>} store @param {import('./commands.js').Commands} commands */
 export function showPlayer(store, commands) {
@@ -24,7 +25,7 @@ export function showPlayer(store, commands) {
     if (store.state.playing) wanted = requestAnimationFrame(frame);
   };
   store.on(['playing'], ({ playing }) => {
-    play.textContent = playing ? '❚❚' : '▶';
+    play.replaceChildren(icon(playing ? 'pause' : 'play'));
     play.setAttribute('aria-label', playing ? 'Pause' : 'Play');
     last = 0;
     if (playing && !wanted) wanted = requestAnimationFrame(frame);

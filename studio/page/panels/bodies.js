@@ -17,7 +17,7 @@ export function showBodies(store) {
         onclick: () => store.set({ selected: i === selected ? -1 : i, selectedNail: -1 }),
       }, swatch, el('span', { class: 'cut' }, name), fixed && el('span', { class: 'dim' }, 'fixed'));
       const is_locked = locked.has(name);
-      const lock = fixed ? null : iconButton(is_locked ? '🔒' : '🔓', is_locked ? `Unlock ${name}` : `Lock ${name}`, () => {
+      const lock = fixed ? null : iconButton(is_locked ? 'locked' : 'unlocked', is_locked ? `Unlock ${name}` : `Lock ${name}`, () => {
         const next = new Set(locked);
         if (!next.delete(name)) next.add(name);
         store.set({ locked: next });

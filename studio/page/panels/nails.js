@@ -2,6 +2,7 @@
 // The nails: what each holds, component by component, whether it is met, on, and in the motion.
 
 import { byId, el, iconButton } from '../dom.js';
+import { icon } from '../icons.js';
 import { pointAt, turnAt } from '../motion.js';
 import { lengthText } from '../number_field_text.js';
 import { atText, placeHeld } from '../overlay/hoops.js';
@@ -32,8 +33,8 @@ export function showNails(store, commands) {
       store.set({ selectedNail: id, selected });
       if (nail.time !== null) commands.seek(nail.time);
     } }, el('span', { class: `hoop ${standing[0]}`, 'aria-hidden': 'true' }), el('span', { class: 'cut grow' }, title), el('span', { class: `standing ${standing[0]}` }, standing[1]));
-    const eye = iconButton(nail.on ? '👁' : '–', nail.on ? `Switch off the nail of ${title}` : `Switch on the nail of ${title}`, () => void commands.tell('nail_on', { nail: id, on: !nail.on }), { 'data-key': `eye ${id}` });
-    const remove = iconButton('✕', `Remove the nail of ${title}`, () => void commands.removeNail(id), { 'data-key': `remove ${id}` });
+    const eye = iconButton(nail.on ? 'on' : 'off', nail.on ? `Switch off the nail of ${title}` : `Switch on the nail of ${title}`, () => void commands.tell('nail_on', { nail: id, on: !nail.on }), { 'data-key': `eye ${id}` });
+    const remove = iconButton('close', `Remove the nail of ${title}`, () => void commands.removeNail(id), { 'data-key': `remove ${id}` });
     return el('li', { class: 'nail' }, el('div', { class: 'nail-head' }, choose, eye, remove), components(nail));
   }
 
@@ -42,7 +43,7 @@ export function showNails(store, commands) {
     const { constraint } = nail, place = placeHeld(constraint);
     const others = ['velocity', 'angular_velocity', 'time', 'avoid', 'inside'].filter((word) => word in constraint).map((word) => word.replaceAll('_', ' '));
     const buttons = ['x', 'y', 'z'].map((name, i) => toggle(name, `${name} of the place`, place?.targets[i] != null, () => withComponent(nail, i), `${nail.id} ${name}`));
-    const turn = toggle('⟳', 'turn', !!constraint.orientation, () => withTurn(nail), `${nail.id} turn`);
+    const turn = toggle('turn', 'turn', !!constraint.orientation, () => withTurn(nail), `${nail.id} turn`);
     return el('div', { class: 'components' }, ...(constraint.at === undefined || constraint.relative_to ? [] : [...buttons, turn]), el('span', { class: 'dim cut' }, others.join(', ')));
   }
 
@@ -52,7 +53,7 @@ export function showNails(store, commands) {
       const constraint = next();
       if (constraint) void commands.setNail(Number(key.split(' ')[0]), constraint);
       else store.set({ notice: { message: 'A nail holds something; remove it instead.' } });
-    } }, text);
+    } }, text.length === 1 ? text : icon(text));
   }
 
   /** The nail with one component of its place held, or free. @param {NailState} nail @param {number} i */

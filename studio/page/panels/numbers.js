@@ -3,6 +3,7 @@
 // vary besides.
 
 import { byId, el } from '../dom.js';
+import { icon } from '../icons.js';
 import { evaluate, shortNumber } from '../number_field_text.js';
 import { numberField, scrubs } from '../number_field.js';
 
@@ -64,7 +65,7 @@ export function showNumbers(store, commands) {
     const fold = el('button', { type: 'button', class: 'icon small', 'aria-expanded': open, 'aria-label': `Components, bounds and weight of ${name}`, onclick: () => {
       if (!unfolded.delete(name)) unfolded.add(name);
       redraw();
-    } }, open ? '▾' : '▸');
+    } }, icon(open ? 'down' : 'right'));
     return el('section', { class: 'control', 'aria-label': name },
       el('div', { class: 'control-head' }, box, el('span', { class: 'cut grow' }, name), fold),
       ...numbers.map((number) => numberRow(number, name)), open && details(document, control, i));

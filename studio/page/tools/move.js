@@ -46,13 +46,14 @@ export function inPlane({ origin, direction }, point, normal) {
   return s > 0 ? along(origin, direction, s) : null;
 }
 
-/** Point of the line that is nearest to the ray; none where one looks along the line.
- * @param {Ray} ray @param {Vec3} point @param {Vec3} axis unit @returns {Vec3 | null} */
-export function onLine({ origin, direction }, point, axis) {
-  const normal = cross(direction, axis), size = dot(normal, normal);
-  if (size < 4e-4) return null;
-  const s = dot(cross(minus(origin, point), direction), cross(axis, direction)) / size;
-  return along(point, axis, s);
+/** Point of the line that the ray points at: of the plane through the line that faces the camera most; none where one
+ * looks along the line. @param {Ray} ray @param {Vec3} point @param {Vec3} axis unit @param {Vec3} view unit
+ * @returns {Vec3 | null} */
+export function onLine(ray, point, axis, view) {
+  const across = along(view, axis, -dot(view, axis)), size = length(across);
+  if (size < 0.02) return null;
+  const hit = inPlane(ray, point, along([0, 0, 0], across, 1 / size));
+  return hit && along(point, axis, dot(minus(hit, point), axis));
 }
 
 /** A drag of a point. `view`: the direction in which the camera looks. */
@@ -92,7 +93,7 @@ export class Move {
   pointOn(ray) {
     const axis = axisOf(this.axis, this.turn);
     if (!axis) return inPlane(ray, this.start, this.view);
-    return this.axis.includes('plane') ? inPlane(ray, this.start, axis) : onLine(ray, this.start, axis);
+    return this.axis.includes('plane') ? inPlane(ray, this.start, axis) : onLine(ray, this.start, axis, this.view);
   }
 
   /** By an arrow key: m to the right and up on the screen, held to the axis.
