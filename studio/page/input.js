@@ -17,14 +17,9 @@ export function listenToPointer({ store, gesture, overlay, view }) {
   /** Before the camera's own listener, so that a press on a thing does not turn it. @param {PointerEvent} event */
   const press = (event) => {
     canvas.focus();
-    const held = ['dragging', 'typing'].includes(store.state.gesture.state);
-    if (event.button === 2 && held) {
-      gesture.cancel();
-      view.camera.enable(false);
-      return;
-    }
     const hit = event.button === 0 && !event.shiftKey && !event.ctrlKey && !event.metaKey ? overlay.under(event.offsetX, event.offsetY) : null;
-    const taken = event.button === 0 && store.state.connected === 'open' && gesture.press(hit, event.offsetX, event.offsetY);
+    const taken = ['dragging', 'typing'].includes(store.state.gesture.state) && event.button !== 0
+      || event.button === 0 && store.state.connected === 'open' && gesture.press(hit, event.offsetX, event.offsetY);
     view.camera.enable(!taken);
     orbiting = !taken;
     if (taken) canvas.setPointerCapture(event.pointerId);
@@ -45,6 +40,12 @@ export function listenToPointer({ store, gesture, overlay, view }) {
     if (!same && (hit || was)) store.set({ hover: hit && store.state.scene?.shapes[hit.body]?.fixed ? null : hit });
     canvas.classList.toggle('open-hand', !!store.state.hover);
   };
+  // a second button is a mousedown, but no pointerdown, while the first is held
+  canvas.addEventListener('mousedown', (event) => {
+    if (event.button !== 2 || !['dragging', 'typing'].includes(store.state.gesture.state)) return;
+    gesture.stopTyping();
+    gesture.cancel();
+  });
   let down = /** @type {[number, number]} */ ([0, 0]);
   canvas.addEventListener('pointerdown', (event) => (down = [event.offsetX, event.offsetY]));
   canvas.addEventListener('pointerup', (event) => {

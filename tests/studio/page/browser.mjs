@@ -7,6 +7,17 @@ const require = createRequire(new URL('../../../studio/page/package.json', impor
 
 export const executable = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
 
+export const leftOut = 'left out: scripts/setup studio-tests installs chromium and playwright-core';
+
+/** Whether there is a browser and its driver. */
+export function canRun() {
+  try {
+    return !!executable && !!require.resolve('playwright-core');
+  } catch {
+    return false;
+  }
+}
+
 export async function launch() {
   const { chromium } = require('playwright-core');
   return chromium.launch({ executablePath: executable, args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] });
@@ -25,5 +36,19 @@ export async function openPage(browser, url, { width = 1440, height = 900, quali
   return page;
 }
 
-/** Until the store holds. `test` is the text of a function of the state. */
-export const until = (page, test) => page.waitForFunction(`globalThis.carom && (${test})(globalThis.carom.store.state)`, undefined, { timeout: 20000 });
+/** Until a state of the store holds; `test` is the text of a function of it. Playwright's own waiting evaluates text in
+ * the page, which the page's policy refuses. */
+export async function until(page, test, patience = 30000) {
+  let timer;
+  const late = new Promise((_, reject) => (timer = setTimeout(() => reject(new Error(`${test} did not come true`)), patience)));
+  const held = page.evaluate(`(async () => {
+    const test = ${test};
+    while (!(globalThis.carom && test(globalThis.carom.store.state))) await new Promise((next) => setTimeout(next, 10));
+  })()`);
+  held.catch(() => {});
+  try {
+    await Promise.race([held, late]);
+  } finally {
+    clearTimeout(timer);
+  }
+}

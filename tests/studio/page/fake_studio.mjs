@@ -30,7 +30,7 @@ function fly(velocity, end) {
 const cube = (x, y, z) => {
   const corners = [], triangles = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
   for (let k = 0; k < 8; ++k) corners.push((k & 4 ? 1 : -1) * x, (k & 2 ? 1 : -1) * y, (k & 1 ? 1 : -1) * z);
-  return { vertices: new Float32Array(corners), triangles: new Uint32Array(triangles.flatMap(([a, b, c, d]) => [a, c, b, a, d, c])) };
+  return { vertices: new Float32Array(corners), triangles: new Uint32Array(triangles.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) };
 };
 
 export class FakeStudio {
@@ -134,6 +134,8 @@ export class FakeStudio {
       if (this.locked) return client.send(JSON.stringify({ type: 'error', re: id, code: 'busy', message: 'Another tab holds a body.' }));
       this.held = { at: this.timeOf(message.at), velocity: [...this.velocity], body: message.body };
       client.send(this.motionFrame({ re: id, gesture }));
+    } else if (!this.held && ['drag', 'release', 'cancel'].includes(type)) {
+      client.send(JSON.stringify({ type: 'error', re: id, code: 'not_held', message: 'Nothing is held.' }));
     } else if (type === 'drag') {
       client.send(this.motionFrame({ gesture, seq, ...(this.last = this.aim(message.place, this.held.at)) }));
     } else if (type === 'release') {
