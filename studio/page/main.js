@@ -109,6 +109,8 @@ function frameView(store, view, body, anew) {
   const { scene, motion } = store.state;
   if (!scene || !motion) return;
   let { min, max } = scene;
+  const ground = scene.shapes.flatMap(({ plane, body: of }) => (plane && plane.normal[2] > 0.9 ? [centreAt(motion.tracks[of], 0)[2] + plane.offset] : []));
+  min = [min[0], min[1], Math.min(min[2], ...ground.filter((z) => z > min[2] - 2 * Math.max(max[0] - min[0], max[2] - min[2], 0.1)))];
   const track = motion.tracks[body];
   if (track && moves(track)) {
     const places = pathTimes(track, motion.end, 1e-2).map((t) => centreAt(track, t)), r = scene.shapes[body].radius;

@@ -4,7 +4,7 @@
 import { moves, pathTimes, pointAt } from '../motion.js';
 import { sagOf } from '../view/paths.js';
 import { drawHandles, handleShapes, handleUnder } from './handles.js';
-import { drawHoops, nailPlaces } from './hoops.js';
+import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
 import { drawDots, drawHeld, drawHover, drawImpacts } from './marks.js';
 import { onScreen, pick } from './pick.js';
 
@@ -81,7 +81,7 @@ export class Overlay {
         const handle = handleUnder(handles, hx, hy);
         return handle ? { handle, body: selected } : null;
       },
-      nails: nailPlaces(state),
+      nails: nailPlaces(state).filter((place) => placeHeld(place.nail.constraint)),
       bodyUnder: (bx, by) => this.view.bodies.pick(this.view.camera.cast(bx, by)),
     }, x, y);
   }

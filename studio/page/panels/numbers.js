@@ -4,6 +4,7 @@
 
 import { byId, el } from '../dom.js';
 import { icon } from '../icons.js';
+import { velocityAt } from '../motion.js';
 import { evaluate, shortNumber } from '../number_field_text.js';
 import { numberField, scrubs } from '../number_field.js';
 
@@ -134,6 +135,15 @@ export function showNumbers(store, commands) {
   };
 
   store.on(['document', 'selected'], show);
+  // while the hand drags, the server tells the numbers of the last step; a throw can be read off the motion
+  store.on(['motion'], ({ motion, document, gesture }) => {
+    if (!motion || !document || gesture.state !== 'dragging') return;
+    for (const number of document.numbers) {
+      const { vary, body } = document.controls[number.control] ?? {}, track = motion.tracks[document.bodies.findIndex((one) => one.name === body)];
+      const now = vary === 'velocity' && track ? velocityAt(track, 0)['xyz'.indexOf(number.component)] : undefined;
+      if (now !== undefined) updates.get(key(number))?.({ ...number, now });
+    }
+  });
 }
 
 /** A list of bounds fits its components alone. @param {number | number[] | undefined} bound */
