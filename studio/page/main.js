@@ -153,6 +153,15 @@ function showLayout(store) {
     fold.setAttribute('aria-label', panel ? 'Fold the panel' : 'Unfold the panel');
     fold.replaceChildren(icon(panel ? 'unfolded' : 'folded'));
   });
+  // where there is little height, one of the two long lists is open at a time
+  const low = matchMedia('(max-height: 760px)'), long = [byId('numbers'), byId('nails')].flatMap((list) => list.closest('details') ?? []);
+  const share = () => {
+    for (const list of long) list.toggleAttribute('name', false);
+    for (const list of low.matches ? long : []) list.setAttribute('name', 'long');
+  };
+  low.addEventListener('change', share);
+  share();
+  store.on(['document'], ({ document: shown }) => (byId('nail-count').textContent = shown?.nails.length ? String(shown.nails.length) : ''));
   fold.addEventListener('click', () => store.set({ panel: !store.state.panel }));
 }
 

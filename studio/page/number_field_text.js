@@ -33,13 +33,13 @@ export function evaluate(text) {
   return i === tokens.length && Number.isFinite(value) ? value : null;
 }
 
-/** For people: as many digits as tell values of this natural scale apart.
+/** For people: as many digits as tell values of this natural scale apart, so that a column of them is even.
  * @param {number} value @param {number} scale */
 export function shortNumber(value, scale = 1) {
   if (!Number.isFinite(value)) return '–';
   const size = Math.max(Math.abs(value), Math.abs(scale));
   if (value !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(3).replace(/^-/, '−');
-  const digits = Math.max(0, Math.min(5, 3 - Math.floor(Math.log10(Math.max(size, 1e-6)) + 1e-9)));
+  const digits = Math.max(0, Math.min(5, 3 - Math.floor(Math.log10(Math.max(Math.abs(scale), 1e-6)) + 1e-9)));
   return value.toFixed(digits).replace(/^-(?=0\.?0*$)/, '').replace('-', '−');
 }
 

@@ -85,9 +85,11 @@ export function atText(at) {
   return `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}`;
 }
 
-/** Text that can be read on anything. @param {CanvasRenderingContext2D} pen @param {string} text @param {number} x
+/** Text that can be read on anything, and is not cut at the right. @param {CanvasRenderingContext2D} pen @param {string} text @param {number} x
  * @param {number} y @param {string} colour */
 export function label(pen, text, x, y, colour) {
+  const { clientWidth } = pen.canvas, wide = pen.measureText(text).width;
+  if (x + wide > clientWidth - 4) x = Math.max(4, Math.min(x - wide - 30, clientWidth - 4 - wide));
   pen.lineJoin = 'round';
   pen.lineWidth = 3;
   pen.strokeStyle = colours.view;

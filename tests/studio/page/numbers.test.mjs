@@ -12,7 +12,7 @@ test('fields take arithmetic', () => {
 test('numbers for people', () => {
   assert.equal(shortNumber(2.32, 1), '2.320');
   assert.equal(shortNumber(-0.0000001, 1), '0.000');
-  assert.equal(shortNumber(-12.345, 1), '−12.35');
+  assert.equal(shortNumber(-12.345, 1), '−12.345');
   assert.equal(shortNumber(2.5e-7, 1e-6), '2.500e-7');
   assert.equal(shortNumber(NaN), '–');
   assert.equal(lengthText(0.0123), '12.3 mm');
