@@ -6,7 +6,7 @@
 /** @typedef {import('./types.js').Motion} Motion */
 /** @typedef {import('./types.js').Track} Track */
 
-const arcNumbers = 10, turnNumbers = 5;
+const parabolaNumbers = 10, turnNumbers = 5;
 
 /** @typedef {{header: any, bytes: ArrayBuffer, start: number}} Frame */
 
@@ -37,7 +37,8 @@ function numbersOf(frame, [byte, rows], width, kind) {
 export function tracksOf(frame) {
   return (frame.header.tracks ?? []).map((/** @type {any} */ track) => ({
     body: track.body,
-    arcs: numbersOf(frame, track.arcs, arcNumbers, Float64Array),
+    stride: track.stride ?? parabolaNumbers,
+    arcs: numbersOf(frame, track.arcs, track.stride ?? parabolaNumbers, Float64Array),
     turns: numbersOf(frame, track.turns, turnNumbers, Float32Array),
     center: track.center ?? [0, 0, 0],
   }));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where a body is at any time, from its track: arcs of the centre of mass (parabolas, exact) and keys of its turn.
+// Where a body is at any time, from its track: arcs of the centre of mass (exact parabolas; polynomials of degree 5
+// round bends of a slide) and keys of its turn.
 // No drawing library here: tests use it as well.
 
 /** @typedef {import('./types.js').Vec3} Vec3 */
 /** @typedef {import('./types.js').Quat} Quat */
 /** @typedef {import('./types.js').Track} Track */
 
-const arcNumbers = 10, turnNumbers = 5;
+const parabolaNumbers = 10, turnNumbers = 5;
 
 /** Index of the last row whose time is at most t; 0 before the first.
  * @param {Float64Array | Float32Array} rows @param {number} width @param {number} t */
@@ -21,19 +22,23 @@ function rowAt(rows, width, t) {
 }
 
 /** m, of the centre of mass. @param {Track} track @param {number} t s @returns {Vec3} */
-export function centreAt({ arcs }, t) {
-  const k = rowAt(arcs, arcNumbers, t) * arcNumbers, s = t - arcs[k];
-  return [
-    arcs[k + 1] + s * (arcs[k + 4] + 0.5 * s * arcs[k + 7]),
-    arcs[k + 2] + s * (arcs[k + 5] + 0.5 * s * arcs[k + 8]),
-    arcs[k + 3] + s * (arcs[k + 6] + 0.5 * s * arcs[k + 9]),
-  ];
+export function centreAt({ arcs, stride = parabolaNumbers }, t) {
+  const row = rowAt(arcs, stride, t) * stride, s = t - arcs[row];
+  const along = (/** @type {number} */ k) => {
+    const bend = stride > parabolaNumbers ? s * (arcs[k + 9] + s * (arcs[k + 12] + s * arcs[k + 15])) : 0;
+    return arcs[k] + s * (arcs[k + 3] + s * (0.5 * arcs[k + 6] + bend));
+  };
+  return [along(row + 1), along(row + 2), along(row + 3)];
 }
 
 /** m/s, of the centre of mass. @param {Track} track @param {number} t s @returns {Vec3} */
-export function velocityAt({ arcs }, t) {
-  const k = rowAt(arcs, arcNumbers, t) * arcNumbers, s = t - arcs[k];
-  return [arcs[k + 4] + s * arcs[k + 7], arcs[k + 5] + s * arcs[k + 8], arcs[k + 6] + s * arcs[k + 9]];
+export function velocityAt({ arcs, stride = parabolaNumbers }, t) {
+  const row = rowAt(arcs, stride, t) * stride, s = t - arcs[row];
+  const along = (/** @type {number} */ k) => {
+    const bend = stride > parabolaNumbers ? s * (3 * arcs[k + 9] + s * (4 * arcs[k + 12] + s * 5 * arcs[k + 15])) : 0;
+    return arcs[k + 3] + s * (arcs[k + 6] + bend);
+  };
+  return [along(row + 1), along(row + 2), along(row + 3)];
 }
 
 /** Shape to world. @param {Track} track @param {number} t s @returns {Quat} */
@@ -98,19 +103,19 @@ export function poseAt(track, t) {
 }
 
 /** Whether the body moves or turns at all. @param {Track} track */
-export function moves({ arcs, turns }) {
-  if (arcs.length > arcNumbers || turns.length > turnNumbers) return true;
-  for (let i = 4; i < arcNumbers; ++i) if (arcs[i] !== 0) return true;
+export function moves({ arcs, stride = parabolaNumbers, turns }) {
+  if (arcs.length > stride || turns.length > turnNumbers) return true;
+  for (let i = 4; i < stride; ++i) if (arcs[i] !== 0) return true;
   return false;
 }
 
 /** Times at which a path is drawn: the beginnings of its arcs, and between them so many that no chord is off the
  * parabola by more than `sag` m (|a| h^2 / 8 = sag).
  * @param {Track} track @param {number} end s @param {number} sag @param {number} most @returns {number[]} */
-export function pathTimes({ arcs }, end, sag = 1e-3, most = 4000) {
+export function pathTimes({ arcs, stride = parabolaNumbers }, end, sag = 1e-3, most = 4000) {
   const times = [];
-  for (let k = 0; k < arcs.length && arcs[k] < end; k += arcNumbers) {
-    const from = arcs[k], to = Math.min(end, k + arcNumbers < arcs.length ? arcs[k + arcNumbers] : end);
+  for (let k = 0; k < arcs.length && arcs[k] < end; k += stride) {
+    const from = arcs[k], to = Math.min(end, k + stride < arcs.length ? arcs[k + stride] : end);
     const step = Math.sqrt((8 * sag) / Math.max(Math.hypot(arcs[k + 7], arcs[k + 8], arcs[k + 9]), 1e-9));
     const count = Math.max(1, Math.min(200, Math.ceil((to - from) / step), most - times.length));
     for (let i = 0; i < count; ++i) times.push(from + ((to - from) * i) / count);

@@ -27,7 +27,8 @@
 /** @typedef {{t: number, bodies: number[], mode?: string, point?: Vec3}} ChangeEvent */
 /** @typedef {{kind: string, before: ChangeEvent | null, after: ChangeEvent | null, sentence: string}} SequenceChange */
 /** A track: see motion.js.
- * @typedef {{body: number, arcs: Float64Array, turns: Float32Array, center: Vec3}} Track */
+ * @typedef {{body: number, arcs: Float64Array, stride?: number, turns: Float32Array,
+ *    center: Vec3}} Track  stride: numbers a row of arcs, 10 unless it says so */
 /** @typedef {{rev: number, stage: string, reached: boolean, distance: number, turn: number, nailError: number,
  *    stopped: boolean, more: boolean, obstacle: Obstacle | null, changes: SequenceChange[], end: number,
  *    status: string, message: string, impacts: Impact[], tracks: Track[], gesture?: number, seq?: number,
