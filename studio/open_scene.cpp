@@ -82,9 +82,9 @@ void takeOver(Scene& scene, const Scene& now, const Json& after, const Json& bef
 }  // namespace
 
 OpenScene::OpenScene(OpenedFile file, const std::string& name, std::optional<std::string> path, SessionOptions options)
-    : opened_(parseDocument(file.text, name, file.folder)), file_(std::move(file)), path_(std::move(path)) {
+    : opened_(parseDocument(file.text, name, file.folder)), path_(std::move(path)) {
   inFile(name, [&] {
-    saved_ = writeDocument(opened_);
+    first_ = last_ = {std::move(file), writeDocument(opened_)};
     options.unmet_nails_off = true;
     contacts_ = std::make_unique<OdeContacts>(opened_.scene);
     session_ = std::make_unique<EditSession>(opened_.scene, *contacts_, opened_.duration, opened_.controls,
@@ -102,19 +102,21 @@ Document OpenScene::document() const {
   return document;
 }
 
-bool OpenScene::isChanged() const { return writeDocument(document()) != saved_; }
+bool OpenScene::isChanged() const { return writeDocument(document()) != last_.document; }
 
 std::string OpenScene::textIn(const std::string& folder) const {
-  return folder == file_.folder && !isChanged() ? file_.text : writeDocumentIn(folder, document());
+  const std::string now = writeDocument(document());
+  for (const Written* written : {&last_, &first_})
+    if (folder == written->file.folder && now == written->document) return written->file.text;
+  return writeDocumentIn(folder, document());
 }
 
 void OpenScene::wasSaved(const std::string& path, OpenedFile file) {
-  saved_ = writeDocument(document());
+  last_ = {std::move(file), writeDocument(document())};
   path_ = path;
-  file_ = std::move(file);
 }
 
-std::optional<FileStamp> OpenScene::stamp() const { return path_ ? std::optional(file_.stamp) : std::nullopt; }
+std::optional<FileStamp> OpenScene::stamp() const { return path_ ? std::optional(last_.file.stamp) : std::nullopt; }
 
 SessionContent OpenScene::edited(const Edits& edits) const {
   const Document now = document();

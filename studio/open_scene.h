@@ -30,7 +30,7 @@ class OpenScene {
   /// Something differs from what was opened or saved last.
   bool isChanged() const;
   bool isSaved() const { return path_ && !isChanged(); }  ///< its file has it as it is
-  /// What is written into a folder: the bytes that were read or saved last where nothing differs from them.
+  /// What is written into a folder: the bytes that were saved last, or read at first, where nothing differs from them.
   std::string textIn(const std::string& folder) const;
   /// Its file is now this one.
   void wasSaved(const std::string& path, OpenedFile file);
@@ -42,10 +42,15 @@ class OpenScene {
   SessionContent edited(const std::vector<std::pair<std::string, std::string>>& edits) const;
 
  private:
+  /// A file and the document that it holds, as we write it: people may have written the same in another way.
+  struct Written {
+    OpenedFile file;
+    std::string document;
+  };
+
   Document opened_;
-  OpenedFile file_;
+  Written first_, last_;  // as it was opened, and as it was opened or saved last
   std::optional<std::string> path_;
-  std::string saved_;  // the document that file_ holds, as we write it
   std::unique_ptr<OdeContacts> contacts_;
   std::unique_ptr<EditSession> session_;
 };
