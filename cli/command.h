@@ -40,6 +40,6 @@ struct Command {
 std::span<const Command* const> commands();
 
 extern const Command kSimulateCommand, kGradientCommand, kCheckCommand, kEditCommand, kExportCommand, kImportCommand,
-    kValidateCommand, kInfoCommand, kReplayCommand, kCompletionCommand, kManCommand;
+    kValidateCommand, kInfoCommand, kReplayCommand, kStudioCommand, kCompletionCommand, kManCommand;
 
 }  // namespace carom::cli

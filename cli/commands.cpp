@@ -5,9 +5,9 @@ namespace carom::cli {
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kTable[] = {&kSimulateCommand, &kGradientCommand, &kCheckCommand,
-                                              &kEditCommand,     &kReplayCommand,   &kExportCommand,
-                                              &kImportCommand,   &kValidateCommand, &kInfoCommand,
-                                              &kCompletionCommand, &kManCommand};
+                                              &kEditCommand,     &kStudioCommand,   &kReplayCommand,
+                                              &kExportCommand,   &kImportCommand,   &kValidateCommand,
+                                              &kInfoCommand,     &kCompletionCommand, &kManCommand};
   return kTable;
 }
 

@@ -31,6 +31,9 @@ std::string unitOfNumber(const std::string& name) {
 std::string describe(const SessionGesture& gesture) {
   std::string text = nameOf(gesture.kind);
   if (gesture.constraint) text += " '" + gesture.constraint->body + "'";
+  if (gesture.grabbed_nail) text += ", nail " + std::to_string(*gesture.grabbed_nail);
+  if (gesture.kind == SessionGesture::Kind::nail_on) text += gesture.on ? ", switched on" : ", switched off";
+  if (!gesture.name.empty()) text += ": " + gesture.name;
   if (gesture.kind == SessionGesture::Kind::drag && gesture.ending != SessionGesture::Ending::release)
     text += gesture.ending == SessionGesture::Ending::cancel ? ", cancelled" : ", then nailed";
   return text;

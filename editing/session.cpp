@@ -2,31 +2,22 @@
 #include "editing/session.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/base/names.hpp"
-#include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
-#include "editing/session_numbers.h"
+#include "editing/session/session_words.hpp"
 
 namespace carom {
 
-using namespace adjoint_detail;
 using namespace editing_detail;
 
-const char* nameOf(SessionStage stage) {
-  return nameIn({"kept", "predicted", "improved", "solved"}, stage);
+double editing_detail::millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<Constraint> editing_detail::SessionMoment::constraints() const {
-  std::vector<Constraint> all;
-  for (const SessionNail& nail : nails) all.push_back(nail.constraint);
-  return all;
-}
-
-EditSession::State::State(ContactSource& source, double length, const SessionOptions& chosen)
-    : contacts(source), duration(length), options(chosen) {}
+EditSession::State::State(ContactSource& source, const SessionOptions& chosen) : contacts(source), options(chosen) {}
 
 SessionGesture EditSession::State::newGesture(SessionGesture::Kind kind) const {
   SessionGesture gesture;
@@ -35,12 +26,10 @@ SessionGesture EditSession::State::newGesture(SessionGesture::Kind kind) const {
   return gesture;
 }
 
-double EditSession::State::millisecondsSinceStart() const {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
-}
+double EditSession::State::millisecondsSinceStart() const { return millisecondsSince(started); }
 
-Budget EditSession::State::budget(int limit, double seconds) const {
-  return replays ? Budget::replayed(limit, replayed_cut) : Budget(limit, seconds);
+Budget EditSession::State::budget(int limit, double seconds, std::stop_token stop) const {
+  return replays ? Budget::replayed(limit, replayed_cut) : Budget(limit, seconds, std::move(stop));
 }
 
 void EditSession::State::requireNoDrag(const char* call) const {
@@ -55,6 +44,7 @@ void checkOptions(const SessionOptions& options) {
   };
   check("tolerance", options.tolerance, options.tolerance > 0 && std::isfinite(options.tolerance), "a number > 0");
   check("drag_simulations", options.drag_simulations, options.drag_simulations >= 0, "0 or more");
+  check("dwell_simulations", options.dwell_simulations, options.dwell_simulations >= 0, "0 or more");
   check("release_iterations", options.release_iterations, options.release_iterations >= 0, "0 or more");
   check("drag_seconds", options.drag_seconds, options.drag_seconds >= 0, "a number >= 0");
   check("release_seconds", options.release_seconds, options.release_seconds >= 0, "a number >= 0");
@@ -62,21 +52,19 @@ void checkOptions(const SessionOptions& options) {
 
 }  // namespace
 
-void EditSession::State::begin(const Scene& scene, std::vector<Control> controls, std::vector<Constraint> nails) {
+void EditSession::State::begin(const Scene& scene, double duration, std::vector<Control> controls,
+                               std::vector<Constraint> nails) {
   checkOptions(options);
   const EditProblem checked(scene, contacts, duration, controls, nails);
   journal = {scene, duration, controls, nails, options, {}};
   now.scene = now.reference = std::make_shared<const Scene>(scene);
+  now.duration = duration;
   now.controls = std::move(controls);
   for (Constraint& nail : nails) now.nails.push_back({{next_nail++}, std::move(nail)});
-  last.motion = simulated(now.scene);
-  last.message = earlyEnd(*last.motion);
-  measureNails(last);
-}
-
-void EditSession::State::remember(SessionMoment before) {
-  past.push_back(std::move(before));
-  future.clear();
+  last.motion = simulated(now.scene, now.duration);
+  if (options.unmet_nails_off)
+    for (SessionNail& nail : now.nails) nail.on = stateOf(nail, *last.motion).met;
+  stay("", last.motion);
 }
 
 EditSession::EditSession(const Scene& scene, ContactSource& contacts, double duration, const SessionOptions& options)
@@ -84,8 +72,8 @@ EditSession::EditSession(const Scene& scene, ContactSource& contacts, double dur
 
 EditSession::EditSession(const Scene& scene, ContactSource& contacts, double duration, std::vector<Control> controls,
                          std::vector<Constraint> nails, const SessionOptions& options)
-    : state_(std::make_unique<State>(contacts, duration, options)) {
-  state_->begin(scene, std::move(controls), std::move(nails));
+    : state_(std::make_unique<State>(contacts, options)) {
+  state_->begin(scene, duration, std::move(controls), std::move(nails));
 }
 
 EditSession::~EditSession() = default;
@@ -98,17 +86,15 @@ void EditSession::setControls(std::vector<Control> controls) {
   const ControlSet checked(*s.now.scene, controls);
   SessionGesture gesture = s.newGesture(SessionGesture::Kind::controls);
   gesture.controls = controls;
-  s.remember(s.now);
-  s.now.controls = std::move(controls);
-  s.now.reference = s.now.scene;
-  s.now.changes.resize(0);
-  s.stay("");
+  s.remember(s.now, "change of what may vary");
+  s.now.setControls(std::move(controls));
+  s.stay("", s.last.motion);
   s.record(std::move(gesture));
 }
 
-NailId EditSession::nail(Constraint constraint) {
+NailId EditSession::nail(Constraint constraint, std::stop_token stop) {
   state_->requireNoDrag("nail");
-  return state_->addNail(std::move(constraint));
+  return state_->addNail(std::move(constraint), std::move(stop));
 }
 
 NailId EditSession::nailAsItIs(const std::string& body, When at) {
@@ -116,31 +102,75 @@ NailId EditSession::nailAsItIs(const std::string& body, When at) {
   return nail(heldConstraint(body, at, {.position = state.position, .orientation = state.orientation}));
 }
 
-void EditSession::unnail(NailId id) {
+void EditSession::setNail(NailId id, Constraint constraint, std::stop_token stop) {
+  state_->requireNoDrag("setNail");
+  state_->setNail(id, std::move(constraint), std::move(stop));
+}
+
+void EditSession::setNailOn(NailId id, bool on) {
   State& s = *state_;
-  s.requireNoDrag("unnail");
-  constraintOf(id);
-  SessionGesture gesture = s.newGesture(SessionGesture::Kind::unnail);
-  gesture.nail = id.value;
-  s.remember(s.now);
-  std::erase_if(s.now.nails, [&](const SessionNail& nail) { return nail.id == id; });
-  s.stay("");
+  s.requireNoDrag("setNailOn");
+  const std::string name = wordsOf(s.nailOf(id).constraint);
+  SessionGesture gesture = s.newGesture(SessionGesture::Kind::nail_on);
+  gesture.nail = id.value, gesture.on = on;
+  s.remember(s.now, "nail of " + name + (on ? " switched on" : " switched off"));
+  s.nailOf(id).on = on;
+  s.stay("", s.last.motion);
   s.record(std::move(gesture));
 }
 
-SessionUpdate EditSession::grab(const std::string& body, When at, const Grip& grip) {
+SessionUpdate EditSession::meetNails(std::stop_token stop) {
+  state_->requireNoDrag("meetNails");
+  return state_->meetNails(std::move(stop));
+}
+
+void EditSession::unnail(NailId id) {
+  State& s = *state_;
+  s.requireNoDrag("unnail");
+  const std::string name = wordsOf(s.nailOf(id).constraint);
+  SessionGesture gesture = s.newGesture(SessionGesture::Kind::unnail);
+  gesture.nail = id.value;
+  s.remember(s.now, "removal of the nail of " + name);
+  std::erase_if(s.now.nails, [&](const SessionNail& nail) { return nail.id == id; });
+  s.stay("", s.last.motion);
+  s.record(std::move(gesture));
+}
+
+SessionUpdate EditSession::grab(const std::string& body, When at, const Grip& grip, std::vector<Control> also_vary) {
   state_->requireNoDrag("grab");
-  state_->grab(body, at, grip);
+  state_->grab(body, at, grip, std::move(also_vary));
   return last();
 }
 
-SessionUpdate EditSession::dragTo(const Vec3& place) { return state_->dragTo(place, std::nullopt); }
-SessionUpdate EditSession::dragTo(const Vec3& place, const Quat& orientation) {
-  return state_->dragTo(place, orientation);
+SessionUpdate EditSession::grabNail(NailId id) {
+  state_->requireNoDrag("grabNail");
+  state_->grabNail(id);
+  return last();
 }
-SessionUpdate EditSession::release() { return state_->endDrag(SessionGesture::Ending::release); }
-SessionUpdate EditSession::releaseNailed() { return state_->endDrag(SessionGesture::Ending::release_nailed); }
-SessionUpdate EditSession::cancel() { return state_->endDrag(SessionGesture::Ending::cancel); }
+
+SessionUpdate EditSession::dragTo(const Vec3& place, std::stop_token stop) {
+  return state_->dragTo(place, std::nullopt, std::move(stop));
+}
+
+SessionUpdate EditSession::dragTo(const Vec3& place, const Quat& orientation, std::stop_token stop) {
+  return state_->dragTo(place, orientation, std::move(stop));
+}
+
+SessionUpdate EditSession::dwell(std::stop_token stop, const std::function<void(const SessionUpdate&)>& better) {
+  return state_->dwell(std::move(stop), better);
+}
+
+SessionUpdate EditSession::release(std::stop_token stop) {
+  return state_->endDrag(SessionGesture::Ending::release, std::move(stop));
+}
+
+SessionUpdate EditSession::releaseNailed(NailAt at, std::stop_token stop) {
+  using Ending = SessionGesture::Ending;
+  const Ending ending = at == NailAt::target ? Ending::release_nailed : Ending::release_nailed_where_it_got;
+  return state_->endDrag(ending, std::move(stop));
+}
+
+SessionUpdate EditSession::cancel() { return state_->endDrag(SessionGesture::Ending::cancel, {}); }
 
 bool EditSession::isGrabbed() const { return state_->drag.has_value(); }
 
@@ -164,31 +194,6 @@ Quat EditSession::grabbedOrientation() const {
   return stateAtMoment(motion(), record.body, record.at, "grabbedOrientation").orientation;
 }
 
-SessionUpdate EditSession::State::stay(const std::string& message) {
-  const auto began_at = std::chrono::steady_clock::now();
-  SessionUpdate update;
-  update.motion = last.motion;
-  update.message = message.empty() ? earlyEnd(*update.motion) : message;
-  measureNails(update);
-  update.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began_at).count();
-  return last = std::move(update);
-}
-
-SessionUpdate EditSession::State::goTo(std::vector<SessionMoment>& from, std::vector<SessionMoment>& to,
-                                       SessionGesture::Kind kind) {
-  const bool back = kind == SessionGesture::Kind::undo;
-  if (from.empty()) return stay(back ? "There is nothing to undo." : "There is nothing to redo.");
-  SessionGesture gesture = newGesture(kind);
-  const bool other_scene = from.back().scene != now.scene;
-  if (other_scene) last.motion = simulated(from.back().scene);
-  to.push_back(std::move(now));
-  now = std::move(from.back());
-  from.pop_back();
-  stay("");
-  record(std::move(gesture));
-  return last;
-}
-
 SessionUpdate EditSession::undo() {
   if (state_->drag) return cancel();
   return state_->goTo(state_->past, state_->future, SessionGesture::Kind::undo);
@@ -199,17 +204,19 @@ SessionUpdate EditSession::redo() {
   return state_->goTo(state_->future, state_->past, SessionGesture::Kind::redo);
 }
 
-bool EditSession::canUndo() const { return state_->drag || !state_->past.empty(); }
-bool EditSession::canRedo() const { return !state_->drag && !state_->future.empty(); }
-
 const SessionUpdate& EditSession::last() const { return state_->last; }
-double EditSession::duration() const { return state_->duration; }
+double EditSession::duration() const { return state_->now.duration; }
 const std::vector<Control>& EditSession::controls() const { return state_->now.controls; }
 const SessionOptions& EditSession::options() const { return state_->options; }
 const SessionJournal& EditSession::journal() const { return state_->journal; }
 
+std::vector<SessionNumber> EditSession::numbers() const { return sessionNumbers(scene(), controls()); }
+
 std::vector<Constraint> EditSession::constraints() const {
-  return state_->drag ? state_->drag->solver->problem().constraints.constraints() : state_->now.constraints();
+  std::vector<Constraint> all = state_->now.constraints();
+  const auto& drag = state_->drag;
+  if (drag && !drag->record.grabbed_nail) all.push_back(goalOf(*drag));
+  return all;
 }
 
 std::vector<NailId> EditSession::nails() const {
@@ -218,21 +225,12 @@ std::vector<NailId> EditSession::nails() const {
   return ids;
 }
 
-const Constraint& EditSession::constraintOf(NailId id) const {
-  std::vector<std::string> there;
-  for (const SessionNail& nail : state_->now.nails) {
-    if (nail.id == id) return nail.constraint;
-    there.push_back(std::to_string(nail.id.value));
-  }
-  throw InputError("nail " + std::to_string(id.value),
-                   "found a nail that is not there, expected " + (there.empty() ? "none" : "one of " + listOf(there)));
-}
+const Constraint& EditSession::constraintOf(NailId id) const { return state_->nailOf(id).constraint; }
 
-void EditSession::State::record(SessionGesture gesture) {
-  gesture.reached = last.reached;
-  gesture.distance = last.distance;
-  for (const SessionNumber& number : sessionNumbers(*now.scene, now.controls)) gesture.numbers.push_back(number.value);
-  journal.gestures.push_back(std::move(gesture));
+std::vector<NailState> EditSession::nailStates() const {
+  std::vector<NailState> states;
+  for (const SessionNail& nail : state_->now.nails) states.push_back(state_->stateOf(nail, motion()));
+  return states;
 }
 
 }  // namespace carom

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
-#include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -11,46 +12,27 @@
 #include "editing/control.h"
 #include "editing/edit.h"
 #include "editing/session_journal.h"
+#include "editing/session_numbers.h"
+#include "editing/session_update.h"
 
 namespace carom {
 
-/// A nail of a session. Keeps its meaning through undo and redo.
-struct NailId {
-  int value = -1;                                  ///< counted from 0
-  bool operator==(const NailId&) const = default;  ///< the same nail
+/// How a nail of a session stands in the motion.
+struct NailState {
+  NailId id;                ///< which
+  bool on = true;           ///< held by gestures, see EditSession::setNailOn
+  bool available = true;    ///< the motion has it: gestures leave out a nail whose impact does not come
+  bool met = true;          ///< within SessionOptions::tolerance
+  double time = 0;          ///< s, where it is now, also of an n-th impact; NaN where the motion lacks it
+  double error = 0;         ///< largest error of its numbers, SI; NaN where the motion lacks it
+  double scaled_error = 0;  ///< the same, dimensionless
+  std::string message;      ///< why it is not met, or not there; empty where it is met
 };
 
-/// Where an update got to.
-enum class SessionStage {
-  kept,       ///< the motion before it is still the best that is known
-  predicted,  ///< by one differential update, and simulated
-  improved,   ///< by several, until the target was met or the work of one update was done
-  solved,     ///< at the end of a gesture: nearest to where it began, as far as the solver tells
-};
-/// "kept", "predicted", "improved" or "solved".
-const char* nameOf(SessionStage stage);
-
-/// What the session holds after a call, and how far that is from what was asked for.
-struct SessionUpdate {
-  /// Never null. Simulated from scene(), over the whole duration of the session.
-  std::shared_ptr<const Motion> motion;
-  /// That it is the motion of.
-  const Scene& scene() const { return *motion->scene; }
-
-  SessionStage stage = SessionStage::kept;  ///< how far it got
-  bool reached = true;         ///< target and nails are met within SessionOptions::tolerance
-  double distance = 0;         ///< m, from the grabbed point to its target; 0 without one
-  double turn = 0;             ///< rad, from the grabbed body's orientation to its target; 0 without one
-  double scaled_distance = 0;  ///< largest error of a number that the grab holds, dimensionless
-  double nail_error = 0;       ///< largest error of a number that a nail holds, SI (m, m/s, rad, ... mixed)
-  double scaled_nail_error = 0;  ///< the same, dimensionless
-
-  int iterations = 0;   ///< steps that were taken
-  int simulations = 0;  ///< motions that were tried: the unit in which work is limited
-  double milliseconds = 0;        ///< that it took
-  bool cut_by_clock = false;      ///< the safety stop ended it: on a faster machine it may have gone further
-  bool sequence_changed = false;  ///< impacts that count are others than when the gesture began
-  std::string message;            ///< what happened, in sentences: what stood in the way, how the impacts changed
+/// Where a nail is put at the end of a drag.
+enum class NailAt {
+  target,        ///< where it was dragged to
+  where_it_got,  ///< where the body is, in reach
 };
 
 /// Direct manipulation of a motion: a body is taken hold of at some moment of its flight and dragged, and the causes
@@ -68,7 +50,11 @@ struct SessionUpdate {
 /// docs/session.md. The same calls give the same bits, on any machine with the same arithmetic, as long as no update is
 /// cut by the clock; the journal remembers where that happened, so that its replay is the same in any case.
 ///
-/// Misuse and bad input throw InputError and leave the session as it was. Not for use from two threads at once.
+/// Calls that solve take a stop token, which is asked where work is counted: then the best so far is kept, as where the
+/// clock ends one.
+///
+/// Misuse and bad input throw InputError and leave the session as it was. Not for use from two threads at once: what
+/// others may touch meanwhile are the token's source and motions.
 class EditSession {
  public:
   /// The scene as written. Keeps `contacts` by reference and uses it for all simulations.
@@ -92,29 +78,48 @@ class EditSession {
 
   /// Adds a nail, which holds until it is removed, and solves for it; last() tells how that went. One step for undo. A
   /// nail that cannot be met stays, and is met as soon as it can be.
-  NailId nail(Constraint constraint);
+  NailId nail(Constraint constraint, std::stop_token stop = {});
   /// The same from its parts.
   NailId nail(const std::string& body, When at, const Held& held) { return nail(heldConstraint(body, at, held)); }
   /// Holds the body as it is at that moment: place and orientation.
   NailId nailAsItIs(const std::string& body, When at);
+  /// Other targets, components or another time for a nail that there is, and solves for them where it is on. One step.
+  void setNail(NailId id, Constraint constraint, std::stop_token stop = {});
+  /// A nail that is off is kept, but not held. The motion stays. One step for undo.
+  void setNailOn(NailId id, bool on);
+  /// Switches all nails on and solves for those that the motion has. One step.
+  SessionUpdate meetNails(std::stop_token stop = {});
   /// Removes a nail. The motion stays. One step for undo.
   void unnail(NailId id);
 
-  /// Takes hold of a moving body at a time or an impact of the motion. From here to `release` is one step for undo.
-  SessionUpdate grab(const std::string& body, When at, const Grip& grip = {});
+  /// Takes hold of a moving body at a time or an impact of the motion. From here to `release` is one step for undo;
+  /// the controls `also_vary` are there from here on, in the same step.
+  SessionUpdate grab(const std::string& body, When at, const Grip& grip = {}, std::vector<Control> also_vary = {});
+  /// Takes hold of a nail: what is dragged is the place that it holds the body to. It does not hold that meanwhile, but
+  /// what it has besides place and orientation. `release` puts it where the body got to, `cancel` back.
+  SessionUpdate grabNail(NailId id);
   /// Moves the grabbed point (without Grip::body_point: the shape's origin) to a place in the world, or towards it.
-  SessionUpdate dragTo(const Vec3& place);
+  SessionUpdate dragTo(const Vec3& place, std::stop_token stop = {});
   /// The same with an orientation, shape to world; for grips that hold it.
-  SessionUpdate dragTo(const Vec3& place, const Quat& orientation);
+  SessionUpdate dragTo(const Vec3& place, const Quat& orientation, std::stop_token stop = {});
+  /// The hand rests: on towards the same target, with SessionOptions::dwell_simulations and without a clock. `better`
+  /// is called with each better motion on the way; it must not call the session.
+  SessionUpdate dwell(std::stop_token stop = {}, const std::function<void(const SessionUpdate&)>& better = {});
   /// Lets go: minimises the change, or searches further for the target where it was not reached.
-  SessionUpdate release();
-  /// The same, and the grabbed body stays nailed to its last target.
-  SessionUpdate releaseNailed();
+  SessionUpdate release(std::stop_token stop = {});
+  /// The same, and the grabbed body stays nailed: to its last target, or where it got to. A grabbed nail is put there.
+  SessionUpdate releaseNailed(NailAt at = NailAt::target, std::stop_token stop = {});
   /// Lets go and puts everything back as it was before the grab.
   SessionUpdate cancel();
   bool isGrabbed() const;           ///< between grab and release, or cancel
   Vec3 grabbedPlace() const;        ///< m, where the grabbed point is
   Quat grabbedOrientation() const;  ///< of the grabbed body, shape to world
+
+  /// Puts other content in the place of all there is, under a name for undo: numbers that were typed, bodies that came
+  /// or went, another duration. It is simulated, and nothing is solved. Refused whole where it makes no sense. One step.
+  void setContent(const SessionContent& content, const std::string& name);
+  /// As it is now.
+  SessionContent content() const;
 
   /// Back by one step; within a gesture, cancels it. Nothing happens where there is none.
   SessionUpdate undo();
@@ -122,6 +127,8 @@ class EditSession {
   SessionUpdate redo();
   bool canUndo() const;  ///< there is a step back
   bool canRedo() const;  ///< there is a step that was undone
+  std::string undoName() const;  ///< of the step that undo takes back: "drag of 'hat' at 0.6 s"; empty: none
+  std::string redoName() const;  ///< of the one that redo brings back
 
   const Scene& scene() const { return *motion().scene; }    ///< as it is now
   const Motion& motion() const { return *last().motion; }  ///< of that scene
@@ -129,11 +136,13 @@ class EditSession {
   const SessionUpdate& last() const;
   double duration() const;                       ///< s, of the motion
   const std::vector<Control>& controls() const;  ///< what may vary
-  /// The nails, and in a gesture what is grabbed with its last target.
+  std::vector<SessionNumber> numbers() const;    ///< all numbers of the controls, see sessionNumbers
+  /// All nails, and in a gesture what is grabbed with its last target.
   std::vector<Constraint> constraints() const;
   std::vector<NailId> nails() const;  ///< those there are, oldest first
-  /// Throws InputError for one that is not there.
+  /// Throws InputError for one that is not there. Of a grabbed nail it has the last target.
   const Constraint& constraintOf(NailId id) const;
+  std::vector<NailState> nailStates() const;  ///< of all nails, oldest first, in the motion as it is
   const SessionOptions& options() const;  ///< as they were given
 
   /// All gestures that came to an end, for saving (formats/documents/journal_json.h) and replay.

@@ -8,11 +8,11 @@ namespace carom {
 using namespace adjoint_detail;
 
 const char* nameOf(SessionGesture::Kind kind) {
-  return nameIn({"controls", "nail", "unnail", "drag", "undo", "redo"}, kind);
+  return nameIn({"controls", "nail", "unnail", "drag", "undo", "redo", "set_nail", "nail_on", "meet_nails", "content"}, kind);
 }
 
 const char* nameOf(SessionGesture::Ending ending) {
-  return nameIn({"release", "release_nailed", "cancel"}, ending);
+  return nameIn({"release", "release_nailed", "cancel", "release_nailed_where_it_got"}, ending);
 }
 
 Constraint heldConstraint(const std::string& body, const When& at, const Held& held) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adjoint/scene/scene.h"
@@ -12,6 +13,12 @@
 #include "editing/edit_options.h"
 
 namespace carom {
+
+/// A nail of a session. Keeps its meaning through undo and redo.
+struct NailId {
+  int value = -1;                                  ///< counted from 0
+  bool operator==(const NailId&) const = default;  ///< the same nail
+};
 
 /// The change of a drag is measured, and kept small, against:
 enum class MeasureFrom {
@@ -28,9 +35,13 @@ struct SessionOptions {
   /// At most, for one update. A motion of m bodies that move counts m / 5 where more than 5 move in the scene, m / all
   /// where fewer do: parts of the scene are simulated on their own where nothing else matters.
   int drag_simulations = 14;
+  int dwell_simulations = 60;    ///< at most, for one call of EditSession::dwell, which has no clock
   int release_iterations = 200;  ///< at most, when a gesture ends
   double drag_seconds = 0.25;    ///< of the clock, for one update
   double release_seconds = 2;    ///< of the clock, when a gesture ends
+  /// Nails from the start of the session that its motion does not meet are off, so that nothing moves by itself:
+  /// EditSession::meetNails switches them on.
+  bool unmet_nails_off = false;
 };
 
 /// How a body is held while it is dragged.
@@ -52,34 +63,49 @@ struct Held {
 /// The constraint that a nail of a session stands for.
 Constraint heldConstraint(const std::string& body, const When& at, const Held& held);
 
-/// One call of dragTo.
+/// All that a session is about, see EditSession::setContent.
+struct SessionContent {
+  Scene scene;                    ///< as it shall be
+  double duration = 1;            ///< s
+  std::vector<Control> controls;  ///< what may vary
+  /// Nails that there are keep their number; NailId(): a new one.
+  std::vector<std::pair<NailId, Constraint>> nails;
+};
+
+/// One call of dragTo or dwell.
 struct DragTarget {
   double milliseconds = 0;  ///< since the session began; for information
   Vec3 place = Vec3::Zero();          ///< m
   std::optional<Quat> orientation;    ///< shape to world
-  std::optional<int> cut_after;  ///< simulations after which the clock ended it
+  std::optional<int> cut_after = {};  ///< simulations after which the clock or a stop ended it
+  bool dwell = false;                 ///< the hand rested there
 };
 
 /// One gesture, and what it came to.
 struct SessionGesture {
   /// What was done.
-  enum class Kind { controls, nail, unnail, drag, undo, redo };
+  enum class Kind { controls, nail, unnail, drag, undo, redo, set_nail, nail_on, meet_nails, content };
   /// How a drag ended.
-  enum class Ending { release, release_nailed, cancel };
+  enum class Ending { release, release_nailed, cancel, release_nailed_where_it_got };
 
   Kind kind = Kind::drag;                ///< what was done
   double milliseconds = 0;               ///< since the session began, when it began; for information
-  std::vector<Control> controls;         ///< controls: all of them, from then on
-  std::optional<Constraint> constraint;  ///< nail; drag: what the grab holds, and where that was
-  int nail = -1;                         ///< nail, unnail, release_nailed: the number of the nail
+  std::vector<Control> controls;         ///< controls: all of them, from then on; drag: those that vary as well
+  std::optional<Constraint> constraint;  ///< nail, set_nail; drag: what the grab holds, and where that was
+  int nail = -1;    ///< nail, unnail, set_nail, nail_on, and a drag that ended as a new one: the number of the nail
+  bool on = false;  ///< nail_on
+  std::optional<SessionContent> content = {};  ///< content
+  std::string name = {};                       ///< content: for people
 
   std::string body;  ///< drag: from here on
   When at = 0.0;                     ///< drag: when it was taken hold of
   Grip grip;                         ///< drag: how
-  std::vector<DragTarget> targets;   ///< drag: one a call of dragTo
+  std::optional<int> grabbed_nail = {};  ///< drag: the number of the nail that was taken hold of
+  std::vector<DragTarget> targets;   ///< drag: one a call of dragTo or dwell
   Ending ending = Ending::release;   ///< drag: how it ended
 
-  std::optional<int> cut_after;  ///< nail, drag: iterations after which the clock ended its last solve
+  /// Where it solves at its end: units of work after which the clock or a stop ended that.
+  std::optional<int> cut_after;
 
   bool reached = true;          ///< the update at its end
   double distance = 0;          ///< m, likewise

@@ -50,20 +50,29 @@ ReplayedGesture SessionReplay::next() {
 
 void SessionReplay::play(const SessionGesture& gesture, ReplayedGesture& out) {
   using Kind = SessionGesture::Kind;
-  using Ending = SessionGesture::Ending;
-  EditSession::State& state = *session_.state_;
-  state.replayed_cut = gesture.cut_after;
+  session_.state_->replayed_cut = gesture.cut_after;
+  const auto constraint = [&] {
+    if (!gesture.constraint) throw InputError("found no constraint, expected that of the nail");
+    return *gesture.constraint;
+  };
   switch (gesture.kind) {
     case Kind::controls:
-      session_.setControls(gesture.controls);
-      return;
+      return session_.setControls(gesture.controls);
     case Kind::nail:
-      if (!gesture.constraint) throw InputError("found no constraint, expected that of the nail");
-      session_.nail(*gesture.constraint);
+      session_.nail(constraint());
+      return;
+    case Kind::set_nail:
+      return session_.setNail({gesture.nail}, constraint());
+    case Kind::nail_on:
+      return session_.setNailOn({gesture.nail}, gesture.on);
+    case Kind::meet_nails:
+      session_.meetNails();
       return;
     case Kind::unnail:
-      session_.unnail({gesture.nail});
-      return;
+      return session_.unnail({gesture.nail});
+    case Kind::content:
+      if (!gesture.content) throw InputError("found no content, expected that of the session");
+      return session_.setContent(*gesture.content, gesture.name);
     case Kind::undo:
       session_.undo();
       return;
@@ -71,20 +80,40 @@ void SessionReplay::play(const SessionGesture& gesture, ReplayedGesture& out) {
       session_.redo();
       return;
     case Kind::drag:
-      break;
+      return playDrag(gesture, out);
   }
-  session_.grab(gesture.body, gesture.at, gesture.grip);
+}
+
+void SessionReplay::playDrag(const SessionGesture& gesture, ReplayedGesture& out) {
+  using Ending = SessionGesture::Ending;
+  EditSession::State& state = *session_.state_;
+  if (gesture.grabbed_nail) {
+    session_.grabNail({*gesture.grabbed_nail});
+  } else {
+    session_.grab(gesture.body, gesture.at, gesture.grip, gesture.controls);
+  }
   for (const DragTarget& target : gesture.targets) {
     state.replayed_cut = target.cut_after;
-    const SessionUpdate update =
-        target.orientation ? session_.dragTo(target.place, *target.orientation) : session_.dragTo(target.place);
+    const SessionUpdate update = target.dwell         ? session_.dwell()
+                                 : target.orientation ? session_.dragTo(target.place, *target.orientation)
+                                                      : session_.dragTo(target.place);
     ++out.updates;
     out.slowest_milliseconds = std::max(out.slowest_milliseconds, update.milliseconds);
   }
   state.replayed_cut = gesture.cut_after;
-  if (gesture.ending == Ending::release) session_.release();
-  if (gesture.ending == Ending::release_nailed) session_.releaseNailed();
-  if (gesture.ending == Ending::cancel) session_.cancel();
+  switch (gesture.ending) {
+    case Ending::release:
+      session_.release();
+      return;
+    case Ending::release_nailed:
+      session_.releaseNailed();
+      return;
+    case Ending::release_nailed_where_it_got:
+      session_.releaseNailed(NailAt::where_it_got);
+      return;
+    case Ending::cancel:
+      session_.cancel();
+  }
 }
 
 void SessionReplay::compare(const SessionGesture& gesture, ReplayedGesture& out) const {

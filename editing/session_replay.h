@@ -11,13 +11,13 @@ namespace carom {
 /// What became of one gesture when it was played again.
 struct ReplayedGesture {
   SessionUpdate update;                  ///< at its end
-  int updates = 0;                       ///< calls of dragTo
+  int updates = 0;                       ///< calls of dragTo and dwell
   double slowest_milliseconds = 0;       ///< of them
   std::vector<std::string> differences;  ///< from what the journal says came of it; empty: the same bits
 };
 
 /// Plays a journal again, gesture by gesture, with the work limits of the journal and without a clock: updates that the
-/// clock cut end where it cut them. The same journal gives the same bits.
+/// clock cut, or a stop, end where they did. The same journal gives the same bits.
 class SessionReplay {
  public:
   /// Keeps the journal and `contacts` by reference. Throws InputError for a journal that makes no sense.
@@ -33,6 +33,7 @@ class SessionReplay {
 
  private:
   void play(const SessionGesture& gesture, ReplayedGesture& out);
+  void playDrag(const SessionGesture& gesture, ReplayedGesture& out);
   void compare(const SessionGesture& gesture, ReplayedGesture& out) const;
 
   const SessionJournal& journal_;

@@ -11,6 +11,8 @@ namespace carom::editing_detail {
 
 /// Six significant digits: "0.45", "1.2e-07".
 std::string number(double value);
+/// Three significant digits, for sentences that people read while they work: "0.45", "1.2e-07".
+std::string brief(double value);
 /// "a, b and c".
 std::string listOf(const std::vector<std::string>& items);
 

@@ -90,7 +90,13 @@ void SessionSolver::shrinkPart() {
   if (stays_whole_ || std::count(counts.begin(), counts.end(), true) < division_.moving) divide(counts);
 }
 
-void SessionSolver::improve(Budget& budget) {
+void SessionSolver::improve(Budget& budget, const std::function<void()>& better) {
+  better_ = better;
+  improveDivided(budget);
+  better_ = {};
+}
+
+void SessionSolver::improveDivided(Budget& budget) {
   if (is_part_) return improveHere(budget);
   if (division_.bodies.empty()) divide(bodiesThatCount(problem_, *start_));
   shrinkPart();
@@ -109,6 +115,7 @@ void SessionSolver::improve(Budget& budget) {
 }
 
 void SessionSolver::finish(Budget& budget) {
+  better_ = {};
   if (!part_) return finishHere(budget);
   const int before = part_->iterations();
   part_->finish(budget);

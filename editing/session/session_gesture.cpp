@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Gestures that solve: a body dragged about, a nail added.
+// A body, or a nail, taken hold of and dragged about.
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <limits>
 
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
+#include "editing/session/session_words.hpp"
 
 namespace carom {
 using namespace editing_detail;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 void requireFinite(const Vec3& v, const std::string& where) {
   if (v.allFinite()) return;
@@ -29,8 +26,39 @@ void requireUnit(const Quat& q, const std::string& where) {
   throw InputError(where, "found a quaternion of length " + number(q.norm()) + ", expected 1");
 }
 
-/// The components of a place that a grip holds.
-std::vector<double> heldPlace(const Vec3& place, const Grip& grip) {
+bool isPlace(const Target& target) { return target.quantity == "position" || target.quantity == "point"; }
+
+/// The target of a nail that holds a place; -1 where there is none with a number.
+int placeTargetOf(const Constraint& nail) {
+  for (std::size_t i = 0; i < nail.targets.size(); ++i) {
+    const Target& target = nail.targets[i];
+    const auto is_number = [](double v) { return !std::isnan(v); };
+    if (isPlace(target) && std::any_of(target.value.begin(), target.value.end(), is_number)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int turnTargetOf(const Constraint& nail) {
+  for (std::size_t i = 0; i < nail.targets.size(); ++i)
+    if (nail.targets[i].quantity == "orientation") return static_cast<int>(i);
+  return -1;
+}
+
+/// What a nail holds besides the place and the orientation that are dragged; without targets and regions: nothing.
+Constraint restOf(Constraint nail, int place, int turn) {
+  Target& held = nail.targets[static_cast<std::size_t>(place)];
+  std::fill(held.value.begin(), held.value.end(), any);
+  const auto at = [&](int i) { return nail.targets.begin() + i; };
+  const bool has_range = !held.min.empty() || !held.max.empty();
+  // from the back, so that indices stay
+  for (int i = std::max(place, turn); i >= 0; --i)
+    if ((i == place && !has_range) || i == turn) nail.targets.erase(at(i));
+  return nail;
+}
+
+}  // namespace
+
+std::vector<double> editing_detail::heldPlace(const Vec3& place, const Grip& grip) {
   std::vector<double> value{place.x(), place.y(), place.z()};
   if (grip.components.empty()) return value;
   const std::vector<std::string> names{"x", "y", "z"};
@@ -42,9 +70,18 @@ std::vector<double> heldPlace(const Vec3& place, const Grip& grip) {
   return value;
 }
 
-std::vector<double> numbersOf(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+void editing_detail::putNail(Constraint& nail, const Vec3& place, const std::optional<Quat>& orientation) {
+  std::vector<double>& value = nail.targets[static_cast<std::size_t>(placeTargetOf(nail))].value;
+  for (int k = 0; k < 3; ++k) {
+    double& held = value[static_cast<std::size_t>(k)];
+    if (!std::isnan(held)) held = place[k];
+  }
+  if (orientation) nail.targets[static_cast<std::size_t>(turnTargetOf(nail))].value = numbersOf(*orientation);
+}
 
-Constraint goalOf(const SessionDrag& drag) {
+std::vector<double> editing_detail::numbersOf(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+Constraint editing_detail::goalOf(const SessionDrag& drag) {
   const SessionGesture& record = drag.record;
   Constraint goal{record.body, record.at, {}};
   const std::vector<double> place = heldPlace(drag.place, record.grip);
@@ -57,43 +94,101 @@ Constraint goalOf(const SessionDrag& drag) {
   return goal;
 }
 
-}  // namespace
-
-std::unique_ptr<SessionSolver> EditSession::State::solverFor(const std::vector<Constraint>& constraints,
-                                                             int goal) const {
-  const bool from_start = options.measure_from == MeasureFrom::start;
-  return std::make_unique<SessionSolver>(from_start ? *now.reference : *now.scene, contacts, duration, now.controls,
-                                         constraints, goal, from_start ? now.changes : Eigen::VectorXd(), options);
+std::string editing_detail::stepName(const SessionDrag& drag) {
+  const std::string of = drag.record.grabbed_nail ? "drag of the nail of '" : "drag of '";
+  return of + drag.record.body + "' " + wordsOf(drag.record.at);
 }
 
-void EditSession::State::grab(const std::string& body, const When& at, const Grip& grip) {
-  const auto began_at = Clock::now();
+std::unique_ptr<SessionSolver> EditSession::State::solverFor(const SessionMoment& moment,
+                                                             const std::vector<Constraint>& constraints,
+                                                             int goal) const {
+  const bool from_start = options.measure_from == MeasureFrom::start;
+  return std::make_unique<SessionSolver>(from_start ? *moment.reference : *moment.scene, contacts, moment.duration,
+                                         moment.controls, constraints, goal,
+                                         from_start ? moment.changes : Eigen::VectorXd(), options);
+}
+
+void EditSession::State::grab(const std::string& body, const When& at, const Grip& grip,
+                              std::vector<Control> also_vary) {
   const BodyState state = stateAtMoment(*last.motion, body, at, "grab");
   SessionDrag next;
-  next.record.kind = SessionGesture::Kind::drag;
-  next.record.milliseconds = millisecondsSinceStart();
+  next.record = newGesture(SessionGesture::Kind::drag);
   next.record.body = body, next.record.at = at, next.record.grip = grip;
-  next.body = bodyIndex(*now.scene, body);
-  next.with = at.with.empty() ? -1 : bodyIndex(*now.scene, at.with);
-  if (now.scene->bodies[static_cast<std::size_t>(next.body)].fixed)
+  if (now.scene->bodies[static_cast<std::size_t>(bodyIndex(*now.scene, body))].fixed)
     throw InputError("grab", "found the fixed body '" + body + "', expected a moving body");
   if (grip.body_point) requireFinite(*grip.body_point, "grab/body_point");
   next.place = state.position + state.orientation * grip.body_point.value_or(Vec3::Zero());
   if (grip.orientation) next.orientation = state.orientation;
-  std::vector<Constraint> constraints = now.constraints();
-  constraints.push_back(goalOf(next));
-  next.record.constraint = constraints.back();
-  if (next.orientation) next.turn_target = static_cast<int>(constraints.back().targets.size()) - 1;
-  next.solver = solverFor(constraints, static_cast<int>(constraints.size()) - 1);
+  SessionMoment moment = now;
+  if (!also_vary.empty()) {
+    std::vector<Control> all = now.controls;
+    all.insert(all.end(), also_vary.begin(), also_vary.end());
+    next.record.controls = std::move(also_vary);
+    moment.setControls(std::move(all));
+  }
+  HeldNails held = heldNails(now.nails);
+  next.left_out = std::move(held.left_out);
+  beginDrag(std::move(next), std::move(moment), std::move(held.constraints));
+}
+
+void EditSession::State::grabNail(NailId id) {
+  const Constraint& nail = nailOf(id).constraint;
+  const auto refuse = [](const std::string& found, const std::string& expected) {
+    throw InputError("grabNail", "found a nail " + found + ", expected one " + expected);
+  };
+  if (nail.at.span) refuse("at some time of a span", "at a time or an impact: setNail moves the others");
+  if (!nail.relative_to.empty())
+    refuse("seen from '" + nail.relative_to + "'", "seen from the world: setNail moves the others");
+  const int place = placeTargetOf(nail), turn = turnTargetOf(nail);
+  if (place < 0) refuse("that holds no place", "with a position or a point: setNail moves the others");
+  const BodyState state = stateAtMoment(*last.motion, nail.body, nail.at, "grabNail");
+
+  SessionDrag next;
+  next.record = newGesture(SessionGesture::Kind::drag);
+  next.record.grabbed_nail = id.value;
+  next.record.body = nail.body, next.record.at = nail.at;
+  Grip& grip = next.record.grip;
+  const Target& target = nail.targets[static_cast<std::size_t>(place)];
+  if (target.quantity == "point") grip.body_point = target.body_point;
+  next.place = state.position + state.orientation * grip.body_point.value_or(Vec3::Zero());
+  for (int k = 0; k < 3; ++k) {
+    const double value = target.value[static_cast<std::size_t>(k)];
+    if (std::isnan(value)) continue;
+    next.place[k] = value;
+    grip.components.push_back(std::string(1, "xyz"[k]));
+  }
+  if (grip.components.size() == 3) grip.components.clear();
+  if (turn >= 0) {
+    const std::vector<double>& q = nail.targets[static_cast<std::size_t>(turn)].value;
+    grip.orientation = true;
+    next.orientation = Quat(q[0], q[1], q[2], q[3]);
+  }
+  std::vector<SessionNail> others = now.nails;
+  std::erase_if(others, [&](const SessionNail& other) { return other.id == id; });
+  HeldNails held = heldNails(others);
+  next.left_out = std::move(held.left_out);
+  Constraint rest = restOf(nail, place, turn);
+  if (!rest.targets.empty() || !rest.regions.empty()) held.constraints.push_back(std::move(rest));
+  beginDrag(std::move(next), now, std::move(held.constraints));
+}
+
+void EditSession::State::beginDrag(SessionDrag next, SessionMoment moment, std::vector<Constraint> held) {
+  const auto began_at = Clock::now();
+  held.push_back(goalOf(next));
+  next.record.constraint = held.back();
+  if (next.orientation) next.turn_target = static_cast<int>(held.back().targets.size()) - 1;
+  next.solver = solverFor(moment, held, static_cast<int>(held.size()) - 1);
   next.before = last.motion;
+  next.began = std::move(now);
+  now = std::move(moment);
   drag = std::move(next);
-  stay("");
+  stay("", last.motion);
   measureDrag(last);
   last.milliseconds = millisecondsSince(began_at);
 }
 
-SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<Quat>& orientation) {
-  const auto began_at = Clock::now();
+SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<Quat>& orientation,
+                                         std::stop_token stop) {
   if (!drag) throw InputError("dragTo", "found no grabbed body, expected grab before it");
   requireFinite(place, "dragTo");
   if (orientation && !drag->orientation)
@@ -106,106 +201,67 @@ SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<
     drag->orientation = orientation;
     drag->solver->aim(drag->turn_target, numbersOf(*orientation));
   }
+  if (drag->record.grabbed_nail) putNail(nailOf({*drag->record.grabbed_nail}).constraint, place, drag->orientation);
+  DragTarget target;
+  target.place = place, target.orientation = orientation;
+  return follow(std::move(target), budget(options.drag_simulations, options.drag_seconds, std::move(stop)), {});
+}
+
+SessionUpdate EditSession::State::dwell(std::stop_token stop, const Better& better) {
+  if (!drag) throw InputError("dwell", "found no grabbed body, expected grab before it");
+  DragTarget target;
+  target.place = drag->place;
+  target.dwell = true;
+  const double no_clock = std::numeric_limits<double>::infinity();
+  return follow(std::move(target), budget(options.dwell_simulations, no_clock, std::move(stop)), better);
+}
+
+SessionUpdate EditSession::State::follow(DragTarget target, Budget budget, const Better& better) {
+  const auto began_at = Clock::now();
   SessionSolver& solver = *drag->solver;
   const EditPointPtr from = solver.point();
   const int steps = solver.iterations();
-  Budget budget = this->budget(options.drag_simulations, options.drag_seconds);
-  solver.improve(budget);
-
-  SessionUpdate update;
-  update.motion = solver.atStart() ? drag->before : solver.point() == from ? last.motion : motionOf(solver);
-  update.iterations = solver.iterations() - steps;
-  update.simulations = budget.done();
-  update.cut_by_clock = budget.cutAfter().has_value();
-  if (solver.point() != from) {
-    update.stage = update.iterations == 1 ? SessionStage::predicted : SessionStage::improved;
-  }
-  measureGoal(solver, update);
-  measureDrag(update);
-  describe(solver, update);
-  DragTarget target{millisecondsSinceStart(), place, orientation, std::nullopt};
-  target.cut_after = budget.cutAfter();
-  drag->record.targets.push_back(target);
-  update.milliseconds = millisecondsSince(began_at);
-  return last = std::move(update);
-}
-
-SessionUpdate EditSession::State::endDrag(SessionGesture::Ending ending) {
-  const auto began_at = Clock::now();
-  const char* const kCalls[] = {"release", "releaseNailed", "cancel"};
-  if (!drag) throw InputError(kCalls[static_cast<int>(ending)], "found no grabbed body, expected grab before it");
-  SessionDrag ended = std::move(*drag);
-  ended.record.ending = ending;
-  if (ending == SessionGesture::Ending::cancel) {
-    drag.reset();
-    last.motion = ended.before;
-    stay("");
-  } else {
-    Budget budget = this->budget(options.release_iterations, options.release_seconds);
-    SessionSolver& solver = *ended.solver;
-    const EditPointPtr from = solver.point();
-    const int steps = solver.iterations();
-    if (!ended.record.targets.empty()) solver.finish(budget);
+  const std::shared_ptr<const Motion> shown = last.motion;
+  EditPointPtr seen = from;
+  std::shared_ptr<const Motion> of_seen = last.motion;
+  const auto measured = [&] {
     SessionUpdate update;
-    update.motion = solver.point() == from ? last.motion : motionOf(solver);
-    update.stage = solver.atStart() ? SessionStage::kept : SessionStage::solved;
+    if (solver.point() != seen) seen = solver.point(), of_seen = solver.atStart() ? drag->before : motionOf(solver);
+    update.motion = of_seen;
+    update.moved = update.motion != shown;
     update.iterations = solver.iterations() - steps;
-    update.cut_by_clock = budget.cutAfter().has_value();
-    ended.record.cut_after = budget.cutAfter();
+    update.simulations = budget.done();
+    if (solver.point() != from)
+      update.stage = update.iterations == 1 ? SessionStage::predicted : SessionStage::improved;
     measureGoal(solver, update);
-    drag = std::move(ended);  // where the distance is measured
     measureDrag(update);
-    describe(solver, update);
-    ended = std::move(*drag);
-    drag.reset();
-    const bool nails = ending == SessionGesture::Ending::release_nailed;
-    if (nails || !ended.solver->atStart()) {
-      remember(now);
-      takeOver(*ended.solver, update);
+    return update;
+  };
+  std::exception_ptr failure;
+  const auto tell = [&] {
+    if (failure) return;
+    try {
+      SessionUpdate update = measured();
+      compareImpacts(solver, *drag->before, update);
+      update.milliseconds = millisecondsSince(began_at);
+      better(update);
+    } catch (...) {
+      failure = std::current_exception();
+      budget.end(Halt::cancelled);
     }
-    if (nails) {
-      ended.record.nail = next_nail;
-      now.nails.push_back({{next_nail++}, goalOf(ended)});
-    }
-    last = std::move(update);
-  }
-  last.milliseconds = millisecondsSince(began_at);
-  record(std::move(ended.record));
-  return last;
-}
+  };
+  solver.improve(budget, better ? std::function<void()>(tell) : std::function<void()>());
 
-NailId EditSession::State::addNail(Constraint constraint) {
-  const auto began_at = Clock::now();
-  SessionGesture gesture = newGesture(SessionGesture::Kind::nail);
-  gesture.constraint = constraint;
-  gesture.nail = next_nail;
-  std::vector<Constraint> constraints = now.constraints();
-  constraints.push_back(constraint);
-  const std::unique_ptr<SessionSolver> solver = solverFor(constraints, static_cast<int>(constraints.size()) - 1);
-
-  Budget fast(options.drag_simulations);
-  Budget budget = this->budget(options.release_iterations, options.release_seconds);
-  if (!solver->reached()) {
-    solver->improve(fast);
-    solver->finish(budget);
-  }
-  SessionUpdate update;
-  update.motion = solver->atStart() ? last.motion : motionOf(*solver);
-  update.stage = solver->atStart() ? SessionStage::kept : SessionStage::solved;
-  update.iterations = solver->iterations();
-  update.simulations = fast.done();
-  update.cut_by_clock = budget.cutAfter().has_value();
-  gesture.cut_after = budget.cutAfter();
-  remember(now);
-  now.nails.push_back({{next_nail++}, std::move(constraint)});
-  if (!solver->atStart()) takeOver(*solver, update);
-  measureGoal(*solver, update);
-  describe(*solver, update);
+  SessionUpdate update = measured();
+  putEnd(budget, update);
+  describe(solver, *drag->before, "", update);
+  target.milliseconds = millisecondsSinceStart();
+  target.cut_after = budget.cutAfter();
+  drag->record.targets.push_back(std::move(target));
   update.milliseconds = millisecondsSince(began_at);
   last = std::move(update);
-  const NailId id{gesture.nail};
-  record(std::move(gesture));
-  return id;
+  if (failure) std::rethrow_exception(failure);
+  return last;
 }
 
 }  // namespace carom

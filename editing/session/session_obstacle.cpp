@@ -1,39 +1,46 @@
 // SPDX-License-Identifier: MIT
-// Sentences about a gesture: what changed on the way, what stands in its way.
+// What stands in the way of a gesture, by first derivatives: a step is tried without one thing after the other.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "editing/detail/messages.hpp"
 #include "editing/sequence_changes.h"
 #include "editing/session/session_solver.hpp"
+#include "editing/session/session_words.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-constexpr std::size_t kFewChanges = 3;
-/// A step that would bring the goal nearer by more than this share could have been taken.
+using Obstacle = SessionObstacle::Kind;
+
+/// A step that would bring the goal nearer by more than this share could have been taken; nails alone have to be met
+/// together, so that of them no more than this share may be left.
 constexpr double kCouldGoOn = 0.05;
 /// A number this near to its bound, of its natural scale, is at it.
 constexpr double kAtBound = 1e-9;
+/// Steps may be this long here: what counts is whether there is a direction.
+constexpr double kAnyLength = 1e6;
 
 std::size_t eventsThatCount(const EditProblem& problem, const EditPoint& point) {
   return problem.constraints.extentIn(point.motion, point.rows.times).events;
 }
 
-std::vector<SequenceChange> changesBetween(const EditProblem& problem, const EditPoint& from, const EditPoint& to) {
-  return sequenceChanges(from.motion, eventsThatCount(problem, from), to.motion, eventsThatCount(problem, to));
-}
-
 /// Where a step would have led: other bodies meet, or the same ones in another way.
 std::string describeBorder(const EditProblem& problem, const EditPoint& from, const EditPoint& to) {
-  const std::vector<SequenceChange> changes = changesBetween(problem, from, to);
+  const std::vector<SequenceChange> changes =
+      sequenceChanges(from.motion, eventsThatCount(problem, from), to.motion, eventsThatCount(problem, to));
   std::string what = "the order in which bodies meet";
   if (!changes.empty() && changes[0].kind != SequenceChange::Kind::order) {
     const SequenceChange& first = changes[0];
-    const Motion& motion = first.before >= 0 ? from.motion : to.motion;
-    const Event& event = motion.events[static_cast<std::size_t>(first.before >= 0 ? first.before : first.after)];
-    const auto name = [&](int b) { return "'" + motion.scene->bodies[static_cast<std::size_t>(b)].name + "'"; };
-    what = "how " + name(event.contacts[0].a) + " and " + name(event.contacts[0].b) + " meet";
+    if (first.before < 0 && first.after < 0) {
+      what = "what lasts in contact";
+    } else {
+      const Motion& motion = first.before >= 0 ? from.motion : to.motion;
+      const Event& event = motion.events[static_cast<std::size_t>(first.before >= 0 ? first.before : first.after)];
+      const auto name = [&](int b) { return "'" + motion.scene->bodies[static_cast<std::size_t>(b)].name + "'"; };
+      what = "how " + name(event.contacts[0].a) + " and " + name(event.contacts[0].b) + " meet";
+    }
   }
   return "A step nearer changes " + what + ", and of what was tried nothing leads there.";
 }
@@ -47,44 +54,79 @@ std::vector<std::string> controlsAtBounds(const ControlSet& controls, const Eige
   return names;
 }
 
-}  // namespace
-
-std::string SessionSolver::describeSequenceChange() const {
-  if (part_) return part_->describeSequenceChange();
-  if (point_->signature == start_->signature) return "";
-  const std::vector<SequenceChange> changes = changesBetween(problem_, *start_, *point_);
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kFewChanges, changes.size()); ++i)
-    text += (text.empty() ? "" : " ") + changes[i].sentence;
-  if (changes.size() > kFewChanges)
-    text += " " + std::to_string(changes.size() - kFewChanges) + " more impacts changed.";
-  return text.empty() ? "The impacts on the way are others than before." : text;
+/// Whether a step leaves no more than a share of the soft rows, to first order.
+bool leaves(double share, const StepProblem& problem) {
+  const Step step = hierarchicalStep(problem);
+  return step.free_for_soft && step.soft_after <= share * problem.soft.r.norm();
 }
 
-std::string SessionSolver::describeObstacle() {
-  if (part_) return part_->describeObstacle();
-  if (problem_.unknowns() == 0) return "Nothing may vary: there are no controls.";
-  const StepProblem problem = stepProblem(*point_);
-  if (!point_->row_jacobian->allFinite()) return "The derivatives are not known there.";
-  const std::vector<std::string> bounds =
-      controlsAtBounds(problem_.controls, point_->changes.head(problem_.controls.size()));
-  const std::string at_bounds =
-      bounds.empty()
-          ? ""
-          : " At " + std::string(bounds.size() == 1 ? "its bound: " : "their bounds: ") + listOf(bounds) + ".";
-  const Step step = hierarchicalStep(problem);
-  if (!step.free_for_soft) {
-    const bool nailed = problem.hard.size() > 0;
-    return std::string(nailed ? "The nails leave nothing free that would move it."
-                              : "Nothing that may vary moves it there.") +
-           at_bounds;
+StepProblem withoutBounds(StepProblem problem) {
+  problem.lower.setConstant(-std::numeric_limits<double>::infinity());
+  problem.upper.setConstant(std::numeric_limits<double>::infinity());
+  return problem;
+}
+
+StepProblem withoutRows(StepProblem problem) {
+  for (LinearRows* rows : {&problem.hard, &problem.within}) {
+    rows->J.resize(0, rows->J.cols());
+    rows->r.resize(0);
   }
-  const double error = problem.soft.r.norm();
-  if (step.soft_after > (1 - kCouldGoOn) * error)
-    return "No small change of what may vary brings it nearer." + at_bounds;
-  if (beyond_ && beyond_->signature != point_->signature)
-    return describeBorder(problem_, *point_, *beyond_) + at_bounds;
-  return "The work of one update was done before it was there." + at_bounds;
+  return problem;
+}
+
+std::string boundsIn(const std::vector<std::string>& names) {
+  return "It would take " + listOf(names) + " beyond " + (names.size() == 1 ? "its bound." : "their bounds.");
+}
+
+}  // namespace
+
+std::string SessionSolver::nothingMoves() const {
+  if (goal_ < 0) return "Nothing that may vary moves what is nailed.";
+  return "Nothing that may vary moves " +
+         wordsOf(problem_.constraints.constraints()[static_cast<std::size_t>(goal_)]) + ".";
+}
+
+SessionObstacle SessionSolver::obstacle() {
+  if (reached()) return {};
+  if (problem_.controls.size() == 0)
+    return {Obstacle::no_control_moves_it, {}, "Nothing may vary: there are no controls."};
+  return part_ ? part_->obstacleHere() : obstacleHere();
+}
+
+SessionObstacle SessionSolver::obstacleHere() {
+  SessionObstacle out{Obstacle::no_control_moves_it, {}, nothingMoves()};
+  if (problem_.controls.size() == 0) return out;
+  StepProblem problem = stepProblem(*point_);
+  if (!point_->row_jacobian->allFinite()) return {Obstacle::border, {}, "The derivatives are not known there."};
+  problem.longest = kAnyLength;
+  const bool nails_alone = goal_ < 0;
+  if (nails_alone) std::swap(problem.hard, problem.soft);
+  out.at_bounds = controlsAtBounds(problem_.controls, point_->changes.head(problem_.controls.size()));
+  const auto is = [&](Obstacle kind, const std::string& sentence) {
+    out.kind = kind, out.sentence = sentence;
+    return out;
+  };
+  const auto goesOn = [&](const StepProblem& p) { return leaves(nails_alone ? kCouldGoOn : 1 - kCouldGoOn, p); };
+  if (problem.soft.J.isZero(0)) return out;
+  if (problem.soft.r.norm() <= options_.tolerance) return is(Obstacle::nails, "Not all nails are met.");
+  if (goesOn(problem)) {
+    const bool at_border = beyond_ && beyond_->signature != point_->signature;
+    if (at_border) return is(Obstacle::border, describeBorder(problem_, *point_, *beyond_));
+    return is(Obstacle::work, "No way there was found with the work that one update may do.");
+  }
+  if (!out.at_bounds.empty() && goesOn(withoutBounds(problem))) return is(Obstacle::bounds, boundsIn(out.at_bounds));
+  const StepProblem alone = withoutRows(problem);
+  const bool bounded = !goesOn(alone);
+  if (bounded && (out.at_bounds.empty() || !goesOn(withoutBounds(alone)))) {
+    const bool against = nails_alone && problem.soft.size() > 1;
+    if (against) return is(Obstacle::nails, "No small change of what may vary brings all nails nearer to being met.");
+    return is(Obstacle::no_control_moves_it, "No small change of what may vary brings it nearer.");
+  }
+  if (!kinks_.empty() && problem.hard.size() == 0)
+    return is(Obstacle::border, "A step nearer changes how bodies meet, and of what was tried nothing leads there.");
+  const bool nothing_free = !hierarchicalStep(problem).free_for_soft;
+  return is(Obstacle::nails, nothing_free ? "The nails leave nothing free that would move it."
+                                          : "The nails keep it from coming nearer.");
 }
 
 }  // namespace carom::editing_detail

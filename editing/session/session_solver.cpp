@@ -16,6 +16,18 @@ constexpr double kNearlyAll = 0.8;
 /// What a nail is worth against the goal while neither is met.
 constexpr double kNailWeight = 10;
 
+/// Motions of a problem end early once a stop is requested.
+class Interruptible {
+ public:
+  Interruptible(EditProblem& problem, const std::stop_token& stop) : problem_(problem) { problem_.stop = stop; }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+  ~Interruptible() { problem_.stop = {}; }
+
+ private:
+  EditProblem& problem_;
+};
+
 }  // namespace
 
 SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, double duration,
@@ -93,22 +105,35 @@ void SessionSolver::keepIfBetter(const EditPointPtr& point) {
   if (!isBetter(*point)) return;
   point_ = point;
   nails_allowed_ = std::clamp(nailViolation(*point), options_.tolerance, nails_allowed_);
+  if (better_) better_();
 }
 
+/// Where the budget ends, what counts is the best that the search had when work was counted last: what came after that
+/// depends on when it was interrupted.
 void SessionSolver::finishHere(Budget& budget) {
+  if (!budget.pass()) return;
   EditOptions options;
   options.max_iterations = options_.release_iterations;
   options.tolerance = options_.tolerance;
   options.sequence = options_.sequence;
-  options.progress = [&](const EditProgress&) { return budget.take(); };
-  EditSearch search(problem_, options);
-  EditPointPtr found;
-  if (!reached()) {
-    found = findSolution(search).point;
-  } else if (const EditPointPtr from = search.evaluate(point_->changes)) {
-    found = minimiseWithin(search, from, search.iterationsLeft());
+  EditPointPtr found, counted;
+  {
+    const Interruptible motions(problem_, budget.stop());
+    options.stop = budget.stop();
+    EditSearch search(problem_, options);
+    options.progress = [&](const EditProgress&) {
+      if (!budget.take()) return false;
+      counted = search.best();
+      return !budget.expired();
+    };
+    if (!reached()) {
+      found = findSolution(search).point;
+    } else if (const EditPointPtr from = search.evaluate(point_->changes)) {
+      found = minimiseWithin(search, from, search.iterationsLeft());
+    }
+    iterations_ += search.iterations();
   }
-  iterations_ += search.iterations();
+  if (!budget.pass()) found = counted;
   if (!found || !found->rows.available || !reached(*found)) return;
   if (options_.sequence == SequencePolicy::stay && found->signature != start_->signature) return;
   if (const EditPointPtr again = evaluate(found->changes)) keepIfBetter(again);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "editing/session/session_part.hpp"
 #include "editing/session/session_step.hpp"
 #include "editing/session_journal.h"
+#include "editing/session_update.h"
 #include "editing/solve/edit_search.hpp"
 #include "editing/strategy/samples.hpp"
 
@@ -26,7 +28,9 @@ class SessionSolver {
                 const SessionOptions& options, bool part = false);
 
   const EditProblem& problem() const { return problem_; }
+  EditPointPtr start() const { return start_; }
   EditPointPtr point() const { return point_; }
+  int goal() const { return goal_; }
   bool atStart() const { return point_ == start_; }
   bool reached() const { return reached(*point_); }
   int iterations() const { return iterations_; }
@@ -34,18 +38,17 @@ class SessionSolver {
   /// Gives one target of the goal other numbers.
   void aim(int target, const std::vector<double>& value);
   /// Comes nearer to the constraints and makes the change smaller, by differential updates. Where few of the bodies
-  /// matter, it works with a scene of those alone, and what came of that is verified with all.
-  void improve(Budget& budget);
+  /// matter, it works with a scene of those alone, and what came of that is verified with all. `better` is called
+  /// whenever a better point was found, of all bodies.
+  void improve(Budget& budget, const std::function<void()>& better = {});
   /// Minimises the change, or searches further where the constraints are not met. Work is counted in iterations.
   void finish(Budget& budget);
 
   /// Largest scaled error of the rows that are not of the goal.
   double nailError(const RowValues& rows) const;
 
-  /// How the impacts that count differ from where the gesture began: sentences; empty where they do not.
-  std::string describeSequenceChange() const;
-  /// What stands between the point and the constraints, as far as first derivatives tell: a sentence.
-  std::string describeObstacle();
+  /// What stands between the point and the constraints, as far as first derivatives tell.
+  SessionObstacle obstacle();
 
  private:
   EditPointPtr evaluate(const Eigen::VectorXd& changes) const;
@@ -68,8 +71,13 @@ class SessionSolver {
   void lookElsewhere(Budget& budget);
   void finishHere(Budget& budget);
 
+  // session_obstacle.cpp
+  std::string nothingMoves() const;
+  SessionObstacle obstacleHere();
+
   // session_division.cpp: with some of them
   void divide(const std::vector<bool>& moving);
+  void improveDivided(Budget& budget);
   void shrinkPart();
   void startAt(const Eigen::VectorXd& changes);
   bool takeOverPart(Budget& budget);
@@ -89,6 +97,7 @@ class SessionSolver {
   std::string last_signature_;
   int iterations_ = 0;
   int samples_ = 0;  // taken so far, in lookElsewhere
+  std::function<void()> better_;  // of the improvement under way
 
   bool is_part_;
   bool stays_whole_;      // too many bodies matter

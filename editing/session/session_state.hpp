@@ -2,8 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
+#include <string>
 #include <vector>
 
 #include "editing/session.h"
@@ -15,6 +18,7 @@ namespace carom::editing_detail {
 struct SessionNail {
   NailId id;
   Constraint constraint;
+  bool on = true;
 };
 
 /// All that undo brings back. The motion is simulated again, with the same bits.
@@ -24,25 +28,55 @@ struct SessionMoment {
   Eigen::VectorXd changes;                 ///< of the controls, from `reference` to `scene`
   std::vector<Control> controls;
   std::vector<SessionNail> nails;
+  double duration = 0;
+  std::string step;  ///< in the lists of undo and redo: what leads from here to where the session was
 
   std::vector<Constraint> constraints() const;
+  /// Other controls, from which changes are measured anew.
+  void setControls(std::vector<Control> others);
+  SessionNail* find(NailId id);
 };
 
-/// A grabbed body on its way.
+/// A grabbed body, or a grabbed nail, on its way.
 struct SessionDrag {
   std::unique_ptr<SessionSolver> solver;
   SessionGesture record;
+  SessionMoment began;  ///< brought back by cancel
   std::shared_ptr<const Motion> before;
   int body = -1, with = -1;
-  int turn_target = -1;  ///< index of the target that holds the orientation
+  int turn_target = -1;  ///< index of the goal's target that holds the orientation
   Vec3 place = Vec3::Zero();
   std::optional<Quat> orientation;
+  std::string left_out;  ///< a sentence about nails that the motion lacks
 };
 
-/// Why a motion ends before its duration: a sentence; empty for one that does not.
-std::string earlyEnd(const Motion& motion);
+/// Nails that gestures hold.
+struct HeldNails {
+  std::vector<Constraint> constraints;
+  std::string left_out;  ///< a sentence about those that the motion lacks; empty where it has all
+};
+
+/// A step that solves for nails.
+struct NailStep {
+  SessionMoment next;  ///< but for the scene, which is solved for
+  HeldNails held;
+  int goal = -1;  ///< index of the constraint that gives way to the others; -1: none
+  std::string name;
+  bool changes_nails = true;  ///< it is a step even where the motion stays
+};
+
+/// "drag of 'hat' at 0.6 s"
+std::string stepName(const SessionDrag& drag);
+/// What a grab holds, with its last target.
+Constraint goalOf(const SessionDrag& drag);
+/// The components of a place that a grip holds. Throws InputError for components that there are not.
+std::vector<double> heldPlace(const Vec3& place, const Grip& grip);
+std::vector<double> numbersOf(const Quat& q);
+/// Puts a nail that was grabbed elsewhere; components that it leaves free stay free.
+void putNail(Constraint& nail, const Vec3& place, const std::optional<Quat>& orientation);
 /// A body at a moment of a motion. Throws InputError naming `where` when the motion does not have it.
 BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where);
+double millisecondsSince(std::chrono::steady_clock::time_point start);
 
 }  // namespace carom::editing_detail
 
@@ -51,50 +85,82 @@ namespace carom {
 using namespace editing_detail;
 
 struct EditSession::State {
-  State(ContactSource& source, double length, const SessionOptions& chosen);
+  State(ContactSource& source, const SessionOptions& chosen);
+
+  using Clock = std::chrono::steady_clock;
+  using Better = std::function<void(const SessionUpdate&)>;
 
   ContactSource& contacts;
-  double duration;
   SessionOptions options;
-  SessionMoment now;
+  SessionMoment now;  ///< in a drag with what the grab changed
   std::vector<SessionMoment> past, future;
   int next_nail = 0;
   SessionUpdate last;
   SessionJournal journal;
   std::optional<SessionDrag> drag;
-  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
-  /// Set by a replay: no clock, but what it did when this was recorded.
+  Clock::time_point started = Clock::now();
+  /// Set by a replay: no clock, but what ended things when this was recorded.
   bool replays = false;
   std::optional<int> replayed_cut;
 
   double millisecondsSinceStart() const;
   SessionGesture newGesture(SessionGesture::Kind kind) const;  ///< of now
-  Budget budget(int limit, double seconds) const;
+  Budget budget(int limit, double seconds, std::stop_token stop) const;
   void requireNoDrag(const char* call) const;
 
   // session.cpp
-  void begin(const Scene& scene, std::vector<Control> controls, std::vector<Constraint> nails);
-  void remember(SessionMoment before);
+  void begin(const Scene& scene, double duration, std::vector<Control> controls, std::vector<Constraint> nails);
+
+  // session_history.cpp
+  /// A step for undo from `before` to now.
+  void remember(SessionMoment before, std::string step);
   /// Ends a gesture: its record goes to the journal with what came of it.
   void record(SessionGesture gesture);
   SessionUpdate goTo(std::vector<SessionMoment>& from, std::vector<SessionMoment>& to, SessionGesture::Kind kind);
-  SessionUpdate stay(const std::string& message);
+  /// Without solving: how the motion stands; `shown` is the one of before.
+  SessionUpdate stay(const std::string& message, const std::shared_ptr<const Motion>& shown);
 
   // session_gesture.cpp
-  std::unique_ptr<SessionSolver> solverFor(const std::vector<Constraint>& constraints, int goal) const;
-  void grab(const std::string& body, const When& at, const Grip& grip);
-  SessionUpdate dragTo(const Vec3& place, const std::optional<Quat>& orientation);
-  SessionUpdate endDrag(SessionGesture::Ending ending);
-  NailId addNail(Constraint constraint);
+  std::unique_ptr<SessionSolver> solverFor(const SessionMoment& moment, const std::vector<Constraint>& constraints,
+                                           int goal) const;
+  void grab(const std::string& body, const When& at, const Grip& grip, std::vector<Control> also_vary);
+  void grabNail(NailId id);
+  void beginDrag(SessionDrag next, SessionMoment moment, std::vector<Constraint> held);
+  SessionUpdate dragTo(const Vec3& place, const std::optional<Quat>& orientation, std::stop_token stop);
+  SessionUpdate dwell(std::stop_token stop, const Better& better);
+  SessionUpdate follow(DragTarget target, Budget budget, const Better& better);
+
+  // session_release.cpp
+  SessionUpdate endDrag(SessionGesture::Ending ending, std::stop_token stop);
+  SessionUpdate cancelDrag();
+  SessionUpdate finishDrag(std::stop_token stop);
+  /// The nail that a drag leaves: a new one, or the one that was grabbed.
+  void leaveNail(SessionDrag& ended, const SessionUpdate& update);
+
+  // session_nails.cpp
+  /// Throws InputError for one that is not there.
+  SessionNail& nailOf(NailId id);
+  HeldNails heldNails(const std::vector<SessionNail>& nails) const;
+  NailState stateOf(const SessionNail& nail, const Motion& motion) const;
+  SessionUpdate solveStep(NailStep step, SessionGesture gesture, std::stop_token stop);
+  NailId addNail(Constraint constraint, std::stop_token stop);
+  void setNail(NailId id, Constraint constraint, std::stop_token stop);
+  SessionUpdate meetNails(std::stop_token stop);
+
+  // session_content.cpp
+  SessionMoment momentOf(const SessionContent& content, int& next_free_nail);
 
   // session_update.cpp
-  std::shared_ptr<const Motion> simulated(const std::shared_ptr<const Scene>& scene) const;
+  std::shared_ptr<const Motion> simulated(const std::shared_ptr<const Scene>& scene, double duration) const;
   /// The motion of where a solver got to, over the whole duration.
   std::shared_ptr<const Motion> motionOf(const SessionSolver& solver) const;
   void measureNails(SessionUpdate& update) const;
   void measureGoal(const SessionSolver& solver, SessionUpdate& update) const;
   void measureDrag(SessionUpdate& update) const;
-  void describe(SessionSolver& solver, SessionUpdate& update) const;
+  /// How the impacts that count for a gesture changed since it began.
+  void compareImpacts(const SessionSolver& solver, const Motion& before, SessionUpdate& update) const;
+  void putEnd(const Budget& budget, SessionUpdate& update) const;
+  void describe(SessionSolver& solver, const Motion& before, const std::string& left_out, SessionUpdate& update) const;
   void takeOver(const SessionSolver& solver, const SessionUpdate& update);
 };
 

@@ -8,16 +8,12 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/session/session_state.hpp"
+#include "editing/session/session_words.hpp"
 
 namespace carom {
 
 using namespace adjoint_detail;
 using namespace editing_detail;
-
-std::string editing_detail::earlyEnd(const Motion& motion) {
-  if (motion.status == MotionStatus::complete) return "";
-  return "The motion ends at " + number(motion.end) + " s: " + motion.message + ".";
-}
 
 namespace {
 
@@ -48,7 +44,8 @@ BodyState editing_detail::stateAtMoment(const Motion& motion, const std::string&
   return motion.stateBefore(*event, index);
 }
 
-std::shared_ptr<const Motion> EditSession::State::simulated(const std::shared_ptr<const Scene>& scene) const {
+std::shared_ptr<const Motion> EditSession::State::simulated(const std::shared_ptr<const Scene>& scene,
+                                                            double duration) const {
   auto motion = std::make_shared<Motion>(simulate(*scene, contacts, duration));
   motion->scene = scene;
   return motion;
@@ -56,8 +53,8 @@ std::shared_ptr<const Motion> EditSession::State::simulated(const std::shared_pt
 
 std::shared_ptr<const Motion> EditSession::State::motionOf(const SessionSolver& solver) const {
   const EditPointPtr point = solver.point();
-  if (point->motion.duration == duration) return {point, &point->motion};
-  return simulated(point->motion.scene);
+  if (point->motion.duration == now.duration) return {point, &point->motion};
+  return simulated(point->motion.scene, now.duration);
 }
 
 namespace {
@@ -80,22 +77,20 @@ void putNails(const Errors& nails, double tolerance, SessionUpdate& update) {
 }  // namespace
 
 void EditSession::State::measureNails(SessionUpdate& update) const {
-  if (now.nails.empty()) return;
-  const ConstraintSet constraints(*now.scene, now.constraints(), duration);
-  const RowValues rows = constraints.evaluate(*update.motion);
-  Errors nails;
-  for (int i = 0; i < constraints.size(); ++i) nails.add(rows.residuals[i], rows.scaled[i]);
-  putNails(nails, options.tolerance, update);
-  if (!rows.available) update.message += (update.message.empty() ? "" : " ") + rows.message;
+  Errors held;
+  for (const SessionNail& nail : now.nails) {
+    const NailState state = stateOf(nail, *update.motion);
+    if (state.on && state.available) held.add(state.error, state.scaled_error);
+  }
+  putNails(held, options.tolerance, update);
 }
 
 void EditSession::State::measureGoal(const SessionSolver& solver, SessionUpdate& update) const {
   const EditProblem& problem = solver.problem();
   const RowValues rows = problem.constraints.evaluate(*update.motion, problem.timesOf(solver.point()->changes));
-  const int goal = static_cast<int>(problem.constraints.constraints().size()) - 1;
   Errors of_nails, of_goal;
   for (int i = 0; i < problem.constraints.size(); ++i) {
-    const bool is_goal = problem.constraints.rows()[static_cast<std::size_t>(i)].constraint == goal;
+    const bool is_goal = problem.constraints.rows()[static_cast<std::size_t>(i)].constraint == solver.goal();
     (is_goal ? of_goal : of_nails).add(rows.residuals[i], rows.scaled[i]);
   }
   update.scaled_distance = of_goal.scaled;
@@ -115,23 +110,51 @@ void EditSession::State::measureDrag(SessionUpdate& update) const {
   if (drag->orientation) update.turn = logSO3(state.orientation * drag->orientation->normalized().conjugate()).norm();
 }
 
-void EditSession::State::describe(SessionSolver& solver, SessionUpdate& update) const {
+void EditSession::State::compareImpacts(const SessionSolver& solver, const Motion& before,
+                                        SessionUpdate& update) const {
+  const EditProblem& problem = solver.problem();
+  const auto count = [&](const Motion& motion, const EditPoint& point) {
+    return problem.constraints.extentIn(motion, problem.timesOf(point.changes)).events;
+  };
+  update.sequence_changes = sequenceChanges(before, count(before, *solver.start()), *update.motion,
+                                            count(*update.motion, *solver.point()));
+  update.sequence_changed = !update.sequence_changes.empty();
+}
+
+void EditSession::State::putEnd(const Budget& budget, SessionUpdate& update) const {
+  update.cut_by_clock = budget.halt() == Halt::out_of_time;
+  update.stopped = budget.halt() == Halt::cancelled;
+}
+
+void EditSession::State::describe(SessionSolver& solver, const Motion& before, const std::string& left_out,
+                                  SessionUpdate& update) const {
+  using Kind = SessionObstacle::Kind;
   std::vector<std::string> sentences;
   if (!update.reached) {
-    const ConstraintSet& constraints = solver.problem().constraints;
-    const int goal = static_cast<int>(constraints.constraints().size()) - 1;
-    const std::string name = constraints.describeConstraint(goal);
     if (update.scaled_nail_error > options.tolerance)
-      sentences.push_back("The nails are missed by up to " + number(update.nail_error) + ".");
-    if (drag && update.distance > 0)
-      sentences.push_back(name + " stays " + number(update.distance) + " m from where it is dragged to.");
-    if (!drag && update.scaled_distance > options.tolerance)
-      sentences.push_back("The nail of " + name + " is not met.");
-    sentences.push_back(update.cut_by_clock ? "The clock ended the update." : solver.describeObstacle());
+      sentences.push_back("The nails are missed by up to " + brief(update.nail_error) + ".");
+    if (solver.goal() >= 0) {
+      const std::string name =
+          wordsOf(solver.problem().constraints.constraints()[static_cast<std::size_t>(solver.goal())]);
+      if (drag && update.distance > 0)
+        sentences.push_back(name + " stays " + brief(update.distance) + " m from where it is dragged to.");
+      if (!drag && update.scaled_distance > options.tolerance)
+        sentences.push_back("The nail of " + name + " is not met.");
+    }
+    if (update.cut_by_clock && replays) {
+      update.obstacle = {Kind::clock, {}, "It was ended there when it was recorded."};
+    } else if (update.cut_by_clock) {
+      update.obstacle = {Kind::clock, {}, "The clock ended the update."};
+    } else if (update.stopped) {
+      update.obstacle = {Kind::work, {}, "It was stopped on the way."};
+    } else {
+      update.obstacle = solver.obstacle();
+    }
+    sentences.push_back(update.obstacle.sentence);
   }
-  const std::string change = solver.describeSequenceChange();
-  update.sequence_changed = !change.empty();
-  if (!change.empty()) sentences.push_back(change);
+  compareImpacts(solver, before, update);
+  sentences.push_back(otherImpacts(update.sequence_changes, before, *update.motion));
+  sentences.push_back(left_out);
   sentences.push_back(earlyEnd(*update.motion));
   for (const std::string& note : solver.problem().controls.notes()) sentences.push_back(note);
   for (const std::string& sentence : sentences)

@@ -35,6 +35,17 @@ bool Budget::take() {
   return true;
 }
 
+bool Budget::pass() {
+  if (expired()) return false;
+  ++done_;
+  return true;
+}
+
+void Budget::allow(int units) {
+  setPrice(1, 0);
+  limit_ = spent_ + units;
+}
+
 bool Budget::expired() {
   if (stop_.stop_requested()) end(Halt::cancelled);
   if (cut_after_ ? done_ >= *cut_after_ : secondsLeft() <= 0) end(Halt::out_of_time);

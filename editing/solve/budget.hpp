@@ -17,7 +17,7 @@ class Budget {
  public:
   /// `limit`: in steps of a solver, or in simulations of the whole scene.
   explicit Budget(int limit, double seconds = std::numeric_limits<double>::infinity(), std::stop_token stop = {});
-  /// Of a replay: without a clock, but out of time after so many units, as the clock had it when it was recorded.
+  /// Of a replay: without a clock, but out of time after so many units, as it was ended when it was recorded.
   static Budget replayed(int limit, std::optional<int> cut_after);
 
   /// From here on a unit costs `price`, and `reserve` is kept for later. A motion of some of the bodies costs their
@@ -28,6 +28,11 @@ class Budget {
   bool take();
   /// Takes units that have been used, or kept for later, whatever there is left.
   void count(int units) { done_ += units, spent_ += units * price_; }
+  /// Begins or ends a stretch of work: asks whether it has ended, and counts that it was asked although that costs
+  /// nothing, so that no two places have the same count. False where it has ended.
+  bool pass();
+  /// From here on so many more units of price 1.
+  void allow(int units);
   int done() const { return done_; }  ///< units taken
   int left() const;                   ///< units, at the present price
 
@@ -36,9 +41,11 @@ class Budget {
   /// Ends it, unless it has ended.
   void end(Halt why);
   Halt halt() const { return halt_; }
-  /// Units after which the clock ended it.
-  std::optional<int> cutAfter() const { return halt_ == Halt::out_of_time ? std::optional(cut_at_) : std::nullopt; }
+  /// Units after which the clock or a stop ended it.
+  std::optional<int> cutAfter() const { return halt_ == Halt::none ? std::nullopt : std::optional(cut_at_); }
   double secondsLeft() const;
+  /// For work that ends within a unit, whose results then do not count.
+  const std::stop_token& stop() const { return stop_; }
 
  private:
   double limit_, spent_ = 0, price_ = 1, reserve_ = 0;

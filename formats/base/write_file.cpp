@@ -44,6 +44,8 @@ fs::path folderAbove(const fs::path& file) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
+enum class Kept { while_the_machine_runs, through_power_loss };
+
 // Closed in any case.
 class OpenFile {
  public:
@@ -58,9 +60,20 @@ class OpenFile {
   int descriptor() const { return descriptor_; }
 
   // Writes the whole of it, and closes the file. 0, or what went wrong.
-  int finish(std::string_view content) {
-    const int error = write(content), closed = close();
+  int finish(std::string_view content, Kept kept) {
+    int error = write(content);
+    if (error == 0 && kept == Kept::through_power_loss) error = sync();
+    const int closed = close();
     return error != 0 ? error : closed;
+  }
+
+  // Until the disk has it. 0, or what went wrong; what cannot be asked for that has nothing to lose.
+  int sync() const {
+    int result = 0;
+    do {
+      result = ::fsync(descriptor_);
+    } while (result != 0 && errno == EINTR);
+    return result == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP ? 0 : errno;
   }
 
  private:
@@ -89,25 +102,36 @@ void keepOwnerAndMode(const OpenFile& file, const struct stat& old) {
   if (::fchmod(file.descriptor(), old.st_mode & 0777) != 0) errno = 0;
 }
 
+// The name of a file is in its folder.
+void keepName(const std::string& path, const fs::path& target) {
+  const OpenFile folder(folderAbove(target), O_RDONLY | O_DIRECTORY);
+  if (!folder.isOpen()) return;  // one that may be written but not read
+  if (const int error = folder.sync(); error != 0)
+    throw InputError(path, "the file is written, but may be lost if the power fails: " + reasonOf(error));
+}
+
 // A new file beside the old one takes its place. Two programs that write the same path must not share it.
-void replaceFile(const std::string& path, const fs::path& target, const struct stat* old, std::string_view content) {
+void replaceFile(const std::string& path, const fs::path& target, const struct stat* old, std::string_view content,
+                 Kept kept) {
   std::random_device random;
   fs::path temporary = target;
   temporary += ".part-" + std::to_string(random());
   OpenFile file(temporary, O_WRONLY | O_CREAT | O_EXCL, old ? 0600 : 0666);
   if (!file.isOpen()) failToWrite(path, reasonOf(errno));
   if (old) keepOwnerAndMode(file, *old);
-  int error = file.finish(content);
+  int error = file.finish(content, kept);
   if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  ::unlink(temporary.c_str());
-  failToWrite(path, reasonOf(error));
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    failToWrite(path, reasonOf(error));
+  }
+  if (kept == Kept::through_power_loss) keepName(path, target);
 }
 
-void writeInPlace(const std::string& path, const fs::path& target, std::string_view content) {
+void writeInPlace(const std::string& path, const fs::path& target, std::string_view content, Kept kept) {
   OpenFile file(target, O_WRONLY);
   if (!file.isOpen()) failToWrite(path, reasonOf(errno));
-  if (const int error = file.finish(content); error != 0) failToWrite(path, reasonOf(error));
+  if (const int error = file.finish(content, kept); error != 0) failToWrite(path, reasonOf(error));
 }
 
 struct WriteTarget {
@@ -129,16 +153,24 @@ WriteTarget writableTarget(const std::string& path) {
   return target;
 }
 
+void write(const std::string& path, std::string_view content, Kept kept) {
+  const WriteTarget target = writableTarget(path);
+  if (target.isFile())
+    replaceFile(path, target.path, target.exists ? &target.status : nullptr, content, kept);
+  else
+    writeInPlace(path, target.path, content, kept);
+}
+
 }  // namespace
 
 void requireWritable(const std::string& path) { writableTarget(path); }
 
 void writeFile(const std::string& path, std::string_view content) {
-  const WriteTarget target = writableTarget(path);
-  if (target.isFile())
-    replaceFile(path, target.path, target.exists ? &target.status : nullptr, content);
-  else
-    writeInPlace(path, target.path, content);
+  write(path, content, Kept::while_the_machine_runs);
+}
+
+void writeFileDurably(const std::string& path, std::string_view content) {
+  write(path, content, Kept::through_power_loss);
 }
 
 }  // namespace carom::formats_detail

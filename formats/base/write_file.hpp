@@ -12,6 +12,11 @@ namespace carom::formats_detail {
 /// as it was.
 void writeFile(const std::string& path, std::string_view content);
 
+/// The same, and waits until the disk has the file and its name: what people made, which nothing can make again. After
+/// a power loss there is the old file or the new one. Throws as `writeFile`; an error of the disk that comes after the
+/// file was replaced says so.
+void writeFileDurably(const std::string& path, std::string_view content);
+
 /// Throws InputError where `writeFile` could not write, as far as that can be told before: to ask before long work.
 void requireWritable(const std::string& path);
 

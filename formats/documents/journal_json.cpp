@@ -48,23 +48,44 @@ SessionOptions readOptions(const Json& document) {
     options.sequence = o["sequence"] == "stay" ? SequencePolicy::stay : SequencePolicy::prefer_start;
   options.tolerance = o.value("tolerance", options.tolerance);
   options.drag_simulations = o.value("drag_simulations", options.drag_simulations);
+  options.dwell_simulations = o.value("dwell_simulations", options.dwell_simulations);
   options.release_iterations = o.value("release_iterations", options.release_iterations);
   options.drag_seconds = stopOr(o, "drag_seconds", options.drag_seconds);
   options.release_seconds = stopOr(o, "release_seconds", options.release_seconds);
+  options.unmet_nails_off = o.value("unmet_nails_off", false);
   return options;
 }
 
-/// In the words of scene documents, so by their reader.
-Constraint readOneConstraint(const Json& value, const Document& scene, const std::string& where) {
-  Json alone;
-  alone["constraints"] = Json::array({value});
-  return readAt("/constraints/0", where, [&] { return readConstraints(alone, scene.scene, scene.duration).at(0); });
+/// The scene documents of a journal so far. Which of them a gesture is about depends on what was undone: names are
+/// looked up in the newest, then in those before it.
+using Scenes = std::vector<Document>;
+
+template <class Read>
+auto inAnyOf(const Scenes& scenes, Read read) {
+  for (std::size_t k = scenes.size(); k-- > 1;) {
+    try {
+      return read(scenes[k]);
+    } catch (const InputError&) {
+      continue;  // one of the older ones may have it
+    }
+  }
+  return read(scenes[0]);
 }
 
-std::vector<Control> readControlList(const Json& value, const Document& scene, const std::string& where) {
+/// In the words of scene documents, so by their reader.
+Constraint readOneConstraint(const Json& value, const Scenes& scenes, const std::string& where) {
+  Json alone;
+  alone["constraints"] = Json::array({value});
+  return readAt("/constraints/0", where, [&] {
+    return inAnyOf(scenes, [&](const Document& d) { return readConstraints(alone, d.scene, d.duration).at(0); });
+  });
+}
+
+std::vector<Control> readControlList(const Json& value, const Scenes& scenes, const std::string& where) {
   Json alone;
   alone["controls"] = value;
-  return readAt("/controls", where, [&] { return readControls(alone, scene.scene); });
+  return readAt("/controls", where,
+                [&] { return inAnyOf(scenes, [&](const Document& d) { return readControls(alone, d.scene); }); });
 }
 
 /// A grab is written as the constraint that it is: from that, how the body is held.
@@ -98,39 +119,80 @@ DragTarget readDragTarget(const Json& value, const SessionGesture& gesture, cons
     target.orientation = readQuaternion(value["orientation"], where + "/orientation");
   }
   if (value.contains("cut_after")) target.cut_after = value["cut_after"].get<int>();
+  target.dwell = value.value("dwell", false);
   return target;
 }
 
-SessionGesture readGesture(const Json& value, const Document& scene, const std::string& where) {
+void readDrag(const Json& value, const Scenes& scenes, SessionGesture& gesture, const std::string& where) {
+  gesture.constraint = readOneConstraint(value["drag"], scenes, where + "/drag");
+  readGrab(gesture, where + "/drag");
+  if (value.contains("grab_nail")) gesture.grabbed_nail = value["grab_nail"].get<int>();
+  if (value.contains("also_vary"))
+    gesture.controls = readControlList(value["also_vary"], scenes, where + "/also_vary");
+  const Json& targets = value["targets"];
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    gesture.targets.push_back(readDragTarget(targets[i], gesture, where + "/targets/" + std::to_string(i)));
+  const auto ending = value["ending"].get<std::string>();
+  for (const Ending known : {Ending::release, Ending::cancel, Ending::release_nailed, Ending::release_nailed_where_it_got})
+    if (ending == nameOf(known)) gesture.ending = known;
+}
+
+/// The scene document of a content joins the others.
+void readContent(const Json& value, Scenes& scenes, SessionGesture& gesture, const std::string& where) {
+  Document document =
+      readAt("", where + "/content", [&] { return readDocument(value["content"], scenes.front().folder); });
+  const Json& ids = value["ids"];
+  if (ids.size() != document.constraints.size())
+    fail(where + "/ids", std::to_string(ids.size()) + " numbers",
+         std::to_string(document.constraints.size()) + ", one for each constraint of the content");
+  SessionContent content{document.scene, document.duration, document.controls, {}};
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    content.nails.push_back({ids[i].is_null() ? NailId() : NailId{ids[i].get<int>()}, document.constraints[i]});
+  gesture.content = std::move(content);
+  gesture.name = textOr(value, "name");
+  scenes.push_back(std::move(document));
+}
+
+Kind kindOf(const Json& gesture) {
+  for (const Kind kind : {Kind::controls, Kind::nail, Kind::unnail, Kind::drag, Kind::undo, Kind::redo, Kind::set_nail,
+                          Kind::nail_on, Kind::meet_nails})
+    if (gesture.contains(nameOf(kind))) return kind;
+  return Kind::content;
+}
+
+SessionGesture readGesture(const Json& value, Scenes& scenes, const std::string& where) {
   SessionGesture gesture;
+  gesture.kind = kindOf(value);
   gesture.milliseconds = value.value("milliseconds", 0.0);
   gesture.nail = value.value("id", -1);
   gesture.reached = value["reached"].get<bool>();
   gesture.distance = value.value("distance", 0.0);
   gesture.numbers = value["numbers"].get<std::vector<double>>();
   if (value.contains("cut_after")) gesture.cut_after = value["cut_after"].get<int>();
-  if (value.contains("controls")) {
-    gesture.kind = Kind::controls;
-    gesture.controls = readControlList(value["controls"], scene, where + "/controls");
-  } else if (value.contains("nail")) {
-    gesture.kind = Kind::nail;
-    gesture.constraint = readOneConstraint(value["nail"], scene, where + "/nail");
-  } else if (value.contains("unnail")) {
-    gesture.kind = Kind::unnail;
-    gesture.nail = value["unnail"].get<int>();
-  } else if (value.contains("drag")) {
-    gesture.kind = Kind::drag;
-    gesture.constraint = readOneConstraint(value["drag"], scene, where + "/drag");
-    readGrab(gesture, where + "/drag");
-    const Json& targets = value["targets"];
-    for (std::size_t i = 0; i < targets.size(); ++i)
-      gesture.targets.push_back(readDragTarget(targets[i], gesture, where + "/targets/" + std::to_string(i)));
-    const auto ending = value["ending"].get<std::string>();
-    gesture.ending = ending == "release"  ? Ending::release
-                     : ending == "cancel" ? Ending::cancel
-                                          : Ending::release_nailed;
-  } else {
-    gesture.kind = value.contains("undo") ? Kind::undo : Kind::redo;
+  switch (gesture.kind) {
+    case Kind::controls:
+      gesture.controls = readControlList(value["controls"], scenes, where + "/controls");
+      break;
+    case Kind::nail:
+    case Kind::set_nail:
+      gesture.constraint = readOneConstraint(value[nameOf(gesture.kind)], scenes, where + "/" + nameOf(gesture.kind));
+      break;
+    case Kind::nail_on:
+      gesture.on = value["nail_on"].get<bool>();
+      break;
+    case Kind::unnail:
+      gesture.nail = value["unnail"].get<int>();
+      break;
+    case Kind::drag:
+      readDrag(value, scenes, gesture, where);
+      break;
+    case Kind::content:
+      readContent(value, scenes, gesture, where);
+      break;
+    case Kind::meet_nails:
+    case Kind::undo:
+    case Kind::redo:
+      break;
   }
   return gesture;
 }
@@ -142,9 +204,10 @@ JournalDocument journalOf(const Json& json, const std::string& folder) {
   document.name = scene.name, document.notes = scene.notes;
   document.schema = textOr(json, "$schema");
   document.journal = {scene.scene, scene.duration, scene.controls, scene.constraints, readOptions(json), {}};
+  Scenes scenes{scene};
   const Json& gestures = json["gestures"];
   for (std::size_t i = 0; i < gestures.size(); ++i)
-    document.journal.gestures.push_back(readGesture(gestures[i], scene, "/gestures/" + std::to_string(i)));
+    document.journal.gestures.push_back(readGesture(gestures[i], scenes, "/gestures/" + std::to_string(i)));
   return document;
 }
 
@@ -163,10 +226,12 @@ void saveJournal(const std::string& path, const JournalDocument& journal) {
   moved.folder = folderOf(path);
   moved.schema = movedSchema(journal.schema, journal.folder, moved.folder);
   moveFiles(moved.journal.scene, journal.folder, moved.folder);
+  for (SessionGesture& gesture : moved.journal.gestures)
+    if (gesture.content) moveFiles(gesture.content->scene, journal.folder, moved.folder);
   inFile(path, [&] {
     const std::string text = writeJournal(moved);
     parseJournal(text, path, moved.folder);
-    writeFile(path, text);
+    writeFileDurably(path, text);
   });
 }
 

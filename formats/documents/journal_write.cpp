@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "editing/session_numbers.h"
 #include "formats/documents/journal_json.h"
@@ -22,56 +23,91 @@ void writeOptions(JsonWriter& out, const SessionOptions& options) {
   out.members("measure_from", options.measure_from == MeasureFrom::grab ? "grab" : "start");
   out.members("sequence", options.sequence == SequencePolicy::stay ? "stay" : "prefer_start");
   out.members("tolerance", options.tolerance, "drag_simulations", options.drag_simulations);
-  out.members("release_iterations", options.release_iterations);
+  out.members("dwell_simulations", options.dwell_simulations, "release_iterations", options.release_iterations);
   out.members("drag_seconds", stop(options.drag_seconds), "release_seconds", stop(options.release_seconds));
+  if (options.unmet_nails_off) out.members("unmet_nails_off", true);
   out.endObject();
 }
 
 /// One constraint has to stay one: what would become several objects is refused.
-void writeOne(JsonWriter& out, const char* member, const Constraint& constraint, const std::string& where) {
-  requireWritable(constraint, where + "/" + member);
+void requireOneOfAKind(const Constraint& constraint, const std::string& where) {
   for (std::size_t i = 0; i < constraint.targets.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (constraint.targets[i].quantity == constraint.targets[k].quantity)
-        throw InputError(where + "/" + member, "found two targets \"" + constraint.targets[i].quantity +
-                                                   "\", expected one of a kind: a second nail can hold the other");
+        throw InputError(where, "found two targets \"" + constraint.targets[i].quantity +
+                                    "\", expected one of a kind: a second nail can hold the other");
+}
+
+void writeOne(JsonWriter& out, const char* member, const Constraint& constraint, const std::string& where) {
+  requireWritable(constraint, where + "/" + member);
+  requireOneOfAKind(constraint, where + "/" + member);
   writeConstraint(out.key(member), constraint);
 }
 
+void writeControls(JsonWriter& out, const char* member, const std::vector<Control>& controls) {
+  out.key(member).beginArray();
+  for (const Control& control : controls) writeControl(out, control);
+  out.endArray();
+}
+
+void writeDrag(JsonWriter& out, const SessionGesture& gesture, const std::string& where) {
+  writeOne(out, "drag", *gesture.constraint, where);
+  if (gesture.grabbed_nail) out.members("grab_nail", *gesture.grabbed_nail);
+  if (!gesture.controls.empty()) writeControls(out, "also_vary", gesture.controls);
+  out.objects("targets", gesture.targets, Layout::line, [&](const DragTarget& target) {
+    out.members("milliseconds", target.milliseconds, "place", target.place);
+    if (target.orientation) out.members("orientation", *target.orientation);
+    if (target.dwell) out.members("dwell", true);
+    if (target.cut_after) out.members("cut_after", *target.cut_after);
+  });
+  out.members("ending", nameOf(gesture.ending));
+}
+
+/// The content as a scene document, whose constraints are the nails, and their numbers.
+void writeContent(JsonWriter& out, const SessionGesture& gesture, const std::string& folder, const std::string& where) {
+  const SessionContent& content = *gesture.content;
+  Document document{content.scene, content.duration, content.controls, {}, folder};
+  for (const auto& [id, constraint] : content.nails) {
+    requireOneOfAKind(constraint, where + "/content/constraints/" + std::to_string(document.constraints.size()));
+    document.constraints.push_back(constraint);
+  }
+  writeDocument(out.key("content"), document);
+  std::vector<std::optional<int>> ids;
+  for (const auto& [id, constraint] : content.nails)
+    ids.push_back(id == NailId() ? std::nullopt : std::optional(id.value));
+  out.members("ids", ids).unlessEmpty("name", gesture.name);
+}
+
 /// What is done, by its kind.
-void writeDeed(JsonWriter& out, const SessionGesture& gesture, const std::string& where) {
+void writeDeed(JsonWriter& out, const SessionGesture& gesture, const std::string& folder, const std::string& where) {
   switch (gesture.kind) {
     case Kind::controls:
-      out.key("controls").beginArray();
-      for (const Control& control : gesture.controls) writeControl(out, control);
-      out.endArray();
-      return;
+      return writeControls(out, "controls", gesture.controls);
     case Kind::nail:
       return writeOne(out, "nail", *gesture.constraint, where);
+    case Kind::set_nail:
+      return writeOne(out, "set_nail", *gesture.constraint, where);
+    case Kind::nail_on:
+      out.members("nail_on", gesture.on);
+      return;
     case Kind::unnail:
       out.members("unnail", gesture.nail);
       return;
     case Kind::drag:
-      writeOne(out, "drag", *gesture.constraint, where);
-      out.objects("targets", gesture.targets, Layout::line, [&](const DragTarget& target) {
-        out.members("milliseconds", target.milliseconds, "place", target.place);
-        if (target.orientation) out.members("orientation", *target.orientation);
-        if (target.cut_after) out.members("cut_after", *target.cut_after);
-      });
-      out.members("ending", nameOf(gesture.ending));
-      return;
+      return writeDrag(out, gesture, where);
+    case Kind::content:
+      return writeContent(out, gesture, folder, where);
+    case Kind::meet_nails:
     case Kind::undo:
     case Kind::redo:
-      out.members(gesture.kind == Kind::undo ? "undo" : "redo", true);
+      out.members(nameOf(gesture.kind), true);
   }
 }
 
-void writeGesture(JsonWriter& out, const SessionGesture& gesture, const std::string& where) {
+void writeGesture(JsonWriter& out, const SessionGesture& gesture, const std::string& folder, const std::string& where) {
   out.members("milliseconds", gesture.milliseconds);
-  writeDeed(out, gesture, where);
-  const bool makes_nail = gesture.kind == Kind::nail ||
-                          (gesture.kind == Kind::drag && gesture.ending == SessionGesture::Ending::release_nailed);
-  if (makes_nail) out.members("id", gesture.nail);
+  writeDeed(out, gesture, folder, where);
+  if (gesture.nail >= 0 && gesture.kind != Kind::unnail) out.members("id", gesture.nail);
   if (gesture.cut_after) out.members("cut_after", *gesture.cut_after);
   out.members("reached", gesture.reached, "distance", gesture.distance, "numbers", gesture.numbers);
 }
@@ -88,7 +124,9 @@ std::string writeJournal(const JournalDocument& document) {
   writeOptions(out, journal.options);
   std::size_t i = 0;
   out.objects("gestures", journal.gestures, Layout::block,
-              [&](const SessionGesture& gesture) { writeGesture(out, gesture, "/gestures/" + std::to_string(i++)); });
+              [&](const SessionGesture& gesture) {
+                writeGesture(out, gesture, document.folder, "/gestures/" + std::to_string(i++));
+              });
   out.endObject();
   return out.take();
 }

@@ -76,7 +76,7 @@ class MeshFiles {
     std::error_code error;
     fs::create_directory(into, error);  // not the folders above it: a path that leads nowhere is an error
     if (error) throw FormatError(into.string(), "", "cannot make the folder: " + error.message());
-    for (const auto& [surface, file] : files_) writeFile((folder_ / file).string(), objText(*surface));
+    for (const auto& [surface, file] : files_) writeFileDurably((folder_ / file).string(), objText(*surface));
   }
 
   std::vector<std::string> names() const {

@@ -71,7 +71,7 @@ std::string writeDocumentIn(const std::string& folder, const Document& document)
 }
 
 void saveDocument(const std::string& path, const Document& document) {
-  inFile(path, [&] { writeFile(path, writeDocumentIn(formats_detail::folderOf(path), document)); });
+  inFile(path, [&] { writeFileDurably(path, writeDocumentIn(formats_detail::folderOf(path), document)); });
 }
 
 }  // namespace carom

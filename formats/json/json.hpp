@@ -2,6 +2,8 @@
 // Private to formats/*.cpp: a .hpp is not installed, so that no public header shows a JSON type.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -20,6 +22,24 @@ enum class DocumentKind { scene, journal };
 /// The tree of a document of a kind, of at most so many bytes, in the version of this program and by its schema. Throws
 /// InputError.
 Json parseJson(std::string_view text, DocumentKind kind, std::size_t most_bytes);
+
+/// A JSON schema (draft 7) that explains what breaks it.
+class Schema {
+ public:
+  explicit Schema(Json tree);
+  Schema(Schema&&) noexcept;
+  ~Schema();
+  /// Throws InputError at the deepest place where the value breaks it, in the words of its titles.
+  void require(const Json& value) const;
+
+ private:
+  struct Compiled;
+  Json tree_;
+  std::unique_ptr<Compiled> compiled_;
+};
+
+/// A schema for each definition of a text, which may refer to those of scene.schema.json.
+std::map<std::string, Schema> schemasOfDefinitions(const char* text);
 
 /// Throws InputError at the deepest place where the document breaks formats/documents/scene.schema.json or journal.schema.json.
 void requireSchema(const Json& document, DocumentKind kind = DocumentKind::scene);

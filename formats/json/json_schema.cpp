@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <cstring>
+#include <mutex>
 #include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -37,6 +38,18 @@ void pointInside(Json& node) {
   }
 }
 
+/// What a reference says, and whatever that refers to, becomes a definition of `schema`.
+void takeDefinitions(const Json& node, const Json& from, Json& schema) {
+  constexpr std::string_view kPrefix = "#/definitions/";
+  if (node.is_structured())
+    for (const Json& item : node) takeDefinitions(item, from, schema);
+  if (!node.is_object() || !node.contains("$ref")) return;
+  const std::string name = node["$ref"].get<std::string>().substr(kPrefix.size());
+  if (schema["definitions"].contains(name) || !from.contains(name)) return;
+  schema["definitions"][name] = from[name];
+  takeDefinitions(from[name], from, schema);
+}
+
 Json withScene(Json journal) {
   Json scene = Json::parse(kSceneSchema);
   pointInside(journal);
@@ -48,28 +61,11 @@ Json withScene(Json journal) {
   return journal;
 }
 
-const Json& schemaOf(DocumentKind kind) {
-  static const Json scene = Json::parse(kSceneSchema);
+const Schema& schemaOf(DocumentKind kind) {
+  static const Schema scene(Json::parse(kSceneSchema));
   if (kind == DocumentKind::scene) return scene;
-  static const Json journal = withScene(Json::parse(kJournalSchema));
+  static const Schema journal(withScene(Json::parse(kJournalSchema)));
   return journal;
-}
-
-/// What says where a document breaks a schema.
-struct Checker {
-  explicit Checker(const Json& tree) {
-    const nlohmann::json plain = tree;
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), compiled);
-  }
-  valijson::Schema compiled;
-};
-
-const valijson::Schema& checkerOf(DocumentKind kind) {
-  static const Checker scene(schemaOf(DocumentKind::scene));
-  if (kind == DocumentKind::scene) return scene.compiled;
-  static const Checker journal(schemaOf(DocumentKind::journal));
-  return journal.compiled;
 }
 
 const Json* memberOf(const Json* object, const char* name) {
@@ -205,13 +201,27 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
 
 }  // namespace
 
-void requireSchema(const Json& document, DocumentKind kind) {
-  const Json& schema = schemaOf(kind);
-  if (keepsSchema(document, schema)) return;
+// What says where a document breaks the schema. It takes long to make.
+struct Schema::Compiled {
+  std::once_flag once;
+  valijson::Schema schema;
+};
+
+Schema::Schema(Json tree) : tree_(std::move(tree)), compiled_(std::make_unique<Compiled>()) {}
+Schema::Schema(Schema&&) noexcept = default;
+Schema::~Schema() = default;
+
+void Schema::require(const Json& document) const {
+  if (keepsSchema(document, tree_)) return;
+  std::call_once(compiled_->once, [this] {
+    const nlohmann::json plain = tree_;
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), compiled_->schema);
+  });
   const nlohmann::json plain = document;
   valijson::Validator validator;
   valijson::ValidationResults results;
-  if (validator.validate(checkerOf(kind), valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
+  if (validator.validate(compiled_->schema, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
 
   // Causes are reported before what follows from them, and outer alternatives before inner ones: so the first error
   // counts, unless a later one lies deeper inside the same place.
@@ -223,10 +233,28 @@ void requireSchema(const Json& document, DocumentKind kind) {
     if (first || inside) deepest = path;
     first = false;
   }
-  TreePlace place{&document, &schema, "", &schema};
+  TreePlace place{&document, &tree_, "", &tree_};
   for (std::size_t i = 1; i < deepest.size(); ++i)  // the first is the document itself
     if (!step(place, deepest[i])) break;
   explain(place);
+}
+
+void requireSchema(const Json& document, DocumentKind kind) { schemaOf(kind).require(document); }
+
+std::map<std::string, Schema> schemasOfDefinitions(const char* text) {
+  Json all = Json::parse(text);
+  pointInside(all);
+  Json definitions = Json::parse(kSceneSchema)["definitions"];
+  for (const auto& own : all["definitions"].items()) definitions[own.key()] = own.value();
+  std::map<std::string, Schema> schemas;
+  for (const auto& own : all["definitions"].items()) {
+    Json tree = *resolved(&own.value(), all);
+    const Json rules = tree;
+    tree["definitions"] = Json::object();
+    takeDefinitions(rules, definitions, tree);
+    schemas.emplace(own.key(), Schema(std::move(tree)));
+  }
+  return schemas;
 }
 
 }  // namespace carom::formats_detail

@@ -29,7 +29,7 @@ struct Container {
   bool has_binary = false;
 };
 
-std::uint32_t wordAt(std::string_view bytes, std::size_t offset) {
+std::uint32_t numberAt(std::string_view bytes, std::size_t offset) {
   std::uint32_t word = 0;
   for (std::size_t i = 4; i-- > 0;) word = (word << 8) | static_cast<unsigned char>(bytes[offset + i]);
   return word;
@@ -44,8 +44,8 @@ Container unpacked(std::string_view bytes) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   if (bytes.size() < kHeader + kChunkHeader)
     fail("", "a binary file of " + std::to_string(bytes.size()) + " bytes", "a header and a chunk, 20 bytes or more");
-  if (wordAt(bytes, 4) != 2) fail("", "version " + std::to_string(wordAt(bytes, 4)) + " of the container", "2");
-  const std::size_t length = wordAt(bytes, 8);
+  if (numberAt(bytes, 4) != 2) fail("", "version " + std::to_string(numberAt(bytes, 4)) + " of the container", "2");
+  const std::size_t length = numberAt(bytes, 8);
   if (length > bytes.size())
     fail("", "the end of the file after " + std::to_string(bytes.size()) + " bytes",
          std::to_string(length) + ", as its header says");
@@ -53,11 +53,11 @@ Container unpacked(std::string_view bytes) {
   int chunks = 0;
   for (std::size_t at = kHeader; at < length; ++chunks) {
     const std::size_t left = length - at;
-    const std::size_t size = left < kChunkHeader ? left : wordAt(bytes, at);
+    const std::size_t size = left < kChunkHeader ? left : numberAt(bytes, at);
     if (left < kChunkHeader || size > left - kChunkHeader)
       fail("", "a chunk at byte " + std::to_string(at) + " that goes beyond the end", "one within the file");
     const std::string_view content = bytes.substr(at + kChunkHeader, size);
-    const std::uint32_t type = wordAt(bytes, at + 4);
+    const std::uint32_t type = numberAt(bytes, at + 4);
     if ((chunks == 0) != (type == kJson))
       fail("", chunks == 0 ? "another first chunk" : "a second chunk of JSON", "one chunk of JSON, the first");
     if (type == kJson) container.json = content;

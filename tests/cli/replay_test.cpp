@@ -43,6 +43,21 @@ TEST(Replay, SaysWhereItDiffers) {
   EXPECT_NE(run.err.find("/gestures/1: velocity of 'ball', x: found"), std::string::npos) << run.err;
 }
 
+TEST(Replay, PlaysWhatAStudioDid) {
+  const std::string path = temporaryPath("studio.json");
+  saveJournal(path, {studioSession(), ""});
+  const json answer = runJson({"replay", path});
+  EXPECT_EQ(answer["same"], true);
+  Names gestures;
+  for (const json& gesture : answer["gestures"]) gestures.push_back(gesture["gesture"]);
+  EXPECT_EQ(gestures, (Names{"meet_nails", "drag", "drag", "nail_on", "content", "set_nail", "undo"}));
+  EXPECT_EQ(answer["gestures"][1]["updates"], 2) << "one of them rests";
+  const CommandRun text = runCommand({"replay", path});
+  EXPECT_EQ(text.code, 0) << text.err;
+  for (const char* words : {"drag 'ball', then nailed", "drag 'ball', nail 1", "nail_on, switched off", "content: a heavier ball"})
+    EXPECT_NE(text.out.find(words), std::string::npos) << words << '\n' << text.out;
+}
+
 TEST(Replay, BadJournals) {
   EXPECT_EQ(runCommand({"replay", temporaryPath("none.json")}).code, 1);
   EXPECT_EQ(runCommand({"replay"}).code, 2);

@@ -8,5 +8,7 @@ namespace carom::test {
 
 /// A ball that bounces on a floor is dragged once.
 SessionJournal shortSession();
+/// With what windows over sessions do: goals met together, a hand that rests, nails that are dragged, other content.
+SessionJournal studioSession();
 
 }  // namespace carom::test

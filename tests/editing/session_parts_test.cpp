@@ -120,6 +120,8 @@ TEST(SessionParts, AMotionThatEndsEarlySaysSo) {
   session.setControls({velocity("hit")});
   ASSERT_LT(session.motion().end, 3.0);
   EXPECT_NE(session.last().message.find("The motion ends at"), std::string::npos) << session.last().message;
+  EXPECT_NE(session.last().message.find("'floor' and 'hit' stay in contact."), std::string::npos)
+      << "no digits that nobody reads: " << session.last().message;
   try {
     session.grab("hit", 2.9);
     FAIL() << "expected InputError";

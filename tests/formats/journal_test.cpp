@@ -69,6 +69,108 @@ TEST(Journal, ReadsBackAsItWasAndPlaysTheSame) {
   parseDocument(writeDocument(end), "end");
 }
 
+/// A session with every kind of gesture that studios make.
+SessionJournal recordedInAStudio() {
+  const Document document = throwOfABox();
+  OdeContacts contacts(document.scene);
+  SessionOptions options;
+  options.drag_seconds = options.release_seconds = std::numeric_limits<double>::infinity();
+  options.dwell_simulations = 7;
+  options.unmet_nails_off = true;
+  std::vector<Constraint> goals = document.constraints;
+  goals.push_back(heldConstraint("box", 0.2, {.position = Vec3(0.4, any, any)}));
+  EditSession session(document.scene, contacts, document.duration, document.controls, goals, options);
+  session.meetNails();
+  session.setNailOn({0}, false);
+  session.setNail({1}, heldConstraint("box", 0.25, {.position = Vec3(0.4, any, any)}));
+  session.grab("box", 0.1, {}, {position("box")});
+  session.dragTo(session.grabbedPlace() + Vec3(0, 0.5, 0));
+  session.dwell();
+  session.releaseNailed(NailAt::where_it_got);
+  session.grabNail({1});
+  session.dragTo({0.5, 0, 0});
+  session.release();
+  SessionContent content = session.content();
+  content.scene.bodies[1].velocity.y() = 0.3;
+  Body pebble = content.scene.bodies[1];
+  pebble.name = "pebble", pebble.position.x() = 4;
+  content.scene.bodies.push_back(pebble);
+  content.duration = 2.5;
+  content.nails.push_back({NailId(), heldConstraint("pebble", 2.1, {.velocity = Vec3(1, any, any)})});
+  session.setContent(content, "velocity.y of 'box'");
+  session.grab("pebble", 0.3, {}, {velocity("pebble")});
+  session.dragTo(session.grabbedPlace() + Vec3(0.1, 0, 0));
+  session.release();
+  session.undo();
+  session.undo();
+  session.nail("box", 0.3, {.velocity = Vec3(any, 0.3, any)});
+  return session.journal();
+}
+
+TEST(Journal, GesturesOfAStudioReadBackAndPlayTheSame) {
+  const SessionJournal journal = recordedInAStudio();
+  const std::string text = writeJournal({journal, ""});
+  const JournalDocument read = parseJournal(text, "journal");
+  EXPECT_EQ(writeJournal(read), text);
+  ASSERT_EQ(read.journal.gestures.size(), journal.gestures.size());
+  EXPECT_EQ(read.journal.options.dwell_simulations, 7);
+  EXPECT_TRUE(read.journal.options.unmet_nails_off);
+  for (std::size_t i = 0; i < journal.gestures.size(); ++i) {
+    const SessionGesture &was = journal.gestures[i], &is = read.journal.gestures[i];
+    EXPECT_EQ(is.kind, was.kind) << i;
+    EXPECT_EQ(is.ending, was.ending) << i;
+    EXPECT_EQ(is.nail, was.nail) << i;
+    EXPECT_EQ(is.on, was.on) << i;
+    EXPECT_EQ(is.grabbed_nail, was.grabbed_nail) << i;
+    EXPECT_EQ(is.controls.size(), was.controls.size()) << i;
+    EXPECT_EQ(is.name, was.name) << i;
+    EXPECT_EQ(is.content.has_value(), was.content.has_value()) << i;
+  }
+  EXPECT_TRUE(read.journal.gestures[3].targets.at(1).dwell);
+  const std::vector<std::pair<NailId, Constraint>>& nails = read.journal.gestures[5].content->nails;
+  ASSERT_EQ(nails.size(), 4u);
+  EXPECT_EQ(nails[2].first.value, 2);
+  EXPECT_EQ(nails[3].first, NailId());
+
+  OdeContacts contacts(read.journal.scene);
+  SessionReplay replay(read.journal, contacts);
+  while (!replay.done()) {
+    const ReplayedGesture gesture = replay.next();
+    EXPECT_TRUE(gesture.differences.empty()) << gesture.differences[0];
+  }
+}
+
+TEST(Journal, BadGesturesOfAStudioAreRefused) {
+  const std::string good = writeJournal({recordedInAStudio(), ""});
+  const std::vector<std::vector<std::string>> cases = {
+      {"\"meet_nails\": true", "\"meet_nails\": false", "/gestures/0/meet_nails", "true"},
+      {"\"nail_on\": false", "\"nail_on\": 0", "/gestures/1/nail_on", "true or false"},
+      {"\"nail_on\": false,", "", "/gestures/1", "exactly one of"},
+      {"\"set_nail\": { \"body\": \"box\"", "\"set_nail\": { \"body\": \"hat\"", "/gestures/2/set_nail/body", "\"hat\""},
+      {"{ \"vary\": \"position\", \"body\": \"box\" }", "{ \"vary\": \"colour\", \"body\": \"box\" }",
+       "/gestures/3/also_vary/0/vary", "colour"},
+      {"\"dwell\": true", "\"dwell\": 1", "/gestures/3/targets/1/dwell", "true or false"},
+      {"\"grab_nail\": 1", "\"grab_nail\": -1", "/gestures/4/grab_nail", "the number of a nail"},
+      {"\"ids\": [0, 1, 2, null]", "\"ids\": [0, 1, 2]", "/gestures/5/ids", "4, one for each constraint"},
+      {"\"ids\": [0, 1, 2, null]", "\"ids\": [0, 1, 2, \"new\"]", "/gestures/5/ids/3", "or null"},
+      {"\"duration\": 2.5", "\"duration\": -2.5", "/gestures/5/content/duration", "a number > 0"},
+  };
+  for (const std::vector<std::string>& broken : cases) {
+    SCOPED_TRACE(broken[1]);
+    std::string text = good;
+    const std::size_t at = text.find(broken[0]);
+    ASSERT_NE(at, std::string::npos) << broken[0];
+    text.replace(at, broken[0].size(), broken[1]);
+    try {
+      parseJournal(text, "j.json");
+      ADD_FAILURE() << "was read";
+    } catch (const FormatError& error) {
+      EXPECT_EQ(error.where(), broken[2]) << error.what();
+      EXPECT_NE(std::string(error.what()).find(broken[3]), std::string::npos) << error.what();
+    }
+  }
+}
+
 struct BrokenJournal {
   const char *from, *to, *where, *message;
 };

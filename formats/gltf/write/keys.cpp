@@ -16,26 +16,7 @@ constexpr double kMaxTurn = 0.45;
 // Share of the tolerance that is used up; the rest is for blended quaternions and for floats.
 constexpr double kShare = 0.5;
 
-struct KeyPiece {
-  const Arc* arc;
-  double from, to;
-};
-
-// The arcs of a body, whole.
-std::vector<KeyPiece> arcsOf(const Motion& motion, int body) {
-  const auto& arcs = motion.world_lines[body].arcs;
-  std::vector<KeyPiece> pieces;
-  for (int k = 0; k < static_cast<int>(arcs.size()); ++k)
-    pieces.push_back({&arcs[k], arcs[k].start(), arcEnd(motion, body, k)});
-  return pieces;
-}
-
-// How many keys a second keep shortest turns near enough: between keys h apart they leave the motion by at most
-// h^2/8 |d omega/dt|.
-double rateOfTurns(const Arc& arc) {
-  if (arc.tier() == Tier::none) return 0;  // keeps its orientation
-  return std::max(std::sqrt(arc.spinRateBound() / (8 * kShare * kRotationTolerance)), arc.spinBound() / kMaxTurn);
-}
+double rateOfShortTurns(const Arc& arc) { return rateOfTurns(arc, {kShare * kRotationTolerance, kMaxTurn}); }
 
 // How many keep straight lines near enough: h^2/8 |acceleration of the origin|, which is that of the centre of mass and
 // c (omega^2 + |d omega/dt|) at a distance c from it.
@@ -59,37 +40,12 @@ double rateOfSwings(const Arc& arc) {
   return spin / std::pow(384 * kShare * kCubicTolerance / c, 0.25);
 }
 
-void requireFew(double keys, const Motion& motion, int body) {
-  const auto& bodies = motion.scene->bodies;
-  const std::size_t moving = movingCount(*motion.scene);
-  const bool few_alone = keys <= kMaxKeys;
-  if (few_alone && keys * static_cast<double>(moving) <= kMaxKeysOfAll) return;
-  const double most = few_alone ? std::floor(kMaxKeysOfAll / static_cast<double>(moving)) : kMaxKeys;
-  throw InputError("body '" + bodies[body].name + "'",
-                   "would need " + numberText(std::ceil(keys)) + " keys, at most " + numberText(most) + " are written" +
-                       (few_alone ? " of each of " + std::to_string(moving) + " moving bodies" : "") +
-                       "; a shorter motion, fewer frames a second, a larger tolerance or cubic keys need less");
-}
-
-// The arcs, each in equal parts.
-template <class Rate>
-std::vector<KeyPiece> evenPieces(const Motion& motion, int body, const Rate& rate) {
-  std::vector<KeyPiece> cut;
-  double total = 1;
-  for (const auto& [arc, from, to] : arcsOf(motion, body)) {
-    const double count = std::max(1.0, std::ceil((to - from) * rate(*arc))), step = (to - from) / count;
-    requireFew(total += count, motion, body);
-    for (double i = 0; i < count; ++i) cut.push_back({arc, from + i * step, i + 1 < count ? from + (i + 1) * step : to});
-  }
-  return cut;
-}
-
 // The arcs, each cut at its multiples of a frame's part.
 std::vector<KeyPiece> framePieces(const Motion& motion, int body, double fps, double tolerance) {
   std::vector<KeyPiece> cut;
   double total = 1;
   for (const auto& [arc, start, to] : arcsOf(motion, body)) {
-    const double need = std::max(rateOfTurns(*arc), rateOfLines(*arc, tolerance));
+    const double need = std::max(rateOfShortTurns(*arc), rateOfLines(*arc, tolerance));
     const double parts = std::ceil(need / fps), rate = parts * fps;
     requireFew(total += (to - start) * rate + 1, motion, body);
     double from = start;
@@ -104,11 +60,6 @@ std::vector<KeyPiece> framePieces(const Motion& motion, int body, double fps, do
   return cut;
 }
 
-// The time that a file has for t, which is a float's: values are of that time, so that long motions lose nothing to it.
-double storedTime(double t, const KeyPiece& piece) {
-  return std::clamp<double>(static_cast<float>(t), piece.arc->start(), piece.to);
-}
-
 void add(TranslationKeys& keys, double t, const Vec3& x, const Vec3& v_in, const Vec3& v_out) {
   const auto time = static_cast<float>(t);
   if (!keys.times.empty() && !(time > keys.times.back())) {
@@ -119,15 +70,6 @@ void add(TranslationKeys& keys, double t, const Vec3& x, const Vec3& v_in, const
   keys.values.push_back(x);
   keys.in_tangents.push_back(v_in);
   keys.out_tangents.push_back(v_out);
-}
-
-void add(RotationKeys& keys, double t, const KeyPiece& piece) {
-  const auto time = static_cast<float>(t);
-  if (!keys.times.empty() && !(time > keys.times.back())) return;
-  Quat q = toBodyState(piece.arc->model(), piece.arc->stateAt(storedTime(t, piece))).orientation;
-  if (!keys.values.empty() && keys.values.back().dot(q) < 0) q.coeffs() *= -1;
-  keys.times.push_back(time);
-  keys.values.push_back(q);
 }
 
 // Position and velocity of the shape's origin.
@@ -146,19 +88,12 @@ TranslationKeys moveKeys(const std::vector<KeyPiece>& pieces) {
   TranslationKeys keys;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const auto [arc, from, to] = pieces[k];
-    const Origin origin = originAt(*arc, storedTime(from, pieces[k]));
+    const Origin origin = originAt(*arc, pieces[k].storedTime(from));
     add(keys, from, origin.x, k > 0 ? originAt(*pieces[k - 1].arc, from).v : origin.v, origin.v);
   }
   if (pieces.empty()) return keys;
-  const Origin end = originAt(*pieces.back().arc, storedTime(pieces.back().to, pieces.back()));
+  const Origin end = originAt(*pieces.back().arc, pieces.back().storedTime(pieces.back().to));
   add(keys, pieces.back().to, end.x, end.v, end.v);
-  return keys;
-}
-
-RotationKeys turnKeys(const std::vector<KeyPiece>& pieces) {
-  RotationKeys keys;
-  for (const KeyPiece& piece : pieces) add(keys, piece.from, piece);
-  if (!pieces.empty()) add(keys, pieces.back().to, pieces.back());
   return keys;
 }
 
@@ -166,7 +101,9 @@ RotationKeys turnKeys(const std::vector<KeyPiece>& pieces) {
 
 TranslationKeys cubicKeys(const Motion& motion, int body) { return moveKeys(evenPieces(motion, body, rateOfSwings)); }
 
-RotationKeys turnKeys(const Motion& motion, int body) { return turnKeys(evenPieces(motion, body, rateOfTurns)); }
+RotationKeys turnKeys(const Motion& motion, int body) {
+  return turnKeys(evenPieces(motion, body, rateOfShortTurns));
+}
 
 FrameKeys frameKeys(const Motion& motion, int body, double fps, double tolerance) {
   const Body& b = motion.scene->bodies[body];

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "adjoint/motion/motion.h"
+#include "formats/drawing/turn_keys.hpp"
 
 namespace carom::formats_detail {
 
@@ -22,10 +23,6 @@ struct TranslationKeys {
   std::vector<Vec3> values;
   std::vector<Vec3> in_tangents, out_tangents;  ///< m/s, before and after each key
 };
-struct RotationKeys {
-  std::vector<float> times;
-  std::vector<Quat> values;  ///< neighbours in one hemisphere
-};
 
 /// One key at the start, at each event and at the end. With glTF's cubic
 ///   p(t) = h00 p_k + d h10 out_k + h01 p_k+1 + d h11 in_k+1,  d = t_k+1 - t_k
@@ -33,8 +30,6 @@ struct RotationKeys {
 /// along a line. A body that turns about a centre of mass beside its origin, or slides round a bend, gets as many keys
 /// between as kCubicTolerance asks for. The functions of this file throw
 /// InputError when the body would need more than kMaxKeys.
-inline constexpr double kMaxKeys = 2e6;
-inline constexpr double kMaxKeysOfAll = 5e6;  // bodies, if all need as many
 TranslationKeys cubicKeys(const Motion& motion, int body);
 /// Keys at the start, at each event, at the end and as many between as kRotationTolerance asks for.
 RotationKeys turnKeys(const Motion& motion, int body);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// carom studio: edits a motion in the browser, with the mouse.
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <spawn.h>
+
+#include <array>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/interruption.h"
+#include "studio/studio.h"
+
+extern char** environ;
+
+namespace carom::cli {
+namespace {
+
+struct StudioArguments {
+  studio::StudioOptions options;
+  bool open = true;
+};
+
+/// Shows the address in the browser of the desktop, where there is one.
+void openInBrowser(const std::string& address) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  std::string program = "xdg-open", argument = address;
+  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ);
+}
+
+Exit serve(const StudioArguments& arguments, Output& out) {
+  const Interruption::Stoppable stoppable(out.interruption());
+  studio::StudioOptions options = arguments.options;
+  options.stop = stoppable.token();
+  options.ready = [&](const std::string& address) {
+    std::cout << address << std::endl;
+    if (arguments.open) openInBrowser(address);
+  };
+  return static_cast<Exit>(studio::studio(options));
+}
+
+Action declareStudio(CLI::App& app) {
+  const auto arguments = std::make_shared<StudioArguments>();
+  studio::StudioOptions& options = arguments->options;
+  app.add_option("scene", options.scene, "The scene document that is open at first")->type_name("S.json");
+  app.add_option("--folder", options.folder, "Folder to open and save in; that of the scene, or else the current one")
+      ->type_name("DIR");
+  app.add_option("--port", options.port, "Port of 127.0.0.1, any that is free if not given")->type_name("N");
+  app.add_flag("!--no-open", arguments->open, "Print the address, but do not open it in the browser");
+  app.add_option("--page", options.share, "Folder of the page, in place of the installed one")
+      ->type_name("DIR")
+      ->group("");
+  return [arguments](Output& out) { return serve(*arguments, out); };
+}
+
+}  // namespace
+
+const Command kStudioCommand{
+    "studio", "Edit a motion in the browser, with the mouse",
+    "Serves a page for the browser of this machine, and of no other, until Ctrl-C. It prints the address,\n"
+    "which holds a secret: who has it may edit. On a desktop it is opened at once.\n"
+    "\n"
+    "Examples:\n"
+    "  carom studio examples/scenes/hat-on-coatrack.json\n"
+    "  carom studio --folder scenes --port 8080 --no-open",
+    declareStudio, false};
+
+}  // namespace carom::cli

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What a window over a session shows and does: goals that begin off, a drag out of reach and why, a hand that rests, nails
+// that are moved, and numbers that were typed.
+#include <cstdio>
+#include <string>
+
+#include "editing/session.h"
+#include "ode_bridge/ode_contacts.h"
+
+using namespace carom;
+
+namespace {
+
+Scene throwOfABall() {
+  Scene scene;
+  Body floor, ball;
+  floor.name = "floor", floor.fixed = true, floor.shape = Plane{};
+  ball.name = "ball", ball.shape = Sphere{0.1}, ball.mass = 1;
+  ball.position = {0, 0, 1}, ball.velocity = {2, 0, 3};
+  scene.bodies = {floor, ball};
+  return scene;
+}
+
+void tellNails(const EditSession& session) {
+  for (const NailState& nail : session.nailStates())
+    std::printf("  nail %d: %s, %s at %.3f s. %s\n", nail.id.value, nail.on ? "on" : "off", nail.met ? "met" : "not met",
+                nail.time, nail.message.c_str());
+}
+
+}  // namespace
+
+int main() {
+  const Scene scene = throwOfABall();
+  OdeContacts contacts(scene);
+  SessionOptions options;
+  options.unmet_nails_off = true;                       // nothing moves by itself
+  options.drag_seconds = options.release_seconds = 60;  // so that no clock ends an update, however slow the machine
+  const Constraint goal = heldConstraint("ball", 0.5, {.position = Vec3(1.2, any, any)});
+  EditSession session(scene, contacts, 1, {velocity("ball").within(-3, 3)}, {goal}, options);
+  std::printf("opened:\n");
+  tellNails(session);
+  session.meetNails();
+  std::printf("%s:\n", session.undoName().c_str());
+  tellNails(session);
+  session.setNailOn(session.nails().front(), false);
+
+  session.grab("ball", 0.5);
+  SessionUpdate update = session.dragTo({9, 0, 1.2});
+  update = session.dwell({}, [](const SessionUpdate& better) { static_cast<void>(better.motion); });  // to be drawn
+  const SessionObstacle& obstacle = update.obstacle;
+  std::printf("%.2f m from its target (%s). %s\n", update.distance, nameOf(obstacle.kind), obstacle.sentence.c_str());
+  session.releaseNailed(NailAt::where_it_got);
+  tellNails(session);
+
+  const NailId nail = session.nails().back();
+  session.grabNail(nail);
+  session.dragTo({1, 0, 1.5});
+  session.release();
+  std::printf("the nail is at x %.2f m\n", session.constraintOf(nail).targets[0].value[0]);
+
+  SessionContent content = session.content();
+  content.scene.bodies[1].velocity.x() = 2.5;
+  session.setContent(content, "velocity of the ball");
+  std::printf("after a number was typed:\n");
+  tellNails(session);
+  for (const SessionNumber& number : session.numbers())
+    std::printf("  %s: %.2f, from %g to %g\n", number.name.c_str(), number.value, number.min, number.max);
+  while (session.canUndo()) {
+    std::printf("undo %s\n", session.undoName().c_str());
+    session.undo();
+  }
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "studio/limits.h"
+#include "studio/mailbox.h"
+#include "studio/net.h"
+
+namespace carom::studio {
+
+/// Where messages of sockets go: hello with the right token first, then commands to the mailbox. Who does otherwise is
+/// told so. For the thread of the network.
+class Dispatcher {
+ public:
+  /// How it answers.
+  struct Line {
+    std::function<void(SocketId, std::string)> tell;
+    std::function<void(SocketId)> welcome;
+    std::function<void(SocketId, CloseReason, std::chrono::milliseconds)> close;
+  };
+
+  Dispatcher(Mailbox& mailbox, std::string token, const Limits& limits, Line line)
+      : mailbox_(mailbox), token_(std::move(token)), limits_(limits), line_(std::move(line)) {}
+
+  /// A message. False: the socket should not be read until there is room.
+  bool message(SocketId socket, const std::string& text);
+  /// A socket that is no more.
+  void gone(SocketId socket);
+
+ private:
+  bool greet(SocketId socket, Command command);
+
+  Mailbox& mailbox_;
+  const std::string token_;
+  const Limits limits_;
+  const Line line_;
+  std::set<SocketId> known_, refused_;
+};
+
+}  // namespace carom::studio

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// What a person can do besides dragging: called by keys, buttons and menus alike.
+
+import { hitAt } from './gesture.js';
+import { moves } from './motion.js';
+
+/** @typedef {import('./types.js').State} State */
+/** @typedef {import('./types.js').Constraint} Constraint */
+
+export class Commands {
+  /** @param {{store: import('./store.js').Store<State>, connection: import('./connection.js').Connection,
+   *    gesture: import('./gesture.js').Gesture, view: {frame: (body: number) => void},
+   *    ask: (question: string, yes: string) => Promise<boolean>, askName: (suggested: string) => Promise<string | null>}} parts */
+  constructor({ store, connection, gesture, view, ask, askName }) {
+    this.store = store;
+    this.connection = connection;
+    this.gesture = gesture;
+    this.view = view;
+    this.ask = ask;
+    this.askName = askName;
+    this.savingWaits = false;
+  }
+
+  /** Asks the server; says what went wrong. @param {string} type @param {object} members
+   * @returns {Promise<any>} null where it went wrong */
+  async tell(type, members = {}) {
+    try {
+      return await this.connection.request(type, members);
+    } catch (error) {
+      if (/** @type {any} */ (error).code === 'conflict') throw error;
+      this.store.set({ notice: { message: /** @type {any} */ (error).message, kind: 'red' } });
+      return null;
+    }
+  }
+
+  async undo() {
+    if (this.gesture.cancel()) return;
+    this.store.set({ card: null, changesShown: false, before: null, notice: this.withoutChanges() });
+    await this.tell('undo');
+  }
+
+  async redo() {
+    this.store.set({ card: null, changesShown: false, before: null, notice: this.withoutChanges() });
+    await this.tell('redo');
+  }
+
+  withoutChanges() {
+    return this.store.state.notice?.key === 'changes' ? null : this.store.state.notice;
+  }
+
+  async meetNails() {
+    this.store.set({ before: this.store.state.motion, changesShown: false, card: null });
+    const answer = await this.tell('meet_nails');
+    if (answer) this.gesture.ended('released', answer, false);
+  }
+
+  /** Saves what is verified; in a gesture when that has ended. @param {string} [path] @param {boolean} [replace] @returns {Promise<void>} */
+  async save(path, replace = false) {
+    const { document, gesture } = this.store.state;
+    if (!document?.open) return;
+    if (gesture.state !== 'idle') {
+      this.savingWaits = true;
+      return;
+    }
+    const where = path ?? document.path ?? (await this.askName('scene.json'));
+    if (!where) return;
+    try {
+      const answer = await this.tell('save', { ...(path || !document.path ? { path: where } : {}), ...(replace ? { replace } : {}) });
+      if (answer) this.store.set({ notice: { message: `Saved ${answer.path}.` } });
+    } catch (error) {
+      if (await this.ask(/** @type {any} */ (error).message, 'Replace it')) await this.save(where, true);
+    }
+  }
+
+  /** A save that waited for the end of a gesture. */
+  saveIfWaiting() {
+    if (!this.savingWaits) return;
+    this.savingWaits = false;
+    void this.save();
+  }
+
+  async saveAs() {
+    const name = await this.askName(this.store.state.document?.path ?? 'scene.json');
+    if (name) await this.save(name);
+  }
+
+  /** @param {{path: string, gallery?: boolean}} what @param {boolean} [replace] @returns {Promise<void>} */
+  async open(what, replace = false) {
+    this.store.set({ progress: `Opening ${what.path}…` });
+    try {
+      await this.tell('open', { ...what, ...(replace ? { replace } : {}) });
+    } catch (error) {
+      this.store.set({ progress: '' });
+      if (await this.ask(/** @type {any} */ (error).message, 'Open, and lose the steps')) return this.open(what, true);
+    }
+    this.store.set({ progress: '' });
+  }
+
+  /** Nails the selected body where it is. */
+  async nailHere() {
+    const { selected, document, motion, time } = this.store.state, body = document?.bodies[selected];
+    if (!body || body.fixed || !motion) return this.store.set({ notice: { message: 'Select a moving body to nail it.' } });
+    await this.tell('nail', { body: body.name, at: Math.min(time, motion.end) });
+  }
+
+  /** Removes the chosen nail. */
+  async removeNail(id = this.store.state.selectedNail) {
+    if (id >= 0) await this.tell('unnail', { nail: id });
+  }
+
+  /** @param {number} nail @param {Constraint} constraint */
+  async setNail(nail, constraint) {
+    this.store.set({ before: this.store.state.motion, card: null });
+    const answer = await this.tell('set_nail', { nail, constraint });
+    if (answer) this.gesture.ended('released', answer, false);
+  }
+
+  /** @param {import('./types.js').Control[]} controls all of them from now on */
+  async setControls(controls) {
+    await this.tell('controls', { rev: this.store.state.document?.rev ?? 0, controls });
+  }
+
+  /** @param {string} pointer @param {unknown} value */
+  async setValue(pointer, value) {
+    await this.tell('set', { rev: this.store.state.document?.rev ?? 0, edits: [{ pointer, value }] });
+  }
+
+  /** @param {'move' | 'turn'} tool takes the selected body, or shows its handles */
+  hold(tool) {
+    const { selected, motion, time, gesture } = this.store.state;
+    this.store.set({ tool });
+    if (selected < 0 || !motion || gesture.state !== 'idle') return;
+    this.gesture.beginByKey(hitAt(motion, selected, Math.min(time, motion.end)), tool);
+  }
+
+  /** @param {number} step */
+  selectNext(step) {
+    const { motion, scene, selected } = this.store.state;
+    const moving = motion?.tracks.filter((t) => !scene?.shapes[t.body]?.fixed && moves(t)).map((t) => t.body) ?? [];
+    if (!moving.length) return;
+    const i = moving.indexOf(selected);
+    this.store.set({ selected: i < 0 ? moving[0] : moving[(i + step + moving.length) % moving.length], selectedNail: -1 });
+  }
+
+  /** @param {number} time s */
+  seek(time) {
+    const end = this.store.state.motion?.end ?? 0;
+    this.store.set({ time: Math.max(0, Math.min(end, time)), playing: false });
+  }
+
+  /** @param {number} step in frames */
+  stepFrame(step) {
+    const { time, dots } = this.store.state, rate = dots || 24;
+    this.seek((step > 0 ? Math.floor(time * rate + 1e-6) + step : Math.ceil(time * rate - 1e-6) + step) / rate);
+  }
+
+  /** @param {1 | -1} step */
+  stepImpact(step) {
+    const { motion, time, selected } = this.store.state;
+    const times = motion?.impacts.filter((one) => selected < 0 || one.bodies.includes(selected)).map((one) => one.t) ?? [];
+    const next = step > 0 ? times.find((t) => t > time + 1e-6) : times.findLast((t) => t < time - 1e-6);
+    if (next !== undefined) this.seek(next);
+  }
+
+  togglePlay() {
+    const { playing, motion, time } = this.store.state;
+    if (!motion) return;
+    this.store.set({ playing: !playing, ...(!playing && time >= motion.end - 1e-9 ? { time: 0 } : {}) });
+  }
+}

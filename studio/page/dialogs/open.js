@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Opening: the example scenes with their pictures, and the scenes of the folder. The empty page shows the same.
+
+import { byId, el } from '../dom.js';
+import { dialog } from './ask.js';
+
+/** @typedef {import('../commands.js').Commands} Commands */
+/** @typedef {{path: string, name: string, title?: string, notes?: string, picture?: string | null}} GalleryScene */
+
+/** @param {Commands} commands @param {() => void} opened @returns {Promise<HTMLElement>} */
+async function galleryCards(commands, opened) {
+  const answer = await commands.tell('gallery'), grid = el('div', { class: 'gallery' });
+  for (const scene of /** @type {GalleryScene[]} */ (answer?.scenes ?? [])) {
+    const picture = scene.picture ? el('img', { src: scene.picture, alt: '', loading: 'lazy' }) : el('span', { class: 'no-picture' });
+    grid.append(el('button', { type: 'button', class: 'scene', title: scene.notes ?? scene.name, onclick: () => {
+      opened();
+      void commands.open({ path: scene.path, gallery: true });
+    } }, picture, el('span', {}, scene.name)));
+  }
+  return grid;
+}
+
+/** @param {Commands} commands @param {string} path @param {(path: string) => void} enter a folder @param {() => void} opened
+ * @returns {Promise<HTMLElement>} */
+async function folderList(commands, path, enter, opened) {
+  const answer = await commands.tell('list', path ? { path } : {}), list = el('ul', { class: 'files' });
+  const above = path.includes('/') ? path.slice(0, path.lastIndexOf('/')) : '';
+  if (path) list.append(el('li', {}, el('button', { type: 'button', class: 'row', onclick: () => enter(above) }, '↑ ..')));
+  for (const { path: at, name, kind } of /** @type {{path: string, name?: string, kind: string}[]} */ (answer?.files ?? [])) {
+    const open = kind === 'folder' ? () => enter(at) : () => {
+      opened();
+      void commands.open({ path: at });
+    };
+    list.append(el('li', {}, el('button', { type: 'button', class: 'row', onclick: open }, kind === 'folder' ? '▸ ' : '', name ?? at)));
+  }
+  if (!answer?.files?.length) list.append(el('li', { class: 'dim' }, 'no scenes here'));
+  return list;
+}
+
+/** @param {Commands} commands */
+export async function openDialog(commands) {
+  let close = () => {};
+  const files = el('div', {}), enter = async (/** @type {string} */ path) => {
+    files.replaceChildren(el('h3', {}, path || 'This folder'), await folderList(commands, path, (next) => void enter(next), () => close()));
+  };
+  const [gallery] = await Promise.all([galleryCards(commands, () => close()), enter('')]);
+  await dialog('Open', [files, el('h3', {}, 'Examples'), gallery], (end) => {
+    close = () => end('');
+    return [el('button', { type: 'button', onclick: close }, 'Cancel')];
+  }, 'wide');
+}
+
+/** What is shown where nothing is open. @param {import('../store.js').Store<import('../types.js').State>} store @param {Commands} commands */
+export function showEmpty(store, commands) {
+  const place = byId('empty');
+  let filled = false;
+  store.on(['document', 'connected', 'progress'], async ({ document, connected, progress }) => {
+    const empty = connected === 'open' && document?.open === false && !progress;
+    place.hidden = !empty;
+    if (!empty || filled) return;
+    filled = true;
+    const gallery = await galleryCards(commands, () => {});
+    const open = el('button', { type: 'button', class: 'primary', onclick: () => void openDialog(commands) }, 'Open a scene…');
+    place.replaceChildren(el('h1', {}, 'Open a scene, or start from one of these'), open, gallery);
+  });
+}

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// The one state machine of the hand: idle, pressed, dragging, typing, settling. Escape leaves every state. It sees the
+// screen through `space` and the server through `connection`, so that tests can stand in for both.
+
+import { DragSender } from './connection.js';
+import { controlsMove, throwOf } from './causes.js';
+import { pointAt, turnAt } from './motion.js';
+import { evaluate } from './number_field_text.js';
+import { idleGesture } from './store.js';
+import { Move, nextAxis } from './tools/move.js';
+import { Turn } from './tools/turn.js';
+
+/** @typedef {import('./types.js').Hit} Hit */
+/** @typedef {import('./types.js').Vec3} Vec3 */
+/** @typedef {{ray: (x: number, y: number) => import('./tools/move.js').Ray, project: (p: Vec3) => [number, number],
+ *    camera: () => {view: Vec3, right: Vec3, up: Vec3, perPixel: (p: Vec3) => number}}} Space */
+/** @typedef {{store: import('./store.js').Store<import('./types.js').State>, space: Space,
+ *    connection: Pick<import('./connection.js').Connection, 'send' | 'request'>,
+ *    select: (hit: Hit | null) => void, ended: (how: 'released' | 'cancelled', answer: any, nailed: boolean) => void,
+ *    later?: (act: () => void, ms: number) => unknown}} Parts */
+
+const clickPixels = 4, settlingShownAfter = 150;
+
+export class Gesture {
+  /** @param {Parts} parts */
+  constructor({ store, space, connection, select, ended, later = (act, ms) => setTimeout(act, ms) }) {
+    this.store = store;
+    this.space = space;
+    this.connection = connection;
+    this.select = select;
+    this.ended = ended;
+    this.later = later;
+    this.number = 0;
+    /** @type {DragSender | null} */
+    this.sender = null;
+    this.dragId = 0;
+    /** @type {Move | Turn | null} */
+    this.tool = null;
+    /** @type {[number, number]} */
+    this.from = [0, 0];
+    /** @type {[number, number]} */
+    this.pointer = [0, 0];
+    this.byKey = false;
+  }
+
+  get now() {
+    return this.store.state.gesture;
+  }
+
+  /** @param {Partial<import('./types.js').GestureState>} patch */
+  put(patch) {
+    this.store.set({ gesture: { ...this.now, ...patch } });
+  }
+
+  /** The left button went down on something that can be held, or on nothing. @param {Hit | null} hit
+   * @param {number} x @param {number} y @returns {boolean} whether the press is the gesture's: nothing orbits then */
+  press(hit, x, y) {
+    if (this.now.state === 'dragging' || this.now.state === 'typing') {
+      if (this.byKey) this.release();
+      return true;
+    }
+    if (this.now.state === 'settling') {
+      this.connection.send('stop');
+      this.store.set({ gesture: idleGesture });
+    }
+    this.from = this.pointer = [x, y];
+    if (!hit) return false;
+    this.store.set({ gesture: { ...idleGesture, state: 'pressed', hit }, playing: false, hover: null });
+    return true;
+  }
+
+  /** @param {number} x @param {number} y */
+  move(x, y) {
+    this.pointer = [x, y];
+    const { state, hit } = this.now;
+    if (state === 'pressed' && hit && Math.hypot(x - this.from[0], y - this.from[1]) > clickPixels) this.begin(hit, false);
+    if (this.now.state === 'dragging') this.follow();
+  }
+
+  /** @param {number} x @param {number} y */
+  up(x, y) {
+    this.pointer = [x, y];
+    const { state, hit } = this.now;
+    if (state === 'pressed') {
+      this.store.set({ gesture: idleGesture });
+      this.select(hit);
+    } else if ((state === 'dragging' || state === 'typing') && !this.byKey) {
+      this.release();
+    }
+  }
+
+  /** By G or R: takes hold of the selected body where the play head is. @param {Hit} hit @param {'move' | 'turn'} tool */
+  beginByKey(hit, tool) {
+    if (this.now.state === 'settling') this.connection.send('stop');
+    else if (this.now.state !== 'idle') return;
+    this.from = this.pointer = this.space.project(hit.place);
+    this.store.set({ tool, playing: false, hover: null });
+    this.begin({ ...hit, handle: undefined }, true);
+  }
+
+  /** @param {Hit} hit @param {boolean} by_key */
+  begin(hit, by_key) {
+    const refusal = this.refusal(hit);
+    if (refusal) {
+      this.store.set({ gesture: idleGesture, notice: { message: refusal } });
+      return;
+    }
+    const { motion } = this.store.state;
+    if (!motion) return;
+    this.byKey = by_key;
+    this.tool = this.makeTool(hit);
+    this.store.set({
+      before: motion, changesShown: false, card: null, selected: hit.body, time: hit.time,
+      gesture: { ...idleGesture, state: 'dragging', hit, axis: this.tool.axis },
+    });
+    this.grab();
+  }
+
+  /** Why a body cannot be held; empty where it can. @param {Hit} hit */
+  refusal(hit) {
+    const { document, locked } = this.store.state, body = document?.bodies[hit.body];
+    if (!document || !body) return 'Nothing is open.';
+    if (body.fixed) return `'${body.name}' is fixed: it does not move.`;
+    if (body.kinematic) return `'${body.name}' moves as it is written: nothing moves it.`;
+    if (locked.has(body.name)) return `'${body.name}' is locked; the switch is in the list of bodies.`;
+    return '';
+  }
+
+  /** @param {Hit} hit */
+  makeTool(hit) {
+    const { motion, tool } = this.store.state, track = motion?.tracks[hit.body];
+    if (!track) throw new Error('a body without a track is held');
+    const { view, right, up } = this.space.camera(), handle = hit.handle ?? '';
+    const turn = turnAt(track, hit.time);
+    if (hit.kind !== 'nail' && (handle.startsWith('ring') || (!handle && tool === 'turn'))) {
+      const centre = this.space.project(hit.place);
+      return new Turn({ start: hit.place, turn, view, right, up, pointer: this.from, centre, axis: handle.replace('ring ', '') });
+    }
+    const move = new Move({ start: hit.place, turn, ray: this.space.ray(...this.from), view });
+    if (handle) move.setAxis(handle);
+    return move;
+  }
+
+  /** Tells the server what is held; again where the axis changes what is held. */
+  grab() {
+    const { hit } = this.now, { document, motion, leaveRestFree } = this.store.state;
+    if (!hit || !document || !motion || !this.tool) return;
+    const gesture = ++this.number;
+    this.sender = new DragSender((members) => void (this.dragId = this.connection.send('drag', members)), gesture);
+    this.put({ number: gesture, seq: 0, answered: -1 });
+    let asked;
+    if (hit.kind === 'nail') {
+      asked = this.connection.request('grab_nail', { gesture, nail: hit.nail });
+    } else {
+      const body = document.bodies[hit.body].name, { center } = motion.tracks[hit.body];
+      const components = leaveRestFree ? this.tool.components() : null;
+      const grip = {
+        ...(center.some((c) => Math.abs(c) > 1e-12) ? { point: center } : {}),
+        ...(this.tool instanceof Turn ? { orientation: true } : {}),
+        ...(components ? { components } : {}),
+      };
+      const free = !controlsMove(document, motion.impacts, hit.body, hit.time);
+      asked = this.connection.request('grab', { gesture, body, at: hit.at, grip, ...(free ? { also_vary: throwOf(body) } : {}) });
+      if (free) this.sayThatThrowVaries(body);
+    }
+    asked.catch((error) => {
+      if (this.now.number !== gesture) return;
+      this.store.set({ gesture: idleGesture, notice: error.code === 'lost' ? this.store.state.notice : { message: error.message, kind: 'red' } });
+    });
+  }
+
+  /** @param {string} body */
+  sayThatThrowVaries(body) {
+    const undo = { name: 'Undo', act: () => void this.connection.send('undo') };
+    this.store.set({ notice: { message: `The throw of '${body}' may change now.`, actions: [undo] } });
+  }
+
+  /** The hand is where the pointer is. */
+  follow() {
+    if (!this.tool) return;
+    this.offer(this.tool instanceof Turn ? this.tool.target(this.pointer) : this.tool.target(this.space.ray(...this.pointer)));
+  }
+
+  /** @param {import('./connection.js').DragTarget} target */
+  offer(target) {
+    this.sender?.offer(target);
+    this.put({ target: target.place, turn: target.orientation ?? null, seq: this.sender?.seq ?? 0 });
+  }
+
+  /** A letter in a drag. @param {'x' | 'y' | 'z'} letter @param {boolean} plane */
+  setAxis(letter, plane) {
+    if (this.now.state !== 'dragging' || !this.tool) return;
+    const axis = nextAxis(this.tool.axis, letter, plane);
+    this.tool.setAxis(axis);
+    this.put({ axis: this.tool.axis });
+    if (this.store.state.leaveRestFree && this.now.hit?.kind !== 'nail') {
+      this.connection.send('cancel', { gesture: this.now.number });
+      this.grab();
+    }
+    this.follow();
+  }
+
+  /** An arrow key in a drag. @param {number} dx @param {number} dy in steps */
+  nudge(dx, dy) {
+    const { hit, state } = this.now;
+    if (state !== 'dragging' || !this.tool || !hit) return;
+    const { right, up, perPixel } = this.space.camera(), step = 4 * perPixel(hit.place);
+    this.offer(this.tool.nudge(right, up, dx * step, dy * step));
+  }
+
+  startTyping() {
+    if (this.now.state === 'dragging') this.put({ state: 'typing' });
+  }
+
+  stopTyping() {
+    if (this.now.state === 'typing') this.put({ state: 'dragging' });
+  }
+
+  /** Takes the numbers of the field as the target, and ends the drag there. @param {string} text
+   * @returns {boolean} whether they say something here */
+  type(text) {
+    const parts = text.trim().split(/[\s,;]+/).map(evaluate);
+    const target = parts.every((part) => part !== null) ? this.tool?.typed(parts.map(Number)) : null;
+    if (!target) return false;
+    this.offer(target);
+    this.release();
+    return true;
+  }
+
+  release() {
+    const { sender } = this;
+    if (!sender || !['dragging', 'typing'].includes(this.now.state)) return;
+    const gesture = this.now.number, nail = this.now.hit?.kind !== 'nail' && (this.now.nailing || this.store.state.nailOnRelease);
+    this.put({ state: 'settling' });
+    this.later(() => {
+      if (this.now.state === 'settling' && this.now.number === gesture) this.put({ settlingShown: true });
+    }, settlingShownAfter);
+    this.connection.request('release', { ...sender.last(), ...(nail ? { nail } : {}) }).then(
+      (answer) => this.settled(gesture, 'released', answer, nail),
+      (error) => {
+        if (this.now.number !== gesture) return;
+        this.store.set({ gesture: idleGesture });
+        if (error.code !== 'lost') this.store.set({ notice: { message: error.message, kind: 'red' } });
+      },
+    );
+    this.sender = null;
+  }
+
+  /** @param {number} gesture @param {'released' | 'cancelled'} how @param {any} answer @param {boolean} nailed */
+  settled(gesture, how, answer, nailed) {
+    if (this.now.state === 'settling' && this.now.number === gesture) this.store.set({ gesture: idleGesture });
+    this.ended(how, answer, nailed);
+  }
+
+  /** Escape, or the right button. @returns {boolean} whether there was something to leave */
+  cancel() {
+    const { state, number } = this.now;
+    if (state === 'typing') {
+      this.stopTyping();
+    } else if (state === 'pressed') {
+      this.store.set({ gesture: idleGesture });
+    } else if (state === 'dragging') {
+      this.sender = null;
+      this.store.set({ gesture: idleGesture, before: null });
+      this.connection.request('cancel', { gesture: number }).then((answer) => this.ended('cancelled', answer, false), () => {});
+    } else if (state === 'settling') {
+      this.connection.send('stop');
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  /** A motion of this gesture came. @param {{gesture?: number, seq?: number}} motion */
+  answered({ gesture, seq }) {
+    if (gesture !== this.now.number || seq === undefined) return;
+    this.sender?.answered(seq);
+    this.put({ answered: seq, seq: this.sender?.seq ?? this.now.seq });
+  }
+
+  /** An error came; where it is that of the last drag, the next may go. @param {number | undefined} re */
+  failed(re) {
+    if (re && re === this.dragId && this.sender) this.sender.answered(this.sender.seq);
+  }
+
+  /** The connection broke. @returns {boolean} whether a gesture was under way */
+  lost() {
+    const { state } = this.now, was_held = state === 'dragging' || state === 'typing';
+    this.sender = null;
+    if (state !== 'idle') this.store.set({ gesture: idleGesture, before: null });
+    return was_held;
+  }
+}
+
+/** What a body is held by where the play head is. @param {import('./types.js').Motion} motion @param {number} body
+ * @param {number} time @returns {Hit} */
+export function hitAt(motion, body, time) {
+  const track = motion.tracks[body];
+  return { kind: 'body', body, time, at: time, place: pointAt(track, track.center, time) };
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The bar on top: file menu, what is open, undo and redo by name, save; and the tools beside the view.
+
+import { byId, el } from './dom.js';
+import { openDialog } from './dialogs/open.js';
+import { keysDialog } from './dialogs/keys.js';
+import { moveDialog, tableDialog } from './dialogs/table.js';
+
+/** @typedef {import('./types.js').State} State */
+
+/** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands
+ * @param {import('./gesture.js').Gesture} gesture */
+export function showHeader(store, commands, gesture) {
+  const undo = button('undo', () => void commands.undo()), redo = button('redo', () => void commands.redo());
+  const save = button('save', () => void commands.save());
+  button('help', () => void keysDialog(store));
+  button('file', () => undefined);
+  showMenu(store, commands, gesture);
+  store.on(['document', 'connected'], ({ document, connected }) => {
+    const usable = connected === 'open' && !!document?.open;
+    names(undo, 'Undo', document?.undo ?? null, usable);
+    names(redo, 'Redo', document?.redo ?? null, usable);
+    save.disabled = !usable;
+    const name = document?.open ? (document.path ?? document.name ?? 'not saved yet') : '';
+    byId('document').textContent = name.slice(name.lastIndexOf('/') + 1);
+    byId('document').title = name;
+    byId('unsaved').hidden = !document?.open || document.saved;
+    globalThis.document.title = name ? `${document?.saved ? '' : '● '}${name} – carom` : 'carom';
+  });
+  showTools(store, commands);
+}
+
+/** @param {string} id @param {() => void} act */
+function button(id, act) {
+  const element = /** @type {HTMLButtonElement} */ (byId(id));
+  element.addEventListener('click', act);
+  return element;
+}
+
+/** @param {HTMLButtonElement} element @param {string} word @param {string | null} what @param {boolean} usable */
+function names(element, word, what, usable) {
+  element.disabled = !usable || what === null;
+  const name = what ? `${word}: ${what}` : word;
+  element.title = name;
+  element.setAttribute('aria-label', name);
+}
+
+/** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands
+ * @param {import('./gesture.js').Gesture} gesture */
+function showMenu(store, commands, gesture) {
+  const menu = byId('menu');
+  /** @type {[string, () => void][]} */
+  const rows = [
+    ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()],
+    ['Move to…', () => void moveDialog(store, gesture)], ['Motion as a table', () => void tableDialog(store)], ['Keys', () => void keysDialog(store)],
+  ];
+  for (const [name, act] of rows) {
+    menu.append(el('button', { type: 'button', class: 'row', onclick: () => {
+      menu.hidePopover();
+      act();
+    } }, name));
+  }
+  menu.append(choice(store, 'Paths', 'showBefore', [['none', 'of now alone'], ['opened', 'and as opened'], ['saved', 'and as saved']]),
+    choice(store, 'Dots a second', 'dots', [[24, '24'], [30, '30'], [60, '60'], [0, 'none']]),
+    choice(store, 'Drawing', 'quality', [['high', 'fine'], ['low', 'fast']]),
+    choice(store, 'Keys like', 'keymap', [['blender', 'Blender'], ['maya', 'Maya']]));
+}
+
+/** @template {keyof State} K @param {import('./store.js').Store<State>} store @param {string} name @param {K} key
+ * @param {[State[K], string][]} options */
+function choice(store, name, key, options) {
+  const select = el('select', { onchange: () => store.set(/** @type {Partial<State>} */ ({ [key]: options[select.selectedIndex][0] })) },
+    ...options.map(([, text]) => el('option', {}, text)));
+  store.on([key], (state) => (select.selectedIndex = Math.max(0, options.findIndex(([value]) => value === state[key]))));
+  return el('label', { class: 'choice' }, name, select);
+}
+
+/** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
+function showTools(store, commands) {
+  const move = button('tool-move', () => store.set({ tool: 'move' })), turn = button('tool-turn', () => store.set({ tool: 'turn' }));
+  button('tool-nail', () => void commands.nailHere());
+  const nailing = button('nail-on-release', () => store.set({ nailOnRelease: !store.state.nailOnRelease }));
+  const free = button('leave-rest-free', () => store.set({ leaveRestFree: !store.state.leaveRestFree }));
+  store.on(['tool', 'nailOnRelease', 'leaveRestFree'], ({ tool, nailOnRelease, leaveRestFree }) => {
+    move.setAttribute('aria-pressed', String(tool === 'move'));
+    turn.setAttribute('aria-pressed', String(tool === 'turn'));
+    nailing.setAttribute('aria-pressed', String(nailOnRelease));
+    free.setAttribute('aria-pressed', String(leaveRestFree));
+  });
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Mouse and keys, taken to the gesture and the commands.
+
+import { actionOf, chordOf, takesKeys } from './keys.js';
+import { byId } from './dom.js';
+import { keysDialog } from './dialogs/keys.js';
+import { openDialog } from './dialogs/open.js';
+
+/** @typedef {{store: import('./store.js').Store<import('./types.js').State>, gesture: import('./gesture.js').Gesture,
+ *    commands: import('./commands.js').Commands, overlay: import('./overlay/overlay.js').Overlay,
+ *    view: import('./view/view.js').View, frame: (body: number) => void}} Parts */
+
+/** @param {Parts} parts */
+export function listenToPointer({ store, gesture, overlay, view }) {
+  const { canvas } = overlay, typing = /** @type {HTMLInputElement} */ (byId('typing'));
+  let orbiting = false;
+  /** Before the camera's own listener, so that a press on a thing does not turn it. @param {PointerEvent} event */
+  const press = (event) => {
+    canvas.focus();
+    const hit = event.button === 0 && !event.shiftKey && !event.ctrlKey && !event.metaKey ? overlay.under(event.offsetX, event.offsetY) : null;
+    const taken = ['dragging', 'typing'].includes(store.state.gesture.state) && event.button !== 0
+      || event.button === 0 && store.state.connected === 'open' && gesture.press(hit, event.offsetX, event.offsetY);
+    view.camera.enable(!taken);
+    orbiting = !taken;
+    if (taken) canvas.setPointerCapture(event.pointerId);
+    else store.set({ hover: null });
+  };
+  canvas.addEventListener('pointerdown', press, { capture: true });
+  canvas.addEventListener('pointermove', (event) => {
+    if (store.state.gesture.state === 'idle' || store.state.gesture.state === 'settling') {
+      if (!orbiting && !store.state.playing && store.state.connected === 'open') hover(event);
+      return;
+    }
+    gesture.move(event.offsetX, event.offsetY);
+  });
+  /** @param {PointerEvent} event */
+  const hover = (event) => {
+    const hit = overlay.under(event.offsetX, event.offsetY), was = store.state.hover;
+    const same = hit && was && hit.kind === was.kind && hit.body === was.body && hit.time === was.time && hit.handle === was.handle && hit.nail === was.nail && hit.impact === was.impact;
+    if (!same && (hit || was)) store.set({ hover: hit && store.state.scene?.shapes[hit.body]?.fixed ? null : hit });
+    canvas.classList.toggle('open-hand', !!store.state.hover);
+  };
+  // a second button is a mousedown, but no pointerdown, while the first is held
+  canvas.addEventListener('mousedown', (event) => {
+    if (event.button !== 2 || !['dragging', 'typing'].includes(store.state.gesture.state)) return;
+    gesture.stopTyping();
+    gesture.cancel();
+  });
+  let down = /** @type {[number, number]} */ ([0, 0]);
+  canvas.addEventListener('pointerdown', (event) => (down = [event.offsetX, event.offsetY]));
+  canvas.addEventListener('pointerup', (event) => {
+    const clicked = orbiting && event.button === 0 && Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) <= 4;
+    orbiting = false;
+    view.camera.enable(true);
+    if (event.button === 0) gesture.up(event.offsetX, event.offsetY);
+    if (clicked && !event.shiftKey) store.set({ selected: -1, selectedNail: -1 });
+  });
+  canvas.addEventListener('pointercancel', () => {
+    orbiting = false;
+    gesture.cancel();
+  });
+  canvas.addEventListener('pointerleave', () => store.state.gesture.state === 'idle' && store.set({ hover: null }));
+  canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  window.addEventListener('blur', () => store.state.gesture.nailing && gesture.put({ nailing: false }));
+  store.on(['gesture'], ({ gesture: now }) => {
+    canvas.classList.toggle('closed-hand', now.state === 'dragging' || now.state === 'pressed');
+    const shown = now.state === 'typing';
+    if (shown === !typing.hidden) return;
+    typing.hidden = !shown;
+    if (!shown) return canvas.focus();
+    typing.style.left = `${Math.min(gesture.pointer[0] + 14, canvas.clientWidth - 170)}px`;
+    typing.style.top = `${Math.max(8, gesture.pointer[1] - 34)}px`;
+    typing.placeholder = store.state.tool === 'turn' ? 'degrees' : now.axis ? 'm' : 'x y z, m';
+    typing.focus();
+  });
+  typing.addEventListener('keydown', (event) => {
+    event.stopPropagation();
+    if (event.key === 'Escape') gesture.stopTyping();
+    if (event.key === 'Enter') typing.toggleAttribute('aria-invalid', !gesture.type(typing.value));
+  });
+}
+
+/** @param {Parts} parts */
+export function listenToKeys({ store, gesture, commands, frame, overlay }) {
+  const typing = /** @type {HTMLInputElement} */ (byId('typing'));
+  window.addEventListener('keydown', (event) => {
+    if (takesKeys(document.activeElement) || document.querySelector('dialog[open]') || event.altKey) return;
+    const dragging = store.state.gesture.state === 'dragging';
+    if (dragging && /^[-.\d]$/.test(event.key) && !event.ctrlKey) {
+      typing.value = event.key;
+      gesture.startTyping();
+      event.preventDefault();
+      return;
+    }
+    if (dragging && event.key.startsWith('Arrow')) {
+      const far = event.shiftKey ? 10 : 1, [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] ?? [0, 0];
+      gesture.nudge(dx * far, dy * far);
+      event.preventDefault();
+      return;
+    }
+    const on_button = document.activeElement?.tagName === 'BUTTON';
+    if (on_button && (event.key === ' ' || event.key === 'Enter')) return;
+    const found = actionOf(chordOf(event), store.state.keymap, dragging);
+    if (!found) return;
+    event.preventDefault();
+    act(found.action, found.shift, event.repeat);
+  });
+  window.addEventListener('keyup', (event) => {
+    const found = actionOf(chordOf(event), store.state.keymap, store.state.gesture.state === 'dragging');
+    if (found?.action === 'before') store.set({ showBefore: 'none' });
+    if (found?.action === 'nail' && store.state.gesture.nailing) gesture.put({ nailing: false });
+  });
+
+  /** @param {import('./keys.js').Action} action @param {boolean} shift @param {boolean} repeat */
+  function act(action, shift, repeat) {
+    const { selected, selectedNail, gesture: now } = store.state;
+    /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
+    const acts = {
+      'axis x': () => gesture.setAxis('x', shift), 'axis y': () => gesture.setAxis('y', shift), 'axis z': () => gesture.setAxis('z', shift),
+      confirm: () => gesture.release(), cancel: () => void (gesture.cancel() || store.set({ selected: -1, selectedNail: -1 })),
+      earlier: () => commands.stepFrame(-1), later: () => commands.stepFrame(1), 'impact before': () => commands.stepImpact(-1),
+      'impact after': () => commands.stepImpact(1), 'body before': () => commands.selectNext(-1), 'body after': () => commands.selectNext(1),
+      start: () => commands.seek(0), end: () => commands.seek(Infinity),
+      frame: () => frame(selected), 'frame all': () => frame(-1), before: () => store.set({ showBefore: 'opened' }),
+    };
+    /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
+    const once = {
+      move: () => commands.hold('move'), turn: () => commands.hold('turn'),
+      nail: () => (now.state === 'dragging' ? gesture.put({ nailing: true }) : void commands.nailHere()),
+      remove: () => void (selectedNail >= 0 && commands.removeNail()), play: () => commands.togglePlay(),
+      undo: () => void commands.undo(), redo: () => void commands.redo(), save: () => void commands.save(), open: () => void openDialog(commands),
+      panel: () => store.set({ panel: !store.state.panel }), keys: () => void keysDialog(store),
+    };
+    if (acts[action]) acts[action]();
+    else if (!repeat) once[action]?.();
+    if (action === 'move' || action === 'turn') overlay.canvas.focus();
+  }
+}

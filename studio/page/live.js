@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What the hand and the play head do, in words: the readout below the view, and for screen readers.
+
+import { byId, el } from './dom.js';
+import { centreAt } from './motion.js';
+import { lengthText } from './number_field_text.js';
+
+/** @typedef {import('./types.js').State} State */
+
+/** @param {import('./store.js').Store<State>} store */
+export function showReadout(store) {
+  const readout = byId('readout'), live = byId('live');
+  store.on(['time', 'motion', 'selected', 'gesture', 'document'], (state) => {
+    const { motion, selected, document, gesture, time } = state, body = document?.bodies[selected], track = motion?.tracks[selected];
+    readout.hidden = !motion || !body || !track;
+    if (!motion || !body || !track) return;
+    const at = Math.min(time, motion.end), [x, y, z] = centreAt(track, at).map((c) => c.toFixed(3).replace('-', '−'));
+    const [words, kind] = standing(state);
+    readout.replaceChildren(
+      el('strong', { class: 'cut' }, body.name), el('span', { class: 'dim' }, `${at.toFixed(3)} s`), el('span', { class: 'dim' }, `${x} ${y} ${z} m`),
+      ...(words ? [el('span', { class: kind }, words)] : []), ...(gesture.axis ? [el('span', { class: 'dim' }, `along ${axisText(gesture.axis)}`)] : []));
+  });
+  let spoken = '';
+  store.on(['selected', 'gesture'], ({ selected, document, gesture }) => {
+    const words = gesture.state === 'settling' && gesture.settlingShown ? 'Settling'
+      : gesture.state === 'dragging' ? `Dragging ${document?.bodies[selected]?.name ?? ''}` : (document?.bodies[selected]?.name ?? '');
+    if (words === spoken) return;
+    live.textContent = spoken = words;
+  });
+}
+
+/** @param {string} axis */
+export function axisText(axis) {
+  return axis.replace('plane ', 'the plane across ').replace('own ', 'its own ');
+}
+
+/** Where the held body is beside its target, and the colour of that. @param {State} state @returns {[string, string]} */
+function standing({ gesture, motion, card }) {
+  if (gesture.state === 'settling') return [gesture.settlingShown ? 'settling…' : '', 'dim'];
+  if ((gesture.state === 'dragging' || gesture.state === 'typing') && motion && gesture.target) {
+    if (gesture.answered < 0) return ['', 'dim'];
+    if (motion.reached) return ['at its target', 'good'];
+    const turn = motion.turn > 1e-6 ? `, ${((motion.turn * 180) / Math.PI).toFixed(1)}°` : '';
+    return [`${lengthText(motion.distance)}${turn} from its target`, 'amber'];
+  }
+  return card && motion && !motion.reached ? [`${lengthText(motion.distance)} from its target`, 'amber'] : ['', 'dim'];
+}

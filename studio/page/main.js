@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Start-up: puts the parts of the page together.
+
+import { Commands } from './commands.js';
+import { Connection } from './connection.js';
+import { ask, askName } from './dialogs/ask.js';
+import { showEmpty } from './dialogs/open.js';
+import { byId } from './dom.js';
+import { Gesture } from './gesture.js';
+import { drawIcons, icon } from './icons.js';
+import { showHeader } from './header.js';
+import { listenToKeys, listenToPointer } from './input.js';
+import { showReadout } from './live.js';
+import { listener, tellEnding } from './messages.js';
+import { centreAt, moves, pathTimes } from './motion.js';
+import { showNotices } from './notice.js';
+import { Overlay } from './overlay/overlay.js';
+import { showBodies } from './panels/bodies.js';
+import { showNails } from './panels/nails.js';
+import { showNumbers } from './panels/numbers.js';
+import { showPlayer } from './player.js';
+import { initialState, Store } from './store.js';
+import { addTestHooks } from './test_hooks.js';
+import { TimeLine } from './timeline.js';
+import { qualityFor, rendererName } from './view/quality.js';
+import { View } from './view/view.js';
+
+/** @typedef {import('./types.js').Vec3} Vec3 */
+
+const query = new URLSearchParams(location.search);
+
+/** The right to the session: behind # of the address, where no server sees it, then in this tab alone. */
+function takeToken() {
+  const given = location.hash.slice(1);
+  if (given) {
+    sessionStorage.setItem('token', given);
+    history.replaceState(null, '', location.pathname + location.search);
+  }
+  return sessionStorage.getItem('token') ?? '';
+}
+
+function tabName() {
+  const name = sessionStorage.getItem('tab') ?? [...crypto.getRandomValues(new Uint8Array(8))].map((b) => b.toString(16).padStart(2, '0')).join('');
+  sessionStorage.setItem('tab', name);
+  return name;
+}
+
+function start() {
+  drawIcons(document);
+  const renderer = rendererName();
+  if (!renderer) {
+    byId('blocked').hidden = false;
+    return;
+  }
+  const store = new Store({ ...initialState(), tab: tabName(), quality: qualityFor(renderer, query.get('quality')) });
+  remember(store);
+  const canvas = /** @type {HTMLCanvasElement} */ (byId('overlay'));
+  /** @type {Overlay | null} */
+  let overlay = null;
+  const view = new View({
+    host: byId('view'), input: canvas, store, drawn: () => overlay?.draw(), resized: (width, height) => overlay?.resize(width, height),
+  });
+  overlay = new Overlay(canvas, store, view);
+  overlay.resize(view.camera.width, view.camera.height);
+
+  const frame = (/** @type {number} */ body, anew = false) => frameView(store, view, body, anew);
+  /** @type {Gesture | null} */
+  let gesture = null;
+  const connection = new Connection({
+    url: `ws://${location.host}/socket`, token: takeToken(), tab: store.state.tab,
+    listener: listener({ store, gesture: () => gesture, opened: () => {
+      store.set({ selected: -1, selectedNail: -1, card: null, time: 0, playing: false });
+      frame(-1, true);
+    } }),
+  });
+  gesture = new Gesture({
+    store, connection, space: { ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
+    select: (hit) => {
+      if (!hit) return;
+      store.set({ selected: hit.body, selectedNail: hit.kind === 'nail' ? (hit.nail ?? -1) : -1, ...(hit.kind === 'handle' || hit.kind === 'body' ? {} : { time: hit.time }) });
+    },
+    ended: (how, answer) => {
+      if (how === 'released') tellEnding(store, { undo: () => void commands.undo() }, answer);
+      commands.saveIfWaiting();
+    },
+  });
+  const commands = new Commands({ store, connection, gesture, view: { frame }, ask, askName });
+  showHeader(store, commands, gesture);
+  showNotices(store);
+  showReadout(store);
+  showBodies(store);
+  showNumbers(store, commands);
+  showNails(store, commands);
+  showPlayer(store, commands);
+  showEmpty(store, commands);
+  showLayout(store);
+  new TimeLine(/** @type {HTMLCanvasElement} */ (byId('timeline')), store, commands);
+  const parts = { store, gesture, commands, overlay, view, frame };
+  listenToPointer(parts);
+  listenToKeys(parts);
+  store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
+  if (query.has('test')) addTestHooks({ store, view, overlay, connection, gesture });
+  connection.connect();
+}
+
+/** Shows everything, or one body with its path. @param {Store<import('./types.js').State>} store @param {View} view
+ * @param {number} body -1: everything @param {boolean} anew from the usual side */
+function frameView(store, view, body, anew) {
+  const { scene, motion } = store.state;
+  if (!scene || !motion) return;
+  let { min, max } = scene;
+  const ground = scene.shapes.flatMap(({ plane, body: of }) => (plane && plane.normal[2] > 0.9 ? [centreAt(motion.tracks[of], 0)[2] + plane.offset] : []));
+  min = [min[0], min[1], Math.min(min[2], ...ground.filter((z) => z > min[2] - 2 * Math.max(max[0] - min[0], max[2] - min[2], 0.1)))];
+  const track = motion.tracks[body];
+  if (track && moves(track)) {
+    const places = pathTimes(track, motion.end, 1e-2).map((t) => centreAt(track, t)), r = scene.shapes[body].radius;
+    const corner = (/** @type {(...v: number[]) => number} */ pick, /** @type {number} */ sign) => /** @type {Vec3} */ ([0, 1, 2].map((i) => pick(...places.map((p) => p[i])) + sign * r));
+    [min, max] = [corner(Math.min, -1), corner(Math.max, 1)];
+  }
+  view.camera.frame(min, max, anew);
+  view.invalidate();
+}
+
+/** Choices of a person are kept from one time to the next. @param {Store<import('./types.js').State>} store */
+function remember(store) {
+  for (const key of /** @type {const} */ (['keymap', 'dots', 'panel'])) {
+    const kept = localStorage.getItem(`carom ${key}`);
+    try {
+      if (kept !== null) store.set({ [key]: JSON.parse(kept) });
+    } catch {
+      localStorage.removeItem(`carom ${key}`);
+    }
+    store.on([key], (state) => localStorage.setItem(`carom ${key}`, JSON.stringify(state[key])));
+  }
+}
+
+/** What covers the view, and the panel. @param {Store<import('./types.js').State>} store */
+function showLayout(store) {
+  const loading = byId('loading'), fold = byId('fold');
+  store.on(['connected', 'progress', 'motion'], ({ connected, progress }) => {
+    document.body.dataset.connected = connected;
+    loading.hidden = !(connected === 'connecting' || connected === 'loading' || progress);
+    loading.textContent = progress || (connected === 'loading' ? 'Loading…' : 'Connecting…');
+  });
+  store.on(['motion', 'document'], ({ motion, document: shown }) => {
+    const early = motion && shown?.open && motion.end < shown.duration - 1e-9;
+    byId('ended').hidden = !early;
+    byId('ended').textContent = early ? motion.message || `The motion ends at ${motion.end.toFixed(3)} s.` : '';
+  });
+  store.on(['panel'], ({ panel }) => {
+    document.body.classList.toggle('folded', !panel);
+    fold.setAttribute('aria-expanded', String(panel));
+    fold.setAttribute('aria-label', panel ? 'Fold the panel' : 'Unfold the panel');
+    fold.replaceChildren(icon(panel ? 'unfolded' : 'folded'));
+  });
+  // where there is little height, one of the two long lists is open at a time
+  const low = matchMedia('(max-height: 760px)'), long = [byId('numbers'), byId('nails')].flatMap((list) => list.closest('details') ?? []);
+  const share = () => {
+    for (const list of long) list.toggleAttribute('name', false);
+    for (const list of low.matches ? long : []) list.setAttribute('name', 'long');
+  };
+  low.addEventListener('change', share);
+  share();
+  store.on(['document'], ({ document: shown }) => (byId('nail-count').textContent = shown?.nails.length ? String(shown.nails.length) : ''));
+  fold.addEventListener('click', () => store.set({ panel: !store.state.panel }));
+}
+
+start();

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What the server says, taken into the store.
+
+import { changesText } from './changes.js';
+import { motionOf, shapesOf } from './frames.js';
+
+/** @typedef {import('./types.js').State} State */
+/** @typedef {{store: import('./store.js').Store<State>, gesture: () => import('./gesture.js').Gesture | null,
+ *    opened: () => void}} Parts `opened`: another scene is shown */
+
+/** @param {Parts} parts @returns {import('./connection.js').Listener} */
+export function listener({ store, gesture, opened }) {
+  let session = '', fresh = true;
+
+  /** @param {any} message */
+  const welcome = (message) => {
+    const restarted = session !== '' && session !== message.session, back = session === message.session;
+    session = message.session;
+    fresh = !back;
+    const notice = restarted ? { message: 'The server was started again: steps that were not saved are lost.', kind: /** @type {const} */ ('amber') }
+      : back && store.state.notice?.key === 'lost' ? null : store.state.notice;
+    store.set({ connected: 'loading', folder: message.folder, notice });
+  };
+
+  /** @param {import('./types.js').DocumentState} message */
+  const state = (message) => {
+    const was_saved = store.state.document?.saved;
+    store.set({ document: message, connected: 'open', progress: '' });
+    if (message.saved && (!was_saved || !store.state.savedMotion)) store.set({ savedMotion: store.state.motion });
+    if (!message.open) store.set({ scene: null, motion: null, opened: null, before: null, selected: -1 });
+    if (!message.nails.some((nail) => nail.id === store.state.selectedNail)) store.set({ selectedNail: -1 });
+  };
+
+  /** @param {any} message */
+  const error = (message) => {
+    gesture()?.failed(message.re);
+    if (message.re === undefined) store.set({ notice: { message: message.message, kind: 'red' } });
+  };
+
+  return {
+    status(status, why) {
+      if (status === 'open') return;
+      if (status === 'ended') return store.set({ connected: 'ended', notice: { message: why, kind: 'red' } });
+      if (status === 'connecting') return store.state.connected === 'lost' ? undefined : store.set({ connected: 'connecting' });
+      const held = gesture()?.lost();
+      store.set({ connected: 'lost', playing: false });
+      const saying = held ? 'The server is gone; the drag was cancelled. Nothing that was shown as done before is lost while the server runs. Trying again…'
+        : 'The server is gone. Nothing that was shown as done is lost while the server runs. Trying again…';
+      store.set({ notice: { message: saying, kind: 'amber', key: 'lost' } });
+    },
+    message(message) {
+      if (message.type === 'welcome') welcome(message);
+      else if (message.type === 'state') state(message);
+      else if (message.type === 'error') error(message);
+      else if (message.type === 'notice') store.set({ notice: { message: message.message } });
+      else if (message.type === 'progress') store.set({ progress: message.message });
+    },
+    frame(frame) {
+      if (frame.header.type === 'scene') {
+        store.set({ scene: shapesOf(frame, fresh ? null : store.state.scene) });
+        if (frame.header.count === frame.header.bodies.length) fresh = true;
+        return;
+      }
+      if (frame.header.type !== 'motion') return;
+      const motion = motionOf(frame, fresh ? null : store.state.motion);
+      const first = fresh;
+      fresh = false;
+      store.set({ motion, time: Math.min(store.state.time, motion.end), ...(first ? { opened: motion, savedMotion: motion, before: null, changesShown: false } : {}) });
+      gesture()?.answered(motion);
+      if (first) opened();
+    },
+  };
+}
+
+/** What a person is told when a gesture came to its end. @param {import('./store.js').Store<State>} store
+ * @param {{undo: () => void}} commands @param {any} answer header of the motion */
+export function tellEnding(store, commands, answer) {
+  const { before, motion, document } = store.state;
+  if (!motion || !document) return;
+  const names = document.bodies.map((body) => body.name);
+  const card = answer.reached === false ? { message: whyNot(motion), kind: /** @type {const} */ ('amber') } : null;
+  const changed = before ? changesText(before, motion, names) : '';
+  store.set({ card });
+  if (!changed) return;
+  store.set({
+    notice: {
+      message: changed, key: 'changes',
+      actions: [
+        { name: 'Show', act: () => store.set({ changesShown: !store.state.changesShown }) },
+        { name: 'Undo', act: commands.undo },
+      ],
+    },
+  });
+}
+
+/** One sentence. @param {import('./types.js').Motion} motion */
+function whyNot({ obstacle, stopped }) {
+  if (obstacle?.sentence) return obstacle.sentence;
+  return stopped ? 'It was stopped before it came to its target.' : 'It did not come to its target.';
+}

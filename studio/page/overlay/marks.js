@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Dots at every frame along paths, impacts by mode, what is hovered or held, and where the hand wants it.
+
+import { colours, impactColours, inkOf } from '../colours.js';
+import { centreAt } from '../motion.js';
+import { lengthText } from '../number_field_text.js';
+import { label } from './hoops.js';
+
+/** @typedef {import('../types.js').State} State */
+/** @typedef {import('./pick.js').Project} Project */
+/** @typedef {CanvasRenderingContext2D} Pen */
+
+const mostDots = 400;
+
+/** @param {Pen} pen @param {State} state @param {number[]} bodies @param {Project} project @param {number} scale */
+export function drawDots(pen, { motion, scene, selected, dots }, bodies, project, scale) {
+  if (!motion || !dots) return;
+  for (const body of bodies) {
+    pen.fillStyle = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);
+    const radius = (body === selected ? 2.4 : 1.5) * scale;
+    pen.beginPath();
+    for (let k = 0; k <= Math.min(motion.end * dots + 1e-9, mostDots); ++k) {
+      const [x, y, depth] = project(centreAt(motion.tracks[body], k / dots));
+      if (depth <= 0) continue;
+      pen.moveTo(x + radius, y);
+      pen.arc(x, y, radius, 0, 2 * Math.PI);
+    }
+    pen.fill();
+  }
+}
+
+/** The mark of an impact: ring, dashed ring, square, double ring. @param {Pen} pen @param {string} mode
+ * @param {number} x @param {number} y @param {number} radius */
+export function impactMark(pen, mode, x, y, radius) {
+  pen.setLineDash(mode === 'slide' ? [3, 2.5] : []);
+  pen.beginPath();
+  if (mode === 'frictionless') pen.rect(x - 0.85 * radius, y - 0.85 * radius, 1.7 * radius, 1.7 * radius);
+  else pen.arc(x, y, radius, 0, 2 * Math.PI);
+  pen.stroke();
+  if (mode === 'joint') {
+    pen.beginPath();
+    pen.arc(x, y, radius / 2, 0, 2 * Math.PI);
+    pen.stroke();
+  }
+  pen.setLineDash([]);
+}
+
+/** @param {Pen} pen @param {State} state @param {number[]} bodies @param {Project} project @param {number} scale */
+export function drawImpacts(pen, { motion, hover, selected }, bodies, project, scale) {
+  const many = (motion?.impacts.length ?? 0) > 40;
+  for (const impact of motion?.impacts ?? []) {
+    if (!impact.bodies.some((body) => bodies.includes(body))) continue;
+    if (many && selected >= 0 && !impact.bodies.includes(selected)) continue;
+    const [x, y, depth] = project(impact.point);
+    if (depth <= 0) continue;
+    pen.strokeStyle = impactColours[impact.mode] ?? impactColours.stick;
+    pen.lineWidth = hover?.impact === impact ? 3 : 1.8;
+    impactMark(pen, impact.mode, x, y, 6 * scale);
+  }
+}
+
+/** What lies under the pointer: its time, or its impact. @param {Pen} pen @param {import('../types.js').Hit} hit
+ * @param {Project} project @param {number} scale */
+export function drawHover(pen, hit, project, scale) {
+  if (hit.kind === 'handle') return;
+  const [x, y, depth] = project(hit.kind === 'impact' && hit.impact ? hit.impact.point : hit.place);
+  if (depth <= 0) return;
+  if (hit.kind === 'path') {
+    pen.fillStyle = '#ffffff';
+    pen.beginPath();
+    pen.arc(x, y, 4 * scale, 0, 2 * Math.PI);
+    pen.fill();
+  }
+  const at = hit.at, time = `${hit.time.toFixed(2)} s`;
+  label(pen, typeof at === 'object' && 'impact' in at ? `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}, ${time}` : time, x + 9 * scale, y - 9 * scale, colours.text);
+}
+
+/** The held point, and while dragging the target with the way to it. @param {Pen} pen @param {State} state
+ * @param {[number, number, number]} held on the screen, where the body is @param {Project} project @param {number} scale */
+export function drawHeld(pen, { gesture, motion }, held, project, scale) {
+  pen.strokeStyle = '#ffffff';
+  pen.lineWidth = 2;
+  if (gesture.state === 'pressed' || !gesture.target) return circle(pen, held[0], held[1], 7 * scale);
+  const [x, y, depth] = project(gesture.target);
+  if (depth <= 0) return;
+  circle(pen, x, y, 7 * scale);
+  const far = Math.hypot(x - held[0], y - held[1]);
+  if (far < 9 * scale) return;
+  pen.setLineDash([2, 4]);
+  pen.lineWidth = 1.5;
+  pen.beginPath();
+  pen.moveTo(x, y);
+  pen.lineTo(held[0], held[1]);
+  pen.stroke();
+  pen.setLineDash([]);
+  if (motion && gesture.answered === gesture.seq && !motion.reached) {
+    label(pen, `${lengthText(motion.distance)} from its target`, x + 12 * scale, y - 8 * scale, colours.amber);
+  }
+}
+
+/** @param {Pen} pen @param {number} x @param {number} y @param {number} radius */
+function circle(pen, x, y, radius) {
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  pen.stroke();
+}

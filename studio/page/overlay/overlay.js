@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The canvas above the view: all marks that are no thing in the scene, and what can be pressed.
+
+import { moves, pathTimes, pointAt } from '../motion.js';
+import { sagOf } from '../view/paths.js';
+import { drawHandles, handleShapes, handleUnder } from './handles.js';
+import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
+import { drawDots, drawHeld, drawHover, drawImpacts } from './marks.js';
+import { onScreen, pick } from './pick.js';
+
+/** @typedef {import('../types.js').State} State */
+
+export class Overlay {
+  /** @param {HTMLCanvasElement} canvas @param {import('../store.js').Store<State>} store
+   * @param {import('../view/view.js').View} view */
+  constructor(canvas, store, view) {
+    this.canvas = canvas;
+    this.store = store;
+    this.view = view;
+    this.pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    this.width = 1;
+    this.height = 1;
+    this.project = (/** @type {import('../types.js').Vec3} */ p) => view.camera.project(p);
+  }
+
+  /** @param {number} width @param {number} height px */
+  resize(width, height) {
+    const ratio = Math.min(devicePixelRatio, 2);
+    this.width = width;
+    this.height = height;
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    this.pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+
+  /** Marks grow a little on large screens. */
+  get scale() {
+    return this.width > 1900 ? 1.25 : 1;
+  }
+
+  draw() {
+    const { pen, scale, project } = this, { state } = this.store;
+    pen.clearRect(0, 0, this.width, this.height);
+    const { motion, gesture, hover } = state;
+    if (!motion) return;
+    pen.font = `${Math.round(12 * scale)}px system-ui, sans-serif`;
+    const bodies = this.view.paths.shownBodies(state), dragging = gesture.state === 'dragging' || gesture.state === 'typing';
+    drawDots(pen, state, bodies, project, scale);
+    drawImpacts(pen, state, bodies, project, scale);
+    drawHoops(pen, nailPlaces(state), project, scale, state.selectedNail);
+    if (!dragging) drawHandles(pen, this.handles(), hover?.handle ?? '');
+    if (hover && gesture.state === 'idle') drawHover(pen, hover, project, scale);
+    if (gesture.hit && gesture.state !== 'idle') {
+      const track = motion.tracks[gesture.hit.body];
+      drawHeld(pen, state, project(pointAt(track, track.center, Math.min(state.time, motion.end))), project, scale);
+    }
+  }
+
+  /** Handles that there are now. */
+  handles() {
+    const { motion, selected, time, tool, scene, gesture } = this.store.state;
+    if (!motion || selected < 0 || scene?.shapes[selected]?.fixed || gesture.state === 'settling' || this.store.state.playing) return [];
+    const track = motion.tracks[selected];
+    if (!track || !moves(track)) return [];
+    const place = pointAt(track, track.center, Math.min(time, motion.end));
+    return handleShapes(tool, place, this.scale * this.view.camera.axes().perPixel(place), this.project);
+  }
+
+  /** @param {number} x @param {number} y px @returns {import('../types.js').Hit | null} */
+  under(x, y) {
+    const { state } = this.store, { motion, document, scene, selected } = state;
+    if (!motion || !document) return null;
+    const handles = this.handles(), sag = sagOf(scene);
+    const paths = new Map(this.view.paths.shownBodies(state).map((body) => {
+      const track = motion.tracks[body];
+      return [body, onScreen(track, pathTimes(track, motion.end, sag), this.project)];
+    }));
+    return pick({
+      motion, names: document.bodies.map((body) => body.name), paths, project: this.project, time: Math.min(state.time, motion.end),
+      handle: (hx, hy) => {
+        const handle = handleUnder(handles, hx, hy);
+        return handle ? { handle, body: selected } : null;
+      },
+      nails: nailPlaces(state).filter((place) => placeHeld(place.nail.constraint)),
+      bodyUnder: (bx, by) => this.view.bodies.pick(this.view.camera.cast(bx, by)),
+    }, x, y);
+  }
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The nails: what each holds, component by component, whether it is met, on, and in the motion.
+
+import { byId, el, iconButton } from '../dom.js';
+import { icon } from '../icons.js';
+import { pointAt, turnAt } from '../motion.js';
+import { lengthText } from '../number_field_text.js';
+import { atText, placeHeld } from '../overlay/hoops.js';
+
+/** @typedef {import('../types.js').Constraint} Constraint */
+/** @typedef {import('../types.js').NailState} NailState */
+/** @typedef {import('../types.js').State} State */
+
+/** @param {import('../store.js').Store<State>} store @param {import('../commands.js').Commands} commands */
+export function showNails(store, commands) {
+  const list = byId('nails'), meet = /** @type {HTMLButtonElement} */ (byId('meet'));
+  meet.onclick = () => void commands.meetNails();
+  store.on(['document', 'selectedNail'], (state) => {
+    const nails = state.document?.nails ?? [], focused = document.activeElement?.getAttribute('data-key');
+    meet.hidden = !nails.some((nail) => !nail.on || (nail.available && !nail.met));
+    byId('nails-empty').hidden = nails.length > 0 || !state.document?.open;
+    list.replaceChildren(...nails.map((nail) => row(nail, state)));
+    const again = focused && /** @type {HTMLElement | null} */ (list.querySelector(`[data-key="${CSS.escape(focused)}"]`));
+    if (again) again.focus();
+  });
+
+  /** @param {NailState} nail @param {State} state */
+  function row(nail, state) {
+    const { constraint, id } = nail, title = `${constraint.body}, ${atText(constraint.at)}`;
+    const standing = !nail.available ? ['missing', nail.message || 'does not come'] : !nail.on ? ['off', 'off'] : nail.met ? ['met', 'met'] : ['unmet', errorText(nail)];
+    const choose = el('button', { type: 'button', class: 'row name', 'aria-pressed': id === state.selectedNail, 'data-key': `nail ${id}`, onclick: () => {
+      const selected = state.document?.bodies.findIndex((body) => body.name === constraint.body) ?? -1;
+      store.set({ selectedNail: id, selected });
+      if (nail.time !== null) commands.seek(nail.time);
+    } }, el('span', { class: `hoop ${standing[0]}`, 'aria-hidden': 'true' }), el('span', { class: 'cut grow' }, title), el('span', { class: `standing ${standing[0]}` }, standing[1]));
+    const eye = iconButton(nail.on ? 'on' : 'off', nail.on ? `Switch off the nail of ${title}` : `Switch on the nail of ${title}`, () => void commands.tell('nail_on', { nail: id, on: !nail.on }), { 'data-key': `eye ${id}` });
+    const remove = iconButton('close', `Remove the nail of ${title}`, () => void commands.removeNail(id), { 'data-key': `remove ${id}` });
+    return el('li', { class: 'nail' }, el('div', { class: 'nail-head' }, choose, eye, remove), components(nail));
+  }
+
+  /** @param {NailState} nail */
+  function components(nail) {
+    const { constraint } = nail, place = placeHeld(constraint);
+    const others = ['velocity', 'angular_velocity', 'time', 'avoid', 'inside'].filter((word) => word in constraint).map((word) => word.replaceAll('_', ' '));
+    const buttons = ['x', 'y', 'z'].map((name, i) => toggle(name, `${name} of the place`, place?.targets[i] != null, () => withComponent(nail, i), `${nail.id} ${name}`));
+    const turn = toggle('turn', 'turn', !!constraint.orientation, () => withTurn(nail), `${nail.id} turn`);
+    return el('div', { class: 'components' }, ...(constraint.at === undefined || constraint.relative_to ? [] : [...buttons, turn]), el('span', { class: 'dim cut' }, others.join(', ')));
+  }
+
+  /** @param {string} text @param {string} name @param {boolean} on @param {() => Constraint | null} next @param {string} key */
+  function toggle(text, name, on, next, key) {
+    return el('button', { type: 'button', class: 'toggle', 'aria-pressed': on, 'aria-label': `hold ${name}`, title: `hold ${name}`, 'data-key': key, onclick: () => {
+      const constraint = next();
+      if (constraint) void commands.setNail(Number(key.split(' ')[0]), constraint);
+      else store.set({ notice: { message: 'A nail holds something; remove it instead.' } });
+    } }, text.length === 1 ? text : icon(text));
+  }
+
+  /** The nail with one component of its place held, or free. @param {NailState} nail @param {number} i */
+  function withComponent({ constraint, time }, i) {
+    const { motion, document } = store.state, body = document?.bodies.findIndex((b) => b.name === constraint.body) ?? -1;
+    const track = motion?.tracks[body], place = placeHeld(constraint);
+    if (!track || time === null) return null;
+    const targets = [...(place?.targets ?? [null, null, null])];
+    targets[i] = targets[i] == null ? pointAt(track, place?.point ?? [0, 0, 0], time)[i] : null;
+    const { position, point, ...rest } = constraint;
+    if (targets.some((t) => t != null)) return point ? { ...rest, point: { ...point, world: targets } } : { ...rest, position: targets };
+    return Object.keys(rest).some((word) => !['body', 'at', 'notes'].includes(word)) ? rest : null;
+  }
+
+  /** The nail with the turn held as it is now, or free. @param {NailState} nail */
+  function withTurn({ constraint, time }) {
+    const { motion, document } = store.state, body = document?.bodies.findIndex((b) => b.name === constraint.body) ?? -1;
+    const track = motion?.tracks[body], { orientation, ...rest } = constraint;
+    if (!track || time === null) return null;
+    if (!orientation) return { ...constraint, orientation: turnAt(track, time) };
+    return Object.keys(rest).some((word) => !['body', 'at', 'notes'].includes(word)) ? rest : null;
+  }
+}
+
+/** @param {NailState} nail */
+function errorText({ constraint, error }) {
+  return placeHeld(constraint) ? lengthText(error) : `off by ${Number(error.toPrecision(2))}`;
+}

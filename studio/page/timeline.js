@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+// The time line: a lane for each moving body, the play head, impacts now and before, nails, the end.
+
+import { colours, impactColours, inkOf } from './colours.js';
+import { countsThatChanged } from './changes.js';
+import { nailColour, nailPlaces } from './overlay/hoops.js';
+import { centreAt, moves } from './motion.js';
+import { lanes, ticks, tOf, xOf, zoomed } from './timeline_layout.js';
+import { beforeOf } from './view/paths.js';
+
+/** @typedef {import('./types.js').State} State */
+/** @typedef {import('./timeline_layout.js').Axis} Axis */
+
+const ruler = 22, left = 12, right = 20, diamond = 5;
+
+export class TimeLine {
+  /** @param {HTMLCanvasElement} canvas @param {import('./store.js').Store<State>} store
+   * @param {import('./commands.js').Commands} commands */
+  constructor(canvas, store, commands) {
+    this.canvas = canvas;
+    this.store = store;
+    this.commands = commands;
+    this.pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    /** @type {Axis} */
+    this.axis = { from: 0, to: 1, left, width: 1 };
+    this.zoom = /** @type {{from: number, to: number} | null} */ (null);
+    this.scroll = 0;
+    /** @type {{body: number, y: number, height: number}[]} */
+    this.seen = [];
+    this.wanted = 0;
+    this.dragged = /** @type {'' | 'head' | {nail: number, time: number}} */ ('');
+    new ResizeObserver(() => this.draw()).observe(canvas);
+    store.on(['motion', 'time', 'document', 'selected', 'hover', 'before', 'changesShown', 'gesture', 'selectedNail', 'scene', 'showBefore'], () => this.invalidate());
+    store.on(['scene'], () => (this.zoom = null));
+    canvas.addEventListener('pointerdown', (event) => this.press(event));
+    canvas.addEventListener('pointermove', (event) => this.point(event));
+    canvas.addEventListener('pointerup', () => this.lift());
+    canvas.addEventListener('pointerleave', () => this.dragged || this.store.set({ hover: null }));
+    canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
+  }
+
+  invalidate() {
+    this.wanted ||= requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    this.wanted = 0;
+    const { canvas, pen } = this, width = canvas.clientWidth, height = canvas.clientHeight, ratio = Math.min(devicePixelRatio, 2);
+    if (!width || !height) return;
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, width, height);
+    const { state } = this.store, { motion, document } = state;
+    canvas.setAttribute('aria-valuenow', state.time.toFixed(3));
+    if (!motion || !document?.open) return;
+    const duration = Math.max(document.duration, motion.end);
+    this.axis = { from: this.zoom?.from ?? 0, to: this.zoom?.to ?? duration, left, width: width - left - right };
+    canvas.setAttribute('aria-valuemax', duration.toFixed(3));
+    canvas.setAttribute('aria-valuetext', `${state.time.toFixed(3)} s`);
+    pen.font = '11px system-ui, sans-serif';
+    this.drawRuler(width);
+    this.seen = this.lanes(height);
+    for (const lane of this.seen) this.drawLane(lane, state, width);
+    this.drawEnd(motion, duration, height);
+    this.drawHead(state, height);
+  }
+
+  /** @param {number} height */
+  lanes(height) {
+    const { motion, scene } = this.store.state;
+    const bodies = motion?.tracks.filter((t) => !scene?.shapes[t.body]?.fixed && moves(t)).map((t) => t.body) ?? [];
+    this.scroll = Math.max(0, Math.min(this.scroll, bodies.length - 1));
+    return lanes(bodies, ruler + 2, height - ruler - 8, this.scroll);
+  }
+
+  /** @param {number} width */
+  drawRuler(width) {
+    const { pen, axis } = this;
+    pen.fillStyle = colours.dim;
+    pen.strokeStyle = '#4a5058';
+    pen.lineWidth = 1;
+    for (const { t, text } of ticks(axis)) {
+      const x = Math.round(xOf(axis, t)) + 0.5;
+      pen.beginPath();
+      pen.moveTo(x, ruler - 7);
+      pen.lineTo(x, ruler);
+      pen.stroke();
+      if (x + 4 + pen.measureText(text).width <= width) pen.fillText(text, x + 3, ruler - 8);
+    }
+  }
+
+  /** @param {{body: number, y: number, height: number}} lane @param {State} state @param {number} width */
+  drawLane({ body, y, height }, state, width) {
+    const { pen, axis } = this, { motion, scene, selected } = state, middle = y + height / 2;
+    if (!motion) return;
+    pen.save();
+    pen.beginPath();
+    pen.rect(left - 6, y, width - left + 6, height);
+    pen.clip();
+    pen.fillStyle = body === selected ? '#39404a' : colours.lane;
+    pen.fillRect(left, y, axis.width, Math.max(2, height - 2));
+    pen.fillStyle = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);
+    pen.fillRect(xOf(axis, 0), middle - 1, xOf(axis, motion.end) - xOf(axis, 0), body === selected ? 2 : 1);
+    const before = beforeOf(state), size = Math.min(diamond, height / 2 - 1);
+    for (const impact of before?.impacts ?? []) if (impact.bodies.includes(body)) this.diamond(impact.t, middle, size, colours.before, false);
+    for (const impact of motion.impacts) {
+      if (impact.bodies.includes(body)) this.diamond(impact.t, middle, size, impactColours[impact.mode] ?? impactColours.stick, true);
+    }
+    if (state.changesShown && state.before && height >= 11) this.drawChanges(state.before, motion, body, middle);
+    for (const place of nailPlaces(state)) {
+      if (place.body !== body) continue;
+      const dragged = typeof this.dragged === 'object' && this.dragged.nail === place.id ? this.dragged.time : place.time;
+      pen.strokeStyle = nailColour(place.nail);
+      pen.lineWidth = place.id === state.selectedNail ? 3 : 2;
+      pen.setLineDash(place.nail.available ? [] : [3, 3]);
+      pen.beginPath();
+      pen.arc(xOf(axis, dragged), middle, Math.min(6, height / 2 - 1), 0, 2 * Math.PI);
+      pen.stroke();
+      pen.setLineDash([]);
+    }
+    pen.restore();
+  }
+
+  /** Words at impacts that came and went. @param {import('./types.js').Motion} before
+   * @param {import('./types.js').Motion} now @param {number} body @param {number} y */
+  drawChanges(before, now, body, y) {
+    const names = this.store.state.document?.bodies.map((one) => one.name) ?? [];
+    for (const { pair, before: were, now: are } of countsThatChanged(before, now)) {
+      if (!pair.includes(body)) continue;
+      const impacts = (are > were ? now : before).impacts.filter((one) => one.pairs.some(([a, b]) => pair.includes(a) && pair.includes(b)));
+      const other = names[pair[0] === body ? pair[1] : pair[0]];
+      this.pen.fillStyle = colours.text;
+      for (const { t } of impacts.slice(-Math.abs(are - were))) {
+        const text = `${other} ${are > were ? 'came' : 'went'}`, x = xOf(this.axis, t), wide = this.pen.measureText(text).width;
+        this.pen.fillText(text, x + 9 + wide > left + this.axis.width ? x - 9 - wide : x + 9, y + 4);
+      }
+    }
+  }
+
+  /** @param {number} t @param {number} y @param {number} size @param {string} colour @param {boolean} full */
+  diamond(t, y, size, colour, full) {
+    const { pen } = this, x = xOf(this.axis, t);
+    pen.beginPath();
+    pen.moveTo(x - size, y);
+    pen.lineTo(x, y - size);
+    pen.lineTo(x + size, y);
+    pen.lineTo(x, y + size);
+    pen.closePath();
+    pen.fillStyle = pen.strokeStyle = colour;
+    pen.lineWidth = 1.2;
+    if (full) pen.fill();
+    else pen.stroke();
+  }
+
+  /** What the motion lacks is hatched. @param {import('./types.js').Motion} motion @param {number} duration
+   * @param {number} height */
+  drawEnd(motion, duration, height) {
+    if (motion.end >= duration - 1e-9) return;
+    const { pen, axis } = this, from = Math.max(left, xOf(axis, motion.end)), to = left + axis.width;
+    if (from >= to) return;
+    pen.save();
+    pen.beginPath();
+    pen.rect(from, ruler + 2, to - from, height - ruler - 8);
+    pen.clip();
+    pen.strokeStyle = '#5a6068';
+    pen.lineWidth = 1;
+    for (let x = from - height; x < to; x += 8) {
+      pen.beginPath();
+      pen.moveTo(x, height);
+      pen.lineTo(x + height, 0);
+      pen.stroke();
+    }
+    pen.restore();
+  }
+
+  /** @param {State} state @param {number} height */
+  drawHead({ time, hover, motion }, height) {
+    const { pen, axis } = this;
+    if (hover && motion) {
+      pen.fillStyle = colours.dim;
+      pen.fillRect(xOf(axis, hover.time) - 0.5, ruler, 1, height - ruler - 6);
+    }
+    const x = xOf(axis, time);
+    if (x < left - 1 || x > left + axis.width + 1) return;
+    pen.fillStyle = colours.accent;
+    pen.fillRect(x - 1, 8, 2, height - 12);
+    pen.beginPath();
+    pen.moveTo(x - 6, 6);
+    pen.lineTo(x + 6, 6);
+    pen.lineTo(x, 15);
+    pen.fill();
+  }
+
+  /** @param {PointerEvent} event */
+  press(event) {
+    if (event.button !== 0 || !this.store.state.motion) return;
+    this.canvas.setPointerCapture(event.pointerId);
+    const lane = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height);
+    const nail = lane && nailPlaces(this.store.state).find((place) => place.body === lane.body && Math.abs(xOf(this.axis, place.time) - event.offsetX) < 8);
+    if (nail) {
+      this.store.set({ selectedNail: nail.id, selected: nail.body });
+      this.dragged = typeof nail.nail.constraint.at === 'number' ? { nail: nail.id, time: nail.time } : '';
+      return;
+    }
+    this.dragged = 'head';
+    if (lane) this.store.set({ selected: lane.body });
+    this.commands.seek(tOf(this.axis, event.offsetX));
+  }
+
+  /** @param {PointerEvent} event */
+  point(event) {
+    const { motion, selected } = this.store.state;
+    if (!motion) return;
+    const time = Math.max(0, Math.min(motion.end, tOf(this.axis, event.offsetX)));
+    if (this.dragged === 'head') {
+      this.commands.seek(time);
+    } else if (typeof this.dragged === 'object') {
+      this.dragged = { nail: this.dragged.nail, time: Math.round(time * 1000) / 1000 };
+      this.invalidate();
+    } else if (this.store.state.gesture.state === 'idle') {
+      const lane = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height), body = lane?.body ?? selected;
+      this.store.set({ hover: body >= 0 ? { kind: 'body', body, time, at: time, place: centreAt(motion.tracks[body], time) } : null });
+    }
+  }
+
+  lift() {
+    const dragged = this.dragged;
+    this.dragged = '';
+    if (typeof dragged !== 'object') return;
+    const nail = this.store.state.document?.nails.find((one) => one.id === dragged.nail);
+    if (nail && nail.constraint.at !== dragged.time) void this.commands.setNail(nail.id, { ...nail.constraint, at: dragged.time });
+  }
+
+  /** @param {WheelEvent} event */
+  wheel(event) {
+    event.preventDefault();
+    const { motion, document } = this.store.state;
+    if (!motion || !document) return;
+    if (event.shiftKey) {
+      this.scroll = Math.max(0, this.scroll + Math.sign(event.deltaY || event.deltaX));
+    } else {
+      const duration = Math.max(document.duration, motion.end), span = zoomed(this.axis, event.offsetX, event.deltaY > 0 ? 1.25 : 0.8, duration);
+      this.zoom = span.to - span.from >= duration - 1e-9 ? null : span;
+    }
+    this.invalidate();
+  }
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The words of the protocol and of the page's own state, for the type checker. SI units, z up, quaternions [w, x, y, z].
+
+/** @typedef {[number, number, number]} Vec3 */
+/** @typedef {[number, number, number, number]} Quat */
+/** @typedef {number | {impact: number, with?: string} | {between: [number, number]}} When  as in scene documents */
+/** @typedef {{vary: string, body?: string, material?: string, impact?: number, components?: string[],
+ *    min?: number | number[], max?: number | number[], weight?: number, notes?: string}} Control */
+/** @typedef {null | number | {min?: number, max?: number}} Target */
+/** @typedef {{body: string, at?: When, position?: Target[], orientation?: Quat, velocity?: Target[],
+ *    angular_velocity?: Target[], time?: Target, point?: {body_point: Vec3, world: Target[]}, relative_to?: string,
+ *    avoid?: unknown, inside?: unknown, notes?: string}} Constraint */
+
+/** @typedef {{control: number, name: string, component: string, opened: number, now: number, min: number | null,
+ *    max: number | null, scale: number, at_bound: 'min' | 'max' | null, pointer: string | null}} NumberState */
+/** @typedef {{id: number, constraint: Constraint, on: boolean, available: boolean, met: boolean, time: number | null,
+ *    error: number, message: string}} NailState */
+/** @typedef {{name: string, fixed: boolean, kinematic?: boolean, mass: number | null, material?: string}} BodyState */
+/** @typedef {{type: 'state', re?: number, rev: number, open: boolean, path: string | null, name?: string,
+ *    saved: boolean, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
+ *    undo: string | null, redo: string | null, held_by: string | null, bodies: BodyState[],
+ *    materials?: {name: string, elasticity: number, friction: number}[]}} DocumentState */
+
+/** `nth`: of each body as which of its impacts it counts, 0 where it has none; `pairs`: who meets whom.
+ * @typedef {{t: number, point: Vec3, bodies: number[], nth: number[], pairs: [number, number][], mode: string}} Impact */
+/** @typedef {{kind: string, numbers?: string[], sentence: string}} Obstacle */
+/** @typedef {{t: number, bodies: number[], mode?: string, point?: Vec3}} ChangeEvent */
+/** @typedef {{kind: string, before: ChangeEvent | null, after: ChangeEvent | null, sentence: string}} SequenceChange */
+/** A track: see motion.js.
+ * @typedef {{body: number, arcs: Float64Array, stride?: number, turns: Float32Array,
+ *    center: Vec3}} Track  stride: numbers a row of arcs, 10 unless it says so */
+/** @typedef {{rev: number, stage: string, reached: boolean, distance: number, turn: number, nailError: number,
+ *    stopped: boolean, more: boolean, obstacle: Obstacle | null, changes: SequenceChange[], end: number,
+ *    status: string, message: string, impacts: Impact[], tracks: Track[], gesture?: number, seq?: number,
+ *    re?: number}} Motion  everything that the page knows about one motion; tracks in the order of bodies */
+/** @typedef {{body: number, name: string, fixed: boolean, plane: {normal: Vec3, offset: number} | null,
+ *    colour: string, vertices: Float32Array, normals: Float32Array | null, triangles: Uint32Array | null,
+ *    accent: Uint32Array | null, center: Vec3, radius: number}} Shape  accent: triangles of a lighter shade */
+/** @typedef {{shapes: Shape[], min: Vec3, max: Vec3}} SceneShapes */
+
+/** What lies under the pointer, or is held.
+ * @typedef {{kind: 'path' | 'body' | 'impact' | 'nail' | 'handle', body: number, time: number, at: When, place: Vec3,
+ *    nail?: number, impact?: Impact, handle?: string}} Hit */
+/** @typedef {{message: string, kind?: 'plain' | 'amber' | 'red', actions?: {name: string, act: () => void}[],
+ *    key?: string}} Notice */
+/** The gesture under way, as the drawing parts see it.
+ * @typedef {{state: 'idle' | 'pressed' | 'dragging' | 'typing' | 'settling', number: number, hit: Hit | null,
+ *    target: Vec3 | null, turn: Quat | null, axis: string, seq: number, answered: number, settlingShown: boolean,
+ *    nailing: boolean}} GestureState */
+
+/** @typedef {'connecting' | 'loading' | 'open' | 'lost' | 'ended'} Connected */
+/** @typedef {{connected: Connected, progress: string, folder: string, document: DocumentState | null,
+ *    scene: SceneShapes | null, motion: Motion | null, opened: Motion | null, savedMotion: Motion | null,
+ *    before: Motion | null, showBefore: 'none' | 'opened' | 'saved' | 'changes', changesShown: boolean,
+ *    time: number, playing: boolean,
+ *    speed: number, loop: boolean, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn',
+ *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, keymap: 'blender' | 'maya',
+ *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
+ *    selectedNail: number, tab: string}} State */
+
+export {};

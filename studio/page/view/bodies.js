@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The bodies as they are at the time shown.
+
+import * as THREE from 'three';
+import { colours } from '../colours.js';
+import { poseAt } from '../motion.js';
+
+/** @typedef {import('../types.js').Shape} Shape */
+/** @typedef {import('../types.js').State} State */
+/** @typedef {THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial[]>} BodyMesh */
+
+/** @param {Shape} shape */
+export function geometryOf(shape) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(shape.vertices, 3));
+  const { triangles = null, accent } = shape;
+  if (triangles) {
+    const index = new Uint32Array(triangles.length + (accent?.length ?? 0));
+    index.set(triangles);
+    index.set(accent ?? [], triangles.length);
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    geometry.addGroup(0, triangles.length, 0);
+    geometry.addGroup(triangles.length, accent?.length ?? 0, 1);
+  }
+  if (shape.normals) geometry.setAttribute('normal', new THREE.BufferAttribute(shape.normals, 3));
+  geometry.computeBoundingSphere();
+  return geometry;
+}
+
+/** Puts an object where a body is. @param {THREE.Object3D} object @param {import('../types.js').Track} track
+ * @param {number} time s */
+export function place(object, track, time) {
+  const { place: [x, y, z], turn: [w, qx, qy, qz] } = poseAt(track, time);
+  object.position.set(x, y, z);
+  object.quaternion.set(qx, qy, qz, w);
+}
+
+export class Bodies {
+  constructor() {
+    this.group = new THREE.Group();
+    /** @type {BodyMesh[]} by body; none for planes */
+    this.meshes = [];
+    /** @type {import('../types.js').SceneShapes | null} */
+    this.shown = null;
+  }
+
+  /** @param {State} state */
+  update({ scene, motion, time, selected }) {
+    if (scene !== this.shown) this.rebuild(scene);
+    this.group.visible = !!motion;
+    if (!motion) return;
+    this.meshes.forEach((mesh, body) => {
+      const track = motion.tracks[body];
+      if (track) place(mesh, track, Math.min(time, motion.end));
+      for (const material of mesh.material) material.emissive.set(body === selected ? 0x101820 : 0);
+    });
+  }
+
+  /** @param {State['scene']} scene */
+  rebuild(scene) {
+    const kept = new Map(this.shown?.shapes.map((shape) => [shape, this.meshes[shape.body]]));
+    this.shown = scene;
+    this.group.clear();
+    this.meshes = [];
+    for (const shape of scene?.shapes ?? []) {
+      if (shape.plane) continue;
+      const mesh = kept.get(shape) ?? meshOf(shape);
+      kept.delete(shape);
+      this.meshes[shape.body] = mesh;
+      this.group.add(mesh);
+    }
+    for (const mesh of kept.values()) {
+      mesh?.geometry.dispose();
+      for (const material of mesh?.material ?? []) material.dispose();
+    }
+  }
+
+  /** The first body along a ray. @param {THREE.Raycaster} caster @returns {{body: number, point: THREE.Vector3} | null} */
+  pick(caster) {
+    this.group.updateMatrixWorld(true);
+    const hit = caster.intersectObjects(this.group.children, false)[0];
+    return hit ? { body: this.meshes.indexOf(/** @type {any} */ (hit.object)), point: hit.point } : null;
+  }
+}
+
+/** @param {Shape} shape */
+function meshOf(shape) {
+  const colour = shape.fixed ? colours.fixed : shape.colour;
+  const light = new THREE.Color(colour).lerp(new THREE.Color('#ffffff'), 0.45);
+  const materials = [colour, light].map((color) => new THREE.MeshLambertMaterial({ color, flatShading: !shape.normals }));
+  return new THREE.Mesh(geometryOf(shape), materials);
+}

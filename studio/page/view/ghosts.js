@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Faint poses every tenth of a second, the one under the pointer, and those that nails want. Depth is drawn first, so
+// that inner faces do not show.
+
+import * as THREE from 'three';
+import { colours, inkOf } from '../colours.js';
+import { moves, timeOf } from '../motion.js';
+import { place } from './bodies.js';
+
+/** @typedef {import('../types.js').State} State */
+/** @typedef {import('./bodies.js').BodyMesh} BodyMesh */
+
+const spacing = 0.1, most = 60;
+
+/** Two meshes of one geometry: depth alone, then colour. @param {number} order @param {number} count
+ * @param {THREE.BufferGeometry} geometry @param {string} colour @param {number} opacity @param {boolean} flat */
+function pair(order, count, geometry, colour, opacity, flat) {
+  const depth = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true });
+  const paint = new THREE.MeshLambertMaterial({ color: colour, transparent: true, opacity, flatShading: flat });
+  return [depth, paint].map((material, i) => {
+    const mesh = new THREE.InstancedMesh(geometry, material, count);
+    mesh.renderOrder = order + i;
+    mesh.frustumCulled = false;
+    return mesh;
+  });
+}
+
+export class Ghosts {
+  constructor() {
+    this.group = new THREE.Group();
+    /** @type {Map<string, {meshes: THREE.InstancedMesh[], count: number, geometry: THREE.BufferGeometry}>} */
+    this.sets = new Map();
+    this.dummy = new THREE.Object3D();
+  }
+
+  /** @param {State} state @param {BodyMesh[]} bodies */
+  update(state, bodies) {
+    const { motion, hover, document } = state, wanted = new Set();
+    const dragging = state.gesture.state !== 'idle';
+    if (motion) {
+      for (const body of this.bodiesWithGhosts(state)) {
+        const times = [];
+        for (let k = 0; k <= most && k * spacing <= motion.end + 1e-9; ++k) times.push(k * spacing);
+        this.show(wanted, `ghosts ${body}`, bodies[body], inkOf(state.scene?.shapes[body]?.colour ?? colours.fixed), 0.26, 2,
+          times, (time) => place(this.dummy, motion.tracks[body], time));
+      }
+      if (hover && !dragging && hover.kind !== 'handle' && bodies[hover.body]) {
+        this.show(wanted, `hover ${hover.body}`, bodies[hover.body], colours.accent, 0.4, 4, [hover.time],
+          (time) => place(this.dummy, motion.tracks[hover.body], Math.min(time, motion.end)));
+      }
+      const names = document?.bodies.map((body) => body.name) ?? [];
+      for (const nail of document?.nails ?? []) {
+        const body = names.indexOf(nail.constraint.body), { orientation, position } = nail.constraint;
+        const time = nail.time ?? (nail.constraint.at === undefined ? null : timeOf(nail.constraint.at, body, motion, names));
+        if (!nail.on || !orientation || time === null || !bodies[body]) continue;
+        this.show(wanted, `nail ${nail.id}`, bodies[body], colours.nail, 0.22, 4, [time], () => {
+          place(this.dummy, motion.tracks[body], time);
+          const [x, y, z] = [0, 1, 2].map((i) => (typeof position?.[i] === 'number' ? position[i] : this.dummy.position.getComponent(i)));
+          this.dummy.position.set(Number(x), Number(y), Number(z));
+          this.dummy.quaternion.set(orientation[1], orientation[2], orientation[3], orientation[0]).normalize();
+        });
+      }
+    }
+    for (const [key, set] of this.sets) if (!wanted.has(key)) this.drop(key, set);
+  }
+
+  /** @param {State} state @returns {number[]} */
+  bodiesWithGhosts({ motion, scene, selected, quality }) {
+    const moving = motion?.tracks.filter((track) => !scene?.shapes[track.body]?.fixed && moves(track)).map((t) => t.body) ?? [];
+    if (quality === 'low' || moving.length > 12) return moving.includes(selected) ? [selected] : moving.length <= 2 ? moving : [];
+    return moving;
+  }
+
+  /** @param {Set<string>} wanted @param {string} key @param {BodyMesh | undefined} body @param {string} colour
+   * @param {number} opacity @param {number} order @param {number[]} times @param {(time: number) => void} put */
+  show(wanted, key, body, colour, opacity, order, times, put) {
+    if (!body) return;
+    wanted.add(key);
+    let set = this.sets.get(key);
+    if (!set || set.count < times.length || set.geometry !== body.geometry) {
+      if (set) this.drop(key, set);
+      const meshes = pair(order, times.length, body.geometry, colour, opacity, body.material[0].flatShading);
+      set = { meshes, count: times.length, geometry: body.geometry };
+      this.sets.set(key, set);
+      this.group.add(...meshes);
+    }
+    times.forEach((time, i) => {
+      put(time);
+      this.dummy.updateMatrix();
+      for (const mesh of set.meshes) mesh.setMatrixAt(i, this.dummy.matrix);
+    });
+    for (const mesh of set.meshes) {
+      mesh.count = times.length;
+      mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+
+  /** @param {string} key @param {{meshes: THREE.InstancedMesh[]}} set */
+  drop(key, { meshes }) {
+    for (const mesh of meshes) {
+      this.group.remove(mesh);
+      mesh.dispose();
+      /** @type {THREE.Material} */ (mesh.material).dispose();
+    }
+    this.sets.delete(key);
+  }
+}

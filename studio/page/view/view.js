@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// WebGL: draws a frame when something changed, and never otherwise.
+
+import * as THREE from 'three';
+import { colours } from '../colours.js';
+import { Bodies } from './bodies.js';
+import { Camera } from './camera.js';
+import { Ghosts } from './ghosts.js';
+import { Ground } from './ground.js';
+import { Paths } from './paths.js';
+import { FrameWatch } from './quality.js';
+import { Shadows } from './shadows.js';
+
+/** @typedef {import('../types.js').State} State */
+
+export class View {
+  /** Throws where there is no WebGL.
+   * @param {{host: HTMLElement, input: HTMLElement, store: import('../store.js').Store<State>,
+   *    drawn: () => void, resized: (width: number, height: number) => void}} parts `input`: what the pointer is over;
+   *    `drawn` is called within each frame, after the scene */
+  constructor({ host, input, store, drawn, resized }) {
+    this.host = host;
+    this.store = store;
+    this.drawn = drawn;
+    this.frames = 0;
+    this.wanted = 0;
+    this.watch = new FrameWatch();
+    this.scene = new THREE.Scene();
+    this.scene.background = new THREE.Color(colours.view);
+    this.camera = new Camera(input, () => this.invalidate());
+    this.bodies = new Bodies();
+    this.ghosts = new Ghosts();
+    this.paths = new Paths();
+    this.ground = new Ground();
+    this.shadows = new Shadows();
+    this.scene.add(this.ground.group, this.shadows.group, this.bodies.group, this.paths.group, this.ghosts.group, ...lights());
+    this.quality = store.state.quality;
+    this.renderer = this.makeRenderer(this.quality);
+    new ResizeObserver(() => this.resize(resized)).observe(host);
+    this.resize(resized);
+  }
+
+  /** @param {'low' | 'high'} quality */
+  makeRenderer(quality) {
+    const renderer = new THREE.WebGLRenderer({ antialias: quality === 'high', powerPreference: 'high-performance' });
+    renderer.setPixelRatio(quality === 'high' ? Math.min(devicePixelRatio, 2) : 1);
+    renderer.domElement.setAttribute('aria-hidden', 'true');
+    this.host.prepend(renderer.domElement);
+    return renderer;
+  }
+
+  /** @param {(width: number, height: number) => void} resized */
+  resize(resized) {
+    const { clientWidth, clientHeight } = this.host;
+    if (!clientWidth || !clientHeight) return;
+    this.renderer.setSize(clientWidth, clientHeight);
+    this.camera.resize(clientWidth, clientHeight);
+    resized(clientWidth, clientHeight);
+    this.draw();
+  }
+
+  invalidate() {
+    if (!this.wanted) this.wanted = requestAnimationFrame((time) => this.frame(time));
+  }
+
+  /** @param {number} time ms */
+  frame(time) {
+    this.wanted = 0;
+    this.draw();
+    if (this.watch.frame(time, this.wanted !== 0 || this.store.state.playing || this.store.state.gesture.state === 'dragging') &&
+      this.store.state.quality === 'high') {
+      this.store.set({ quality: 'low' });
+    }
+  }
+
+  draw() {
+    const { state } = this.store;
+    if (state.quality !== this.quality) this.changeQuality(state.quality);
+    this.bodies.update(state);
+    this.ground.update(state);
+    this.shadows.update(state, this.bodies.meshes);
+    this.paths.update(state);
+    this.ghosts.update(state, this.bodies.meshes);
+    this.renderer.render(this.scene, this.camera.camera);
+    ++this.frames;
+    this.drawn();
+  }
+
+  /** @param {'low' | 'high'} quality */
+  changeQuality(quality) {
+    this.quality = quality;
+    this.renderer.domElement.remove();
+    this.renderer.dispose();
+    this.renderer = this.makeRenderer(quality);
+    this.renderer.setSize(this.host.clientWidth, this.host.clientHeight);
+  }
+}
+
+function lights() {
+  const sun = new THREE.DirectionalLight(0xffffff, 1.9), fill = new THREE.DirectionalLight(0xbfd4ff, 0.5);
+  sun.position.set(-1, -1.5, 3);
+  fill.position.set(2, 1, 0.5);
+  return [new THREE.HemisphereLight(0xffffff, 0x5a5f66, 1.25), sun, fill];
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "studio/protocol.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "formats/documents/scene_reader.hpp"
+#include "formats/json/json.hpp"
+
+namespace carom::studio {
+
+using namespace formats_detail;
+
+extern const char* const kProtocolSchema;  // made from protocol.schema.json
+
+namespace {
+
+using What = decltype(Command::what);
+
+const std::map<std::string, Schema>& schemas() {
+  static const std::map<std::string, Schema> all = schemasOfDefinitions(kProtocolSchema);
+  return all;
+}
+
+std::int64_t integer(const Json& message, const char* member) { return message[member].get<std::int64_t>(); }
+int nailOf(const Json& message) { return message["nail"].get<int>(); }
+
+When readAt(const Json& at) {
+  if (at.is_number()) return When(at.get<double>());
+  return nthImpact(at["impact"].get<int>(), at.value("with", std::string()));
+}
+
+Grip readGrip(const Json& value) {
+  Grip grip;
+  if (value.contains("point")) grip.body_point = readVector(value["point"]);
+  grip.orientation = value.value("orientation", false);
+  grip.components = value.value("components", std::vector<std::string>());
+  const std::set<std::string> once(grip.components.begin(), grip.components.end());
+  if (once.size() != grip.components.size())
+    fail("/grip/components", describe(value["components"]), "every component once");
+  return grip;
+}
+
+std::optional<Quat> readTurn(const Json& message) {
+  if (!message.contains("orientation")) return std::nullopt;
+  return readQuaternion(message["orientation"], "/orientation");
+}
+
+What readHello(const Json& m) {
+  return Hello{m["protocol"].get<int>(), m["token"].get<std::string>(), m["tab"].get<std::string>()};
+}
+
+What readGrab(const Json& m) {
+  Grab grab;
+  grab.gesture = integer(m, "gesture");
+  grab.body = m["body"].get<std::string>();
+  grab.at = readAt(m["at"]);
+  if (m.contains("grip")) grab.grip = readGrip(m["grip"]);
+  if (m.contains("also_vary")) grab.also_vary = m["also_vary"].dump();
+  return grab;
+}
+
+What readDrag(const Json& m) { return Drag{integer(m, "gesture"), integer(m, "seq"), readVector(m["place"]), readTurn(m)}; }
+
+What readRelease(const Json& m) {
+  Release release{integer(m, "gesture"), integer(m, "seq"), std::nullopt, readTurn(m), m.value("nail", false)};
+  if (m.contains("place")) release.place = readVector(m["place"]);
+  return release;
+}
+
+What readNail(const Json& m) {
+  if (m.contains("constraint")) return MakeNail{m["constraint"].dump(), "", 0.0};
+  return MakeNail{"", m["body"].get<std::string>(), readAt(m["at"])};
+}
+
+What readSet(const Json& m) {
+  SetNumbers set{integer(m, "rev"), {}};
+  std::size_t i = 0;
+  for (const Json& edit : m["edits"]) {
+    const auto pointer = edit["pointer"].get<std::string>();
+    if (!pointer.starts_with('/'))
+      fail(pointerTo("/edits", i) + "/pointer", describe(edit["pointer"]), "a JSON pointer, which begins with /");
+    set.edits.emplace_back(pointer, edit["value"].dump());
+    ++i;
+  }
+  return set;
+}
+
+What readSave(const Json& m) {
+  Save save{std::nullopt, m.value("replace", false)};
+  if (m.contains("path")) save.path = m["path"].get<std::string>();
+  return save;
+}
+
+const std::map<std::string, What (*)(const Json&)>& readers() {
+  static const std::map<std::string, What (*)(const Json&)> all = {
+      {"hello", readHello},
+      {"grab", readGrab},
+      {"grab_nail", [](const Json& m) -> What { return GrabNail{integer(m, "gesture"), nailOf(m)}; }},
+      {"drag", readDrag},
+      {"release", readRelease},
+      {"cancel", [](const Json& m) -> What { return Cancel{integer(m, "gesture")}; }},
+      {"undo", [](const Json&) -> What { return Undo{}; }},
+      {"redo", [](const Json&) -> What { return Redo{}; }},
+      {"stop", [](const Json&) -> What { return Stop{}; }},
+      {"meet_nails", [](const Json&) -> What { return MeetNails{}; }},
+      {"nail", readNail},
+      {"set_nail", [](const Json& m) -> What { return SetNail{nailOf(m), m["constraint"].dump()}; }},
+      {"nail_on", [](const Json& m) -> What { return NailOn{nailOf(m), m["on"].get<bool>()}; }},
+      {"unnail", [](const Json& m) -> What { return Unnail{nailOf(m)}; }},
+      {"controls", [](const Json& m) -> What { return SetControls{integer(m, "rev"), m["controls"].dump()}; }},
+      {"set", readSet},
+      {"open",
+       [](const Json& m) -> What {
+         return Open{m["path"].get<std::string>(), m.value("gallery", false), m.value("replace", false)};
+       }},
+      {"save", readSave},
+      {"list", [](const Json& m) -> What { return List{m.value("path", std::string())}; }},
+      {"gallery", [](const Json&) -> What { return Gallery{}; }}};
+  return all;
+}
+
+Command readMessage(const Json& message) {
+  if (!message.is_object()) fail("", describe(message), "a message: an object");
+  if (!message.contains("type")) fail("", "no member \"type\"", "the name of a message");
+  const Json& type = message["type"];
+  const auto known = type.is_string() ? readers().find(type.get<std::string>()) : readers().end();
+  if (known == readers().end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, reader] : readers()) names.push_back(name);
+    fail("/type", describe(type), "one of " + expectedOf(type.is_string() ? type.get<std::string>() : "", names));
+  }
+  schemas().at(known->first).require(message);
+  return {integer(message, "id"), known->second(message)};
+}
+
+/// Runs a reader whose errors begin at `inner` of a part of a message, which stands at `outer`.
+template <class Read>
+auto readPart(const std::string& inner, const std::string& outer, Read read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    const bool within = error.where().starts_with(inner);
+    throw InputError(within ? outer + error.where().substr(inner.size()) : outer, error.message());
+  }
+}
+
+template <class... Kinds>
+bool isOneOf(const Command& command) {
+  return (std::holds_alternative<Kinds>(command.what) || ...);
+}
+
+}  // namespace
+
+bool interrupts(const Command& command) {
+  return !isOneOf<Hello, Drag, Release, Save, List, Gallery, Gone>(command);
+}
+
+bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
+
+bool endsDrag(const Command& command) { return isOneOf<Release, Cancel, Undo, Redo, Gone>(command); }
+
+Command readCommand(std::string_view text) {
+  std::int64_t number = 0;
+  try {
+    const Json message = parseJson(text);
+    if (message.is_object() && message.contains("id") && message["id"].is_number_integer())
+      number = message["id"].get<std::int64_t>();
+    return readMessage(message);
+  } catch (const InputError& error) {
+    throw MessageError(number, error);
+  }
+}
+
+std::vector<Control> readControlsText(const std::string& json, const Scene& scene, const std::string& where) {
+  Json alone;
+  alone["controls"] = Json::parse(json);
+  return readPart("/controls", where, [&] { return readControls(alone, scene); });
+}
+
+Constraint readConstraintText(const std::string& json, const Scene& scene, double duration, const std::string& where) {
+  Json alone;
+  alone["constraints"] = Json::array({Json::parse(json)});
+  return readPart("/constraints/0", where, [&] { return readConstraints(alone, scene, duration).at(0); });
+}
+
+}  // namespace carom::studio

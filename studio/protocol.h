@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "adjoint/base/errors.h"
+#include "editing/constraint.h"
+#include "editing/control.h"
+#include "editing/session_journal.h"
+
+/// Messages of a page, version 1 (protocol.schema.json). Controls and constraints are read with the scene that they belong
+/// to, so until then they are kept as JSON texts.
+namespace carom::studio {
+
+inline constexpr int kProtocol = 1;
+
+/// The first message of a socket.
+struct Hello {
+  int protocol = 0;   ///< of the page
+  std::string token;  ///< of the address that was printed
+  std::string tab;    ///< the page's name for itself, kept when it is loaded again
+};
+/// Takes hold of a body.
+struct Grab {
+  std::int64_t gesture = 0;  ///< the page's number for it
+  std::string body;          ///< its name
+  When at = 0.0;             ///< when, of the motion
+  Grip grip;                 ///< how
+  std::string also_vary;     ///< controls, a JSON array; empty: none
+};
+/// Takes hold of the target of a nail.
+struct GrabNail {
+  std::int64_t gesture = 0;
+  int nail = 0;
+};
+/// Where the hand is.
+struct Drag {
+  std::int64_t gesture = 0, seq = 0;
+  Vec3 place = Vec3::Zero();        ///< m
+  std::optional<Quat> orientation;  ///< shape to world
+};
+/// Lets go.
+struct Release {
+  std::int64_t gesture = 0, seq = 0;
+  std::optional<Vec3> place;        ///< m, where the hand was last
+  std::optional<Quat> orientation;  ///< shape to world
+  bool nail = false;                ///< where it got to
+};
+/// Lets go, and back to what was before.
+struct Cancel {
+  std::int64_t gesture = 0;
+};
+struct Undo {};
+struct Redo {};
+/// Ends what is under way.
+struct Stop {};
+struct MeetNails {};
+/// A new nail: a constraint, or a body as it is at a moment.
+struct MakeNail {
+  std::string constraint;  ///< JSON; empty: the body as it is
+  std::string body;
+  When at = 0.0;
+};
+struct SetNail {
+  int nail = 0;
+  std::string constraint;  ///< JSON
+};
+struct NailOn {
+  int nail = 0;
+  bool on = true;
+};
+struct Unnail {
+  int nail = 0;
+};
+/// All controls, from now on.
+struct SetControls {
+  std::int64_t rev = 0;   ///< of the session that the page knew
+  std::string controls;  ///< JSON array
+};
+/// Numbers typed into the document.
+struct SetNumbers {
+  std::int64_t rev = 0;
+  std::vector<std::pair<std::string, std::string>> edits;  ///< pointer into the document, value as JSON
+};
+struct Open {
+  std::string path;      ///< relative to the folder, or to that of the gallery
+  bool gallery = false;  ///< one of its scenes
+  bool replace = false;  ///< even where what is there has not been saved
+};
+struct Save {
+  std::optional<std::string> path;  ///< relative; none: where it was opened
+  bool replace = false;             ///< even where another wrote there
+};
+struct List {
+  std::string path;  ///< a folder
+};
+struct Gallery {};
+/// A socket went away; never read from a message.
+struct Gone {};
+
+/// A command with the number that its answers carry.
+struct Command {
+  std::int64_t id = 0;  ///< 0: nobody waits for an answer
+  std::variant<Hello, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn, Unnail,
+               SetControls, SetNumbers, Open, Save, List, Gallery, Gone>
+      what;  ///< what it asks for
+};
+
+/// Stops a release, or nails that are being met.
+bool interrupts(const Command& command);
+/// Ends a gesture as if it had not been, or asks for less: what a drag under way comes to does not matter.
+bool endsHold(const Command& command);
+/// After it, where the hand was before does not matter.
+bool endsDrag(const Command& command);
+
+/// What is wrong with a message; `re` is its number, where it could be read.
+class MessageError : public InputError {
+ public:
+  MessageError(std::int64_t number, const InputError& error) : InputError(error), re(number) {}
+  const std::int64_t re;  ///< 0: unknown
+};
+/// Reads a message. Throws MessageError, which names the place, what was found and what was expected.
+Command readCommand(std::string_view text);
+
+/// Controls of a message, in the words of scene documents. Errors begin at `where`. Throws InputError.
+std::vector<Control> readControlsText(const std::string& json, const Scene& scene, const std::string& where);
+/// A constraint of a message, likewise.
+Constraint readConstraintText(const std::string& json, const Scene& scene, double duration, const std::string& where);
+
+}  // namespace carom::studio

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "studio/answers.h"
+#include "studio/limits.h"
+#include "studio/mailbox.h"
+#include "studio/open_scene.h"
+#include "studio/protocol.h"
+#include "studio/tabs.h"
+#include "studio/workspace.h"
+
+namespace carom::studio {
+
+/// What a worker works with.
+struct WorkerOptions {
+  Limits limits;             ///< told to pages
+  std::string session;       ///< random name of this run
+  std::string gallery;       ///< folder of the example scenes; empty: none
+  std::vector<std::string> pictures;  ///< names of the scenes that have one, without ending
+  SessionOptions solving;    ///< how sessions solve
+};
+
+/// The thread of the session: does what pages ask, in order, and answers. While a body is held and has not reached its
+/// target, and nothing else is asked for, it goes on towards it. One session for all pages; who holds a body keeps the
+/// others from changing anything until it lets go or is gone.
+class Worker {
+ public:
+  Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions options);
+
+  /// Opens the scene that was named when the program was started. Throws FormatError.
+  void openFirst(const std::string& path);
+  /// Works until it is asked to stop.
+  void run(const std::stop_token& stop);
+  /// Does the next command, and rests after it where that is due. False: asked to stop.
+  bool step(const std::stop_token& stop);
+
+ private:
+  struct Asker {
+    SocketId socket = 0;
+    std::int64_t id = 0;
+  };
+  /// Who holds a body, and since when.
+  struct Hold {
+    SocketId socket = 0;
+    std::int64_t gesture = 0, seq = -1;
+    std::shared_ptr<const Motion> before;
+    bool resting = false;  // the hand rests before its target was reached
+  };
+
+  void perform(const Asker& asker, const Hello& hello);
+  void perform(const Asker& asker, const Grab& grab);
+  void perform(const Asker& asker, const GrabNail& grab);
+  void perform(const Asker& asker, const Drag& drag);
+  void perform(const Asker& asker, const Release& release);
+  void perform(const Asker& asker, const Cancel& cancel);
+  void perform(const Asker& asker, const Undo& undo);
+  void perform(const Asker& asker, const Redo& redo);
+  void perform(const Asker& asker, const Stop& stop);
+  void perform(const Asker& asker, const MeetNails& meet);
+  void perform(const Asker& asker, const MakeNail& nail);
+  void perform(const Asker& asker, const SetNail& nail);
+  void perform(const Asker& asker, const NailOn& nail);
+  void perform(const Asker& asker, const Unnail& nail);
+  void perform(const Asker& asker, const SetControls& set);
+  void perform(const Asker& asker, const SetNumbers& set);
+  void perform(const Asker& asker, const Open& open);
+  void perform(const Asker& asker, const Save& save);
+  void perform(const Asker& asker, const List& list);
+  void perform(const Asker& asker, const Gallery& gallery);
+  void perform(const Asker& asker, const Gone& gone);
+
+  void handle(const Letter& letter);
+  void rest();
+  EditSession& session();                       // fails where no scene is open
+  EditSession& sessionFor(const Asker& asker);  // and where another page holds a body
+  void requireHold(const Asker& asker, std::int64_t gesture) const;
+  void requireRev(std::int64_t rev) const;
+  void requireNoHold() const;
+  void sayChange(const Asker& asker, const SessionUpdate& update);
+  template <class Take>
+  void beginGesture(const Asker& asker, std::int64_t gesture, const Take& take);
+  void dragThere(const Vec3& place, const std::optional<Quat>& orientation);
+  void show(const OpenedFile& file, const std::string& name, std::optional<std::string> path);
+  void sayMotion(const Asker& asker, const SessionUpdate& update, bool more, bool gives_way);
+  void sayState(const Asker& asker);
+  void sayScene(const Asker& asker, const Motion& motion);
+  void sayAll(const Asker& asker);
+  std::string heldBy() const;
+
+  Mailbox& mailbox_;
+  Workspace& workspace_;
+  const WorkerOptions options_;
+  Tabs tabs_;
+  std::unique_ptr<Workspace> gallery_;
+  std::vector<GalleryScene> shown_in_gallery_;  // once asked for
+  std::unique_ptr<OpenScene> scene_;
+  std::optional<Hold> hold_;
+  std::vector<Letter> saves_;  // asked for in a gesture: they wait for its end
+  std::int64_t rev_ = 0;
+  bool sizes_vary_ = false;  // in the gesture under way
+  std::shared_ptr<const Motion> viewed_;  // what view_ shows
+  std::shared_ptr<const MotionView> view_;
+  std::shared_ptr<const SceneView> scene_view_;
+};
+
+}  // namespace carom::studio

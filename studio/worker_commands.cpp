@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// What a worker does at one go: all but drags.
+#include <algorithm>
+
+#include "formats/json/json.hpp"
+#include "studio/refusal.h"
+#include "studio/worker.h"
+
+namespace carom::studio {
+
+void Worker::requireNoHold() const {
+  if (hold_) throw Refusal("busy", "a body is held; let go of it first");
+}
+
+/// After a step: a new motion, and what changed besides.
+void Worker::sayChange(const Asker& asker, const SessionUpdate& update) {
+  ++rev_;
+  sayMotion(asker, update, false, false);
+  sayState(asker);
+}
+
+void Worker::perform(const Asker& asker, const Hello& hello) {
+  tabs_.add(asker.socket, hello.tab);
+  tabs_.tell(asker.socket, answering(asker.id, welcomeMessage(options_.session, workspace_.folder(), options_.limits)));
+  if (scene_) {
+    tabs_.showSceneTo(asker.socket, asker.id, scene_view_);
+    const MotionNews news{rev_, 0, -1, false, &scene_->session().last(), nullptr};
+    tabs_.showMotionTo(asker.socket, asker.id, view_, motionMembers(news), false);
+  }
+  tabs_.tell(asker.socket, answering(asker.id, stateMessage(rev_, scene_.get(), heldBy())));
+}
+
+void Worker::perform(const Asker& asker, const Undo&) {
+  EditSession& session = sessionFor(asker);
+  const SessionUpdate update = session.undo();
+  hold_.reset();
+  sayScene({}, *update.motion);
+  sayChange(asker, update);
+}
+
+void Worker::perform(const Asker& asker, const Redo&) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  const SessionUpdate update = session.redo();
+  sayScene({}, *update.motion);
+  sayChange(asker, update);
+}
+
+// What it stopped has ended when it is read.
+void Worker::perform(const Asker& asker, const Stop&) {
+  if (scene_) sayMotion(asker, scene_->session().last(), false, false);
+  sayState(asker);
+}
+
+void Worker::perform(const Asker& asker, const MeetNails&) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  sayChange(asker, session.meetNails(mailbox_.beginWork()));
+}
+
+void Worker::perform(const Asker& asker, const MakeNail& nail) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  if (nail.constraint.empty())
+    session.nailAsItIs(nail.body, nail.at);
+  else
+    session.nail(readConstraintText(nail.constraint, session.scene(), session.duration(), "/constraint"),
+                 mailbox_.beginWork());
+  sayChange(asker, session.last());
+}
+
+void Worker::perform(const Asker& asker, const SetNail& nail) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  session.setNail(NailId{nail.nail},
+                  readConstraintText(nail.constraint, session.scene(), session.duration(), "/constraint"),
+                  mailbox_.beginWork());
+  sayChange(asker, session.last());
+}
+
+void Worker::perform(const Asker& asker, const NailOn& nail) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  session.setNailOn(NailId{nail.nail}, nail.on);
+  sayChange(asker, session.last());
+}
+
+void Worker::perform(const Asker& asker, const Unnail& nail) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  session.unnail(NailId{nail.nail});
+  sayChange(asker, session.last());
+}
+
+void Worker::perform(const Asker& asker, const SetControls& set) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  requireRev(set.rev);
+  session.setControls(readControlsText(set.controls, session.scene(), "/controls"));
+  sayChange(asker, session.last());
+}
+
+void Worker::perform(const Asker& asker, const SetNumbers& set) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  requireRev(set.rev);
+  session.setContent(scene_->edited(set.edits), nameOfEdits(set.edits, session.scene()));
+  sayScene({}, session.motion());
+  sayChange(asker, session.last());
+}
+
+void Worker::show(const OpenedFile& file, const std::string& name, std::optional<std::string> path) {
+  auto opened = std::make_unique<OpenScene>(file, name, std::move(path), options_.solving);
+  scene_ = std::move(opened);
+  scene_view_.reset();
+  hold_.reset();
+  ++rev_;
+}
+
+void Worker::openFirst(const std::string& path) {
+  show(workspace_.open(path), path, path);
+  sayAll({});
+}
+
+void Worker::perform(const Asker& asker, const Open& open) {
+  if (scene_) sessionFor(asker);
+  requireNoHold();
+  if (scene_ && scene_->isChanged() && !open.replace)
+    throw FileConflict("what is open has changes that are not saved");
+  if (open.gallery && !gallery_) throw InputError("found no gallery, expected one beside the page");
+  tabs_.tell(asker.socket, answering(asker.id, progressMessage("opening " + open.path)));
+  const OpenedFile file = (open.gallery ? *gallery_ : workspace_).open(open.path);
+  show(file, open.path, open.gallery ? std::nullopt : std::optional(open.path));
+  sayAll(asker);
+}
+
+void Worker::perform(const Asker& asker, const Save& save) {
+  session();
+  if (hold_) return saves_.push_back({asker.socket, {asker.id, save}});
+  const std::optional<std::string> path = save.path ? save.path : scene_->path();
+  if (!path) throw InputError("found no name for the scene, expected one");
+  const std::string folder = workspace_.folderOf(*path);
+  const std::optional<FileStamp> known = path == scene_->path() ? scene_->stamp() : std::nullopt;
+  const std::string text = scene_->textIn(folder);
+  const FileStamp stamp = workspace_.save(*path, text, known, save.replace);
+  scene_->wasSaved(*path, {text, stamp, folder});
+  tabs_.tell(asker.socket, answering(asker.id, savedMessage(*path, rev_)));
+  sayState(asker);
+}
+
+void Worker::perform(const Asker& asker, const List& list) {
+  tabs_.tell(asker.socket, answering(asker.id, filesMessage(list.path, workspace_.list(list.path))));
+}
+
+void Worker::perform(const Asker& asker, const Gallery&) {
+  if (gallery_ && shown_in_gallery_.empty()) {
+    for (const ListedFile& file : gallery_->list("")) {
+      if (file.folder) continue;
+      const auto document = formats_detail::Json::parse(gallery_->open(file.path).text, nullptr, false);
+      const std::string stem = file.name.substr(0, file.name.rfind('.'));
+      const auto text = [&](const char* member) {
+        const bool there = document.is_object() && document.contains(member) && document[member].is_string();
+        return there ? document[member].get<std::string>() : std::string();
+      };
+      const auto& pictures = options_.pictures;
+      const bool picture = std::find(pictures.begin(), pictures.end(), stem) != pictures.end();
+      const std::string name = text("name").empty() ? stem : text("name");
+      shown_in_gallery_.push_back({file.path, name, text("notes"), picture ? "/gallery/" + stem + ".svg" : ""});
+    }
+  }
+  tabs_.tell(asker.socket, answering(asker.id, galleryMessage(shown_in_gallery_)));
+}
+
+}  // namespace carom::studio

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A browser for tests: Debian's chromium, driven by playwright-core of the page's dev packages.
+import { existsSync } from 'node:fs';
+import { createRequire } from 'node:module';
+
+const require = createRequire(new URL('../../../studio/page/package.json', import.meta.url));
+
+export const executable = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+
+export const leftOut = 'left out: scripts/setup studio-tests installs chromium and playwright-core';
+
+/** Whether there is a browser and its driver. */
+export function canRun() {
+  try {
+    return !!executable && !!require.resolve('playwright-core');
+  } catch {
+    return false;
+  }
+}
+
+export async function launch() {
+  const { chromium } = require('playwright-core');
+  return chromium.launch({ executablePath: executable, args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] });
+}
+
+export const axeSource = () => require.resolve('axe-core/axe.min.js');
+
+/** A tab at the studio's page, whose complaints are kept in `complaints`. */
+export async function openPage(browser, url, { width = 1440, height = 900, quality = 'low' } = {}) {
+  const page = await browser.newPage({ viewport: { width, height } });
+  page.complaints = [];
+  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && page.complaints.push(message.text()));
+  page.on('pageerror', (error) => page.complaints.push(String(error.stack ?? error)));
+  const [address, token] = url.split('#');
+  await page.goto(`${address}?test&quality=${quality}#${token ?? 'x'}`);
+  return page;
+}
+
+/** Until a state of the store holds; `test` is the text of a function of it. Playwright's own waiting evaluates text in
+ * the page, which the page's policy refuses. */
+export async function until(page, test, patience = 30000) {
+  let timer;
+  const late = new Promise((_, reject) => (timer = setTimeout(() => reject(new Error(`${test} did not come true`)), patience)));
+  const held = page.evaluate(`(async () => {
+    const test = ${test};
+    while (!(globalThis.carom && test(globalThis.carom.store.state))) await new Promise((next) => setTimeout(next, 10));
+  })()`);
+  held.catch(() => {});
+  try {
+    await Promise.race([held, late]);
+  } finally {
+    clearTimeout(timer);
+  }
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { Connection, DragSender } from '../../../studio/page/connection.js';
+import { bytesOf, makeFrame } from './frame.mjs';
+
+function harness() {
+  const sockets = [], heard = [], waits = [];
+  const connection = new Connection({
+    url: 'ws://x/socket', token: 't', tab: 'a', later: (act, ms) => waits.push([act, ms]),
+    socket: () => {
+      const socket = { readyState: 1, sent: [], send: (text) => socket.sent.push(JSON.parse(text)) };
+      sockets.push(socket);
+      return socket;
+    },
+    listener: { status: (status) => heard.push(status), message: (message) => heard.push(message.type), frame: (frame) => heard.push(`frame ${frame.header.type}`) },
+  });
+  const say = (socket, message) => socket.onmessage({ data: JSON.stringify(message) });
+  return { connection, sockets, heard, waits, say };
+}
+
+test('greets with its token, and nothing is sent before the answer', () => {
+  const { connection, sockets, heard, say } = harness();
+  connection.connect();
+  sockets[0].onopen();
+  assert.equal(connection.send('undo'), 0);
+  say(sockets[0], { type: 'welcome', re: 1 });
+  assert.equal(connection.send('undo'), 2);
+  assert.deepEqual(sockets[0].sent, [{ type: 'hello', id: 1, protocol: 1, token: 't', tab: 'a' }, { type: 'undo', id: 2 }]);
+  assert.deepEqual(heard, ['connecting', 'open', 'welcome']);
+});
+
+test('answers, errors and frames find what asked', async () => {
+  const { connection, sockets, say } = harness();
+  connection.connect();
+  sockets[0].onopen();
+  say(sockets[0], { type: 'welcome', re: 1 });
+  const [a, b] = [connection.request('undo'), connection.request('save')];
+  say(sockets[0], { type: 'error', re: 3, code: 'conflict', message: 'changed' });
+  sockets[0].onmessage({ data: bytesOf(makeFrame(() => ({ type: 'motion', re: 2, reached: true }))) });
+  assert.equal((await a).reached, true);
+  await assert.rejects(b, { code: 'conflict' });
+});
+
+test('a broken connection refuses what waits, and is tried again, later each time', async () => {
+  const { connection, sockets, heard, waits, say } = harness();
+  connection.connect();
+  sockets[0].onopen();
+  say(sockets[0], { type: 'welcome', re: 1 });
+  const asked = connection.request('undo');
+  sockets[0].onclose({ code: 1006 });
+  await assert.rejects(asked, { code: 'lost' });
+  for (let i = 0; i < 6; ++i) {
+    waits[i][0]();
+    sockets[i + 1].onclose({ code: 1006 });
+  }
+  assert.deepEqual(waits.map(([, ms]) => ms), [200, 500, 1000, 2000, 5000, 5000, 5000]);
+  waits[6][0]();
+  sockets[7].onopen();
+  say(sockets[7], { type: 'welcome', re: connection.id });
+  sockets[7].onclose({ code: 1006 });
+  assert.equal(waits[7][1], 200, 'after a success from the start');
+  assert.equal(heard.filter((one) => one === 'lost').length, 8);
+});
+
+test('a wrong token and another protocol are not tried again', () => {
+  for (const code of [4401, 4400]) {
+    const { connection, sockets, heard, waits } = harness();
+    connection.connect();
+    sockets[0].onclose({ code });
+    assert.deepEqual([heard.at(-1), waits.length], ['ended', 0]);
+  }
+});
+
+test('what the page does not understand is an error it tells', () => {
+  const { connection, sockets, heard } = harness();
+  const log = console.error;
+  console.error = () => {};
+  connection.connect();
+  sockets[0].onmessage({ data: new ArrayBuffer(3) });
+  sockets[0].onmessage({ data: '{' });
+  console.error = log;
+  assert.deepEqual(heard.slice(1), ['error', 'error']);
+});
+
+test('one drag is unanswered at a time; the newest of the others goes next, at the latest with the release', () => {
+  const sent = [], sender = new DragSender((members) => sent.push(members), 4);
+  for (const x of [1, 2, 3]) sender.offer({ place: [x, 0, 0] });
+  assert.deepEqual(sent, [{ gesture: 4, seq: 1, place: [1, 0, 0] }]);
+  sender.answered(0);
+  assert.equal(sent.length, 1, 'an answer to an older one does not count');
+  sender.answered(1);
+  assert.deepEqual(sent[1], { gesture: 4, seq: 2, place: [3, 0, 0] });
+  sender.offer({ place: [4, 0, 0] });
+  assert.deepEqual(sender.last(), { gesture: 4, seq: 3, place: [4, 0, 0] });
+  assert.deepEqual(sender.last(), { gesture: 4, seq: 3 });
+});

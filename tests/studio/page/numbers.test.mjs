@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { evaluate, lengthText, shortNumber, stepOf } from '../../../studio/page/number_field_text.js';
+
+test('fields take arithmetic', () => {
+  const values = { '1': 1, ' 2.5 ': 2.5, '1+2*3': 7, '(1+2)*3': 9, '-4/8': -0.5, '2-3-4': -5, '1e-3': 0.001, '.5*2': 1, '−3': -3, '--2': 2, '8/2/2': 2, '1.5E2': 150 };
+  for (const [text, value] of Object.entries(values)) assert.equal(evaluate(text), value, text);
+  for (const text of ['', 'x', '1+', '1/0', '(1', '1)', '2 3', 'alert(1)', '1e999', '1..2', '0/0', 'NaN', '1'.repeat(5) + '+'.repeat(300)]) assert.equal(evaluate(text), null, text);
+});
+
+test('numbers for people', () => {
+  assert.equal(shortNumber(2.32, 1), '2.320');
+  assert.equal(shortNumber(-0.0000001, 1), '0.000');
+  assert.equal(shortNumber(-12.345, 1), '−12.345');
+  assert.equal(shortNumber(2.5e-7, 1e-6), '2.500e-7');
+  assert.equal(shortNumber(NaN), '–');
+  assert.equal(lengthText(0.0123), '12.3 mm');
+  assert.equal(lengthText(1.23456), '1.23 m');
+  assert.equal(lengthText(2.5e-5), '25.0 µm');
+  assert.equal(lengthText(0.0042), '4.2 mm');
+});
+
+test('a step is a hundredth to a tenth of the natural scale', () => {
+  for (const scale of [1e-3, 0.02, 0.7, 1, 3, 80]) assert.ok(stepOf(scale) <= scale / 10 * 1.001 && stepOf(scale) >= scale / 101, String(scale));
+});

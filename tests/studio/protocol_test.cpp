@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "studio/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "formats/documents/scene_json.h"
+#include "tests/studio/test_scene.h"
+
+namespace carom::studio {
+namespace {
+
+using Json = nlohmann::json;
+
+/// One of each message, with all of its members.
+const std::map<std::string, Json>& examples() {
+  static const std::map<std::string, Json> all = [] {
+    const Json constraint = {{"body", "hat"}, {"at", 0.5}, {"position", {0.8, nullptr, 1.7}}};
+    const Json control = {{"vary", "velocity"}, {"body", "hat"}, {"weight", 0.2}};
+    const Json list = {
+        {{"type", "hello"}, {"protocol", 1}, {"token", "abc"}, {"tab", "t1"}},
+        {{"type", "grab"}, {"gesture", 4}, {"body", "hat"}, {"at", {{"impact", 1}, {"with", "coatrack"}}},
+         {"grip", {{"orientation", true}, {"point", {0, 0, 0.1}}, {"components", {"x", "z"}}}}, {"also_vary", {control}}},
+        {{"type", "grab_nail"}, {"gesture", 4}, {"nail", 2}},
+        {{"type", "drag"}, {"gesture", 4}, {"seq", 9}, {"place", {0.8, 0, 1.7}}, {"orientation", {1, 0, 0, 0}}},
+        {{"type", "release"}, {"gesture", 4}, {"seq", 31}, {"place", {0.81, 0, 1.71}}, {"orientation", {0, 1, 0, 0}},
+         {"nail", true}},
+        {{"type", "cancel"}, {"gesture", 4}},
+        {{"type", "undo"}},
+        {{"type", "redo"}},
+        {{"type", "stop"}},
+        {{"type", "meet_nails"}},
+        {{"type", "nail"}, {"constraint", constraint}},
+        {{"type", "set_nail"}, {"nail", 0}, {"constraint", constraint}},
+        {{"type", "nail_on"}, {"nail", 1}, {"on", false}},
+        {{"type", "unnail"}, {"nail", 1}},
+        {{"type", "controls"}, {"rev", 3}, {"controls", {control}}},
+        {{"type", "set"}, {"rev", 12}, {"edits", {{{"pointer", "/bodies/2/velocity/0"}, {"value", 2.4}}}}},
+        {{"type", "open"}, {"path", "a/b.json"}, {"gallery", true}, {"replace", true}},
+        {{"type", "save"}, {"path", "b.json"}, {"replace", true}},
+        {{"type", "list"}, {"path", "a"}},
+        {{"type", "gallery"}},
+    };
+    std::map<std::string, Json> named;
+    for (Json message : list) {
+      message["id"] = 17;
+      named[message["type"]] = message;
+    }
+    return named;
+  }();
+  return all;
+}
+
+template <class What>
+What read(const Json& message) {
+  const Command command = readCommand(message.dump());
+  EXPECT_EQ(command.id, 17);
+  return std::get<What>(command.what);
+}
+template <class What>
+What example(const std::string& type) {
+  return read<What>(examples().at(type));
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    readCommand(text);
+  } catch (const MessageError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Protocol, ReadsEveryMessage) {
+  const auto hello = example<Hello>("hello");
+  EXPECT_EQ(hello.protocol, 1);
+  EXPECT_EQ(hello.token + hello.tab, "abct1");
+  const auto grab = example<Grab>("grab");
+  EXPECT_EQ(grab.gesture, 4);
+  EXPECT_EQ(grab.body, "hat");
+  EXPECT_EQ(grab.at.impact, 1);
+  EXPECT_EQ(grab.at.with, "coatrack");
+  EXPECT_TRUE(grab.grip.orientation);
+  EXPECT_EQ(grab.grip.body_point.value(), Vec3(0, 0, 0.1));
+  EXPECT_EQ(grab.grip.components, (std::vector<std::string>{"x", "z"}));
+  EXPECT_FALSE(grab.also_vary.empty());
+  EXPECT_EQ(example<GrabNail>("grab_nail").nail, 2);
+  const auto drag = example<Drag>("drag");
+  EXPECT_EQ(drag.gesture, 4);
+  EXPECT_EQ(drag.seq, 9);
+  EXPECT_EQ(drag.place, Vec3(0.8, 0, 1.7));
+  EXPECT_EQ(drag.orientation.value().w(), 1);
+  const auto release = example<Release>("release");
+  EXPECT_EQ(release.seq, 31);
+  EXPECT_EQ(release.place.value(), Vec3(0.81, 0, 1.71));
+  EXPECT_EQ(release.orientation.value().x(), 1);
+  EXPECT_TRUE(release.nail);
+  EXPECT_EQ(example<Cancel>("cancel").gesture, 4);
+  example<Undo>("undo"), example<Redo>("redo"), example<Stop>("stop"), example<MeetNails>("meet_nails");
+  EXPECT_FALSE(example<MakeNail>("nail").constraint.empty());
+  EXPECT_EQ(example<SetNail>("set_nail").nail, 0);
+  EXPECT_FALSE(example<NailOn>("nail_on").on);
+  EXPECT_EQ(example<Unnail>("unnail").nail, 1);
+  EXPECT_EQ(example<SetControls>("controls").rev, 3);
+  const auto set = example<SetNumbers>("set");
+  EXPECT_EQ(set.edits, (std::vector<std::pair<std::string, std::string>>{{"/bodies/2/velocity/0", "2.4"}}));
+  const auto open = example<Open>("open");
+  EXPECT_EQ(open.path, "a/b.json");
+  EXPECT_TRUE(open.gallery && open.replace);
+  EXPECT_EQ(example<Save>("save").path.value(), "b.json");
+  EXPECT_EQ(example<List>("list").path, "a");
+  example<Gallery>("gallery");
+}
+
+TEST(Protocol, MembersThatMayBeMissing) {
+  const auto without = [](const std::string& type, std::initializer_list<const char*> members) {
+    Json message = examples().at(type);
+    for (const char* member : members) message.erase(member);
+    return message;
+  };
+  EXPECT_TRUE(read<Grab>(without("grab", {"grip", "also_vary"})).also_vary.empty());
+  EXPECT_FALSE(read<Drag>(without("drag", {"orientation"})).orientation.has_value());
+  const auto release = read<Release>(without("release", {"place", "orientation", "nail"}));
+  EXPECT_FALSE(release.place || release.orientation || release.nail);
+  EXPECT_FALSE(read<Open>(without("open", {"gallery", "replace"})).gallery);
+  EXPECT_FALSE(read<Save>(without("save", {"path", "replace"})).path.has_value());
+  EXPECT_EQ(read<List>(without("list", {"path"})).path, "");
+  const auto nail = read<MakeNail>({{"type", "nail"}, {"id", 17}, {"body", "hat"}, {"at", 0.5}});
+  EXPECT_EQ(nail.body, "hat");
+  EXPECT_EQ(nail.at.time, 0.5);
+  EXPECT_TRUE(nail.constraint.empty());
+}
+
+TEST(Protocol, EveryWrongMemberIsNamed) {
+  for (const auto& [type, good] : examples()) {
+    for (const auto& member : good.items()) {
+      for (const Json& wrong : {Json(nullptr), Json({{"no", "such"}}), Json(Json::array({Json::array()}))}) {
+        if (member.key() == "type") continue;
+        Json bad = good;
+        bad[member.key()] = wrong;
+        const std::string error = errorOf(bad.dump());
+        EXPECT_NE(error.find("/" + member.key()), std::string::npos) << type << ": " << bad.dump() << "\n" << error;
+        EXPECT_NE(error.find("expected"), std::string::npos) << error;
+      }
+    }
+    Json more = good;
+    more["unknown"] = 1;
+    EXPECT_NE(errorOf(more.dump()).find("unknown"), std::string::npos) << type;
+    Json nameless = good;
+    nameless.erase("id");
+    EXPECT_NE(errorOf(nameless.dump()).find("\"id\""), std::string::npos) << type;
+  }
+}
+
+TEST(Protocol, ErrorsSayFoundAndExpected) {
+  EXPECT_EQ(errorOf("[]"), "found an empty array, expected a message: an object");
+  EXPECT_NE(errorOf("").find("expected"), std::string::npos);
+  EXPECT_NE(errorOf("{\"type\": \"undo\"").find("line 1"), std::string::npos);
+  EXPECT_NE(errorOf("{\"type\":\"grap\",\"id\":1}").find("did you mean \"grab\"?"), std::string::npos);
+  EXPECT_NE(errorOf("{\"id\":1}").find("no member \"type\""), std::string::npos);
+  EXPECT_NE(errorOf("{\"type\":{},\"id\":1}").find("/type"), std::string::npos);
+  EXPECT_NE(errorOf("{\"type\":\"undo\",\"id\":1,\"id\":2}").find("id"), std::string::npos);
+  EXPECT_NE(errorOf("{\"type\":\"drag\",\"id\":1,\"gesture\":1,\"seq\":0,\"place\":[0,0,1e400]}").find("expected"),
+            std::string::npos);
+  EXPECT_NE(errorOf("{\"type\":\"drag\",\"id\":1,\"gesture\":1,\"seq\":0,\"place\":[0,0,1],\"orientation\":[2,0,0,0]}")
+                .find("/orientation"),
+            std::string::npos);
+  EXPECT_NE(errorOf("{\"type\":\"nail\",\"id\":1}").find("constraint"), std::string::npos);
+  Json grip = examples().at("grab");
+  grip["grip"]["components"] = {"x", "x"};
+  EXPECT_NE(errorOf(grip.dump()).find("/grip/components"), std::string::npos);
+  Json set = examples().at("set");
+  set["edits"][0]["pointer"] = "bodies";
+  EXPECT_NE(errorOf(set.dump()).find("/edits/0/pointer"), std::string::npos);
+}
+
+TEST(Protocol, ErrorsKnowTheNumberOfTheirMessage) {
+  try {
+    readCommand("{\"id\": 99, \"type\": \"undo\", \"x\": 1}");
+    FAIL();
+  } catch (const MessageError& error) {
+    EXPECT_EQ(error.re, 99);
+  }
+  for (const char* text : {"{\"id\": \"99\", \"type\": \"undo\"}", "nonsense", "3"}) {
+    try {
+      readCommand(text);
+      FAIL();
+    } catch (const MessageError& error) {
+      EXPECT_EQ(error.re, 0) << text;
+    }
+  }
+}
+
+TEST(Protocol, DeepAndHugeMessagesAreRefused) {
+  EXPECT_NE(errorOf(std::string(100000, '[')).find("expected"), std::string::npos);
+  std::string many = "{\"type\":\"list\",\"id\":1,\"path\":[";
+  for (int i = 0; i < 500000; ++i) many += "0,";
+  EXPECT_NE(errorOf(many + "0]}").find("expected"), std::string::npos);
+}
+
+TEST(Protocol, ControlsAndConstraintsAreReadWithTheirScene) {
+  const Scene scene = parseDocument(kTestScene, "bounce").scene;
+  const std::vector<Control> controls =
+      readControlsText(R"([{"vary": "velocity", "body": "ball", "components": ["z"], "weight": 0.2}])", scene, "/also_vary");
+  ASSERT_EQ(controls.size(), 1u);
+  EXPECT_EQ(controls[0].weight, 0.2);
+  const Constraint constraint =
+      readConstraintText(R"({"body": "ball", "at": {"impact": 2}, "position": [1, null, 0.25]})", scene, 2, "/constraint");
+  EXPECT_EQ(constraint.at.impact, 2);
+  EXPECT_EQ(constraint.targets.at(0).value[2], 0.25);
+  const auto whereOf = [&](const auto& call) {
+    try {
+      call();
+    } catch (const InputError& error) {
+      return error.where();
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(whereOf([&] { readControlsText(R"([{"vary": "mass", "body": "bal"}])", scene, "/also_vary"); }),
+            "/also_vary/0/body");
+  EXPECT_EQ(whereOf([&] { readConstraintText(R"({"body": "ball", "at": 9, "position": [0,0,0]})", scene, 2, "/constraint"); }),
+            "/constraint/at");
+}
+
+}  // namespace
+}  // namespace carom::studio
