@@ -9,13 +9,11 @@ export const executable = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/u
 
 export const leftOut = 'left out: scripts/setup studio-tests installs chromium and playwright-core';
 
-/** Whether there is a browser and its driver. */
+/** Whether there is a browser and its driver; with CAROM_REQUIRE_STUDIO set there has to be. */
 export function canRun() {
-  try {
-    return !!executable && !!require.resolve('playwright-core');
-  } catch {
-    return false;
-  }
+  const driver = require.resolve.paths('').some((folder) => existsSync(`${folder}/playwright-core`)), can = !!executable && driver;
+  if (!can && process.env.CAROM_REQUIRE_STUDIO) throw new Error('chromium or playwright-core is missing: scripts/setup studio-tests');
+  return can;
 }
 
 export async function launch() {
