@@ -26,17 +26,25 @@ bool Worker::step(const std::stop_token& stop) {
     saves_.erase(saves_.begin());
     handle(save);
   }
-  while (hold_ && hold_->resting && mailbox_.isEmpty() && !stop.stop_requested()) rest();
+  while (hold_ && hold_->resting && mailbox_.isEmpty() && !stop.stop_requested()) {
+    hold_->resting = false;  // where it fails the hand moves first
+    refusing({hold_->socket, 0}, [this] { rest(); });
+  }
   return true;
 }
 
 void Worker::handle(const Letter& letter) {
   const Asker asker{letter.from, letter.command.id};
+  refusing(asker, [&] { std::visit([&](const auto& what) { perform(asker, what); }, letter.command.what); });
+}
+
+template <class Work>
+void Worker::refusing(const Asker& asker, const Work& work) {
   const auto refuse = [&](const Problem& problem) {
-    tabs_.tell(letter.from, answering(letter.command.id, errorMessage(problem)));
+    tabs_.tell(asker.socket, answering(asker.id, errorMessage(problem)));
   };
   try {
-    std::visit([&](const auto& what) { perform(asker, what); }, letter.command.what);
+    work();
   } catch (const Refusal& refusal) {
     refuse({refusal.code(), refusal.what(), "", ""});
   } catch (const std::exception& error) {
@@ -140,7 +148,7 @@ void Worker::rest() {
   const std::stop_token stop = mailbox_.beginRest();
   const SessionUpdate update =
       session.dwell(stop, [this](const SessionUpdate& better) { sayMotion({}, better, true, true); });
-  if (!update.stopped) hold_->resting = !update.reached && update.moved;
+  hold_->resting = update.stopped || (!update.reached && update.moved);
   if (!update.stopped || update.moved) sayMotion({}, update, hold_->resting, true);
 }
 

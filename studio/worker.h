@@ -77,6 +77,8 @@ class Worker {
   void perform(const Asker& asker, const Gone& gone);
 
   void handle(const Letter& letter);
+  template <class Work>
+  void refusing(const Asker& asker, const Work& work);  // tells who asked what went wrong
   void rest();
   EditSession& session();                       // fails where no scene is open
   EditSession& sessionFor(const Asker& asker);  // and where another page holds a body
