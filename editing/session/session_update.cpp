@@ -144,7 +144,7 @@ void EditSession::State::describe(SessionSolver& solver, const Motion& before, c
     if (update.cut_by_clock && replays) {
       update.obstacle = {Kind::clock, {}, "It was ended there when it was recorded."};
     } else if (update.cut_by_clock) {
-      update.obstacle = {Kind::clock, {}, "The clock ended the update."};
+      update.obstacle = {Kind::clock, {}, "The time for one update was over before it got there."};
     } else if (update.stopped) {
       update.obstacle = {Kind::work, {}, "It was stopped on the way."};
     } else {
