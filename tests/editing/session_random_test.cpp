@@ -2,6 +2,7 @@
 // Sessions of random gestures of every kind, stopped at random: they play again to the same bits, and undo leads back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "adjoint/simulate/simulate.h"
@@ -33,7 +34,9 @@ class RestlessPerson {
       case 4:
         return session_.meetNails(soon(30)), note();
       case 5:
-        return withNail([&](NailId id) { session_.grabNail(id), drag(); });
+        return withNail([&](NailId id) {
+          if (isThere(id)) session_.grabNail(id), drag();
+        });
       case 6:
         return typed();
       case 7:
@@ -50,7 +53,7 @@ class RestlessPerson {
   int pick(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
   double within(double size) { return size * (2 * static_cast<double>(random_()) / 4294967295.0 - 1); }
   std::stop_token soon(int most) { return s_.stop.set(pick(most)); }
-  double time() { return latest_ * (0.55 + within(0.4)); }
+  double time() { return std::min(latest_, session_.motion().end) * (0.55 + within(0.4)); }
   Vec3 near(const Vec3& place) { return place + Vec3(within(0.2), within(0.1), within(0.2)); }
   Constraint somewhere() {
     const double t = time();
@@ -62,6 +65,9 @@ class RestlessPerson {
   void withNail(const Call& call) {
     const std::vector<NailId> nails = session_.nails();
     if (!nails.empty()) call(nails[static_cast<std::size_t>(pick(static_cast<int>(nails.size())))]);
+  }
+  bool isThere(NailId id) const {
+    return std::ranges::any_of(session_.nailStates(), [&](const NailState& n) { return n.id == id && n.available; });
   }
   void nail() {
     if (session_.nails().size() < 2) session_.nail(somewhere(), soon(30)), note();
