@@ -83,7 +83,7 @@ inline SessionOptions solvingWithoutClock() {
   return options;
 }
 
-/// A worker on a folder with the scene "bounce.json".
+/// A worker on a folder with the scene "bounce.json"; with an empty scene nothing is there and nothing open.
 struct WorkerTest {
   TestFolder folder;
   Mailbox mailbox;
@@ -92,15 +92,19 @@ struct WorkerTest {
   std::unique_ptr<Worker> worker;
   std::int64_t id = 0;
 
-  explicit WorkerTest(const std::string& scene = kTestScene, const SessionOptions& solving = solvingWithoutClock()) {
-    folder.write("bounce.json", scene);
+  explicit WorkerTest(const std::string& scene = kTestScene, const SessionOptions& solving = solvingWithoutClock(),
+                      const std::string& gallery = "") {
+    if (!scene.empty()) folder.write("bounce.json", scene);
     workspace = std::make_unique<Workspace>(folder.path());
     WorkerOptions options;
     options.session = "s1";
     options.solving = solving;
-    worker = std::make_unique<Worker>(
-        mailbox, *workspace, Post{[this](SocketId to, const Outgoing& message) { received.add(to, message); }}, options);
-    worker->openFirst("bounce.json");
+    options.gallery = gallery;
+    options.pictures = {"first"};
+    worker = std::make_unique<Worker>(mailbox, *workspace,
+                                      Post{[this](SocketId to, const Outgoing& message) { received.add(to, message); }},
+                                      options);
+    if (!scene.empty()) worker->openFirst("bounce.json");
   }
   /// Sends a message, which gets a number.
   std::int64_t send(SocketId from, Json message) {
@@ -119,6 +123,12 @@ struct WorkerTest {
     return received.take(from);
   }
 };
+
+/// Takes hold of the ball of the test scene on its way up; drags it.
+inline const Json kGrab = {{"type", "grab"}, {"gesture", 1}, {"body", "ball"}, {"at", 0.3}};
+inline Json dragTo(std::int64_t seq, double x, double z) {
+  return {{"type", "drag"}, {"gesture", 1}, {"seq", seq}, {"place", {x, 0, z}}};
+}
 
 /// The last message of a type; null where there is none.
 inline Json lastOf(const std::vector<Json>& messages, const std::string& type) {

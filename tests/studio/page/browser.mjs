@@ -29,6 +29,9 @@ export async function openPage(browser, url, { width = 1440, height = 900, quali
   page.complaints = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && page.complaints.push(message.text()));
   page.on('pageerror', (error) => page.complaints.push(String(error.stack ?? error)));
+  const stays = (to) => /^((http|ws):\/\/127\.0\.0\.1:\d+\/|data:|blob:)/.test(to) || page.complaints.push(`a request left this machine: ${to}`);
+  page.on('request', (request) => stays(request.url()));
+  page.on('websocket', (socket) => stays(socket.url()));
   const [address, token] = url.split('#');
   await page.goto(`${address}?test&quality=${quality}#${token ?? 'x'}`);
   return page;
