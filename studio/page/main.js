@@ -3,7 +3,7 @@
 
 import { Commands } from './commands.js';
 import { Connection } from './connection.js';
-import { ask, askName } from './dialogs/ask.js';
+import { ask, askName, choose } from './dialogs/ask.js';
 import { showEmpty } from './dialogs/open.js';
 import { byId } from './dom.js';
 import { Gesture } from './gesture.js';
@@ -69,7 +69,7 @@ function start() {
   const connection = new Connection({
     url: `ws://${location.host}/socket`, token: takeToken(), tab: store.state.tab,
     listener: listener({ store, gesture: () => gesture, opened: () => {
-      store.set({ selected: -1, selectedNail: -1, card: null, time: 0, playing: false });
+      store.set({ selected: -1, selectedNail: -1, card: null, time: 0, playing: false, loopRange: null });
       frame(-1, true);
     } }),
   });
@@ -84,7 +84,7 @@ function start() {
       commands.saveIfWaiting();
     },
   });
-  const commands = new Commands({ store, connection, gesture, view: { frame }, ask, askName });
+  const commands = new Commands({ store, connection, gesture, view: { frame }, ask, choose, askName });
   showHeader(store, commands, gesture);
   showNotices(store);
   showReadout(store);
@@ -139,13 +139,15 @@ function showLayout(store) {
   const loading = byId('loading'), fold = byId('fold');
   store.on(['connected', 'progress', 'motion'], ({ connected, progress }) => {
     document.body.dataset.connected = connected;
+    // what would ask the server waits until it is back; the view can still be turned
+    for (const id of ['panel', 'tools']) byId(id).toggleAttribute('inert', connected === 'lost' || connected === 'ended');
     loading.hidden = !(connected === 'connecting' || connected === 'loading' || progress);
     loading.textContent = progress || (connected === 'loading' ? 'Loading…' : 'Connecting…');
   });
   store.on(['motion', 'document'], ({ motion, document: shown }) => {
     const early = motion && shown?.open && motion.end < shown.duration - 1e-9;
     byId('ended').hidden = !early;
-    byId('ended').textContent = early ? motion.message || `The motion ends at ${motion.end.toFixed(3)} s.` : '';
+    byId('ended').textContent = byId('ended').title = early ? motion.message || `The motion ends at ${motion.end.toFixed(3)} s.` : '';
   });
   store.on(['panel'], ({ panel }) => {
     document.body.classList.toggle('folded', !panel);

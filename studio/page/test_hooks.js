@@ -46,6 +46,13 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
       const box = overlay.canvas.getBoundingClientRect(), [x, y] = view.camera.project(centreAt(track, time));
       return [box.left + x, box.top + y];
     },
+    /** Of the motion before. @param {number} body @param {number} time s */
+    beforeOnScreen: (body, time) => {
+      const track = store.state.before?.tracks[body], box = overlay.canvas.getBoundingClientRect();
+      if (!track) throw new Error('no motion before');
+      const [x, y] = view.camera.project(centreAt(track, time));
+      return [box.left + x, box.top + y];
+    },
     /** The colour drawn there by the scene, [r, g, b]. @param {number} x @param {number} y px of the page */
     inkAt: (x, y) => {
       const box = overlay.canvas.getBoundingClientRect(), gl = view.renderer.getContext(), bytes = new Uint8Array(4), ratio = view.renderer.getPixelRatio();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dots at every frame along paths, impacts by mode, what is hovered or held, and where the hand wants it.
 
+import { impactsThatChanged } from '../changes.js';
 import { colours, impactColours, inkOf } from '../colours.js';
 import { centreAt } from '../motion.js';
 import { lengthText } from '../number_field_text.js';
@@ -55,7 +56,25 @@ export function drawImpacts(pen, { motion, hover, selected }, bodies, project, s
     if (depth <= 0) continue;
     pen.strokeStyle = impactColours[impact.mode] ?? impactColours.stick;
     pen.lineWidth = hover?.impact === impact ? 3 : 1.8;
+    pen.globalAlpha = selected >= 0 && !impact.bodies.includes(selected) && bodies.includes(selected) ? 0.5 : 1;
     impactMark(pen, impact.mode, x, y, 6 * scale);
+  }
+  pen.globalAlpha = 1;
+}
+
+/** Impacts that came and went, with words, once a person asked to see them. @param {Pen} pen @param {State} state
+ * @param {Project} project @param {number} scale */
+export function drawChangedImpacts(pen, { motion, before, changesShown, document }, project, scale) {
+  if (!changesShown || !motion || !before || !document) return;
+  for (const { impact, pair, came } of impactsThatChanged(before, motion)) {
+    const [x, y, depth] = project(impact.point);
+    if (depth <= 0) continue;
+    pen.strokeStyle = came ? colours.text : colours.before;
+    pen.lineWidth = 1.8;
+    pen.setLineDash(came ? [] : [3, 3]);
+    circle(pen, x, y, 10 * scale);
+    pen.setLineDash([]);
+    label(pen, `${pair.map((body) => document.bodies[body].name).join(' and ')} ${came ? 'came' : 'went'}`, x + 14 * scale, y + 4, came ? colours.text : colours.dim);
   }
 }
 

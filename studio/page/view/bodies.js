@@ -52,7 +52,7 @@ export class Bodies {
     this.meshes.forEach((mesh, body) => {
       const track = motion.tracks[body];
       if (track) place(mesh, track, Math.min(time, motion.end));
-      for (const material of mesh.material) material.emissive.set(body === selected ? 0x101820 : 0);
+      for (const material of mesh.material) material.emissive.set(body === selected ? 0x0a1018 : 0);
     });
   }
 

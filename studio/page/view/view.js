@@ -6,7 +6,9 @@ import { colours } from '../colours.js';
 import { Bodies } from './bodies.js';
 import { Camera } from './camera.js';
 import { Ghosts } from './ghosts.js';
+import { Glide } from '../glide.js';
 import { Ground } from './ground.js';
+import { Outline } from './outline.js';
 import { Paths } from './paths.js';
 import { FrameWatch } from './quality.js';
 import { Shadows } from './shadows.js';
@@ -33,7 +35,10 @@ export class View {
     this.paths = new Paths();
     this.ground = new Ground();
     this.shadows = new Shadows();
-    this.scene.add(this.ground.group, this.shadows.group, this.bodies.group, this.paths.group, this.ghosts.group, ...lights());
+    this.outline = new Outline();
+    this.glide = new Glide(() => matchMedia('(prefers-reduced-motion: reduce)').matches);
+    this.shown = store.state;
+    this.scene.add(this.ground.group, this.shadows.group, this.bodies.group, this.outline.mesh, this.paths.group, this.ghosts.group, ...lights());
     this.quality = store.state.quality;
     this.renderer = this.makeRenderer(this.quality);
     new ResizeObserver(() => this.resize(resized)).observe(host);
@@ -74,16 +79,19 @@ export class View {
   }
 
   draw() {
-    const { state } = this.store;
+    const { state, gone, share } = this.glide.shown(this.store.state, performance.now());
     if (state.quality !== this.quality) this.changeQuality(state.quality);
+    this.shown = state;
     this.bodies.update(state);
     this.ground.update(state);
     this.shadows.update(state, this.bodies.meshes);
-    this.paths.update(state);
+    this.outline.update(state, this.bodies.meshes, this.camera.width, this.camera.height);
+    this.paths.update(state, gone, share);
     this.ghosts.update(state, this.bodies.meshes);
     this.renderer.render(this.scene, this.camera.camera);
     ++this.frames;
     this.drawn();
+    if (this.glide.from) this.invalidate();
   }
 
   /** @param {'low' | 'high'} quality */
@@ -97,8 +105,8 @@ export class View {
 }
 
 function lights() {
-  const sun = new THREE.DirectionalLight(0xffffff, 1.9), fill = new THREE.DirectionalLight(0xbfd4ff, 0.5);
-  sun.position.set(-1, -1.5, 3);
+  const sun = new THREE.DirectionalLight(0xffffff, 2), fill = new THREE.DirectionalLight(0xbfd4ff, 0.6);
+  sun.position.set(-1.2, -2.4, 3);
   fill.position.set(2, 1, 0.5);
-  return [new THREE.HemisphereLight(0xffffff, 0x5a5f66, 1.25), sun, fill];
+  return [new THREE.HemisphereLight(0xffffff, 0x868c94, 1.45), sun, fill];
 }

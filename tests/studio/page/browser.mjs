@@ -26,8 +26,9 @@ export async function launch() {
 export const axeSource = () => require.resolve('axe-core/axe.min.js');
 
 /** A tab at the studio's page, whose complaints are kept in `complaints`. */
-export async function openPage(browser, url, { width = 1440, height = 900, quality = 'low' } = {}) {
-  const page = await browser.newPage({ viewport: { width, height } });
+export async function openPage(browser, url, { width = 1440, height = 900, quality = 'low', ...more } = {}) {
+  const page = await browser.newPage({ viewport: { width, height }, ...(more.reducedMotion ? { reducedMotion: more.reducedMotion } : {}), ...(more.forcedColors ? { forcedColors: more.forcedColors } : {}) });
+  page.setDefaultTimeout(15000);
   page.complaints = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && page.complaints.push(message.text()));
   page.on('pageerror', (error) => page.complaints.push(String(error.stack ?? error)));

@@ -176,9 +176,14 @@ export class FakeStudio {
     } else {
       if (type === 'nail_on') this.nails = this.nails.map((nail) => (nail.id === message.nail ? { ...nail, on: message.on } : nail));
       if (type === 'unnail') this.nails = this.nails.filter((nail) => nail.id !== message.nail);
-      if (type === 'nail') this.nails = [...this.nails, { id: this.nails.length, constraint: { body: message.body, at: message.at, position: [0, 0, 1], orientation: [1, 0, 0, 0] }, on: true, available: true, met: true, time: message.at, error: 0, message: '' }];
+      if (type === 'nail') this.nails = [...this.nails, { id: this.nails.length, constraint: { body: message.body, at: message.at, position: this.placeAt(message.at), orientation: [1, 0, 0, 0] }, on: true, available: true, met: true, time: message.at, error: 0, message: '' }];
       done();
     }
+  }
+
+  placeAt(time) {
+    const [t, x, y, z, vx, vy, vz, ax, ay, az] = fly(this.velocity, 1.5).arcs.findLast((arc) => arc[0] <= time), s = time - t;
+    return [x + s * vx + (s * s * ax) / 2, y + s * vy + (s * s * ay) / 2, z + s * vz + (s * s * az) / 2];
   }
 
   timeOf(at) {
