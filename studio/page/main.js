@@ -50,6 +50,7 @@ function start() {
   const renderer = rendererName();
   if (!renderer) {
     byId('blocked').hidden = false;
+    byId('loading').hidden = true;
     return;
   }
   const store = new Store({ ...initialState(), tab: tabName(), quality: qualityFor(renderer, query.get('quality')) });
@@ -163,6 +164,7 @@ function showLayout(store) {
   };
   low.addEventListener('change', share);
   share();
+  store.on(['selectedNail'], ({ selectedNail }) => selectedNail >= 0 && low.matches && long[1]?.setAttribute('open', ''));
   store.on(['document'], ({ document: shown }) => (byId('nail-count').textContent = shown?.nails.length ? String(shown.nails.length) : ''));
   fold.addEventListener('click', () => store.set({ panel: !store.state.panel }));
 }

@@ -33,6 +33,7 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
   Object.assign(globalThis, { carom: {
     store, gesture, latency, connection,
     frames: () => view.frames,
+    gliding: () => view.glide.from !== null,
     received: () => connection.received,
     /** On the page, px. @param {import('./types.js').Vec3} point */
     screenOf: (point) => {

@@ -68,7 +68,7 @@ export function drawChangedImpacts(pen, { motion, before, changesShown, document
   if (!changesShown || !motion || !before || !document) return;
   for (const { impact, pair, came } of impactsThatChanged(before, motion)) {
     const [x, y, depth] = project(impact.point);
-    if (depth <= 0) continue;
+    if (depth <= 0 || x < 0 || y < 0 || x > pen.canvas.clientWidth || y > pen.canvas.clientHeight) continue;
     pen.strokeStyle = came ? colours.text : colours.before;
     pen.lineWidth = 1.8;
     pen.setLineDash(came ? [] : [3, 3]);
