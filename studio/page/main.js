@@ -12,7 +12,6 @@ import { showHeader } from './header.js';
 import { listenToKeys, listenToPointer } from './input.js';
 import { showReadout } from './live.js';
 import { listener, tellEnding } from './messages.js';
-import { centreAt, moves, pathTimes } from './motion.js';
 import { showNotices } from './notice.js';
 import { Overlay } from './overlay/overlay.js';
 import { showBodies } from './panels/bodies.js';
@@ -22,10 +21,9 @@ import { showPlayer } from './player.js';
 import { initialState, Store } from './store.js';
 import { addTestHooks } from './test_hooks.js';
 import { TimeLine } from './timeline.js';
+import { frameView } from './view/framing.js';
 import { qualityFor, rendererName } from './view/quality.js';
 import { View } from './view/view.js';
-
-/** @typedef {import('./types.js').Vec3} Vec3 */
 
 const query = new URLSearchParams(location.search);
 
@@ -64,7 +62,7 @@ function start() {
   overlay = new Overlay(canvas, store, view);
   overlay.resize(view.camera.width, view.camera.height);
 
-  const frame = (/** @type {number} */ body, anew = false) => frameView(store, view, body, anew);
+  const frame = (/** @type {number} */ body, anew = false) => frameView(view, store.state, body, anew);
   /** @type {Gesture | null} */
   let gesture = null;
   const connection = new Connection({
@@ -102,24 +100,6 @@ function start() {
   store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
   if (query.has('test')) addTestHooks({ store, view, overlay, connection, gesture });
   connection.connect();
-}
-
-/** Shows everything, or one body with its path. @param {Store<import('./types.js').State>} store @param {View} view
- * @param {number} body -1: everything @param {boolean} anew from the usual side */
-function frameView(store, view, body, anew) {
-  const { scene, motion } = store.state;
-  if (!scene || !motion) return;
-  let { min, max } = scene;
-  const ground = scene.shapes.flatMap(({ plane, body: of }) => (plane && plane.normal[2] > 0.9 ? [centreAt(motion.tracks[of], 0)[2] + plane.offset] : []));
-  min = [min[0], min[1], Math.min(min[2], ...ground.filter((z) => z > min[2] - 2 * Math.max(max[0] - min[0], max[2] - min[2], 0.1)))];
-  const track = motion.tracks[body];
-  if (track && moves(track)) {
-    const places = pathTimes(track, motion.end, 1e-2).map((t) => centreAt(track, t)), r = scene.shapes[body].radius;
-    const corner = (/** @type {(...v: number[]) => number} */ pick, /** @type {number} */ sign) => /** @type {Vec3} */ ([0, 1, 2].map((i) => pick(...places.map((p) => p[i])) + sign * r));
-    [min, max] = [corner(Math.min, -1), corner(Math.max, 1)];
-  }
-  view.camera.frame(min, max, anew);
-  view.invalidate();
 }
 
 /** Choices of a person are kept from one time to the next. @param {Store<import('./types.js').State>} store */

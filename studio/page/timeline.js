@@ -74,7 +74,7 @@ export class TimeLine {
     const { motion, scene } = this.store.state;
     const bodies = motion?.tracks.filter((t) => !scene?.shapes[t.body]?.fixed && moves(t)).map((t) => t.body) ?? [];
     this.scroll = Math.max(0, Math.min(this.scroll, bodies.length - 1));
-    return lanes(bodies, ruler + 2, height - ruler - 8, this.scroll);
+    return lanes(bodies, ruler + 2, height - ruler - 6, this.scroll);
   }
 
   /** @param {State} state */
@@ -119,7 +119,7 @@ export class TimeLine {
     for (const impact of motion.impacts) {
       if (impact.bodies.includes(body)) this.diamond(impact.t, middle, size, impactColours[impact.mode] ?? impactColours.stick, true);
     }
-    if (state.changesShown && state.before && height >= 11) this.drawChanges(state.before, motion, body, middle);
+    if (state.changesShown && state.before && height >= 10) this.drawChanges(state.before, motion, body, middle);
     for (const place of nailPlaces(state)) {
       if (place.body !== body) continue;
       const dragged = typeof this.dragged === 'object' && 'nail' in this.dragged && this.dragged.nail === place.id ? this.dragged.time : place.time;

@@ -55,9 +55,10 @@ export function drawImpacts(pen, { motion, hover, selected }, bodies, project, s
     const [x, y, depth] = project(impact.point);
     if (depth <= 0) continue;
     pen.strokeStyle = impactColours[impact.mode] ?? impactColours.stick;
-    pen.lineWidth = hover?.impact === impact ? 3 : 1.8;
-    pen.globalAlpha = selected >= 0 && !impact.bodies.includes(selected) && bodies.includes(selected) ? 0.5 : 1;
-    impactMark(pen, impact.mode, x, y, 6 * scale);
+    const crowd = many && selected < 0, hovered = hover?.impact === impact;
+    pen.lineWidth = hovered ? 3 : crowd ? 1.2 : 1.8;
+    pen.globalAlpha = hovered ? 1 : crowd ? 0.75 : selected >= 0 && !impact.bodies.includes(selected) && bodies.includes(selected) ? 0.5 : 1;
+    impactMark(pen, impact.mode, x, y, (crowd ? 3.5 : 6) * scale);
   }
   pen.globalAlpha = 1;
 }

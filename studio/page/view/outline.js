@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The outline of the selected body: its back faces, pushed outwards by a few pixels on the screen, so that it is as
-// wide far away as it is near.
+// The outline of the selected body: its surface, pushed outwards by a few pixels on the screen, so that it is as wide far
+// away as it is near. Drawn without depth between the other bodies and the selected one, which covers all but the rim.
 
 import * as THREE from 'three';
 import { colours } from '../colours.js';
@@ -54,15 +54,17 @@ function seamless(geometry) {
 export class Outline {
   constructor() {
     const uniforms = { size: { value: new THREE.Vector2(1, 1) }, width: { value: pixels }, colour: { value: new THREE.Color(colours.accent) } };
-    this.material = new THREE.ShaderMaterial({ uniforms, vertexShader, fragmentShader, side: THREE.BackSide });
+    this.material = new THREE.ShaderMaterial({ uniforms, vertexShader, fragmentShader, side: THREE.DoubleSide, depthWrite: false });
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
+    this.mesh.renderOrder = 1;
     this.of = /** @type {THREE.BufferGeometry | null} */ (null);
   }
 
   /** @param {State} state @param {(BodyMesh | undefined)[]} bodies @param {number} width @param {number} height px */
   update({ selected, motion }, bodies, width, height) {
+    bodies.forEach((one, i) => one && (one.renderOrder = i === selected ? 2 : 0));
     const body = motion ? bodies[selected] : undefined;
     this.mesh.visible = !!body;
     if (!body) return;
