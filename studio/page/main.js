@@ -22,7 +22,7 @@ import { initialState, Store } from './store.js';
 import { addTestHooks } from './test_hooks.js';
 import { TimeLine } from './timeline.js';
 import { frameView } from './view/framing.js';
-import { qualityFor, rendererName } from './view/quality.js';
+import { isHardware, qualityFor, rendererName } from './view/quality.js';
 import { View } from './view/view.js';
 
 const query = new URLSearchParams(location.search);
@@ -57,7 +57,7 @@ function start() {
   /** @type {Overlay | null} */
   let overlay = null;
   const view = new View({
-    host: byId('view'), input: canvas, store, drawn: () => overlay?.draw(), resized: (width, height) => overlay?.resize(width, height),
+    host: byId('view'), input: canvas, store, shadowMap: isHardware(renderer) || query.get('shadows') === 'map', drawn: () => overlay?.draw(), resized: (width, height) => overlay?.resize(width, height),
   });
   overlay = new Overlay(canvas, store, view);
   overlay.resize(view.camera.width, view.camera.height);

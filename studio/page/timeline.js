@@ -225,6 +225,8 @@ export class TimeLine {
     const { motion, selected } = this.store.state;
     if (!motion) return;
     const time = Math.max(0, Math.min(motion.end, tOf(this.axis, event.offsetX)));
+    const over = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height);
+    this.canvas.title = over ? (this.store.state.document?.bodies[over.body]?.name ?? '') : '';
     if (this.dragged === 'head') {
       this.commands.seek(time);
     } else if (typeof this.dragged === 'object' && 'loop' in this.dragged) {
@@ -234,7 +236,7 @@ export class TimeLine {
       this.dragged = { nail: this.dragged.nail, time: Math.round(time * 1000) / 1000 };
       this.invalidate();
     } else if (this.store.state.gesture.state === 'idle') {
-      const lane = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height), body = lane?.body ?? selected;
+      const body = over?.body ?? selected;
       this.store.set({ hover: body >= 0 ? { kind: 'body', body, time, at: time, place: centreAt(motion.tracks[body], time) } : null });
     }
   }

@@ -80,8 +80,8 @@ export function drawChangedImpacts(pen, { motion, before, changesShown, document
 }
 
 /** What lies under the pointer: its time, or its impact. @param {Pen} pen @param {import('../types.js').Hit} hit
- * @param {Project} project @param {number} scale */
-export function drawHover(pen, hit, project, scale) {
+ * @param {string} name of its body, where there are several @param {Project} project @param {number} scale */
+export function drawHover(pen, hit, name, project, scale) {
   if (hit.kind === 'handle') return;
   const [x, y, depth] = project(hit.kind === 'impact' && hit.impact ? hit.impact.point : hit.place);
   if (depth <= 0) return;
@@ -92,7 +92,7 @@ export function drawHover(pen, hit, project, scale) {
     pen.fill();
   }
   const at = hit.at, time = `${hit.time.toFixed(2)} s`;
-  label(pen, typeof at === 'object' && 'impact' in at ? `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}, ${time}` : time, x + 9 * scale, y - 9 * scale, colours.text);
+  label(pen, (name && `${name}, `) + (typeof at === 'object' && 'impact' in at ? `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}, ${time}` : time), x + 9 * scale, y - 9 * scale, colours.text);
 }
 
 /** The held point, and while dragging the target with the way to it. @param {Pen} pen @param {State} state

@@ -50,7 +50,7 @@ export class Overlay {
     drawChangedImpacts(pen, state, project, scale);
     drawHoops(pen, nailPlaces(state), project, scale, state.selectedNail);
     if (!dragging) drawHandles(pen, this.handles(), hover?.handle ?? '');
-    if (hover && gesture.state === 'idle') drawHover(pen, hover, project, scale);
+    if (hover && gesture.state === 'idle') drawHover(pen, hover, bodies.length > 1 ? (state.document?.bodies[hover.body]?.name ?? '') : '', project, scale);
     if (gesture.hit && gesture.state !== 'idle') {
       const track = motion.tracks[gesture.hit.body];
       drawHeld(pen, state, project(pointAt(track, track.center, Math.min(state.time, motion.end))), project, scale);

@@ -88,5 +88,7 @@ function meshOf(shape) {
   const colour = shape.fixed ? colours.fixed : shape.colour;
   const light = new THREE.Color(colour).lerp(new THREE.Color('#ffffff'), 0.45);
   const materials = [colour, light].map((color) => new THREE.MeshLambertMaterial({ color, flatShading: !shape.normals }));
-  return new THREE.Mesh(geometryOf(shape), materials);
+  const mesh = new THREE.Mesh(geometryOf(shape), materials);
+  mesh.castShadow = mesh.receiveShadow = true;
+  return mesh;
 }
