@@ -98,8 +98,9 @@ export function listenToKeys({ store, gesture, commands, frame, overlay }) {
       event.preventDefault();
       return;
     }
-    const on_button = document.activeElement?.tagName === 'BUTTON';
-    if (on_button && (event.key === ' ' || event.key === 'Enter')) return;
+    // what has the focus is pressed by these keys
+    const pressed_by_keys = document.activeElement?.matches('button, summary, input');
+    if (pressed_by_keys && (event.key === ' ' || event.key === 'Enter')) return;
     const found = actionOf(chordOf(event), store.state.keymap, dragging);
     if (!found) return;
     event.preventDefault();

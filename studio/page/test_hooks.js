@@ -33,6 +33,7 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
   Object.assign(globalThis, { carom: {
     store, gesture, latency, connection,
     frames: () => view.frames,
+    gliding: () => view.glide.from !== null,
     received: () => connection.received,
     /** On the page, px. @param {import('./types.js').Vec3} point */
     screenOf: (point) => {
@@ -44,6 +45,13 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
       const body = store.state.document?.bodies.findIndex((one) => one.name === name) ?? -1, track = store.state.motion?.tracks[body];
       if (!track) throw new Error(`no body '${name}'`);
       const box = overlay.canvas.getBoundingClientRect(), [x, y] = view.camera.project(centreAt(track, time));
+      return [box.left + x, box.top + y];
+    },
+    /** Of the motion before. @param {number} body @param {number} time s */
+    beforeOnScreen: (body, time) => {
+      const track = store.state.before?.tracks[body], box = overlay.canvas.getBoundingClientRect();
+      if (!track) throw new Error('no motion before');
+      const [x, y] = view.camera.project(centreAt(track, time));
       return [box.left + x, box.top + y];
     },
     /** The colour drawn there by the scene, [r, g, b]. @param {number} x @param {number} y px of the page */
