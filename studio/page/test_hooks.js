@@ -9,29 +9,43 @@ import { centreAt } from './motion.js';
 export function addTestHooks({ store, view, overlay, connection, gesture }) {
   /** @type {{decoded: number[], drawn: number[]}} ms from a move of the mouse in a drag to its motion and its frame */
   const latency = { decoded: [], drawn: [] };
-  let moved = 0, waiting = 0, undrawn = false;
+  /** @type {{frames: number[], motions: {time: number, seq: number, reached: boolean}[]}} when drawn and when heard, ms */
+  const log = { frames: [], motions: [] };
+  /** @type {{moved: number, seq: number, decoded: boolean}[]} moves whose frame has not been drawn */
+  let moves = [];
   overlay.canvas.addEventListener('pointermove', (event) => {
-    if (store.state.gesture.state === 'dragging' && !waiting) {
-      moved = event.timeStamp;
-      waiting = gesture.sender?.seq ?? 0;
+    const { sender } = gesture;
+    if (store.state.gesture.state === 'dragging' && sender) {
+      moves.push({ moved: event.timeStamp, seq: sender.seq + (sender.waiting ? 1 : 0), decoded: false });
     }
   });
   store.on(['motion'], ({ motion }) => {
-    if (!waiting || !motion || motion.seq === undefined || motion.seq < waiting) return;
-    latency.decoded.push(performance.now() - moved);
-    undrawn = true;
+    const now = performance.now(), seq = motion?.seq ?? -1;
+    log.motions.push({ time: now, seq, reached: motion?.reached ?? true });
+    for (const move of moves) {
+      if (move.decoded || seq < move.seq) continue;
+      move.decoded = true;
+      latency.decoded.push(now - move.moved);
+    }
+  });
+  store.on(['gesture'], ({ gesture: now }) => {
+    if (now.state === 'idle') moves = [];
   });
   const drawn = view.drawn;
   view.drawn = () => {
     drawn();
-    if (!undrawn) return;
-    const gl = view.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // the work is in another process: wait for it
-    latency.drawn.push(performance.now() - moved);
-    [undrawn, waiting] = [false, 0];
+    if (moves.some((move) => move.decoded)) {
+      const gl = view.renderer.getContext();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // the work is in another process: wait for it
+      const now = performance.now();
+      for (const move of moves) if (move.decoded) latency.drawn.push(now - move.moved);
+      moves = moves.filter((move) => !move.decoded);
+    }
+    log.frames.push(performance.now());
   };
   Object.assign(globalThis, { carom: {
-    store, gesture, latency, connection,
+    store, gesture, latency, log, connection,
+    invalidate: () => view.invalidate(),
     frames: () => view.frames,
     received: () => connection.received,
     /** On the page, px. @param {import('./types.js').Vec3} point */

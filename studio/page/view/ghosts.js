@@ -61,7 +61,12 @@ export class Ghosts {
         });
       }
     }
-    for (const [key, set] of this.sets) if (!wanted.has(key)) this.drop(key, set);
+    // hidden rather than dropped: with the last of a kind its shaders would go, and be compiled again at the next hover
+    const alive = new Set(bodies.map((body) => body?.geometry));
+    for (const [key, set] of this.sets) {
+      if (!alive.has(set.geometry)) this.drop(key, set);
+      else if (!wanted.has(key)) for (const mesh of set.meshes) mesh.visible = false;
+    }
   }
 
   /** @param {State} state @returns {number[]} */
@@ -90,6 +95,7 @@ export class Ghosts {
       for (const mesh of set.meshes) mesh.setMatrixAt(i, this.dummy.matrix);
     });
     for (const mesh of set.meshes) {
+      mesh.visible = true;
       mesh.count = times.length;
       mesh.instanceMatrix.needsUpdate = true;
     }
