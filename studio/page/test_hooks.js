@@ -3,6 +3,20 @@
 
 import { centreAt } from './motion.js';
 
+/** Calls when what was asked to be drawn has been: the work is in another process. @param {WebGL2RenderingContext} gl
+ * @param {() => void} act */
+function whenDone(gl, act) {
+  const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (!sync) throw new Error('the drawing context was lost');
+  gl.flush();
+  const look = () => {
+    if (gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED) return void setTimeout(look, 1);
+    gl.deleteSync(sync);
+    act();
+  };
+  setTimeout(look, 1);
+}
+
 /** @param {{store: import('./store.js').Store<import('./types.js').State>, view: import('./view/view.js').View,
  *    overlay: import('./overlay/overlay.js').Overlay, connection: import('./connection.js').Connection,
  *    gesture: import('./gesture.js').Gesture}} parts */
@@ -13,12 +27,15 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
   const log = { frames: [], motions: [] };
   /** @type {{moved: number, seq: number, decoded: boolean}[]} moves whose frame has not been drawn */
   let moves = [];
-  overlay.canvas.addEventListener('pointermove', (event) => {
+  let stamp = 0;
+  for (const kind of ['pointermove', 'pointerrawupdate']) overlay.canvas.addEventListener(kind, (event) => (stamp = event.timeStamp), { capture: true });
+  const offer = gesture.offer.bind(gesture);
+  gesture.offer = (target) => {
+    offer(target);
     const { sender } = gesture;
-    if (store.state.gesture.state === 'dragging' && sender) {
-      moves.push({ moved: event.timeStamp, seq: sender.seq + (sender.waiting ? 1 : 0), decoded: false });
-    }
-  });
+    if (stamp && sender) moves.push({ moved: stamp, seq: sender.seq + (sender.waiting ? 1 : 0), decoded: false });
+    stamp = 0;
+  };
   store.on(['motion'], ({ motion }) => {
     const now = performance.now(), seq = motion?.seq ?? -1;
     log.motions.push({ time: now, seq, reached: motion?.reached ?? true });
@@ -34,18 +51,19 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
   const drawn = view.drawn;
   view.drawn = () => {
     drawn();
-    if (moves.some((move) => move.decoded)) {
-      const gl = view.renderer.getContext();
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // the work is in another process: wait for it
-      const now = performance.now();
-      for (const move of moves) if (move.decoded) latency.drawn.push(now - move.moved);
+    const shown = moves.filter((move) => move.decoded);
+    if (shown.length) {
       moves = moves.filter((move) => !move.decoded);
+      whenDone(/** @type {WebGL2RenderingContext} */ (view.renderer.getContext()), () => {
+        for (const { moved } of shown) latency.drawn.push(performance.now() - moved);
+      });
     }
     log.frames.push(performance.now());
   };
   Object.assign(globalThis, { carom: {
     store, gesture, latency, log, connection,
     invalidate: () => view.invalidate(),
+    shaders: () => view.renderer.info.programs?.map((program) => /** @type {any} */ (program).id) ?? [],
     frames: () => view.frames,
     received: () => connection.received,
     /** On the page, px. @param {import('./types.js').Vec3} point */

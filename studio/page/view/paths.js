@@ -11,7 +11,6 @@ import { centreAt, moves, pathTimes, pointAt } from '../motion.js';
 
 /** @typedef {import('../types.js').State} State */
 /** @typedef {import('../types.js').Track} Track */
-/** @typedef {THREE.Object3D & {geometry: THREE.BufferGeometry}} Line */
 
 const turnNumbers = 5, mostBodies = 50;
 
@@ -40,10 +39,11 @@ function turningTimes(track, end, sag) {
 export class Paths {
   constructor() {
     this.group = new THREE.Group();
-    /** @type {Map<string, {object: Line, of: unknown}>} */
+    /** @type {Map<string, {object: THREE.Object3D & {geometry: THREE.BufferGeometry, material: THREE.Material}, of: unknown}>} */
     this.lines = new Map();
-    /** @type {Map<string, THREE.Material>} */
-    this.materials = new Map();
+    /** @type {Map<string, THREE.Material>} the last that went of each kind: with it its shaders would go, and be compiled
+     * again at every update of a drag, which took most of its frame */
+    this.retired = new Map();
     this.scale = 1;
   }
 
@@ -56,12 +56,12 @@ export class Paths {
       const track = /** @type {NonNullable<typeof motion>} */ (motion).tracks[body], end = motion?.end ?? 0;
       const ink = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);
       if (body === selected) {
-        this.put(wanted, `fat ${body}`, [track, end], () => this.fat(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink));
+        this.put(wanted, `fat ${body}`, [track, end], () => fatLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink));
         const point = this.surfacePoint(scene, body);
         this.put(wanted, `surface ${body}`, [track, end], () =>
-          this.thin(lineOf((t) => pointAt(track, point, t), turningTimes(track, end, sag)), ink, 0.55));
+          thinLine(lineOf((t) => pointAt(track, point, t), turningTimes(track, end, sag)), ink, 0.55));
       } else {
-        this.put(wanted, `path ${body}`, [track, end], () => this.thin(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink, 0.85));
+        this.put(wanted, `path ${body}`, [track, end], () => thinLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink, 0.85));
       }
     }
     const before = beforeOf(state);
@@ -69,7 +69,7 @@ export class Paths {
       if (!shown.includes(track.body) || track === motion?.tracks[track.body]) continue;
       const end = /** @type {NonNullable<typeof before>} */ (before).end;
       this.put(wanted, `before ${track.body}`, [track, end], () =>
-        this.dashed(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag))));
+        dashedLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), this.scale));
     }
     for (const [key, { object }] of this.lines) {
       if (wanted.has(key)) continue;
@@ -102,7 +102,7 @@ export class Paths {
   }
 
   /** @param {Set<string>} wanted @param {string} key @param {[Track, number]} of
-   * @param {() => Line} make */
+   * @param {() => THREE.Object3D & {geometry: THREE.BufferGeometry, material: THREE.Material}} make */
   put(wanted, key, of, make) {
     wanted.add(key);
     const line = this.lines.get(key), known = /** @type {[Track, number] | undefined} */ (line?.of);
@@ -110,53 +110,17 @@ export class Paths {
     if (line) this.remove(line.object);
     const object = make();
     object.frustumCulled = false;
-    object.renderOrder = 1;
     this.lines.set(key, { object, of });
     this.group.add(object);
   }
 
-  /** @param {Line} object */
+  /** @param {THREE.Object3D & {geometry: THREE.BufferGeometry, material: THREE.Material}} object */
   remove(object) {
     this.group.remove(object);
     object.geometry.dispose();
+    this.retired.get(object.material.type)?.dispose();
+    this.retired.set(object.material.type, object.material);
   }
-
-  /** Materials stay: with the last of a kind its shaders would go, and be compiled again at every update of a drag.
-   * @template {THREE.Material} M
-   * @param {string} key @param {() => M} make @returns {M} */
-  material(key, make) {
-    const material = this.materials.get(key) ?? make();
-    this.materials.set(key, material);
-    return /** @type {M} */ (material);
-  }
-
-  /** @param {Float32Array} positions @param {string} color @param {number} opacity */
-  thin(positions, color, opacity) {
-    const material = this.material(`thin ${color} ${opacity}`, () => new THREE.LineBasicMaterial({ color, transparent: true, opacity, depthWrite: false }));
-    return new THREE.Line(pointsOf(positions), material);
-  }
-
-  /** @param {Float32Array} positions @param {string} colour */
-  fat(positions, colour) {
-    const geometry = new LineGeometry();
-    geometry.setPositions(positions);
-    return new Line2(geometry, this.material(`fat ${colour}`, () =>
-      new LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: 2.5, transparent: true, depthWrite: false })));
-  }
-
-  /** @param {Float32Array} positions */
-  dashed(positions) {
-    const material = this.material('dashed', () => new THREE.LineDashedMaterial({ color: colours.before, transparent: true, depthWrite: false }));
-    [material.dashSize, material.gapSize] = [0.016 * this.scale, 0.011 * this.scale];
-    const line = new THREE.Line(pointsOf(positions), material);
-    line.computeLineDistances();
-    return line;
-  }
-}
-
-/** @param {Float32Array} positions */
-function pointsOf(positions) {
-  return new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
 }
 
 /** The motion whose paths are dashed. @param {State} state */
@@ -165,4 +129,31 @@ export function beforeOf({ gesture, before, opened, savedMotion, showBefore, cha
   if (showBefore === 'opened') return opened;
   if (showBefore === 'saved') return savedMotion;
   return changesShown ? before : null;
+}
+
+/** @param {Float32Array} positions @param {string} colour @param {number} opacity */
+function thinLine(positions, colour, opacity) {
+  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false }));
+  line.renderOrder = 1;
+  return line;
+}
+
+/** @param {Float32Array} positions @param {string} colour */
+function fatLine(positions, colour) {
+  const geometry = new LineGeometry();
+  geometry.setPositions(positions);
+  const line = new Line2(geometry, new LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: 2.5, transparent: true, depthWrite: false }));
+  line.renderOrder = 1;
+  return line;
+}
+
+/** @param {Float32Array} positions @param {number} scale m, of the scene */
+function dashedLine(positions, scale) {
+  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  const material = new THREE.LineDashedMaterial({ color: colours.before, dashSize: 0.016 * scale, gapSize: 0.011 * scale, transparent: true, depthWrite: false });
+  const line = new THREE.Line(geometry, material);
+  line.computeLineDistances();
+  line.renderOrder = 1;
+  return line;
 }
