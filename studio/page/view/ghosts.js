@@ -56,7 +56,12 @@ export class Ghosts {
         this.show(wanted, `nail ${nail.id}`, bodies[body], colours.nail, 0.25, 4, [time], () => this.nailed(held, motion));
       }
     }
-    for (const [key, set] of this.sets) if (!wanted.has(key)) this.drop(key, set);
+    // hidden rather than dropped: with the last of a kind its shaders would go, and be compiled again at the next hover
+    const alive = new Set(bodies.map((body) => body?.geometry));
+    for (const [key, set] of this.sets) {
+      if (!alive.has(set.geometry)) this.drop(key, set);
+      else if (!wanted.has(key)) for (const mesh of set.meshes) mesh.visible = false;
+    }
   }
 
   /** The pose that a nail wants; what it leaves free is as it is now. @param {import('../overlay/hoops.js').NailPlace} held
@@ -95,6 +100,7 @@ export class Ghosts {
       for (const mesh of set.meshes) mesh.setMatrixAt(i, this.dummy.matrix);
     });
     for (const mesh of set.meshes) {
+      mesh.visible = true;
       mesh.count = times.length;
       mesh.instanceMatrix.needsUpdate = true;
     }

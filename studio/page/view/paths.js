@@ -41,6 +41,9 @@ export class Paths {
     this.group = new THREE.Group();
     /** @type {Map<string, {object: THREE.Object3D & {geometry: THREE.BufferGeometry, material: THREE.Material}, of: unknown, opacity: number}>} */
     this.lines = new Map();
+    /** @type {Map<string, THREE.Material>} the last that went of each kind: with it its shaders would go, and be compiled
+     * again at every update of a drag, which took most of its frame */
+    this.retired = new Map();
     this.scale = 1;
   }
 
@@ -122,7 +125,8 @@ export class Paths {
   remove(object) {
     this.group.remove(object);
     object.geometry.dispose();
-    object.material.dispose();
+    this.retired.get(object.material.type)?.dispose();
+    this.retired.set(object.material.type, object.material);
   }
 }
 
