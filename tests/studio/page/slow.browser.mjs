@@ -10,7 +10,7 @@ test('Escape stops a release that searches on; what it got to is one step, and c
   withStudio('mug.json', async (page) => {
     const opened = await state(page, '(s) => [...s.motion.tracks[3].arcs]');
     const [x, y] = await place(page, 'spoon', 0.6);
-    await pull(page, [x, y], [x + 200, y - 200]);
+    await pull(page, [x, y], [x + 350, y - 60]);
     await page.mouse.up();
     await until(page, '(s) => s.gesture.state === "settling" && s.gesture.settlingShown');
     await page.keyboard.press('Escape');
