@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstring>
 #include <map>
@@ -47,7 +48,7 @@ class Received {
     });
     return found;
   }
-  /// Waits for a message to a socket that is as asked, and forgets those before it.
+  /// Waits for a message to a socket that is as asked, and forgets those to it that came before.
   template <class Wanted>
   Json wait(SocketId socket, const Wanted& wanted) {
     std::unique_lock lock(mutex_);
@@ -55,7 +56,8 @@ class Received {
       for (auto it = messages_.begin(); it != messages_.end(); ++it) {
         if (it->first != socket || !wanted(it->second)) continue;
         Json found = it->second;
-        messages_.erase(messages_.begin(), it + 1);
+        const auto later = messages_.erase(it);
+        messages_.erase(std::remove_if(messages_.begin(), later, [&](const auto& m) { return m.first == socket; }), later);
         return found;
       }
       came_.wait(lock);
