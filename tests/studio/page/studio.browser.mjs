@@ -52,6 +52,9 @@ test('the third impact of a mug is dragged along the table; the nail stays at th
     await page.click('#nail-on-release');
     await pull(page, from, to);
     assert.deepEqual(await state(page, '(s) => s.gesture.hit.at'), { impact: 3, with: 'table' });
+    const [shown, comes] = await state(page, '(s) => [s.time, s.motion.impacts.filter((i) => i.pairs.some(([a, b]) => a === 1 && b === 2))[2].t]');
+    assert.equal(shown, comes, 'the play head goes with the impact');
+    assert.notEqual(comes, third.t);
     await page.keyboard.press('Shift+Z');
     await answered(page);
     await letGo(page);
