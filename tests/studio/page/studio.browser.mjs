@@ -30,7 +30,8 @@ const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.st
 const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
 const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
 const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq');
-const idle = (page) => until(page, '(s) => s.gesture.state === "idle"');
+/** Let go of, and told what that came to. */
+const idle = (page) => until(page, '(s) => s.gesture.state === "idle" && s.document.rev === s.motion.rev');
 const picture = (page, name) => process.env.CAROM_STUDIO_PICTURES && page.screenshot({ path: join(process.env.CAROM_STUDIO_PICTURES, `${name}.png`) });
 
 /** With the mouse from one place of the page to another; the button stays down. */
