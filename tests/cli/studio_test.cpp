@@ -43,7 +43,7 @@ TEST_F(StudioCommand, PrintsOneLineAndEndsCleanly) {
 TEST_F(StudioCommand, OpensABrowserThatStandsOnItsOwn) {
   share.write("bin/xdg-open",
               "#!/bin/sh\necho to the output\n{ echo \"$1\"; ls /proc/$$/fd | tr '\\n' ' '; echo;\n"
-              "cut -d ' ' -f 1,6 /proc/$$/stat; grep SigBlk /proc/$$/status; } > " +
+              "cut -d ' ' -f 1,6 /proc/$$/stat; grep SigBlk /proc/self/status; } > " +
                   quoted("seen") + "\n");
   std::filesystem::permissions(share / "bin/xdg-open", std::filesystem::perms::owner_all);
   ASSERT_EQ(runShell("mkfifo " + quoted("seen")).code, 0);
