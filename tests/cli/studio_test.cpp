@@ -41,19 +41,20 @@ TEST_F(StudioCommand, PrintsOneLineAndEndsCleanly) {
 
 // A browser that is opened outlives the studio: it must not hold its port, be ended with it, or write into its output.
 TEST_F(StudioCommand, OpensABrowserThatStandsOnItsOwn) {
+  // what a waiting shell blocks and opens for itself is not looked at
   share.write("bin/xdg-open",
-              "#!/bin/sh\necho to the output\n{ echo \"$1\"; ls /proc/$$/fd | tr '\\n' ' '; echo;\n"
-              "cut -d ' ' -f 1,6 /proc/$$/stat; grep SigBlk /proc/$$/status; } > " +
+              "#!/bin/sh\necho to the output\n{ echo \"$1\"; cut -d ' ' -f 1,6 /proc/$$/stat; "
+              "grep SigBlk /proc/self/status; ls -l /proc/$$/fd; } > " +
                   quoted("seen") + "\n");
   std::filesystem::permissions(share / "bin/xdg-open", std::filesystem::perms::owner_all);
   ASSERT_EQ(runShell("mkfifo " + quoted("seen")).code, 0);
   const CommandRun run = serve("DISPLAY=:7 PATH=" + quoted("bin") + ":$PATH", "", "cat " + quoted("seen"));
   EXPECT_EQ(run.code, 0) << run.err;
   std::istringstream seen(run.out);
-  std::string address, files, ids, blocked;
-  std::getline(seen, address), std::getline(seen, files), std::getline(seen, ids), std::getline(seen, blocked);
+  std::string address, ids, blocked;
+  std::getline(seen, address), std::getline(seen, ids), std::getline(seen, blocked);
   EXPECT_EQ(share.read("out"), address + "\n");
-  for (std::istringstream each(files); each >> files;) EXPECT_TRUE(files.size() > 1 || files <= "2") << files;
+  for (const char* ours : {"socket:", "anon_inode:"}) EXPECT_EQ(run.out.find(ours), std::string::npos) << run.out;
   const std::size_t space = ids.find(' ');
   ASSERT_NE(space, std::string::npos) << run.out;
   EXPECT_EQ(ids.substr(0, space), ids.substr(space + 1)) << "a session of its own";

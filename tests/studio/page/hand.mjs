@@ -32,7 +32,8 @@ export const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.s
 export const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
 export const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
 export const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq');
-export const idle = (page) => until(page, '(s) => s.gesture.state === "idle"');
+/** Let go of, and told what that came to: the document comes after the motion. */
+export const idle = (page) => until(page, '(s) => s.gesture.state === "idle" && s.document.held_by === null && s.document.rev === s.motion.rev');
 export const picture = (page, name) => process.env.CAROM_STUDIO_PICTURES && page.screenshot({ path: join(process.env.CAROM_STUDIO_PICTURES, `${name}.png`) });
 
 /** With the mouse from one place of the page to another; the button stays down. */
@@ -46,5 +47,4 @@ export async function pull(page, [x, y], [to_x, to_y], steps = 6) {
 export async function letGo(page) {
   await page.mouse.up();
   await idle(page);
-  await until(page, '(s) => s.document.held_by === null');  // the document comes after the motion
 }
