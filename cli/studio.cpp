@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // carom studio: edits a motion in the browser, with the mouse.
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <unistd.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
-#include <spawn.h>
 
 #include <array>
 #include <cstdlib>
@@ -23,13 +26,39 @@ struct StudioArguments {
   bool open = true;
 };
 
+/// How the browser is started: it does not end with this program, nor hold its port, nor write into its output.
+class Detached {
+ public:
+  Detached() {
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::posix_spawnattr_init(&attributes);
+    ::posix_spawnattr_setsigmask(&attributes, &none);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+    ::posix_spawn_file_actions_init(&files);
+    ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  }
+  ~Detached() {
+    ::posix_spawn_file_actions_destroy(&files);
+    ::posix_spawnattr_destroy(&attributes);
+  }
+  Detached(const Detached&) = delete;
+  Detached& operator=(const Detached&) = delete;
+
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_t files;
+};
+
 /// Shows the address in the browser of the desktop, where there is one.
 void openInBrowser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   std::string program = "xdg-open", argument = address;
   const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  const Detached detached;
   pid_t process = 0;
-  ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ);
+  ::posix_spawnp(&process, program.c_str(), &detached.files, &detached.attributes, arguments.data(), environ);
 }
 
 Exit serve(const StudioArguments& arguments, Output& out) {

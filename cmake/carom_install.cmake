@@ -48,6 +48,29 @@ if(CAROM_PAGES)
   install(FILES ${CAROM_PAGES}/carom.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 endif()
 
+# What `carom studio` serves: its page, what that uses of three.js, and the example scenes with the meshes they name and
+# their pictures. Without three.js (scripts/setup studio) the rest is installed, and the command says what is missing.
+if(TARGET carom)
+  set(carom_studio_dir ${CMAKE_INSTALL_DATADIR}/carom/studio)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/studio/page/ DESTINATION ${carom_studio_dir}/page FILES_MATCHING
+    PATTERN "*.html" PATTERN "*.css" PATTERN "*.js" PATTERN "*.svg" PATTERN "*.png" PATTERN node_modules EXCLUDE)
+  foreach(file LICENSE build/three.module.js build/three.core.js examples/jsm/controls/OrbitControls.js
+      examples/jsm/lines/Line2.js examples/jsm/lines/LineGeometry.js examples/jsm/lines/LineMaterial.js
+      examples/jsm/lines/LineSegments2.js examples/jsm/lines/LineSegmentsGeometry.js)
+    cmake_path(GET file PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/studio/page/node_modules/three/${file}
+      DESTINATION ${carom_studio_dir}/three/${folder} OPTIONAL)
+  endforeach()
+  foreach(content examples/scenes=scenes=json examples/assets=assets=obj docs/images=gallery=svg)
+    string(REPLACE "=" ";" content ${content})
+    list(GET content 0 from)
+    list(GET content 1 to)
+    list(GET content 2 ending)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${from}/ DESTINATION ${carom_studio_dir}/${to}
+      FILES_MATCHING PATTERN "*.${ending}")
+  endforeach()
+endif()
+
 # What editors check documents with, and what goes with a copy of the program.
 install(FILES
   ${PROJECT_SOURCE_DIR}/formats/documents/scene.schema.json

@@ -34,6 +34,26 @@ foreach(file share/carom/scene.schema.json share/carom/journal.schema.json share
   endif()
 endforeach()
 
+# The studio finds its page, and three.js where that was installed before: with both it comes to the scene, which is not
+# there.
+foreach(file page/index.html page/main.js page/view/view.js scenes/mug.json assets/mug.obj gallery/mug.svg)
+  if(NOT EXISTS ${WORK}/installed/share/carom/studio/${file})
+    message(FATAL_ERROR "share/carom/studio/${file} was not installed")
+  endif()
+endforeach()
+set(expected "three.js is not installed .*: run scripts/setup studio")
+if(EXISTS ${SOURCE}/studio/page/node_modules/three/LICENSE)
+  set(expected "found no file 'nowhere.json'")
+  if(NOT EXISTS ${WORK}/installed/share/carom/studio/three/LICENSE)
+    message(FATAL_ERROR "the licence of three.js was not installed")
+  endif()
+endif()
+execute_process(COMMAND ${WORK}/installed/bin/carom studio --no-open nowhere.json
+  OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
+if(NOT result EQUAL 1 OR NOT output MATCHES "${expected}")
+  message(FATAL_ERROR "carom studio ended with ${result} and said:\n${output}\nexpected: ${expected}")
+endif()
+
 # Headers: the public ones alone, each of which needs no other.
 set(include ${WORK}/installed/include/carom)
 file(GLOB_RECURSE headers RELATIVE ${include} ${include}/*)

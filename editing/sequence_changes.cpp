@@ -112,7 +112,7 @@ std::string featuresOf(const Motion& motion, int index) {
   return listOf(features);
 }
 
-std::string timeOf(const Motion& motion, int index) { return number(eventOf(motion, index).time) + " s"; }
+std::string timeOf(const Motion& motion, int index) { return brief(eventOf(motion, index).time) + " s"; }
 
 /// Of one pair of matched impacts; nothing where they are alike.
 void compare(const Sequence& before, int e, const Sequence& after, int f, const std::string& impact,

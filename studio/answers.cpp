@@ -180,6 +180,7 @@ std::string errorMessage(const Problem& problem) {
 
 Problem problemOf(const std::exception& error) {
   if (dynamic_cast<const FileConflict*>(&error) != nullptr) return {"conflict", error.what(), "", ""};
+  if (const auto* file = dynamic_cast<const FileFailure*>(&error)) return {file->code, error.what(), "", ""};
   if (const auto* input = dynamic_cast<const InputError*>(&error)) {
     const auto* format = dynamic_cast<const FormatError*>(input);
     const std::string file = format != nullptr ? format->file() : "";
@@ -205,7 +206,9 @@ std::string filesMessage(const std::string& path, const std::vector<ListedFile>&
   return textOf({{"type", "files"}, {"path", path}, {"files", list}});
 }
 
-std::string progressMessage(const std::string& sentence) { return textOf({{"type", "progress"}, {"message", sentence}}); }
+std::string progressMessage(const std::string& sentence) {
+  return textOf({{"type", "progress"}, {"message", sentence}});
+}
 
 std::string galleryMessage(const std::vector<GalleryScene>& scenes) {
   Json list = Json::array();

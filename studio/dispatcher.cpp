@@ -19,11 +19,18 @@ bool Dispatcher::message(SocketId socket, const std::string& text) {
                                                          pointer ? error.where() : "", ""})));
     return true;
   }
-  if (!known_.contains(socket)) return greet(socket, std::move(command));
-  if (std::holds_alternative<Hello>(command.what)) {
-    line_.tell(socket, answering(command.id, errorMessage({"bad_message", "found a second hello, expected one", "", ""})));
+  const auto known = known_.find(socket);
+  if (known == known_.end()) return greet(socket, std::move(command));
+  const auto refuse = [&](const std::string& sentence, const char* pointer) {
+    line_.tell(socket, answering(command.id, errorMessage({"bad_message", sentence, pointer, ""})));
     return true;
-  }
+  };
+  if (command.id <= known->second)
+    return refuse("found " + std::to_string(command.id) + ", expected more than " + std::to_string(known->second) +
+                      ", the number of the message before",
+                  "/id");
+  known->second = command.id;
+  if (std::holds_alternative<Hello>(command.what)) return refuse("found a second hello, expected one", "");
   return mailbox_.put({socket, std::move(command)});
 }
 
@@ -43,7 +50,7 @@ bool Dispatcher::greet(SocketId socket, Command command) {
   if (hello->protocol != kProtocol)
     return refuse("found another version of the protocol; load the page again", {4400, "other protocol"},
                   limits_.wrong_token);
-  known_.insert(socket);
+  known_[socket] = command.id;
   line_.welcome(socket);
   return mailbox_.put({socket, std::move(command)});
 }

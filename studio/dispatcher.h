@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 
@@ -38,7 +40,8 @@ class Dispatcher {
   const std::string token_;
   const Limits limits_;
   const Line line_;
-  std::set<SocketId> known_, refused_;
+  std::map<SocketId, std::int64_t> known_;  // and the number of its last message
+  std::set<SocketId> refused_;
 };
 
 }  // namespace carom::studio

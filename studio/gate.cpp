@@ -15,8 +15,8 @@ constexpr std::size_t kTokenBytes = 32;
 
 Verdict judge(const Request& request, unsigned short port) {
   const std::string number = std::to_string(port);
-  const bool host_fits = request.hosts.size() == 1 && (request.hosts[0] == "127.0.0.1:" + number ||
-                                                       request.hosts[0] == "localhost:" + number);
+  const bool host_fits = request.hosts.size() == 1 &&
+                         (request.hosts[0] == "127.0.0.1:" + number || request.hosts[0] == "localhost:" + number);
   if (!host_fits) return {403, "found another Host, expected 127.0.0.1:" + number + " or localhost:" + number};
   if (request.method != "GET" && (request.method != "HEAD" || request.upgrade))
     return {405, "found another method, expected GET or HEAD"};

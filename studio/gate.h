@@ -24,9 +24,9 @@ struct Verdict {
   std::string sentence;  ///< why not
 };
 
-/// Lets in what comes from pages of this server alone: the Host is exactly 127.0.0.1 or localhost with the port, so that
-/// a foreign name that resolves to this machine gets nothing; the Origin of a socket is exactly that Host. Only GET and
-/// HEAD, and no body.
+/// Lets in what comes from pages of this server alone: the Host is exactly 127.0.0.1 or localhost with the port, so
+/// that a foreign name that resolves to this machine gets nothing; the Origin of a socket is exactly that Host. Only
+/// GET and HEAD, and no body.
 Verdict judge(const Request& request, unsigned short port);
 
 /// The path of a target, without its query.
@@ -39,8 +39,8 @@ std::string randomHex(std::size_t bytes);
 /// Takes as long for every text of the same length.
 bool sameToken(std::string_view given, std::string_view token);
 
-/// Fields of every answer: what the page may load and do, and that nothing is kept or shown elsewhere. The nonce lets one
-/// inline script run; empty: none.
+/// Fields of every answer: what the page may load and do, and that nothing is kept or shown elsewhere. The nonce lets
+/// one inline script run; empty: none.
 std::vector<std::pair<std::string, std::string>> securityHeaders(const std::string& nonce);
 
 }  // namespace carom::studio

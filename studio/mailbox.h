@@ -68,11 +68,17 @@ class Mailbox {
   }
 
   /// For work that a command stops, but for drags and what only asks; stopped at once where one waits already.
-  std::stop_token beginWork() { return begin(work_, [](const Letter& letter) { return interrupts(letter.command); }); }
+  std::stop_token beginWork() {
+    return begin(work_, [](const Letter& letter) { return interrupts(letter.command); });
+  }
   /// For one update of a drag, which runs to its end unless what it is for ends.
-  std::stop_token beginDrag() { return begin(drag_, [](const Letter& letter) { return endsHold(letter.command); }); }
+  std::stop_token beginDrag() {
+    return begin(drag_, [](const Letter& letter) { return endsHold(letter.command); });
+  }
   /// For work while the hand rests, which any command stops.
-  std::stop_token beginRest() { return begin(rest_, [](const Letter&) { return true; }); }
+  std::stop_token beginRest() {
+    return begin(rest_, [](const Letter&) { return true; });
+  }
   /// Stops all of them: the program ends.
   void stopAll() {
     const std::lock_guard lock(mutex_);

@@ -26,8 +26,8 @@ using boost::asio::ip::tcp;
 using Error = boost::system::error_code;
 using HttpRequest = http::request<http::empty_body>;
 
-constexpr std::size_t kMostDrained = 4u << 20;          // of a request that was refused, before its connection is closed
-constexpr std::chrono::milliseconds kFarewell{500};     // for sockets to close when the program ends
+constexpr std::size_t kMostDrained = 4u << 20;       // of a request that was refused, before its connection is closed
+constexpr std::chrono::milliseconds kFarewell{500};  // for sockets to close when the program ends
 constexpr std::chrono::milliseconds kAcceptAgain{100};  // where the system has no room for a connection
 
 class Socket;
@@ -105,7 +105,7 @@ void Socket::start(const HttpRequest& request) {
   beast::get_lowest_layer(stream_).expires_never();
   stream_.set_option(websocket::stream_base::timeout{net_.limits.handshake, net_.limits.idle, true});
   stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-    response.erase(http::field::server);
+    response.set(http::field::server, "carom");  // else it names its library
     for (const auto& [name, value] : securityHeaders("")) response.set(name, value);
   }));
   stream_.read_message_max(net_.limits.first_message);
@@ -336,7 +336,6 @@ void Net::stop() { asio::post(state_->io, [this] { state_->stop(); }); }
 void Net::send(SocketId socket, Outgoing message) {
   state_->with(socket, [message = std::move(message)](Socket& at) mutable { at.send(std::move(message)); });
 }
-
 
 void Net::close(SocketId socket, CloseReason reason, std::chrono::milliseconds after) {
   state_->with(socket, [reason = std::move(reason), after](Socket& at) {

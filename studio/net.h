@@ -18,7 +18,7 @@ namespace carom::studio {
 
 /// An answer to a GET.
 struct HttpAnswer {
-  int status = 200;  ///< of HTTP
+  int status = 200;                                         ///< of HTTP
   std::string type = "text/plain; charset=utf-8";           ///< of the media
   std::string body;                                         ///< all of it
   std::vector<std::pair<std::string, std::string>> fields;  ///< besides
@@ -32,13 +32,13 @@ struct CloseReason {
 
 /// What the network asks of the program, all in the thread of Net::run.
 struct NetHandlers {
-  std::function<HttpAnswer(const Request&)> answer;       ///< to a request that the gate lets in
-  std::function<bool(SocketId, std::string)> message;     ///< false: not to be read on until Net::resume
-  std::function<void(SocketId)> gone;                     ///< a socket that was open is no more
+  std::function<HttpAnswer(const Request&)> answer;    ///< to a request that the gate lets in
+  std::function<bool(SocketId, std::string)> message;  ///< false: not to be read on until Net::resume
+  std::function<void(SocketId)> gone;                  ///< a socket that was open is no more
 };
 
-/// The HTTP and WebSocket server, on 127.0.0.1 alone. Sockets are those of the address /socket. Every function but `run`
-/// may be called from any thread.
+/// The HTTP and WebSocket server, on 127.0.0.1 alone. Sockets are those of the address /socket. Every function but
+/// `run` may be called from any thread.
 class Net {
  public:
   /// Listens; port 0: any that is free. Throws InputError where the port cannot be had.

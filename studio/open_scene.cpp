@@ -19,8 +19,10 @@ namespace {
 using Edits = std::vector<std::pair<std::string, std::string>>;
 
 const std::map<std::string, Json>& defaultVectors() {
-  static const std::map<std::string, Json> all = {{"position", {0, 0, 0}},         {"velocity", {0, 0, 0}},
-                                                  {"angular_velocity", {0, 0, 0}}, {"orientation", {1, 0, 0, 0}},
+  static const std::map<std::string, Json> all = {{"position", {0, 0, 0}},
+                                                  {"velocity", {0, 0, 0}},
+                                                  {"angular_velocity", {0, 0, 0}},
+                                                  {"orientation", {1, 0, 0, 0}},
                                                   {"gravity", {0, 0, -9.81}}};
   return all;
 }
@@ -44,9 +46,8 @@ std::vector<std::string> tokensOf(const std::string& pointer) {
 /// The item or member of that name; null: there is none.
 Json* childOf(Json& parent, const std::string& token) {
   if (parent.is_object()) return parent.contains(token) ? &parent[token] : nullptr;
-  const bool digits = !token.empty() && token.size() < 9 && std::all_of(token.begin(), token.end(), [](char c) {
-    return c >= '0' && c <= '9';
-  });
+  const bool digits = !token.empty() && token.size() < 9 &&
+                      std::all_of(token.begin(), token.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!parent.is_array() || !digits || std::stoul(token) >= parent.size()) return nullptr;
   return &parent[std::stoul(token)];
 }

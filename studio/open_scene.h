@@ -22,7 +22,7 @@ class OpenScene {
 
   EditSession& session() { return *session_; }
   const EditSession& session() const { return *session_; }
-  const Document& opened() const { return opened_; }              ///< as it was read
+  const Document& opened() const { return opened_; }  ///< as it was read
   const std::optional<std::string>& path() const { return path_; }
 
   /// As it is now; with what is grabbed left out.

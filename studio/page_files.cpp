@@ -27,8 +27,7 @@ constexpr std::array kThree = {"build/three.module.js",
 
 constexpr std::array kTypes = {std::pair{".html", "text/html; charset=utf-8"},
                                std::pair{".css", "text/css; charset=utf-8"},
-                               std::pair{".js", "text/javascript; charset=utf-8"},
-                               std::pair{".svg", "image/svg+xml"},
+                               std::pair{".js", "text/javascript; charset=utf-8"}, std::pair{".svg", "image/svg+xml"},
                                std::pair{".png", "image/png"}};
 
 /// Null for files that are no part of the page.
@@ -48,7 +47,9 @@ bool isLeftOut(const fs::path& name) {
 
 }  // namespace
 
-bool PageFile::asksForNonce() const { return type.starts_with("text/html") && content.find(kNonce) != std::string::npos; }
+bool PageFile::asksForNonce() const {
+  return type.starts_with("text/html") && content.find(kNonce) != std::string::npos;
+}
 
 std::string PageFile::withNonce(const std::string& nonce) const {
   std::string text = content;
@@ -65,7 +66,8 @@ PageFiles::PageFiles(const std::string& folder) {
     const fs::path file = root / "three" / name;
     if (!fs::is_regular_file(file))
       throw InputError("three.js is not installed (found no " + file.string() +
-                       "): run scripts/setup studio, then start carom studio again");
+                       "): run scripts/setup studio in the sources of carom, install it again if it was installed from "
+                       "there, and start carom studio again");
     add("/three/" + std::string(name), readPageFile(file, typeOf(file)));
   }
   const auto read = [&](const fs::path& from, const std::string& below) {

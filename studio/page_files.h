@@ -34,8 +34,8 @@ class PageFiles {
   std::map<std::string, PageFile, std::less<>> files_;
 };
 
-/// The folder of the page and its examples, from where the executable is: share/carom/studio beside its folder or in it.
-/// Throws InputError where there is none.
+/// The folder of the page and its examples, from where the executable is: share/carom/studio beside its folder or in
+/// it. Throws InputError where there is none.
 std::string studioFolder();
 
 }  // namespace carom::studio

@@ -21,8 +21,8 @@ class Peer {
   bool is_known = false;    ///< has said hello: it is never dropped for others
 };
 
-/// All connections that are open. Where there are too many, the oldest that is not known gives way, so that clients that
-/// only hold connections open keep nobody out.
+/// All connections that are open. Where there are too many, the oldest that is not known gives way, so that clients
+/// that only hold connections open keep nobody out.
 class Peers {
  public:
   void add(const std::shared_ptr<Peer>& peer) { peers_[next_++] = peer; }

@@ -61,7 +61,9 @@ What readGrab(const Json& m) {
   return grab;
 }
 
-What readDrag(const Json& m) { return Drag{integer(m, "gesture"), integer(m, "seq"), readVector(m["place"]), readTurn(m)}; }
+What readDrag(const Json& m) {
+  return Drag{integer(m, "gesture"), integer(m, "seq"), readVector(m["place"]), readTurn(m)};
+}
 
 What readRelease(const Json& m) {
   Release release{integer(m, "gesture"), integer(m, "seq"), std::nullopt, readTurn(m), m.value("nail", false)};
@@ -97,7 +99,10 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
   static const std::map<std::string, What (*)(const Json&)> all = {
       {"hello", readHello},
       {"grab", readGrab},
-      {"grab_nail", [](const Json& m) -> What { return GrabNail{integer(m, "gesture"), nailOf(m)}; }},
+      {"grab_nail",
+       [](const Json& m) -> What {
+         return GrabNail{integer(m, "gesture"), nailOf(m)};
+       }},
       {"drag", readDrag},
       {"release", readRelease},
       {"cancel", [](const Json& m) -> What { return Cancel{integer(m, "gesture")}; }},
@@ -106,10 +111,19 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"stop", [](const Json&) -> What { return Stop{}; }},
       {"meet_nails", [](const Json&) -> What { return MeetNails{}; }},
       {"nail", readNail},
-      {"set_nail", [](const Json& m) -> What { return SetNail{nailOf(m), m["constraint"].dump()}; }},
-      {"nail_on", [](const Json& m) -> What { return NailOn{nailOf(m), m["on"].get<bool>()}; }},
+      {"set_nail",
+       [](const Json& m) -> What {
+         return SetNail{nailOf(m), m["constraint"].dump()};
+       }},
+      {"nail_on",
+       [](const Json& m) -> What {
+         return NailOn{nailOf(m), m["on"].get<bool>()};
+       }},
       {"unnail", [](const Json& m) -> What { return Unnail{nailOf(m)}; }},
-      {"controls", [](const Json& m) -> What { return SetControls{integer(m, "rev"), m["controls"].dump()}; }},
+      {"controls",
+       [](const Json& m) -> What {
+         return SetControls{integer(m, "rev"), m["controls"].dump()};
+       }},
       {"set", readSet},
       {"open",
        [](const Json& m) -> What {
@@ -153,9 +167,7 @@ bool isOneOf(const Command& command) {
 
 }  // namespace
 
-bool interrupts(const Command& command) {
-  return !isOneOf<Hello, Drag, Release, Save, List, Gallery, Gone>(command);
-}
+bool interrupts(const Command& command) { return !isOneOf<Hello, Drag, Release, Save, List, Gallery, Gone>(command); }
 
 bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
 

@@ -14,8 +14,8 @@
 #include "editing/control.h"
 #include "editing/session_journal.h"
 
-/// Messages of a page, version 1 (protocol.schema.json). Controls and constraints are read with the scene that they belong
-/// to, so until then they are kept as JSON texts.
+/// Messages of a page, version 1 (protocol.schema.json). Controls and constraints are read with the scene that they
+/// belong to, so until then they are kept as JSON texts.
 namespace carom::studio {
 
 inline constexpr int kProtocol = 1;
@@ -80,7 +80,7 @@ struct Unnail {
 };
 /// All controls, from now on.
 struct SetControls {
-  std::int64_t rev = 0;   ///< of the session that the page knew
+  std::int64_t rev = 0;  ///< of the session that the page knew
   std::string controls;  ///< JSON array
 };
 /// Numbers typed into the document.
@@ -107,8 +107,8 @@ struct Gone {};
 /// A command with the number that its answers carry.
 struct Command {
   std::int64_t id = 0;  ///< 0: nobody waits for an answer
-  std::variant<Hello, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn, Unnail,
-               SetControls, SetNumbers, Open, Save, List, Gallery, Gone>
+  std::variant<Hello, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
+               Unnail, SetControls, SetNumbers, Open, Save, List, Gallery, Gone>
       what;  ///< what it asks for
 };
 

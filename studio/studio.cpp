@@ -66,13 +66,14 @@ int studio(const StudioOptions& options) {
   const std::string token = newToken();
   Mailbox mailbox(options.limits.commands);
   Net* net = nullptr;  // made last, as it needs the others
-  Dispatcher dispatcher(
-      mailbox, token, options.limits,
-      {[&](SocketId to, const std::string& text) { net->send(to, {[text] { return text; }, text.size(), false, false, false}); },
-       [&](SocketId socket) { net->welcome(socket); },
-       [&](SocketId socket, CloseReason reason, std::chrono::milliseconds after) {
-         net->close(socket, std::move(reason), after);
-       }});
+  Dispatcher dispatcher(mailbox, token, options.limits,
+                        {[&](SocketId to, const std::string& text) {
+                           net->send(to, {[text] { return text; }, text.size(), false, false, false});
+                         },
+                         [&](SocketId socket) { net->welcome(socket); },
+                         [&](SocketId socket, CloseReason reason, std::chrono::milliseconds after) {
+                           net->close(socket, std::move(reason), after);
+                         }});
   Worker worker(mailbox, workspace, {[&](SocketId to, Outgoing message) { net->send(to, std::move(message)); }},
                 workerOptions(options, share));
   if (!start.scene.empty()) worker.openFirst(start.scene);

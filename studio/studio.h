@@ -12,8 +12,8 @@ namespace carom::studio {
 
 /// How the studio is started.
 struct StudioOptions {
-  std::string scene;     ///< document that is open at first; empty: none
-  std::string folder;    ///< what pages may open and save in; empty: the scene's, else the current one
+  std::string scene;        ///< document that is open at first; empty: none
+  std::string folder;       ///< what pages may open and save in; empty: the scene's, else the current one
   unsigned short port = 0;  ///< 0: one that is free
   std::string share;        ///< folder of the page, three.js and the example scenes; empty: as installed
   Limits limits;            ///< what clients may take

@@ -48,8 +48,8 @@ void Tabs::showMotionTo(SocketId socket, std::int64_t id, std::shared_ptr<const 
   post_.send(socket, {encode, bytes, true, gives_way, true});
 }
 
-void Tabs::showMotion(SocketId asker, std::int64_t id, std::shared_ptr<const MotionView> view, const std::string& members,
-                      bool gives_way) const {
+void Tabs::showMotion(SocketId asker, std::int64_t id, std::shared_ptr<const MotionView> view,
+                      const std::string& members, bool gives_way) const {
   for (const auto& [socket, tab] : tabs_) showMotionTo(socket, socket == asker ? id : 0, view, members, gives_way);
 }
 

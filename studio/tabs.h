@@ -37,8 +37,8 @@ class Tabs {
   void showMotion(SocketId asker, std::int64_t id, std::shared_ptr<const MotionView> view, const std::string& members,
                   bool gives_way) const;
   /// A motion to one page.
-  void showMotionTo(SocketId socket, std::int64_t id, std::shared_ptr<const MotionView> view, const std::string& members,
-                    bool gives_way) const;
+  void showMotionTo(SocketId socket, std::int64_t id, std::shared_ptr<const MotionView> view,
+                    const std::string& members, bool gives_way) const;
   /// A scene to all pages.
   void showScene(SocketId asker, std::int64_t id, std::shared_ptr<const SceneView> view) const;
   /// A scene to one page.

@@ -27,24 +27,25 @@ bool Worker::step(const std::stop_token& stop) {
     handle(save);
   }
   while (hold_ && hold_->resting && mailbox_.isEmpty() && !stop.stop_requested()) {
-    hold_->resting = false;  // where it fails the hand moves first
-    refusing({hold_->socket, 0}, [this] { rest(); });
+    hold_->resting = false;  // where it fails
+    const Asker holder{hold_->socket, 0};
+    tellingProblems(holder, [&] { rest(); });
   }
   return true;
 }
 
 void Worker::handle(const Letter& letter) {
   const Asker asker{letter.from, letter.command.id};
-  refusing(asker, [&] { std::visit([&](const auto& what) { perform(asker, what); }, letter.command.what); });
+  tellingProblems(asker, [&] { std::visit([&](const auto& what) { perform(asker, what); }, letter.command.what); });
 }
 
-template <class Work>
-void Worker::refusing(const Asker& asker, const Work& work) {
+template <class Call>
+void Worker::tellingProblems(const Asker& asker, const Call& call) {
   const auto refuse = [&](const Problem& problem) {
     tabs_.tell(asker.socket, answering(asker.id, errorMessage(problem)));
   };
   try {
-    work();
+    call();
   } catch (const Refusal& refusal) {
     refuse({refusal.code(), refusal.what(), "", ""});
   } catch (const std::exception& error) {
@@ -77,8 +78,7 @@ std::string Worker::heldBy() const { return hold_ ? tabs_.nameOf(hold_->socket) 
 
 template <class Take>
 void Worker::beginGesture(const Asker& asker, std::int64_t gesture, const Take& take) {
-  if (hold_) session().cancel();  // of a page that forgot it
-  hold_.reset();
+  if (hold_) cancelHold({});  // of a page that forgot it
   const std::shared_ptr<const Motion> before = session().last().motion;
   const SessionUpdate update = take();
   hold_ = Hold{asker.socket, gesture, -1, before, false};
@@ -88,7 +88,8 @@ void Worker::beginGesture(const Asker& asker, std::int64_t gesture, const Take& 
   sayState(asker);
 }
 
-// -------------------------------------------------------------------------------------------------- what pages are told
+// -------------------------------------------------------------------------------------------------- what pages are
+// told
 
 void Worker::sayMotion(const Asker& asker, const SessionUpdate& update, bool more, bool gives_way) {
   if (sizes_vary_ && viewed_ != update.motion) sayScene({}, *update.motion);
@@ -99,7 +100,9 @@ void Worker::sayMotion(const Asker& asker, const SessionUpdate& update, bool mor
   tabs_.showMotion(asker.socket, asker.id, view_, motionMembers(news), gives_way);
 }
 
-void Worker::sayState(const Asker& asker) { tabs_.tellAll(asker.socket, asker.id, stateMessage(rev_, scene_.get(), heldBy())); }
+void Worker::sayState(const Asker& asker) {
+  tabs_.tellAll(asker.socket, asker.id, stateMessage(rev_, scene_.get(), heldBy()));
+}
 
 void Worker::sayScene(const Asker& asker, const Motion& motion) {
   auto view = std::make_shared<const SceneView>(sceneViewOf(motion));
@@ -170,19 +173,19 @@ void Worker::perform(const Asker& asker, const Release& release) {
 
 void Worker::perform(const Asker& asker, const Cancel& cancel) {
   requireHold(asker, cancel.gesture);
-  const SessionUpdate update = session().cancel();
-  sayMotion(asker, update, false, false);
-  hold_.reset();
-  sayState(asker);
+  cancelHold(asker);
 }
 
 void Worker::perform(const Asker& asker, const Gone&) {
   tabs_.remove(asker.socket);
-  if (!hold_ || hold_->socket != asker.socket) return;
+  if (hold_ && hold_->socket == asker.socket) cancelHold({});
+}
+
+void Worker::cancelHold(const Asker& asker) {
   const SessionUpdate update = session().cancel();
-  sayMotion({}, update, false, false);
+  sayMotion(asker, update, false, false);
   hold_.reset();
-  sayState({});
+  sayState(asker);
 }
 
 }  // namespace carom::studio

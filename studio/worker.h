@@ -20,11 +20,11 @@ namespace carom::studio {
 
 /// What a worker works with.
 struct WorkerOptions {
-  Limits limits;             ///< told to pages
-  std::string session;       ///< random name of this run
-  std::string gallery;       ///< folder of the example scenes; empty: none
+  Limits limits;                      ///< told to pages
+  std::string session;                ///< random name of this run
+  std::string gallery;                ///< folder of the example scenes; empty: none
   std::vector<std::string> pictures;  ///< names of the scenes that have one, without ending
-  SessionOptions solving;    ///< how sessions solve
+  SessionOptions solving;             ///< how sessions solve
 };
 
 /// The thread of the session: does what pages ask, in order, and answers. While a body is held and has not reached its
@@ -77,9 +77,10 @@ class Worker {
   void perform(const Asker& asker, const Gone& gone);
 
   void handle(const Letter& letter);
-  template <class Work>
-  void refusing(const Asker& asker, const Work& work);  // tells who asked what went wrong
+  template <class Call>
+  void tellingProblems(const Asker& asker, const Call& call);  // what goes wrong is told to that page
   void rest();
+  void cancelHold(const Asker& asker);
   EditSession& session();                       // fails where no scene is open
   EditSession& sessionFor(const Asker& asker);  // and where another page holds a body
   void requireHold(const Asker& asker, std::int64_t gesture) const;
@@ -106,7 +107,7 @@ class Worker {
   std::optional<Hold> hold_;
   std::vector<Letter> saves_;  // asked for in a gesture: they wait for its end
   std::int64_t rev_ = 0;
-  bool sizes_vary_ = false;  // in the gesture under way
+  bool sizes_vary_ = false;               // in the gesture under way
   std::shared_ptr<const Motion> viewed_;  // what view_ shows
   std::shared_ptr<const MotionView> view_;
   std::shared_ptr<const SceneView> scene_view_;

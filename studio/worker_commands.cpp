@@ -125,8 +125,7 @@ void Worker::openFirst(const std::string& path) {
 void Worker::perform(const Asker& asker, const Open& open) {
   if (scene_) sessionFor(asker);
   requireNoHold();
-  if (scene_ && scene_->isChanged() && !open.replace)
-    throw FileConflict("what is open has changes that are not saved");
+  if (scene_ && scene_->isChanged() && !open.replace) throw FileConflict("what is open has changes that are not saved");
   if (open.gallery && !gallery_) throw InputError("found no gallery, expected one beside the page");
   tabs_.tell(asker.socket, answering(asker.id, progressMessage("opening " + open.path)));
   const OpenedFile file = (open.gallery ? *gallery_ : workspace_).open(open.path);

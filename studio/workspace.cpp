@@ -43,19 +43,25 @@ class Handle {
 
 std::string shown(const std::string& path) {
   std::string text = path.substr(0, 200);
-  std::replace_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }, '?');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }, '?');
   return text;
 }
 
+std::string saying(const std::string& path, const std::string& sentence) {
+  return "'" + shown(path) + "': " + sentence;
+}
+
 [[noreturn]] void failAt(const std::string& path, const std::string& sentence) {
-  throw InputError("'" + shown(path) + "': " + sentence);
+  throw InputError(saying(path, sentence));
 }
 
 [[noreturn]] void failBy(const std::string& path, int error) {
   if (error == ELOOP || error == EMLINK) failAt(path, "found a link, expected a file or folder itself");
   if (error == ENOENT) failAt(path, "found no such file or folder");
   if (error == ENOTDIR) failAt(path, "found a file or a link, expected a folder");
-  failAt(path, std::strerror(error));
+  if (error == ENAMETOOLONG) failAt(path, "found a name that is too long");
+  throw FileFailure("io", saying(path, std::strerror(error)));
 }
 
 /// The parts of a name. "a//b" and "a/./b" are refused, too: one file has one name.
@@ -93,7 +99,8 @@ std::uint64_t hashOf(std::string_view text) {  // FNV-1a
 
 std::string readWhole(const std::string& path, int descriptor, std::uint64_t size) {
   if (size > kLargestDocument)
-    failAt(path, "found " + std::to_string(size) + " bytes, expected at most " + std::to_string(kLargestDocument));
+    throw FileFailure("too_large", saying(path, "found " + std::to_string(size) + " bytes, expected at most " +
+                                                    std::to_string(kLargestDocument)));
   std::string text(size + 1, '\0');
   std::size_t have = 0;
   while (have < text.size()) {
@@ -136,7 +143,9 @@ std::string underKernel(int folder, const std::string& name) {
   return "/proc/self/fd/" + std::to_string(folder) + "/" + name;
 }
 
-std::string joined(const std::string& folder, const std::string& path) { return path.empty() ? folder : folder + "/" + path; }
+std::string joined(const std::string& folder, const std::string& path) {
+  return path.empty() ? folder : folder + "/" + path;
+}
 
 }  // namespace
 
@@ -198,15 +207,15 @@ FileStamp Workspace::save(const std::string& path, std::string_view text, const 
     if (!there->stamp.sameContent(*known))
       throw FileConflict("'" + shown(path) + "' has changed on disk since it was opened here");
   }
-  if (!there && known && !replace)
-    throw FileConflict("'" + shown(path) + "' is no longer there");
+  if (!there && known && !replace) throw FileConflict("'" + shown(path) + "' is no longer there");
   try {
     formats_detail::writeFileDurably(underKernel(folder.get(), parts.back()), text);
   } catch (const InputError& error) {
-    failAt(path, error.message());
+    throw FileFailure("io", saying(path, error.message()));
   }
   const std::optional<ReadFile> written = readIn(folder.get(), path, parts.back());
-  if (!written || written->text != text) failAt(path, "found other content than was written, expected that");
+  if (!written || written->text != text)
+    throw FileFailure("io", saying(path, "found other content than was written, expected that"));
   return written->stamp;
 }
 

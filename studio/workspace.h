@@ -42,9 +42,16 @@ class FileConflict : public InputError {
   using InputError::InputError;
 };
 
+/// A file that cannot be read or written, though its name is a good one.
+class FileFailure : public InputError {
+ public:
+  FileFailure(const char* the_code, const std::string& message) : InputError(message), code(the_code) {}
+  const char* const code;  ///< word of the protocol: "io", "too_large"
+};
+
 /// The files below one folder, by relative names. A name may not leave the folder: no "..", no NUL, no links, whatever
-/// they point to. Each part of a name is opened from the handle of the folder before it, so that nothing can be exchanged
-/// in between. Functions throw InputError that begins with the name.
+/// they point to. Each part of a name is opened from the handle of the folder before it, so that nothing can be
+/// exchanged in between. Functions throw InputError that begins with the name.
 class Workspace {
  public:
   /// Throws InputError for what is no folder.
@@ -55,8 +62,8 @@ class Workspace {
 
   const std::string& folder() const { return folder_; }  ///< absolute
 
-  /// Folders and scene documents of a folder, by name; "" is the folder itself. Names that begin with a dot and links are
-  /// left out.
+  /// Folders and scene documents of a folder, by name; "" is the folder itself. Names that begin with a dot and links
+  /// are left out.
   std::vector<ListedFile> list(const std::string& path) const;
   /// Reads a scene document (.json).
   OpenedFile open(const std::string& path) const;
@@ -65,7 +72,8 @@ class Workspace {
 
   /// Writes a scene document (.json) whole or not at all, durably, and gives what it is then. Throws FileConflict where
   /// the file is not the one of `known`: with other content, or there at all where that is none; unless `replace`.
-  FileStamp save(const std::string& path, std::string_view text, const std::optional<FileStamp>& known, bool replace) const;
+  FileStamp save(const std::string& path, std::string_view text, const std::optional<FileStamp>& known,
+                 bool replace) const;
 
  private:
   std::string folder_;

@@ -35,7 +35,8 @@ DeclaredOption declaredOption(const CLI::Option& option) {
 
 std::vector<DeclaredOption> declaredOptions(const CLI::App& app) {
   std::vector<DeclaredOption> options;
-  for (const CLI::Option* option : app.get_options()) options.push_back(declaredOption(*option));
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty()) options.push_back(declaredOption(*option));  // those without one are hidden
   return options;
 }
 

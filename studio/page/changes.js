@@ -27,6 +27,15 @@ export function countsThatChanged(before, now) {
   return found;
 }
 
+/** The impacts behind the counts: of each pair the last ones, as many as it has more or fewer. @param {Motion} before
+ * @param {Motion} now @returns {{impact: Impact, pair: [number, number], came: boolean}[]} */
+export function impactsThatChanged(before, now) {
+  return countsThatChanged(before, now).flatMap(({ pair, before: were, now: are }) => {
+    const all = (are > were ? now : before).impacts.filter((one) => one.pairs.some(([a, b]) => pair.includes(a) && pair.includes(b)));
+    return all.slice(-Math.abs(are - were)).map((impact) => ({ impact, pair, came: are > were }));
+  });
+}
+
 /** "Other impacts: hat and coatrack ×1 went". Empty where nothing changed. @param {Motion} before @param {Motion} now
  * @param {string[]} names @param {number} most pairs that are named */
 export function changesText(before, now, names, most = 3) {

@@ -10,13 +10,15 @@ import { moves } from './motion.js';
 export class Commands {
   /** @param {{store: import('./store.js').Store<State>, connection: import('./connection.js').Connection,
    *    gesture: import('./gesture.js').Gesture, view: {frame: (body: number) => void},
-   *    ask: (question: string, yes: string) => Promise<boolean>, askName: (suggested: string) => Promise<string | null>}} parts */
-  constructor({ store, connection, gesture, view, ask, askName }) {
+   *    ask: (question: string, yes: string) => Promise<boolean>,
+   *    choose: (question: string, choices: [string, string][]) => Promise<string>, askName: (suggested: string) => Promise<string | null>}} parts */
+  constructor({ store, connection, gesture, view, ask, choose, askName }) {
     this.store = store;
     this.connection = connection;
     this.gesture = gesture;
     this.view = view;
     this.ask = ask;
+    this.choose = choose;
     this.askName = askName;
     this.savingWaits = false;
   }
@@ -68,7 +70,10 @@ export class Commands {
       const answer = await this.tell('save', { ...(path || !document.path ? { path: where } : {}), ...(replace ? { replace } : {}) });
       if (answer) this.store.set({ notice: { message: `Saved ${answer.path}.` } });
     } catch (error) {
-      if (await this.ask(/** @type {any} */ (error).message, 'Replace it')) await this.save(where, true);
+      const what = await this.choose(/** @type {any} */ (error).message, [['replace', 'Replace the file'], ...(document.path === where ? [/** @type {[string, string]} */ (['theirs', 'Open the file as it is'])] : []), ['other', 'Save as…']]);
+      if (what === 'replace') await this.save(where, true);
+      if (what === 'theirs') await this.open({ path: where }, true);
+      if (what === 'other') await this.saveAs();
     }
   }
 

@@ -10,6 +10,9 @@ import { openDialog } from './dialogs/open.js';
  *    commands: import('./commands.js').Commands, overlay: import('./overlay/overlay.js').Overlay,
  *    view: import('./view/view.js').View, frame: (body: number) => void}} Parts */
 
+/** ms, between targets that are sent before the frame of their move: 1000 moves a second come from some mice. */
+const earlySpacing = 7;
+
 /** @param {Parts} parts */
 export function listenToPointer({ store, gesture, overlay, view }) {
   const { canvas } = overlay, typing = /** @type {HTMLInputElement} */ (byId('typing'));
@@ -31,7 +34,18 @@ export function listenToPointer({ store, gesture, overlay, view }) {
       if (!orbiting && !store.state.playing && store.state.connected === 'open') hover(event);
       return;
     }
+    if (store.state.gesture.state !== 'dragging' || event.offsetX !== heard.x || event.offsetY !== heard.y) follow(event);
+  });
+  const heard = { x: NaN, y: NaN, time: 0 };
+  /** @param {PointerEvent} event */
+  const follow = (event) => {
+    Object.assign(heard, { x: event.offsetX, y: event.offsetY, time: event.timeStamp });
     gesture.move(event.offsetX, event.offsetY);
+  };
+  // moves wait for the next frame, whose motion would then be that of the frame before: in a drag they are heard at once
+  canvas.addEventListener('pointerrawupdate', (event) => {
+    const move = /** @type {PointerEvent} */ (event);
+    if (store.state.gesture.state === 'dragging' && move.timeStamp - heard.time >= earlySpacing) follow(move);
   });
   /** @param {PointerEvent} event */
   const hover = (event) => {
@@ -98,8 +112,9 @@ export function listenToKeys({ store, gesture, commands, frame, overlay }) {
       event.preventDefault();
       return;
     }
-    const on_button = document.activeElement?.tagName === 'BUTTON';
-    if (on_button && (event.key === ' ' || event.key === 'Enter')) return;
+    // what has the focus is pressed by these keys
+    const pressed_by_keys = document.activeElement?.matches('button, summary, input');
+    if (pressed_by_keys && (event.key === ' ' || event.key === 'Enter')) return;
     const found = actionOf(chordOf(event), store.state.keymap, dragging);
     if (!found) return;
     event.preventDefault();

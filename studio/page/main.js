@@ -3,7 +3,7 @@
 
 import { Commands } from './commands.js';
 import { Connection } from './connection.js';
-import { ask, askName } from './dialogs/ask.js';
+import { ask, askName, choose } from './dialogs/ask.js';
 import { showEmpty } from './dialogs/open.js';
 import { byId } from './dom.js';
 import { Gesture } from './gesture.js';
@@ -12,7 +12,6 @@ import { showHeader } from './header.js';
 import { listenToKeys, listenToPointer } from './input.js';
 import { showReadout } from './live.js';
 import { listener, tellEnding } from './messages.js';
-import { centreAt, moves, pathTimes } from './motion.js';
 import { showNotices } from './notice.js';
 import { Overlay } from './overlay/overlay.js';
 import { showBodies } from './panels/bodies.js';
@@ -22,10 +21,9 @@ import { showPlayer } from './player.js';
 import { initialState, Store } from './store.js';
 import { addTestHooks } from './test_hooks.js';
 import { TimeLine } from './timeline.js';
-import { qualityFor, rendererName } from './view/quality.js';
+import { frameView } from './view/framing.js';
+import { isHardware, qualityFor, rendererName } from './view/quality.js';
 import { View } from './view/view.js';
-
-/** @typedef {import('./types.js').Vec3} Vec3 */
 
 const query = new URLSearchParams(location.search);
 
@@ -50,6 +48,7 @@ function start() {
   const renderer = rendererName();
   if (!renderer) {
     byId('blocked').hidden = false;
+    byId('loading').hidden = true;
     return;
   }
   const store = new Store({ ...initialState(), tab: tabName(), quality: qualityFor(renderer, query.get('quality')) });
@@ -58,18 +57,18 @@ function start() {
   /** @type {Overlay | null} */
   let overlay = null;
   const view = new View({
-    host: byId('view'), input: canvas, store, drawn: () => overlay?.draw(), resized: (width, height) => overlay?.resize(width, height),
+    host: byId('view'), input: canvas, store, shadowMap: isHardware(renderer) || query.get('shadows') === 'map', drawn: () => overlay?.draw(), resized: (width, height) => overlay?.resize(width, height),
   });
   overlay = new Overlay(canvas, store, view);
   overlay.resize(view.camera.width, view.camera.height);
 
-  const frame = (/** @type {number} */ body, anew = false) => frameView(store, view, body, anew);
+  const frame = (/** @type {number} */ body, anew = false) => frameView(view, store.state, body, anew);
   /** @type {Gesture | null} */
   let gesture = null;
   const connection = new Connection({
     url: `ws://${location.host}/socket`, token: takeToken(), tab: store.state.tab,
     listener: listener({ store, gesture: () => gesture, opened: () => {
-      store.set({ selected: -1, selectedNail: -1, card: null, time: 0, playing: false });
+      store.set({ selected: -1, selectedNail: -1, card: null, time: 0, playing: false, loopRange: null });
       frame(-1, true);
     } }),
   });
@@ -84,7 +83,7 @@ function start() {
       commands.saveIfWaiting();
     },
   });
-  const commands = new Commands({ store, connection, gesture, view: { frame }, ask, askName });
+  const commands = new Commands({ store, connection, gesture, view: { frame }, ask, choose, askName });
   showHeader(store, commands, gesture);
   showNotices(store);
   showReadout(store);
@@ -101,24 +100,6 @@ function start() {
   store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
   if (query.has('test')) addTestHooks({ store, view, overlay, connection, gesture });
   connection.connect();
-}
-
-/** Shows everything, or one body with its path. @param {Store<import('./types.js').State>} store @param {View} view
- * @param {number} body -1: everything @param {boolean} anew from the usual side */
-function frameView(store, view, body, anew) {
-  const { scene, motion } = store.state;
-  if (!scene || !motion) return;
-  let { min, max } = scene;
-  const ground = scene.shapes.flatMap(({ plane, body: of }) => (plane && plane.normal[2] > 0.9 ? [centreAt(motion.tracks[of], 0)[2] + plane.offset] : []));
-  min = [min[0], min[1], Math.min(min[2], ...ground.filter((z) => z > min[2] - 2 * Math.max(max[0] - min[0], max[2] - min[2], 0.1)))];
-  const track = motion.tracks[body];
-  if (track && moves(track)) {
-    const places = pathTimes(track, motion.end, 1e-2).map((t) => centreAt(track, t)), r = scene.shapes[body].radius;
-    const corner = (/** @type {(...v: number[]) => number} */ pick, /** @type {number} */ sign) => /** @type {Vec3} */ ([0, 1, 2].map((i) => pick(...places.map((p) => p[i])) + sign * r));
-    [min, max] = [corner(Math.min, -1), corner(Math.max, 1)];
-  }
-  view.camera.frame(min, max, anew);
-  view.invalidate();
 }
 
 /** Choices of a person are kept from one time to the next. @param {Store<import('./types.js').State>} store */
@@ -139,13 +120,15 @@ function showLayout(store) {
   const loading = byId('loading'), fold = byId('fold');
   store.on(['connected', 'progress', 'motion'], ({ connected, progress }) => {
     document.body.dataset.connected = connected;
+    // what would ask the server waits until it is back; the view can still be turned
+    for (const id of ['panel', 'tools']) byId(id).toggleAttribute('inert', connected === 'lost' || connected === 'ended');
     loading.hidden = !(connected === 'connecting' || connected === 'loading' || progress);
     loading.textContent = progress || (connected === 'loading' ? 'Loading…' : 'Connecting…');
   });
   store.on(['motion', 'document'], ({ motion, document: shown }) => {
     const early = motion && shown?.open && motion.end < shown.duration - 1e-9;
     byId('ended').hidden = !early;
-    byId('ended').textContent = early ? motion.message || `The motion ends at ${motion.end.toFixed(3)} s.` : '';
+    byId('ended').textContent = byId('ended').title = early ? motion.message || `The motion ends at ${motion.end.toFixed(3)} s.` : '';
   });
   store.on(['panel'], ({ panel }) => {
     document.body.classList.toggle('folded', !panel);
@@ -161,6 +144,7 @@ function showLayout(store) {
   };
   low.addEventListener('change', share);
   share();
+  store.on(['selectedNail'], ({ selectedNail }) => selectedNail >= 0 && low.matches && long[1]?.setAttribute('open', ''));
   store.on(['document'], ({ document: shown }) => (byId('nail-count').textContent = shown?.nails.length ? String(shown.nails.length) : ''));
   fold.addEventListener('click', () => store.set({ panel: !store.state.panel }));
 }

@@ -3,6 +3,7 @@
 
 import { changesText } from './changes.js';
 import { motionOf, shapesOf } from './frames.js';
+import { timeOf } from './motion.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {{store: import('./store.js').Store<State>, gesture: () => import('./gesture.js').Gesture | null,
@@ -65,11 +66,18 @@ export function listener({ store, gesture, opened }) {
       const motion = motionOf(frame, fresh ? null : store.state.motion);
       const first = fresh;
       fresh = false;
-      store.set({ motion, time: Math.min(store.state.time, motion.end), ...(first ? { opened: motion, savedMotion: motion, before: null, changesShown: false } : {}) });
+      store.set({ motion, time: timeShown(store.state, motion), ...(first ? { opened: motion, savedMotion: motion, before: null, changesShown: false } : {}) });
       gesture()?.answered(motion);
       if (first) opened();
     },
   };
+}
+
+/** The play head stays, but goes with an impact that is held, whose time changes. @param {State} state
+ * @param {import('./types.js').Motion} motion */
+function timeShown({ document, gesture: { state, hit }, time }, motion) {
+  const held = state !== 'idle' && document && hit?.kind === 'impact' ? timeOf(hit.at, hit.body, motion, document.bodies.map((body) => body.name)) : null;
+  return Math.min(held ?? time, motion.end);
 }
 
 /** What a person is told when a gesture came to its end. @param {import('./store.js').Store<State>} store

@@ -16,12 +16,13 @@ export function showPlayer(store, commands) {
   /** @param {number} now ms */
   const frame = (now) => {
     wanted = 0;
-    const { playing, time, motion, speed: rate, loop: again } = store.state;
+    const { playing, time, motion, speed: rate, loop: again, loopRange } = store.state;
     if (!playing || !motion) return;
     const next = time + (last ? (Math.min(now - last, 100) / 1000) * rate : 0);
     last = now;
-    if (next < motion.end) store.set({ time: next });
-    else store.set(again ? { time: 0 } : { time: motion.end, playing: false });
+    const [start, end] = again && loopRange && loopRange[0] < motion.end ? [loopRange[0], Math.min(loopRange[1], motion.end)] : [0, motion.end];
+    if (next < end) store.set({ time: Math.max(start, next) });
+    else store.set(again ? { time: start } : { time: end, playing: false });
     if (store.state.playing) wanted = requestAnimationFrame(frame);
   };
   store.on(['playing'], ({ playing }) => {

@@ -14,7 +14,7 @@ export function initialState() {
   return {
     connected: 'connecting', progress: '', folder: '', document: null, scene: null, motion: null, opened: null,
     savedMotion: null, before: null, showBefore: 'none', changesShown: false, time: 0, playing: false, speed: 1,
-    loop: false, dots: 24, selected: -1, hover: null, tool: 'move', gesture: idleGesture, nailOnRelease: false,
+    loop: false, loopRange: null, dots: 24, selected: -1, hover: null, tool: 'move', gesture: idleGesture, nailOnRelease: false,
     leaveRestFree: false, keymap: 'blender', locked: new Set(), panel: true, quality: 'high', notice: null, card: null,
     selectedNail: -1, tab: '',
   };

@@ -2,7 +2,7 @@
 // The time line: a lane for each moving body, the play head, impacts now and before, nails, the end.
 
 import { colours, impactColours, inkOf } from './colours.js';
-import { countsThatChanged } from './changes.js';
+import { impactsThatChanged } from './changes.js';
 import { nailColour, nailPlaces } from './overlay/hoops.js';
 import { centreAt, moves } from './motion.js';
 import { lanes, ticks, tOf, xOf, zoomed } from './timeline_layout.js';
@@ -11,7 +11,7 @@ import { beforeOf } from './view/paths.js';
 /** @typedef {import('./types.js').State} State */
 /** @typedef {import('./timeline_layout.js').Axis} Axis */
 
-const ruler = 22, left = 12, right = 20, diamond = 5;
+const ruler = 26, left = 16, right = 20, diamond = 5;
 
 export class TimeLine {
   /** @param {HTMLCanvasElement} canvas @param {import('./store.js').Store<State>} store
@@ -28,9 +28,9 @@ export class TimeLine {
     /** @type {{body: number, y: number, height: number}[]} */
     this.seen = [];
     this.wanted = 0;
-    this.dragged = /** @type {'' | 'head' | {nail: number, time: number}} */ ('');
+    this.dragged = /** @type {'' | 'head' | {nail: number, time: number} | {loop: number}} */ ('');
     new ResizeObserver(() => this.draw()).observe(canvas);
-    store.on(['motion', 'time', 'document', 'selected', 'hover', 'before', 'changesShown', 'gesture', 'selectedNail', 'scene', 'showBefore'], () => this.invalidate());
+    store.on(['motion', 'time', 'document', 'selected', 'hover', 'before', 'changesShown', 'gesture', 'selectedNail', 'scene', 'showBefore', 'loop', 'loopRange'], () => this.invalidate());
     store.on(['scene'], () => (this.zoom = null));
     canvas.addEventListener('pointerdown', (event) => this.press(event));
     canvas.addEventListener('pointermove', (event) => this.point(event));
@@ -60,7 +60,8 @@ export class TimeLine {
     this.axis = { from: this.zoom?.from ?? 0, to: this.zoom?.to ?? duration, left, width: width - left - right };
     canvas.setAttribute('aria-valuemax', duration.toFixed(3));
     canvas.setAttribute('aria-valuetext', `${state.time.toFixed(3)} s`);
-    pen.font = '11px system-ui, sans-serif';
+    pen.font = `${width > 1700 ? 13 : 11}px system-ui, sans-serif`;
+    this.drawLoop(state);
     this.drawRuler(width);
     this.seen = this.lanes(height);
     for (const lane of this.seen) this.drawLane(lane, state, width);
@@ -73,7 +74,15 @@ export class TimeLine {
     const { motion, scene } = this.store.state;
     const bodies = motion?.tracks.filter((t) => !scene?.shapes[t.body]?.fixed && moves(t)).map((t) => t.body) ?? [];
     this.scroll = Math.max(0, Math.min(this.scroll, bodies.length - 1));
-    return lanes(bodies, ruler + 2, height - ruler - 8, this.scroll);
+    return lanes(bodies, ruler + 2, height - ruler - 6, this.scroll);
+  }
+
+  /** @param {State} state */
+  drawLoop({ loop, loopRange }) {
+    if (!loop || !loopRange) return;
+    const { pen, axis } = this, [from, to] = loopRange.map((t) => Math.max(left, Math.min(left + axis.width, xOf(axis, t))));
+    pen.fillStyle = colours.pressed;
+    pen.fillRect(from, ruler - 8, to - from, 8);
   }
 
   /** @param {number} width */
@@ -85,10 +94,11 @@ export class TimeLine {
     for (const { t, text } of ticks(axis)) {
       const x = Math.round(xOf(axis, t)) + 0.5;
       pen.beginPath();
-      pen.moveTo(x, ruler - 7);
+      pen.moveTo(x, ruler - 8);
       pen.lineTo(x, ruler);
       pen.stroke();
-      if (x + 4 + pen.measureText(text).width <= width) pen.fillText(text, x + 3, ruler - 8);
+      const wide = pen.measureText(text).width;
+      pen.fillText(text, Math.max(2, Math.min(width - wide - 2, x - wide / 2)), ruler - 12);
     }
   }
 
@@ -109,10 +119,10 @@ export class TimeLine {
     for (const impact of motion.impacts) {
       if (impact.bodies.includes(body)) this.diamond(impact.t, middle, size, impactColours[impact.mode] ?? impactColours.stick, true);
     }
-    if (state.changesShown && state.before && height >= 11) this.drawChanges(state.before, motion, body, middle);
+    if (state.changesShown && state.before && height >= 10) this.drawChanges(state.before, motion, body, middle);
     for (const place of nailPlaces(state)) {
       if (place.body !== body) continue;
-      const dragged = typeof this.dragged === 'object' && this.dragged.nail === place.id ? this.dragged.time : place.time;
+      const dragged = typeof this.dragged === 'object' && 'nail' in this.dragged && this.dragged.nail === place.id ? this.dragged.time : place.time;
       pen.strokeStyle = nailColour(place.nail);
       pen.lineWidth = place.id === state.selectedNail ? 3 : 2;
       pen.setLineDash(place.nail.available ? [] : [3, 3]);
@@ -128,15 +138,11 @@ export class TimeLine {
    * @param {import('./types.js').Motion} now @param {number} body @param {number} y */
   drawChanges(before, now, body, y) {
     const names = this.store.state.document?.bodies.map((one) => one.name) ?? [];
-    for (const { pair, before: were, now: are } of countsThatChanged(before, now)) {
+    this.pen.fillStyle = colours.text;
+    for (const { impact: { t }, pair, came } of impactsThatChanged(before, now)) {
       if (!pair.includes(body)) continue;
-      const impacts = (are > were ? now : before).impacts.filter((one) => one.pairs.some(([a, b]) => pair.includes(a) && pair.includes(b)));
-      const other = names[pair[0] === body ? pair[1] : pair[0]];
-      this.pen.fillStyle = colours.text;
-      for (const { t } of impacts.slice(-Math.abs(are - were))) {
-        const text = `${other} ${are > were ? 'came' : 'went'}`, x = xOf(this.axis, t), wide = this.pen.measureText(text).width;
-        this.pen.fillText(text, x + 9 + wide > left + this.axis.width ? x - 9 - wide : x + 9, y + 4);
-      }
+      const text = `${names[pair[0] === body ? pair[1] : pair[0]]} ${came ? 'came' : 'went'}`, x = xOf(this.axis, t), wide = this.pen.measureText(text).width;
+      this.pen.fillText(text, x + 9 + wide > left + this.axis.width ? x - 9 - wide : x + 9, y + 4);
     }
   }
 
@@ -186,11 +192,11 @@ export class TimeLine {
     const x = xOf(axis, time);
     if (x < left - 1 || x > left + axis.width + 1) return;
     pen.fillStyle = colours.accent;
-    pen.fillRect(x - 1, 8, 2, height - 12);
+    pen.fillRect(x - 1, ruler - 4, 2, height - ruler);
     pen.beginPath();
-    pen.moveTo(x - 6, 6);
-    pen.lineTo(x + 6, 6);
-    pen.lineTo(x, 15);
+    pen.moveTo(x - 6, ruler - 10);
+    pen.lineTo(x + 6, ruler - 10);
+    pen.lineTo(x, ruler);
     pen.fill();
   }
 
@@ -198,6 +204,10 @@ export class TimeLine {
   press(event) {
     if (event.button !== 0 || !this.store.state.motion) return;
     this.canvas.setPointerCapture(event.pointerId);
+    if (event.shiftKey) {
+      this.dragged = { loop: tOf(this.axis, event.offsetX) };
+      return this.store.set({ loopRange: null });
+    }
     const lane = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height);
     const nail = lane && nailPlaces(this.store.state).find((place) => place.body === lane.body && Math.abs(xOf(this.axis, place.time) - event.offsetX) < 8);
     if (nail) {
@@ -215,13 +225,18 @@ export class TimeLine {
     const { motion, selected } = this.store.state;
     if (!motion) return;
     const time = Math.max(0, Math.min(motion.end, tOf(this.axis, event.offsetX)));
+    const over = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height);
+    this.canvas.title = over ? (this.store.state.document?.bodies[over.body]?.name ?? '') : '';
     if (this.dragged === 'head') {
       this.commands.seek(time);
+    } else if (typeof this.dragged === 'object' && 'loop' in this.dragged) {
+      const ends = /** @type {[number, number]} */ ([this.dragged.loop, time].map((t) => Math.max(0, Math.min(motion.end, t))).sort((a, b) => a - b));
+      if (ends[1] - ends[0] > 1e-3) this.store.set({ loop: true, loopRange: ends });
     } else if (typeof this.dragged === 'object') {
       this.dragged = { nail: this.dragged.nail, time: Math.round(time * 1000) / 1000 };
       this.invalidate();
     } else if (this.store.state.gesture.state === 'idle') {
-      const lane = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height), body = lane?.body ?? selected;
+      const body = over?.body ?? selected;
       this.store.set({ hover: body >= 0 ? { kind: 'body', body, time, at: time, place: centreAt(motion.tracks[body], time) } : null });
     }
   }
@@ -229,7 +244,7 @@ export class TimeLine {
   lift() {
     const dragged = this.dragged;
     this.dragged = '';
-    if (typeof dragged !== 'object') return;
+    if (typeof dragged !== 'object' || 'loop' in dragged) return;
     const nail = this.store.state.document?.nails.find((one) => one.id === dragged.nail);
     if (nail && nail.constraint.at !== dragged.time) void this.commands.setNail(nail.id, { ...nail.constraint, at: dragged.time });
   }

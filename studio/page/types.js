@@ -53,7 +53,7 @@
  *    scene: SceneShapes | null, motion: Motion | null, opened: Motion | null, savedMotion: Motion | null,
  *    before: Motion | null, showBefore: 'none' | 'opened' | 'saved' | 'changes', changesShown: boolean,
  *    time: number, playing: boolean,
- *    speed: number, loop: boolean, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn',
+ *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn',
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
  *    selectedNail: number, tab: string}} State */

@@ -9,8 +9,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/session_replay.h"
 #include "editing/solve/budget.hpp"
-#include "tests/editing/session_scenes.h"
-#include "tests/editing/stopping_contacts.h"
+#include "tests/editing/stopped_session.h"
 
 namespace carom {
 
@@ -20,31 +19,6 @@ namespace {
 
 using namespace testing_scenes;
 using namespace testing_sessions;
-
-/// A session whose motions are counted.
-struct StoppedSession {
-  Scene scene;
-  OdeContacts inner;
-  StopAfter stop;
-  StoppingContacts contacts{inner, stop};
-  EditSession session;
-
-  explicit StoppedSession(Scene written, double duration, std::vector<Control> controls)
-      : scene(std::move(written)),
-        inner(scene),
-        session(scene, contacts, duration, std::move(controls), {}, withoutClock()) {}
-};
-
-void expectSameAgain(const StoppedSession& s) {
-  OdeContacts contacts(s.scene);
-  SessionReplay replay(s.session.journal(), contacts);
-  while (!replay.done()) {
-    const ReplayedGesture gesture = replay.next();
-    EXPECT_TRUE(gesture.differences.empty()) << gesture.differences[0];
-  }
-  EXPECT_TRUE(sameScene(replay.session().scene(), s.session.scene()));
-  EXPECT_EQ(replay.session().nails().size(), s.session.nails().size());
-}
 
 /// Drags, rests, releases and nails, each stopped after a random number of motions; how many were stopped.
 int playAndStop(StoppedSession& s, const std::string& body, double t, const Vec3& by, unsigned seed) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <thread>
 
 namespace carom::studio {
@@ -125,35 +124,6 @@ TEST(Mailbox, StopAllStopsWhatBeginsLater) {
   mailbox.stopAll();
   EXPECT_TRUE(work.stop_requested());
   EXPECT_TRUE(mailbox.beginRest().stop_requested());
-}
-
-// For the thread sanitizer: writers and a taker at once; every command arrives once, in the order of its socket.
-TEST(Mailbox, ServesManyThreads) {
-  constexpr std::int64_t kEach = 2000;
-  Mailbox mailbox(64);
-  std::vector<std::thread> writers;
-  for (SocketId from = 1; from <= 3; ++from)
-    writers.emplace_back([&mailbox, from] {
-      for (std::int64_t id = 1; id <= kEach; ++id) {
-        mailbox.put(letter<List>(from, id));
-        mailbox.put(drag(from, id));
-      }
-    });
-  std::array<std::int64_t, 4> last{};
-  std::array<std::int64_t, 4> seq{};
-  for (std::int64_t lists = 0; lists < 3 * kEach;) {
-    const Letter next = mailbox.take({}).value();
-    mailbox.beginRest();
-    if (const Drag* d = std::get_if<Drag>(&next.command.what)) {
-      EXPECT_GT(d->seq, seq[next.from]);
-      seq[next.from] = d->seq;
-      continue;
-    }
-    EXPECT_EQ(next.command.id, last[next.from] + 1);
-    last[next.from] = next.command.id;
-    ++lists;
-  }
-  for (std::thread& writer : writers) writer.join();
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ TEST(PageFiles, AreFoundByExactNamesAlone) {
   ASSERT_NE(files.find("/gallery/hat.svg"), nullptr);
   EXPECT_EQ(files.find("/gallery/hat.svg")->type, "image/svg+xml");
   for (const char* path : {"", "index.html", "//index.html", "/view/../index.html", "/view", "/view/", "/%69ndex.html",
-                           "/INDEX.HTML", "/package.json", "/node_modules/other/secret.js", "/tests/a.js", "/.hidden.js",
-                           "/../secret", "/view/view.js/", "/etc/passwd"})
+                           "/INDEX.HTML", "/package.json", "/node_modules/other/secret.js", "/tests/a.js",
+                           "/.hidden.js", "/../secret", "/view/view.js/", "/etc/passwd"})
     EXPECT_EQ(files.find(path), nullptr) << path;
 }
 

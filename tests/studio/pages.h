@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstring>
 #include <map>
@@ -47,7 +48,7 @@ class Received {
     });
     return found;
   }
-  /// Waits for a message to a socket that is as asked, and forgets those before it.
+  /// Waits for a message to a socket that is as asked, and forgets those to it that came before.
   template <class Wanted>
   Json wait(SocketId socket, const Wanted& wanted) {
     std::unique_lock lock(mutex_);
@@ -55,7 +56,8 @@ class Received {
       for (auto it = messages_.begin(); it != messages_.end(); ++it) {
         if (it->first != socket || !wanted(it->second)) continue;
         Json found = it->second;
-        messages_.erase(messages_.begin(), it + 1);
+        const auto later = messages_.erase(it);
+        messages_.erase(std::remove_if(messages_.begin(), later, [&](const auto& m) { return m.first == socket; }), later);
         return found;
       }
       came_.wait(lock);
@@ -83,7 +85,7 @@ inline SessionOptions solvingWithoutClock() {
   return options;
 }
 
-/// A worker on a folder with the scene "bounce.json".
+/// A worker on a folder with the scene "bounce.json"; with an empty scene nothing is there and nothing open.
 struct WorkerTest {
   TestFolder folder;
   Mailbox mailbox;
@@ -92,15 +94,19 @@ struct WorkerTest {
   std::unique_ptr<Worker> worker;
   std::int64_t id = 0;
 
-  explicit WorkerTest(const std::string& scene = kTestScene, const SessionOptions& solving = solvingWithoutClock()) {
-    folder.write("bounce.json", scene);
+  explicit WorkerTest(const std::string& scene = kTestScene, const SessionOptions& solving = solvingWithoutClock(),
+                      const std::string& gallery = "") {
+    if (!scene.empty()) folder.write("bounce.json", scene);
     workspace = std::make_unique<Workspace>(folder.path());
     WorkerOptions options;
     options.session = "s1";
     options.solving = solving;
-    worker = std::make_unique<Worker>(
-        mailbox, *workspace, Post{[this](SocketId to, const Outgoing& message) { received.add(to, message); }}, options);
-    worker->openFirst("bounce.json");
+    options.gallery = gallery;
+    options.pictures = {"first"};
+    worker = std::make_unique<Worker>(mailbox, *workspace,
+                                      Post{[this](SocketId to, const Outgoing& message) { received.add(to, message); }},
+                                      options);
+    if (!scene.empty()) worker->openFirst("bounce.json");
   }
   /// Sends a message, which gets a number.
   std::int64_t send(SocketId from, Json message) {
@@ -119,6 +125,12 @@ struct WorkerTest {
     return received.take(from);
   }
 };
+
+/// Takes hold of the ball of the test scene on its way up; drags it.
+inline const Json kGrab = {{"type", "grab"}, {"gesture", 1}, {"body", "ball"}, {"at", 0.3}};
+inline Json dragTo(std::int64_t seq, double x, double z) {
+  return {{"type", "drag"}, {"gesture", 1}, {"seq", seq}, {"place", {x, 0, z}}};
+}
 
 /// The last message of a type; null where there is none.
 inline Json lastOf(const std::vector<Json>& messages, const std::string& type) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -21,11 +22,19 @@ const std::map<std::string, Json>& examples() {
     const Json control = {{"vary", "velocity"}, {"body", "hat"}, {"weight", 0.2}};
     const Json list = {
         {{"type", "hello"}, {"protocol", 1}, {"token", "abc"}, {"tab", "t1"}},
-        {{"type", "grab"}, {"gesture", 4}, {"body", "hat"}, {"at", {{"impact", 1}, {"with", "coatrack"}}},
-         {"grip", {{"orientation", true}, {"point", {0, 0, 0.1}}, {"components", {"x", "z"}}}}, {"also_vary", {control}}},
+        {{"type", "grab"},
+         {"gesture", 4},
+         {"body", "hat"},
+         {"at", {{"impact", 1}, {"with", "coatrack"}}},
+         {"grip", {{"orientation", true}, {"point", {0, 0, 0.1}}, {"components", {"x", "z"}}}},
+         {"also_vary", {control}}},
         {{"type", "grab_nail"}, {"gesture", 4}, {"nail", 2}},
         {{"type", "drag"}, {"gesture", 4}, {"seq", 9}, {"place", {0.8, 0, 1.7}}, {"orientation", {1, 0, 0, 0}}},
-        {{"type", "release"}, {"gesture", 4}, {"seq", 31}, {"place", {0.81, 0, 1.71}}, {"orientation", {0, 1, 0, 0}},
+        {{"type", "release"},
+         {"gesture", 4},
+         {"seq", 31},
+         {"place", {0.81, 0, 1.71}},
+         {"orientation", {0, 1, 0, 0}},
          {"nail", true}},
         {{"type", "cancel"}, {"gesture", 4}},
         {{"type", "undo"}},
@@ -154,6 +163,54 @@ TEST(Protocol, EveryWrongMemberIsNamed) {
   }
 }
 
+TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
+  const std::map<std::string, std::vector<const char*>> optional = {
+      {"grab", {"grip", "also_vary"}},  {"drag", {"orientation"}},     {"release", {"orientation", "nail"}},
+      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path"}}};
+  for (const auto& [type, good] : examples()) {
+    const auto known = optional.find(type);
+    for (const auto& member : good.items()) {
+      Json bad = good;
+      bad.erase(member.key());
+      const bool needed = known == optional.end() || std::ranges::count(known->second, member.key()) == 0;
+      const std::string error = errorOf(bad.dump());
+      EXPECT_EQ(error == "no error", !needed) << type << ": " << bad.dump();
+      if (needed) {
+        EXPECT_NE(error.find(member.key()), std::string::npos) << type << ": " << error;
+      }
+    }
+  }
+}
+
+TEST(Protocol, WrongMembersWithinOthersAreNamed) {
+  const auto expectNamed = [](const std::string& type, const std::string& pointer, const Json& wrong) {
+    Json bad = examples().at(type);
+    bad[Json::json_pointer(pointer)] = wrong;
+    const std::string error = errorOf(bad.dump());
+    EXPECT_NE(error.find(pointer), std::string::npos) << type << ": " << bad.dump() << "\n" << error;
+  };
+  expectNamed("grab", "/at/impact", 0);
+  expectNamed("grab", "/at/impact", 1.5);
+  expectNamed("grab", "/at/with", 3);
+  expectNamed("grab", "/at/other", 3);
+  expectNamed("grab", "/grip/point", {0, 0});
+  expectNamed("grab", "/grip/point/1", "x");
+  expectNamed("grab", "/grip/orientation", 1);
+  expectNamed("grab", "/grip/components", Json::array());
+  expectNamed("grab", "/grip/components/0", "w");
+  expectNamed("grab", "/grip/of", "place");
+  expectNamed("grab", "/gesture", 0);
+  expectNamed("drag", "/seq", -1);
+  expectNamed("drag", "/place/2", nullptr);
+  expectNamed("drag", "/orientation", {1, 0, 0});
+  expectNamed("set", "/edits/0/pointer", 7);
+  expectNamed("set", "/edits/0/other", 7);
+  expectNamed("hello", "/tab", "");
+  expectNamed("hello", "/tab", std::string(65, 't'));
+  expectNamed("hello", "/token", std::string(201, 't'));
+  expectNamed("nail_on", "/nail", -1);
+}
+
 TEST(Protocol, ErrorsSayFoundAndExpected) {
   EXPECT_EQ(errorOf("[]"), "found an empty array, expected a message: an object");
   EXPECT_NE(errorOf("").find("expected"), std::string::npos);
@@ -202,12 +259,12 @@ TEST(Protocol, DeepAndHugeMessagesAreRefused) {
 
 TEST(Protocol, ControlsAndConstraintsAreReadWithTheirScene) {
   const Scene scene = parseDocument(kTestScene, "bounce").scene;
-  const std::vector<Control> controls =
-      readControlsText(R"([{"vary": "velocity", "body": "ball", "components": ["z"], "weight": 0.2}])", scene, "/also_vary");
+  const std::vector<Control> controls = readControlsText(
+      R"([{"vary": "velocity", "body": "ball", "components": ["z"], "weight": 0.2}])", scene, "/also_vary");
   ASSERT_EQ(controls.size(), 1u);
   EXPECT_EQ(controls[0].weight, 0.2);
-  const Constraint constraint =
-      readConstraintText(R"({"body": "ball", "at": {"impact": 2}, "position": [1, null, 0.25]})", scene, 2, "/constraint");
+  const Constraint constraint = readConstraintText(
+      R"({"body": "ball", "at": {"impact": 2}, "position": [1, null, 0.25]})", scene, 2, "/constraint");
   EXPECT_EQ(constraint.at.impact, 2);
   EXPECT_EQ(constraint.targets.at(0).value[2], 0.25);
   const auto whereOf = [&](const auto& call) {
@@ -220,7 +277,9 @@ TEST(Protocol, ControlsAndConstraintsAreReadWithTheirScene) {
   };
   EXPECT_EQ(whereOf([&] { readControlsText(R"([{"vary": "mass", "body": "bal"}])", scene, "/also_vary"); }),
             "/also_vary/0/body");
-  EXPECT_EQ(whereOf([&] { readConstraintText(R"({"body": "ball", "at": 9, "position": [0,0,0]})", scene, 2, "/constraint"); }),
+  EXPECT_EQ(whereOf([&] {
+              readConstraintText(R"({"body": "ball", "at": 9, "position": [0,0,0]})", scene, 2, "/constraint");
+            }),
             "/constraint/at");
 }
 

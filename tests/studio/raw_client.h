@@ -12,7 +12,8 @@ namespace carom::studio {
 /// gives up, and the test fails, after half a minute.
 class RawClient {
  public:
-  explicit RawClient(unsigned short port);
+  /// The last byte of the address is 1 for where the server is: 127.0.0.1. Throws where nobody listens.
+  explicit RawClient(unsigned short port, unsigned char last_byte = 1);
   ~RawClient();
   RawClient(RawClient&& other) noexcept;
   RawClient(const RawClient&) = delete;

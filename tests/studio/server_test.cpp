@@ -2,96 +2,15 @@
 // A server that runs, and clients that say what they should not.
 #include <gtest/gtest.h>
 
-#include <future>
 #include <thread>
 
 #include "adjoint/base/errors.h"
-#include "studio/studio.h"
-#include "tests/studio/pages.h"
-#include "tests/studio/raw_client.h"
+#include "tests/studio/test_server.h"
 
 namespace carom::studio {
 namespace {
 
-constexpr std::chrono::milliseconds kSoon{150};   // for limits that a test waits for
-constexpr std::chrono::milliseconds kNever{60'000};
-
-Limits patient() {
-  Limits limits;
-  limits.handshake = limits.idle = kNever;
-  limits.wrong_token = std::chrono::milliseconds{1};
-  return limits;
-}
-
-/// Serves until it is destroyed.
-class Server {
- public:
-  explicit Server(const Limits& limits = patient()) {
-    folder.write("bounce.json", kTestScene);
-    folder.write("sub/inside.json", kTestScene);
-    folder.write("../outside-" + name() + ".json", kTestScene);
-    std::filesystem::create_symlink("../outside-" + name() + ".json", folder / "link.json");
-    options_.scene = (folder / "bounce.json").string();
-    options_.share = share.path();
-    options_.limits = limits;
-    options_.solving = solvingWithoutClock();
-    options_.stop = stop_.get_token();
-    std::promise<std::string> ready;
-    options_.ready = [&](const std::string& address) { ready.set_value(address); };
-    thread_ = std::thread([this] { code = studio(options_); });
-    const std::string address = ready.get_future().get();
-    const std::size_t hash = address.find("/#");
-    host = address.substr(7, hash - 7);
-    token = address.substr(hash + 2);
-    port = static_cast<unsigned short>(std::stoi(host.substr(host.find(':') + 1)));
-  }
-  ~Server() {
-    stop();
-    folder.remove("../outside-" + name() + ".json");
-  }
-  void stop() {
-    stop_.request_stop();
-    if (thread_.joinable()) thread_.join();
-  }
-  std::string name() const { return std::filesystem::path(folder.path()).filename().string(); }
-  std::string origin() const { return "Origin: http://" + host + "\r\n"; }
-  RawClient client() const { return RawClient(port); }
-  std::string get(const std::string& path, const std::string& more = "") const {
-    RawClient one(port);
-    one.send(getOf(path, host, more));
-    return one.readAnswer();
-  }
-  std::string helloText(const std::string& with, int protocol = 1) const {
-    return Json{{"type", "hello"}, {"id", 1}, {"protocol", protocol}, {"token", with}, {"tab", "t"}}.dump();
-  }
-  /// A page that has been let in.
-  RawClient page() const {
-    RawClient page(port);
-    EXPECT_EQ(statusOf(page.upgrade(host, origin())), 101);
-    page.sendFrame(helloText(token));
-    return page;
-  }
-
-  TestFolder folder;
-  ShareFolder share;
-  std::string host, token;
-  unsigned short port = 0;
-  int code = -1;
-
- private:
-  StudioOptions options_;
-  std::stop_source stop_;
-  std::thread thread_;
-};
-
-Json waitFor(RawClient& page, const std::string& type) {
-  while (const auto frame = page.readFrame()) {
-    if (frame->opcode != 1 && frame->opcode != 2) continue;
-    const Json message = readMessage(frame->payload);
-    if (message["type"] == type) return message;
-  }
-  return nullptr;
-}
+constexpr std::chrono::milliseconds kSoon{150};  // for limits that a test waits for
 
 TEST(Server, ServesThePageWithItsPolicy) {
   const Server server;
@@ -102,8 +21,9 @@ TEST(Server, ServesThePageWithItsPolicy) {
   const std::string value = page.substr(nonce + 7, 32);
   EXPECT_NE(page.find("<script nonce=\"" + value + "\">"), std::string::npos);
   EXPECT_EQ(server.get("/").find(value), std::string::npos) << "a nonce is used once";
-  for (const char* field : {"X-Content-Type-Options: nosniff", "Referrer-Policy: no-referrer", "Cache-Control: no-store",
-                            "Cross-Origin-Opener-Policy: same-origin", "Cross-Origin-Resource-Policy: same-origin"})
+  for (const char* field :
+       {"X-Content-Type-Options: nosniff", "Referrer-Policy: no-referrer", "Cache-Control: no-store",
+        "Cross-Origin-Opener-Policy: same-origin", "Cross-Origin-Resource-Policy: same-origin"})
     EXPECT_NE(page.find(field), std::string::npos) << field;
   const std::string script = server.get("/main.js");
   EXPECT_NE(script.find("Content-Type: text/javascript; charset=utf-8"), std::string::npos);
@@ -136,7 +56,8 @@ TEST(Server, RefusesOtherNamesMethodsAndHosts) {
     return client.readToEnd();
   };
   const std::string port = server.host.substr(server.host.find(':'));
-  for (const std::string& host : {std::string("evil.example") + port, std::string("127.0.0.1"), std::string("127.0.0.1:1")})
+  for (const std::string& host :
+       {std::string("evil.example") + port, std::string("127.0.0.1"), std::string("127.0.0.1:1")})
     EXPECT_EQ(statusOf(answerTo(getOf("/", host))), 403) << host;
   EXPECT_EQ(statusOf(answerTo("GET / HTTP/1.1\r\n\r\n")), 403);
   EXPECT_EQ(statusOf(answerTo(getOf("/", server.host, "Host: " + server.host + "\r\n"))), 403);
@@ -145,7 +66,8 @@ TEST(Server, RefusesOtherNamesMethodsAndHosts) {
     EXPECT_EQ(statusOf(answer), 405) << method;
     EXPECT_NE(answer.find("Allow: GET, HEAD"), std::string::npos);
   }
-  EXPECT_EQ(statusOf(answerTo("POST / HTTP/1.1\r\nHost: " + server.host + "\r\nContent-Length: 9000000\r\n\r\nx")), 405);
+  EXPECT_EQ(statusOf(answerTo("POST / HTTP/1.1\r\nHost: " + server.host + "\r\nContent-Length: 9000000\r\n\r\nx")),
+            405);
   EXPECT_EQ(statusOf(answerTo(getOf("/", server.host, "Content-Length: 5\r\n") + "hello")), 400);
   EXPECT_EQ(statusOf(answerTo("nonsense\r\n\r\n")), 400);
 }
@@ -198,16 +120,18 @@ TEST(Server, APageGetsTheSceneAndDrags) {
   EXPECT_EQ(waitFor(page, "motion")["seq"], 1);
   page.sendFrame(R"({"type": "cancel", "id": 4, "gesture": 1})");
   EXPECT_EQ(waitFor(page, "state")["re"], 4);
-  for (const char* path : {"link.json", "../outside.json", "sub/../../x.json", "/etc/passwd.json"}) {
-    page.sendFrame(Json{{"type", "open"}, {"id", 5}, {"path", path}}.dump());
+  int id = 4;
+  for (const char* path : {"link.json", "up/a.json", "../outside.json", "sub/../../x.json", "/etc/passwd.json"}) {
+    page.sendFrame(Json{{"type", "open"}, {"id", ++id}, {"path", path}}.dump());
     EXPECT_EQ(waitFor(page, "error")["code"], "input") << path;
-    page.sendFrame(Json{{"type", "save"}, {"id", 6}, {"path", path}, {"replace", true}}.dump());
+    page.sendFrame(Json{{"type", "save"}, {"id", ++id}, {"path", path}, {"replace", true}}.dump());
     EXPECT_EQ(waitFor(page, "error")["code"], "input") << path;
   }
-  page.sendFrame(R"({"type": "undo", "id": 7, "more": 1})");
+  EXPECT_EQ(server.folder.read("../outside-" + server.name() + ".json"), kTestScene);
+  page.sendFrame(R"({"type": "undo", "id": 97, "more": 1})");
   const Json error = waitFor(page, "error");
   EXPECT_EQ(error["code"], "bad_message");
-  EXPECT_EQ(error["re"], 7);
+  EXPECT_EQ(error["re"], 97);
   page.sendFrame(server.helloText(server.token));
   EXPECT_EQ(waitFor(page, "error")["code"], "bad_message");
 }

@@ -14,7 +14,8 @@ class TestFolder {
  public:
   TestFolder() {
     std::random_device random;
-    path_ = std::filesystem::temp_directory_path() / ("carom-studio-" + std::to_string(random()) + std::to_string(random()));
+    path_ = std::filesystem::temp_directory_path() /
+            ("carom-studio-" + std::to_string(random()) + std::to_string(random()));
     std::filesystem::create_directories(path_);
     path_ = std::filesystem::canonical(path_);
   }

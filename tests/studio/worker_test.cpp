@@ -7,11 +7,6 @@
 namespace carom::studio {
 namespace {
 
-const Json kGrab = {{"type", "grab"}, {"gesture", 1}, {"body", "ball"}, {"at", 0.3}};
-Json dragTo(std::int64_t seq, double x, double z) {
-  return {{"type", "drag"}, {"gesture", 1}, {"seq", seq}, {"place", {x, 0, z}}};
-}
-
 struct Workers : testing::Test, WorkerTest {
   void SetUp() override {
     hello(1);
@@ -238,7 +233,8 @@ TEST_F(Workers, ControlsAreSetAndAlsoVary) {
   const Json controls = {{{"vary", "velocity"}, {"body", "other"}}};
   const Json now = lastOf(ask(1, {{"type", "controls"}, {"rev", back["rev"]}, {"controls", controls}}), "state");
   EXPECT_EQ(now["controls"][0]["body"], "other");
-  EXPECT_EQ(lastOf(ask(1, {{"type", "controls"}, {"rev", back["rev"]}, {"controls", controls}}), "error")["code"], "stale");
+  EXPECT_EQ(lastOf(ask(1, {{"type", "controls"}, {"rev", back["rev"]}, {"controls", controls}}), "error")["code"],
+            "stale");
 }
 
 }  // namespace

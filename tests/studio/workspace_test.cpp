@@ -42,13 +42,29 @@ TEST_F(WorkspaceTest, OpensWhatIsBelowItsFolder) {
 TEST_F(WorkspaceTest, NamesDoNotLeaveTheFolder) {
   const Workspace all((outer / "root").string());
   const std::string with_nul("a.json\0.json", 12), nul_inside("sub\0/b.json", 11);
-  for (const std::string& name :
-       {std::string("../outside.json"), std::string("sub/../../outside.json"), std::string("sub/../a.json"),
-        outer.path() + "/outside.json", std::string("/etc/passwd.json"), std::string("./a.json"), std::string("sub//b.json"),
-        std::string("up/outside.json"), std::string("link.json"), std::string("inner.json"), std::string("aside/b.json"),
-        with_nul, nul_inside, std::string(""), std::string("sub"), std::string("sub/"), std::string("a.json/"),
-        std::string("notes.txt"), std::string("a.json/x.json"), std::string("nowhere/x.json"), std::string(".json"),
-        std::string("sub/.json"), std::string(5000, 'x') + ".json"}) {
+  for (const std::string& name : {std::string("../outside.json"),
+                                  std::string("sub/../../outside.json"),
+                                  std::string("sub/../a.json"),
+                                  outer.path() + "/outside.json",
+                                  std::string("/etc/passwd.json"),
+                                  std::string("./a.json"),
+                                  std::string("sub//b.json"),
+                                  std::string("up/outside.json"),
+                                  std::string("link.json"),
+                                  std::string("inner.json"),
+                                  std::string("aside/b.json"),
+                                  with_nul,
+                                  nul_inside,
+                                  std::string(""),
+                                  std::string("sub"),
+                                  std::string("sub/"),
+                                  std::string("a.json/"),
+                                  std::string("notes.txt"),
+                                  std::string("a.json/x.json"),
+                                  std::string("nowhere/x.json"),
+                                  std::string(".json"),
+                                  std::string("sub/.json"),
+                                  std::string(5000, 'x') + ".json"}) {
     EXPECT_THROW(all.open(name), InputError) << name.substr(0, 60);
     EXPECT_THROW(all.save(name, "written", {}, true), InputError) << name.substr(0, 60);
   }
@@ -92,7 +108,8 @@ TEST_F(WorkspaceTest, ListsFoldersAndScenesByName) {
   EXPECT_EQ(sub[1].bytes, 1u);
   EXPECT_GT(sub[1].modified, 0);
   EXPECT_EQ(all.list("sub").size(), 2u) << "a second time";
-  for (const char* name : {"..", "up", "aside", "sub/..", "a.json", "nowhere", "/"}) EXPECT_THROW(all.list(name), InputError) << name;
+  for (const char* name : {"..", "up", "aside", "sub/..", "a.json", "nowhere", "/"})
+    EXPECT_THROW(all.list(name), InputError) << name;
 }
 
 TEST_F(WorkspaceTest, SavesWholeFilesAndKeepsTheirMode) {
@@ -108,7 +125,8 @@ TEST_F(WorkspaceTest, SavesWholeFilesAndKeepsTheirMode) {
   all.save("sub/new.json", "new", {}, false);
   EXPECT_EQ(outer.read("root/sub/new.json"), "new");
   std::size_t left = 0;
-  for (const auto& entry : fs::directory_iterator(outer / "root/sub")) left += entry.path().string().find(".part-") != std::string::npos;
+  for (const auto& entry : fs::directory_iterator(outer / "root/sub"))
+    left += entry.path().string().find(".part-") != std::string::npos;
   EXPECT_EQ(left, 0u);
 }
 

@@ -19,6 +19,15 @@ export function dialog(title, content, buttons, kind = '') {
   });
 }
 
+/** @param {string} question @param {[string, string][]} choices value and words of each; the last one is what the person most likely
+ * wants @returns {Promise<string>} '' for none of them */
+export async function choose(question, choices) {
+  return dialog('carom', [el('p', {}, question)], (close) => [
+    el('button', { type: 'button', onclick: () => close('') }, 'Cancel'),
+    ...choices.map(([value, words], i) => el('button', { type: 'button', class: i === choices.length - 1 && 'primary', onclick: () => close(value) }, words)),
+  ], 'small');
+}
+
 /** @param {string} question @param {string} yes what the button says @returns {Promise<boolean>} */
 export async function ask(question, yes) {
   const answer = await dialog('carom', [el('p', {}, question)], (close) => [

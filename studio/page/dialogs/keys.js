@@ -7,7 +7,7 @@ import { dialog } from './ask.js';
 
 const mouse = [
   ['press a path and drag', 'takes the body there and then'], ['press an impact and drag', 'holds the body at that impact, whenever it comes'],
-  ['press beside it and drag', 'orbits'], ['right button, or Shift', 'pans; in a drag: cancels'], ['wheel', 'zooms'], ['a digit in a drag', 'types the target'],
+  ['press beside it and drag', 'orbits'], ['right button, or Shift', 'pans; in a drag: cancels'], ['wheel', 'zooms, in the view and in the time line'], ['Shift and drag in the time line', 'the range that loops; Shift and click: all'], ['a digit in a drag', 'types the target'],
 ];
 
 /** @param {import('../store.js').Store<import('../types.js').State>} store */

@@ -25,13 +25,13 @@ async function galleryCards(commands, opened) {
 async function folderList(commands, path, enter, opened) {
   const answer = await commands.tell('list', path ? { path } : {}), list = el('ul', { class: 'files' });
   const above = path.includes('/') ? path.slice(0, path.lastIndexOf('/')) : '';
-  if (path) list.append(el('li', {}, el('button', { type: 'button', class: 'row', onclick: () => enter(above) }, '↑ ..')));
+  if (path) list.append(el('li', {}, el('button', { type: 'button', class: 'row', autofocus: true, onclick: () => enter(above) }, '↑ ..')));
   for (const { path: at, name, kind } of /** @type {{path: string, name?: string, kind: string}[]} */ (answer?.files ?? [])) {
     const open = kind === 'folder' ? () => enter(at) : () => {
       opened();
       void commands.open({ path: at });
     };
-    list.append(el('li', {}, el('button', { type: 'button', class: 'row', onclick: open }, kind === 'folder' ? '▸ ' : '', name ?? at)));
+    list.append(el('li', {}, el('button', { type: 'button', class: 'row', autofocus: !list.childElementCount, onclick: open }, kind === 'folder' ? '▸ ' : '', name ?? at)));
   }
   if (!answer?.files?.length) list.append(el('li', { class: 'dim' }, 'no scenes here'));
   return list;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dots at every frame along paths, impacts by mode, what is hovered or held, and where the hand wants it.
 
+import { impactsThatChanged } from '../changes.js';
 import { colours, impactColours, inkOf } from '../colours.js';
 import { centreAt } from '../motion.js';
 import { lengthText } from '../number_field_text.js';
@@ -54,14 +55,33 @@ export function drawImpacts(pen, { motion, hover, selected }, bodies, project, s
     const [x, y, depth] = project(impact.point);
     if (depth <= 0) continue;
     pen.strokeStyle = impactColours[impact.mode] ?? impactColours.stick;
-    pen.lineWidth = hover?.impact === impact ? 3 : 1.8;
-    impactMark(pen, impact.mode, x, y, 6 * scale);
+    const crowd = many && selected < 0, hovered = hover?.impact === impact;
+    pen.lineWidth = hovered ? 3 : crowd ? 1.2 : 1.8;
+    pen.globalAlpha = hovered ? 1 : crowd ? 0.75 : selected >= 0 && !impact.bodies.includes(selected) && bodies.includes(selected) ? 0.5 : 1;
+    impactMark(pen, impact.mode, x, y, (crowd ? 3.5 : 6) * scale);
+  }
+  pen.globalAlpha = 1;
+}
+
+/** Impacts that came and went, with words, once a person asked to see them. @param {Pen} pen @param {State} state
+ * @param {Project} project @param {number} scale */
+export function drawChangedImpacts(pen, { motion, before, changesShown, document }, project, scale) {
+  if (!changesShown || !motion || !before || !document) return;
+  for (const { impact, pair, came } of impactsThatChanged(before, motion)) {
+    const [x, y, depth] = project(impact.point);
+    if (depth <= 0 || x < 0 || y < 0 || x > pen.canvas.clientWidth || y > pen.canvas.clientHeight) continue;
+    pen.strokeStyle = came ? colours.text : colours.before;
+    pen.lineWidth = 1.8;
+    pen.setLineDash(came ? [] : [3, 3]);
+    circle(pen, x, y, 10 * scale);
+    pen.setLineDash([]);
+    label(pen, `${pair.map((body) => document.bodies[body].name).join(' and ')} ${came ? 'came' : 'went'}`, x + 14 * scale, y + 4, came ? colours.text : colours.dim);
   }
 }
 
 /** What lies under the pointer: its time, or its impact. @param {Pen} pen @param {import('../types.js').Hit} hit
- * @param {Project} project @param {number} scale */
-export function drawHover(pen, hit, project, scale) {
+ * @param {string} name of its body, where there are several @param {Project} project @param {number} scale */
+export function drawHover(pen, hit, name, project, scale) {
   if (hit.kind === 'handle') return;
   const [x, y, depth] = project(hit.kind === 'impact' && hit.impact ? hit.impact.point : hit.place);
   if (depth <= 0) return;
@@ -72,7 +92,7 @@ export function drawHover(pen, hit, project, scale) {
     pen.fill();
   }
   const at = hit.at, time = `${hit.time.toFixed(2)} s`;
-  label(pen, typeof at === 'object' && 'impact' in at ? `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}, ${time}` : time, x + 9 * scale, y - 9 * scale, colours.text);
+  label(pen, (name && `${name}, `) + (typeof at === 'object' && 'impact' in at ? `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}, ${time}` : time), x + 9 * scale, y - 9 * scale, colours.text);
 }
 
 /** The held point, and while dragging the target with the way to it. @param {Pen} pen @param {State} state

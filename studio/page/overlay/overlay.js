@@ -5,7 +5,7 @@ import { moves, pathTimes, pointAt } from '../motion.js';
 import { sagOf } from '../view/paths.js';
 import { drawHandles, handleShapes, handleUnder } from './handles.js';
 import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
-import { drawDots, drawHeld, drawHover, drawImpacts } from './marks.js';
+import { drawChangedImpacts, drawDots, drawHeld, drawHover, drawImpacts } from './marks.js';
 import { onScreen, pick } from './pick.js';
 
 /** @typedef {import('../types.js').State} State */
@@ -39,7 +39,7 @@ export class Overlay {
   }
 
   draw() {
-    const { pen, scale, project } = this, { state } = this.store;
+    const { pen, scale, project } = this, state = this.view.shown;
     pen.clearRect(0, 0, this.width, this.height);
     const { motion, gesture, hover } = state;
     if (!motion) return;
@@ -47,9 +47,10 @@ export class Overlay {
     const bodies = this.view.paths.shownBodies(state), dragging = gesture.state === 'dragging' || gesture.state === 'typing';
     drawDots(pen, state, bodies, project, scale);
     drawImpacts(pen, state, bodies, project, scale);
+    drawChangedImpacts(pen, state, project, scale);
     drawHoops(pen, nailPlaces(state), project, scale, state.selectedNail);
     if (!dragging) drawHandles(pen, this.handles(), hover?.handle ?? '');
-    if (hover && gesture.state === 'idle') drawHover(pen, hover, project, scale);
+    if (hover && gesture.state === 'idle') drawHover(pen, hover, bodies.length > 1 ? (state.document?.bodies[hover.body]?.name ?? '') : '', project, scale);
     if (gesture.hit && gesture.state !== 'idle') {
       const track = motion.tracks[gesture.hit.body];
       drawHeld(pen, state, project(pointAt(track, track.center, Math.min(state.time, motion.end))), project, scale);

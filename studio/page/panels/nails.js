@@ -28,23 +28,23 @@ export function showNails(store, commands) {
   function row(nail, state) {
     const { constraint, id } = nail, title = `${constraint.body}, ${atText(constraint.at)}`;
     const standing = !nail.available ? ['missing', nail.message || 'does not come'] : !nail.on ? ['off', 'off'] : nail.met ? ['met', 'met'] : ['unmet', errorText(nail)];
-    const choose = el('button', { type: 'button', class: 'row name', 'aria-pressed': id === state.selectedNail, 'data-key': `nail ${id}`, onclick: () => {
+    const choose = el('button', { type: 'button', class: 'row name', title, 'aria-pressed': id === state.selectedNail, 'data-key': `nail ${id}`, onclick: () => {
       const selected = state.document?.bodies.findIndex((body) => body.name === constraint.body) ?? -1;
       store.set({ selectedNail: id, selected });
       if (nail.time !== null) commands.seek(nail.time);
-    } }, el('span', { class: `hoop ${standing[0]}`, 'aria-hidden': 'true' }), el('span', { class: 'cut grow' }, title), el('span', { class: `standing ${standing[0]}` }, standing[1]));
+    } }, el('span', { class: `hoop ${standing[0]}`, 'aria-hidden': 'true' }), el('span', { class: 'cut grow' }, title));
     const eye = iconButton(nail.on ? 'on' : 'off', nail.on ? `Switch off the nail of ${title}` : `Switch on the nail of ${title}`, () => void commands.tell('nail_on', { nail: id, on: !nail.on }), { 'data-key': `eye ${id}` });
     const remove = iconButton('close', `Remove the nail of ${title}`, () => void commands.removeNail(id), { 'data-key': `remove ${id}` });
-    return el('li', { class: 'nail' }, el('div', { class: 'nail-head' }, choose, eye, remove), components(nail));
+    return el('li', { class: 'nail' }, el('div', { class: 'nail-head' }, choose, eye, remove), components(nail, standing));
   }
 
-  /** @param {NailState} nail */
-  function components(nail) {
+  /** @param {NailState} nail @param {string[]} standing its class and words */
+  function components(nail, [kind, words]) {
     const { constraint } = nail, place = placeHeld(constraint);
     const others = ['velocity', 'angular_velocity', 'time', 'avoid', 'inside'].filter((word) => word in constraint).map((word) => word.replaceAll('_', ' '));
     const buttons = ['x', 'y', 'z'].map((name, i) => toggle(name, `${name} of the place`, place?.targets[i] != null, () => withComponent(nail, i), `${nail.id} ${name}`));
     const turn = toggle('turn', 'turn', !!constraint.orientation, () => withTurn(nail), `${nail.id} turn`);
-    return el('div', { class: 'components' }, ...(constraint.at === undefined || constraint.relative_to ? [] : [...buttons, turn]), el('span', { class: 'dim cut' }, others.join(', ')));
+    return el('div', { class: 'components' }, ...(constraint.at === undefined || constraint.relative_to ? [] : [...buttons, turn]), el('span', { class: 'dim cut grow' }, others.join(', ')), el('span', { class: `standing ${kind}`, title: words }, words));
   }
 
   /** @param {string} text @param {string} name @param {boolean} on @param {() => Constraint | null} next @param {string} key */

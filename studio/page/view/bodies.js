@@ -52,7 +52,7 @@ export class Bodies {
     this.meshes.forEach((mesh, body) => {
       const track = motion.tracks[body];
       if (track) place(mesh, track, Math.min(time, motion.end));
-      for (const material of mesh.material) material.emissive.set(body === selected ? 0x101820 : 0);
+      for (const material of mesh.material) material.emissive.set(body === selected ? 0x0a1018 : 0);
     });
   }
 
@@ -88,5 +88,7 @@ function meshOf(shape) {
   const colour = shape.fixed ? colours.fixed : shape.colour;
   const light = new THREE.Color(colour).lerp(new THREE.Color('#ffffff'), 0.45);
   const materials = [colour, light].map((color) => new THREE.MeshLambertMaterial({ color, flatShading: !shape.normals }));
-  return new THREE.Mesh(geometryOf(shape), materials);
+  const mesh = new THREE.Mesh(geometryOf(shape), materials);
+  mesh.castShadow = mesh.receiveShadow = true;
+  return mesh;
 }

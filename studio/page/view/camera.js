@@ -38,12 +38,12 @@ export class Camera {
     this.controls.enabled = on;
   }
 
-  /** Shows a box from where one looks now; at first from the front, slightly from above.
-   * @param {Vec3} min @param {Vec3} max @param {boolean} anew */
-  frame(min, max, anew) {
+  /** Shows a box from where one looks now, or from another side. @param {Vec3} min @param {Vec3} max
+   * @param {Vec3 | null} side direction from the box to the camera */
+  frame(min, max, side) {
     const box = new THREE.Box3(new THREE.Vector3(...min), new THREE.Vector3(...max));
     const centre = box.getCenter(new THREE.Vector3()), radius = Math.max(1e-3, box.getSize(new THREE.Vector3()).length() / 2);
-    const away = anew ? new THREE.Vector3(0.16, -1, 0.3) : this.camera.position.clone().sub(this.controls.target);
+    const away = side ? new THREE.Vector3(...side) : this.camera.position.clone().sub(this.controls.target);
     const half = Math.min(1, this.camera.aspect) * Math.tan((this.camera.fov * Math.PI) / 360);
     const distance = (0.92 * radius) / Math.sin(Math.atan(half));
     this.camera.near = distance / 200;

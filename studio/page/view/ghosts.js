@@ -4,7 +4,8 @@
 
 import * as THREE from 'three';
 import { colours, inkOf } from '../colours.js';
-import { moves, timeOf } from '../motion.js';
+import { moves } from '../motion.js';
+import { nailPlaces, placeHeld } from '../overlay/hoops.js';
 import { place } from './bodies.js';
 
 /** @typedef {import('../types.js').State} State */
@@ -31,37 +32,46 @@ export class Ghosts {
     /** @type {Map<string, {meshes: THREE.InstancedMesh[], count: number, geometry: THREE.BufferGeometry}>} */
     this.sets = new Map();
     this.dummy = new THREE.Object3D();
+    this.arm = new THREE.Vector3();
   }
 
   /** @param {State} state @param {BodyMesh[]} bodies */
   update(state, bodies) {
-    const { motion, hover, document } = state, wanted = new Set();
+    const { motion, hover } = state, wanted = new Set();
     const dragging = state.gesture.state !== 'idle';
     if (motion) {
       for (const body of this.bodiesWithGhosts(state)) {
         const times = [];
         for (let k = 0; k <= most && k * spacing <= motion.end + 1e-9; ++k) times.push(k * spacing);
-        this.show(wanted, `ghosts ${body}`, bodies[body], inkOf(state.scene?.shapes[body]?.colour ?? colours.fixed), 0.26, 2,
+        this.show(wanted, `ghosts ${body}`, bodies[body], inkOf(state.scene?.shapes[body]?.colour ?? colours.fixed), 0.3, 2,
           times, (time) => place(this.dummy, motion.tracks[body], time));
       }
       if (hover && !dragging && hover.kind !== 'handle' && bodies[hover.body]) {
         this.show(wanted, `hover ${hover.body}`, bodies[hover.body], colours.accent, 0.4, 4, [hover.time],
           (time) => place(this.dummy, motion.tracks[hover.body], Math.min(time, motion.end)));
       }
-      const names = document?.bodies.map((body) => body.name) ?? [];
-      for (const nail of document?.nails ?? []) {
-        const body = names.indexOf(nail.constraint.body), { orientation, position } = nail.constraint;
-        const time = nail.time ?? (nail.constraint.at === undefined ? null : timeOf(nail.constraint.at, body, motion, names));
-        if (!nail.on || !orientation || time === null || !bodies[body]) continue;
-        this.show(wanted, `nail ${nail.id}`, bodies[body], colours.nail, 0.22, 4, [time], () => {
-          place(this.dummy, motion.tracks[body], time);
-          const [x, y, z] = [0, 1, 2].map((i) => (typeof position?.[i] === 'number' ? position[i] : this.dummy.position.getComponent(i)));
-          this.dummy.position.set(Number(x), Number(y), Number(z));
-          this.dummy.quaternion.set(orientation[1], orientation[2], orientation[3], orientation[0]).normalize();
-        });
+      for (const held of nailPlaces(state)) {
+        const { nail, body, time } = held;
+        if (!nail.on || !nail.available) continue;
+        this.show(wanted, `nail ${nail.id}`, bodies[body], colours.nail, 0.25, 4, [time], () => this.nailed(held, motion));
       }
     }
-    for (const [key, set] of this.sets) if (!wanted.has(key)) this.drop(key, set);
+    // hidden rather than dropped: with the last of a kind its shaders would go, and be compiled again at the next hover
+    const alive = new Set(bodies.map((body) => body?.geometry));
+    for (const [key, set] of this.sets) {
+      if (!alive.has(set.geometry)) this.drop(key, set);
+      else if (!wanted.has(key)) for (const mesh of set.meshes) mesh.visible = false;
+    }
+  }
+
+  /** The pose that a nail wants; what it leaves free is as it is now. @param {import('../overlay/hoops.js').NailPlace} held
+   * @param {NonNullable<State['motion']>} motion */
+  nailed({ nail, body, place: [x, y, z], time }, motion) {
+    place(this.dummy, motion.tracks[body], time);
+    const { orientation } = nail.constraint, point = placeHeld(nail.constraint)?.point ?? motion.tracks[body].center;
+    if (orientation) this.dummy.quaternion.set(orientation[1], orientation[2], orientation[3], orientation[0]).normalize();
+    const arm = this.arm.set(point[0], point[1], point[2]).applyQuaternion(this.dummy.quaternion);
+    this.dummy.position.set(x, y, z).sub(arm);
   }
 
   /** @param {State} state @returns {number[]} */
@@ -90,6 +100,7 @@ export class Ghosts {
       for (const mesh of set.meshes) mesh.setMatrixAt(i, this.dummy.matrix);
     });
     for (const mesh of set.meshes) {
+      mesh.visible = true;
       mesh.count = times.length;
       mesh.instanceMatrix.needsUpdate = true;
     }

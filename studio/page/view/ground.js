@@ -59,7 +59,7 @@ function centre(grid, scene, spacing) {
 /** @param {number} spacing @param {number} radius m, where it has faded away */
 function gridOf(spacing, radius) {
   const half = Math.min(60, Math.ceil(radius / spacing)), positions = [], inks = [];
-  const alpha = (/** @type {number} */ x, /** @type {number} */ y) => 0.6 * Math.max(0, 1 - Math.hypot(x, y) / radius) ** 1.5;
+  const alpha = (/** @type {number} */ x, /** @type {number} */ y) => 0.42 * Math.max(0, 1 - Math.hypot(x, y) / radius) ** 1.5;
   for (let i = -half; i <= half; ++i) {
     for (let k = 0; k < lines; ++k) {
       const a = i * spacing, b = radius * ((2 * k) / lines - 1), c = radius * ((2 * (k + 1)) / lines - 1);

@@ -39,13 +39,16 @@ function turningTimes(track, end, sag) {
 export class Paths {
   constructor() {
     this.group = new THREE.Group();
-    /** @type {Map<string, {object: THREE.Object3D & {geometry: THREE.BufferGeometry, material: THREE.Material}, of: unknown}>} */
+    /** @type {Map<string, {object: THREE.Object3D & {geometry: THREE.BufferGeometry, material: THREE.Material}, of: unknown, opacity: number}>} */
     this.lines = new Map();
+    /** @type {Map<string, THREE.Material>} the last that went of each kind: with it its shaders would go, and be compiled
+     * again at every update of a drag, which took most of its frame */
+    this.retired = new Map();
     this.scale = 1;
   }
 
-  /** @param {State} state */
-  update(state) {
+  /** @param {State} state @param {State['motion']} [gone] a motion that fades away @param {number} [share] by now */
+  update(state, gone = null, share = 1) {
     const { motion, scene, selected } = state, wanted = new Set(), sag = sagOf(scene);
     this.scale = 2500 * sag;
     const shown = motion ? this.shownBodies(state) : [];
@@ -68,7 +71,14 @@ export class Paths {
       this.put(wanted, `before ${track.body}`, [track, end], () =>
         dashedLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), this.scale));
     }
-    for (const [key, { object }] of this.lines) {
+    for (const track of gone?.tracks ?? []) {
+      if (!shown.includes(track.body) || track === motion?.tracks[track.body]) continue;
+      const ink = inkOf(scene?.shapes[track.body]?.colour ?? colours.fixed), end = gone?.end ?? 0;
+      this.put(wanted, `gone ${track.body}`, [track, end], () => thinLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink, 0.85));
+    }
+    for (const [key, { object, opacity }] of this.lines) {
+      const kind = key.split(' ')[0];
+      if (kind !== 'before') object.material.opacity = opacity * (kind === 'gone' ? 1 - share : share);
       if (wanted.has(key)) continue;
       this.remove(object);
       this.lines.delete(key);
@@ -107,7 +117,7 @@ export class Paths {
     if (line) this.remove(line.object);
     const object = make();
     object.frustumCulled = false;
-    this.lines.set(key, { object, of });
+    this.lines.set(key, { object, of, opacity: object.material.opacity });
     this.group.add(object);
   }
 
@@ -115,7 +125,8 @@ export class Paths {
   remove(object) {
     this.group.remove(object);
     object.geometry.dispose();
-    object.material.dispose();
+    this.retired.get(object.material.type)?.dispose();
+    this.retired.set(object.material.type, object.material);
   }
 }
 

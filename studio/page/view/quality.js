@@ -14,6 +14,9 @@ export function rendererName() {
   return name || 'unknown';
 }
 
+/** @param {string} name of the renderer */
+export const isHardware = (name) => !software.test(name);
+
 /** @param {string} name of the renderer @param {string | null} wanted by the address @returns {'low' | 'high'} */
 export function qualityFor(name, wanted) {
   if (wanted === 'low' || wanted === 'high') return wanted;

@@ -6,20 +6,25 @@ import { colours } from '../colours.js';
 import { Bodies } from './bodies.js';
 import { Camera } from './camera.js';
 import { Ghosts } from './ghosts.js';
+import { Glide } from '../glide.js';
 import { Ground } from './ground.js';
+import { Outline } from './outline.js';
 import { Paths } from './paths.js';
 import { FrameWatch } from './quality.js';
 import { Shadows } from './shadows.js';
+import { Lights } from './sun.js';
 
 /** @typedef {import('../types.js').State} State */
 
 export class View {
   /** Throws where there is no WebGL.
    * @param {{host: HTMLElement, input: HTMLElement, store: import('../store.js').Store<State>,
-   *    drawn: () => void, resized: (width: number, height: number) => void}} parts `input`: what the pointer is over;
-   *    `drawn` is called within each frame, after the scene */
-  constructor({ host, input, store, drawn, resized }) {
+   *    shadowMap: boolean, drawn: () => void, resized: (width: number, height: number) => void}} parts `input`: what the pointer is over;
+   *    `drawn` is called within each frame, after the scene;
+   *    `shadowMap`: whether high quality may have one */
+  constructor({ host, input, store, shadowMap, drawn, resized }) {
     this.host = host;
+    this.shadowMap = shadowMap;
     this.store = store;
     this.drawn = drawn;
     this.frames = 0;
@@ -32,8 +37,12 @@ export class View {
     this.ghosts = new Ghosts();
     this.paths = new Paths();
     this.ground = new Ground();
+    this.lights = new Lights();
     this.shadows = new Shadows();
-    this.scene.add(this.ground.group, this.shadows.group, this.bodies.group, this.paths.group, this.ghosts.group, ...lights());
+    this.outline = new Outline();
+    this.glide = new Glide(() => matchMedia('(prefers-reduced-motion: reduce)').matches);
+    this.shown = store.state;
+    this.scene.add(this.ground.group, this.shadows.group, this.bodies.group, this.outline.mesh, this.paths.group, this.ghosts.group, ...this.lights.all);
     this.quality = store.state.quality;
     this.renderer = this.makeRenderer(this.quality);
     new ResizeObserver(() => this.resize(resized)).observe(host);
@@ -44,6 +53,7 @@ export class View {
   makeRenderer(quality) {
     const renderer = new THREE.WebGLRenderer({ antialias: quality === 'high', powerPreference: 'high-performance' });
     renderer.setPixelRatio(quality === 'high' ? Math.min(devicePixelRatio, 2) : 1);
+    renderer.shadowMap.enabled = quality === 'high' && this.shadowMap;
     renderer.domElement.setAttribute('aria-hidden', 'true');
     this.host.prepend(renderer.domElement);
     return renderer;
@@ -74,16 +84,20 @@ export class View {
   }
 
   draw() {
-    const { state } = this.store;
+    const { state, gone, share } = this.glide.shown(this.store.state, performance.now());
     if (state.quality !== this.quality) this.changeQuality(state.quality);
+    this.shown = state;
+    this.lights.update(state.scene, this.renderer.shadowMap.enabled);
     this.bodies.update(state);
     this.ground.update(state);
     this.shadows.update(state, this.bodies.meshes);
-    this.paths.update(state);
+    this.outline.update(state, this.bodies.meshes, this.camera.width, this.camera.height);
+    this.paths.update(state, gone, share);
     this.ghosts.update(state, this.bodies.meshes);
     this.renderer.render(this.scene, this.camera.camera);
     ++this.frames;
     this.drawn();
+    if (this.glide.from) this.invalidate();
   }
 
   /** @param {'low' | 'high'} quality */
@@ -94,11 +108,4 @@ export class View {
     this.renderer = this.makeRenderer(quality);
     this.renderer.setSize(this.host.clientWidth, this.host.clientHeight);
   }
-}
-
-function lights() {
-  const sun = new THREE.DirectionalLight(0xffffff, 1.9), fill = new THREE.DirectionalLight(0xbfd4ff, 0.5);
-  sun.position.set(-1, -1.5, 3);
-  fill.position.set(2, 1, 0.5);
-  return [new THREE.HemisphereLight(0xffffff, 0x5a5f66, 1.25), sun, fill];
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A browser for tests: Debian's chromium, driven by playwright-core of the page's dev packages.
+import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { createRequire } from 'node:module';
+import { FakeStudio } from './fake_studio.mjs';
 
 const require = createRequire(new URL('../../../studio/page/package.json', import.meta.url));
 
@@ -24,11 +26,16 @@ export async function launch() {
 export const axeSource = () => require.resolve('axe-core/axe.min.js');
 
 /** A tab at the studio's page, whose complaints are kept in `complaints`. */
-export async function openPage(browser, url, { width = 1440, height = 900, quality = 'low' } = {}) {
-  const page = await browser.newPage({ viewport: { width, height } });
+export async function openPage(browser, url, { width = 1440, height = 900, quality = 'low', ...more } = {}) {
+  const page = await browser.newPage({ viewport: { width, height }, ...(more.reducedMotion ? { reducedMotion: more.reducedMotion } : {}), ...(more.forcedColors ? { forcedColors: more.forcedColors } : {}) });
+  page.setDefaultTimeout(15000);
   page.complaints = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && page.complaints.push(message.text()));
   page.on('pageerror', (error) => page.complaints.push(String(error.stack ?? error)));
+  const stays = (to) => /^((http|ws):\/\/127\.0\.0\.1:\d+\/|data:|blob:)/.test(to) || page.complaints.push(`a request left this machine: ${to}`);
+  page.on('request', (request) => stays(request.url()));
+  page.on('websocket', (socket) => stays(socket.url()));
+  if (more.before) await page.addInitScript(more.before);
   const [address, token] = url.split('#');
   await page.goto(`${address}?test&quality=${quality}#${token ?? 'x'}`);
   return page;
@@ -48,5 +55,18 @@ export async function until(page, test, patience = 30000) {
     await Promise.race([held, late]);
   } finally {
     clearTimeout(timer);
+  }
+}
+
+/** Runs `act` with a stand-in for the server and a page; nothing may have been complained of. */
+export async function openFake(browser, options, act) {
+  const studio = new FakeStudio(options.studio), page = await openPage(browser, await studio.listen(), options);
+  try {
+    await until(page, '(s) => s.connected === "open"');
+    await act(page, studio);
+    assert.deepEqual(page.complaints.filter((text) => !text.includes('ReadPixels') && !(options.complaints && options.complaints.test(text))), []);
+  } finally {
+    await page.close();
+    await studio.close();
   }
 }

@@ -34,8 +34,8 @@ const cube = (x, y, z) => {
 };
 
 export class FakeStudio {
-  constructor({ open = true, locked = false } = {}) {
-    Object.assign(this, { open, locked, velocity: [2, 0, 3], history: [], future: [], nails: [], rev: 1, heard: [], clients: new Set(), saved: true, session: `s${Math.random()}`, mute: false });
+  constructor({ open = true, locked = false, changedOnDisk = false } = {}) {
+    Object.assign(this, { open, locked, changedOnDisk, controls: [{ vary: 'velocity', body: 'ball <b>' }], velocity: [2, 0, 3], history: [], future: [], nails: [], rev: 1, heard: [], clients: new Set(), saved: true, session: `s${Math.random()}`, mute: false });
     this.server = createServer((request, response) => this.file(request, response));
     this.server.on('upgrade', (request, socket) => {
       const client = accept(request, socket, { message: (text) => this.hear(client, JSON.parse(text)), closed: () => this.clients.delete(client) });
@@ -89,7 +89,7 @@ export class FakeStudio {
   state(re) {
     const numbers = ['x', 'y', 'z'].map((component, i) => ({ control: 0, name: `velocity of 'ball <b>', ${component}`, component, opened: [2, 0, 3][i], now: this.velocity[i], min: null, max: null, scale: 1, at_bound: null, pointer: `/bodies/1/velocity/${i}` }));
     return JSON.stringify(this.open ? {
-      type: 'state', re, rev: this.rev, open: true, path: 'throw.json', name: 'A throw', saved: this.saved, duration: 1.5, controls: [{ vary: 'velocity', body: 'ball <b>' }], numbers,
+      type: 'state', re, rev: this.rev, open: true, path: 'throw.json', name: 'A throw', saved: this.saved, duration: 1.5, controls: this.controls, numbers: this.controls.length ? numbers : [],
       nails: this.nails, undo: this.history.length ? "drag of 'ball <b>'" : null, redo: this.future.length ? 'drag' : null, held_by: null,
       bodies: [{ name: 'floor', fixed: true, kinematic: false, mass: null, material: 'wood' }, { name: 'ball <b>', fixed: false, kinematic: false, mass: 1, material: 'felt' }, { name: 'post', fixed: true, kinematic: false, mass: null, material: 'wood' }],
       materials: [{ name: 'felt', elasticity: 0.7, friction: 0.3 }, { name: 'wood', elasticity: 0.5, friction: 0.3 }],
@@ -132,7 +132,7 @@ export class FakeStudio {
       this.everything(client, id);
     } else if (type === 'grab' || type === 'grab_nail') {
       if (this.locked) return client.send(JSON.stringify({ type: 'error', re: id, code: 'busy', message: 'Another tab holds a body.' }));
-      this.held = { at: this.timeOf(message.at), velocity: [...this.velocity], body: message.body };
+      this.held = { at: this.timeOf(message.at ?? this.nails.find((nail) => nail.id === message.nail).constraint.at), velocity: [...this.velocity], body: message.body };
       client.send(this.motionFrame({ re: id, gesture }));
     } else if (!this.held && ['drag', 'release', 'cancel'].includes(type)) {
       client.send(JSON.stringify({ type: 'error', re: id, code: 'not_held', message: 'Nothing is held.' }));
@@ -159,6 +159,7 @@ export class FakeStudio {
       }
       done();
     } else if (type === 'save') {
+      if (this.changedOnDisk && !message.replace && !message.path) return client.send(JSON.stringify({ type: 'error', re: id, code: 'conflict', message: "'throw.json' has changed on disk since it was opened here" }));
       this.saved = true;
       client.send(JSON.stringify({ type: 'saved', re: id, path: 'throw.json', rev: this.rev }));
       client.send(this.state(id));
@@ -175,10 +176,17 @@ export class FakeStudio {
       this.everything(client, id);
     } else {
       if (type === 'nail_on') this.nails = this.nails.map((nail) => (nail.id === message.nail ? { ...nail, on: message.on } : nail));
+      if (type === 'controls') this.controls = message.controls;
+      if (type === 'set_nail') this.nails = this.nails.map((nail) => (nail.id === message.nail ? { ...nail, constraint: message.constraint, time: message.constraint.at } : nail));
       if (type === 'unnail') this.nails = this.nails.filter((nail) => nail.id !== message.nail);
-      if (type === 'nail') this.nails = [...this.nails, { id: this.nails.length, constraint: { body: message.body, at: message.at, position: [0, 0, 1], orientation: [1, 0, 0, 0] }, on: true, available: true, met: true, time: message.at, error: 0, message: '' }];
+      if (type === 'nail') this.nails = [...this.nails, { id: this.nails.length, constraint: { body: message.body, at: message.at, position: this.placeAt(message.at), orientation: [1, 0, 0, 0] }, on: true, available: true, met: true, time: message.at, error: 0, message: '' }];
       done();
     }
+  }
+
+  placeAt(time) {
+    const [t, x, y, z, vx, vy, vz, ax, ay, az] = fly(this.velocity, 1.5).arcs.findLast((arc) => arc[0] <= time), s = time - t;
+    return [x + s * vx + (s * s * ax) / 2, y + s * vy + (s * s * ay) / 2, z + s * vz + (s * s * az) / 2];
   }
 
   timeOf(at) {

@@ -1,49 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Whole ways through the studio, with the real mouse, the real server and the real solver.
 import assert from 'node:assert/strict';
-import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { pointAt } from '../../../studio/page/motion.js';
-import { canRun, launch, leftOut, openPage, until } from './browser.mjs';
-import { hasCommand, RealStudio } from './real_studio.mjs';
-
-const skip = canRun() ? (hasCommand() ? false : 'CAROM_COMMAND names no carom') : leftOut;
-let browser;
-before(async () => {
-  if (!skip) browser = await launch();
-});
-after(() => browser?.close());
-
-async function withStudio(scene, act, { change, ...options } = {}) {
-  const studio = await RealStudio.start(scene, change), page = await openPage(browser, studio.url, { width: 1024, height: 640, ...options });
-  try {
-    await until(page, '(s) => s.connected === "open" && s.motion');
-    await act(page, studio);
-    assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text) && !(options.complaints?.test(text))), []);
-  } finally {
-    await page.close();
-    await studio.close();
-  }
-}
-
-const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
-const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
-const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
-const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq');
-const idle = (page) => until(page, '(s) => s.gesture.state === "idle"');
-const picture = (page, name) => process.env.CAROM_STUDIO_PICTURES && page.screenshot({ path: join(process.env.CAROM_STUDIO_PICTURES, `${name}.png`) });
-
-/** With the mouse from one place of the page to another; the button stays down. */
-async function pull(page, [x, y], [to_x, to_y], steps = 6) {
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  for (let k = 1; k <= steps; ++k) await page.mouse.move(x + ((to_x - x) * k) / steps, y + ((to_y - y) * k) / steps);
-  await answered(page);
-}
-async function letGo(page) {
-  await page.mouse.up();
-  await idle(page);
-}
+import { openPage, until } from './browser.mjs';
+import { browser, idle, letGo, picture, place, pull, answered, screenOf, skip, state, withStudio } from './hand.mjs';
 
 test('a hat is dragged to the peg and nailed, taken earlier and turned; saved, the nail holds; undone, the file is as it was', { skip }, () =>
   withStudio('hat-on-coatrack.json', async (page, studio) => {
@@ -91,6 +52,9 @@ test('the third impact of a mug is dragged along the table; the nail stays at th
     await page.click('#nail-on-release');
     await pull(page, from, to);
     assert.deepEqual(await state(page, '(s) => s.gesture.hit.at'), { impact: 3, with: 'table' });
+    const [shown, comes] = await state(page, '(s) => [s.time, s.motion.impacts.filter((i) => i.pairs.some(([a, b]) => a === 1 && b === 2))[2].t]');
+    assert.equal(shown, comes, 'the play head goes with the impact');
+    assert.notEqual(comes, third.t);
     await page.keyboard.press('Shift+Z');
     await answered(page);
     await letGo(page);
@@ -159,7 +123,7 @@ test('reloaded in a drag, a second tab, a tab that goes while it holds, and a se
     assert.deepEqual(await state(page, '(s) => [s.document.undo, s.gesture.state, s.document.held_by]'), [null, 'idle', null]);
     await page.mouse.up();
 
-    const other = await openPage(browser, studio.url, { width: 1024, height: 640 });
+    const other = await openPage(browser(), studio.url, { width: 1024, height: 640 });
     await until(other, '(s) => s.connected === "open" && s.motion');
     const at = await place(page, 'hat', 0.4);
     await pull(page, at, [at[0] + 20, at[1] - 20]);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// A hand for tests: the real mouse in chromium, at the real `carom studio`. Pictures go to the folder that
+// CAROM_STUDIO_PICTURES names.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { after, before } from 'node:test';
+import { canRun, launch, leftOut, openPage, until } from './browser.mjs';
+import { hasCommand, RealStudio } from './real_studio.mjs';
+
+export const skip = canRun() ? (hasCommand() ? false : 'CAROM_COMMAND names no carom') : leftOut;
+let launched;
+before(async () => {
+  if (!skip) launched = await launch();
+});
+after(() => launched?.close());
+export const browser = () => launched;
+
+/** A page at a server with a copy of a scene; nothing may have been complained of. */
+export async function withStudio(scene, act, { change, ...options } = {}) {
+  const studio = await RealStudio.start(scene, change), page = await openPage(launched, studio.url, { width: 1024, height: 640, ...options });
+  try {
+    await until(page, '(s) => s.connected === "open" && s.motion');
+    await act(page, studio);
+    assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text) && !(options.complaints?.test(text))), []);
+  } finally {
+    await page.close();
+    await studio.close();
+  }
+}
+
+export const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
+export const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
+export const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
+export const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq');
+/** Let go of, and told what that came to: the document comes after the motion. */
+export const idle = (page) => until(page, '(s) => s.gesture.state === "idle" && s.document.held_by === null && s.document.rev === s.motion.rev');
+export const picture = (page, name) => process.env.CAROM_STUDIO_PICTURES && page.screenshot({ path: join(process.env.CAROM_STUDIO_PICTURES, `${name}.png`) });
+
+/** With the mouse from one place of the page to another; the button stays down. */
+export async function pull(page, [x, y], [to_x, to_y], steps = 6) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= steps; ++k) await page.mouse.move(x + ((to_x - x) * k) / steps, y + ((to_y - y) * k) / steps);
+  await answered(page);
+}
+
+export async function letGo(page) {
+  await page.mouse.up();
+  await idle(page);
+}

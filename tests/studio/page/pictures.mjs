@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// The pictures of docs/studio.md, from the command itself by the real mouse: node pictures.mjs FOLDER [PICTURE]. scripts/studio_pictures
+// calls it.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { launch, openPage, until } from './browser.mjs';
+import { RealStudio } from './real_studio.mjs';
+
+const [folder, only] = process.argv.slice(2);
+// small files, and high enough that both long lists are open
+const size = { width: 1024, height: 762, quality: 'low' };
+const patience = 120000;  // drawing in software is slow, and nobody waits
+
+const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
+const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
+const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
+const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq && !s.motion.more', patience);
+const idle = (page) => until(page, '(s) => s.gesture.state === "idle"', patience);
+
+async function pull(page, [x, y], [to_x, to_y], steps = 8) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= steps; ++k) await page.mouse.move(x + ((to_x - x) * k) / steps, y + ((to_y - y) * k) / steps);
+  await answered(page);
+}
+async function letGo(page) {
+  await page.mouse.up();
+  await idle(page);
+}
+
+async function closeNotice(page) {
+  if (await page.isVisible('#notice')) await page.click('#notice button[aria-label="Close"]');
+  await page.mouse.move(5, 500);
+}
+
+/** Once nothing moves any more. */
+async function keep(page, name) {
+  await page.evaluate(async () => {
+    for (let was = -1; was !== globalThis.carom.frames(); ) {
+      was = globalThis.carom.frames();
+      await new Promise((next) => setTimeout(next, 300));
+    }
+  });
+  await page.screenshot({ path: join(folder, `${name}.png`) });
+}
+
+async function withStudio(browser, scene, act, change) {
+  const studio = await RealStudio.start(scene, change), page = await openPage(browser, studio.url, size);
+  try {
+    await until(page, '(s) => s.connected === "open" && (s.motion || !s.document.open)', patience);
+    await act(page);
+    assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text)), []);
+  } finally {
+    await page.close();
+    await studio.close();
+  }
+}
+
+/** A hat is dragged from one peg of a coatrack down to another. */
+async function drag(page) {
+  await pull(page, await place(page, 'hat', 0.62), await screenOf(page, [-0.3, -0.02, 1.3]), 16);
+  await keep(page, 'drag');
+}
+
+/** It is nailed above the peg, and turned on its way there. */
+async function nails(page) {
+  await pull(page, await place(page, 'hat', 0.62), await screenOf(page, [-0.25, -0.02, 1.62]));
+  await page.keyboard.down('i');
+  await letGo(page);
+  await page.keyboard.up('i');
+  await until(page, '(s) => s.document.nails.length === 2');
+  await page.click('#tool-turn');
+  const [x, y] = await place(page, 'hat', 0.3);
+  await pull(page, [x, y], [x + 45, y - 25]);
+  await letGo(page);
+  await closeNotice(page);
+  await keep(page, 'nails');
+}
+
+/** The third impact of a mug is dragged along the table and nailed. */
+async function impact(page) {
+  const third = await state(page, '(s) => s.motion.impacts.filter((i) => i.pairs.some(([a, b]) => a === 1 && b === 2))[2]');
+  await page.click('#nail-on-release');
+  await pull(page, await screenOf(page, third.point), await screenOf(page, [third.point[0] - 0.05, third.point[1], third.point[2]]));
+  await page.keyboard.press('Shift+Z');
+  await answered(page);
+  await letGo(page);
+  await until(page, '(s) => s.document.nails.length === 2');
+  await closeNotice(page);
+  await page.click('#nails li:nth-child(2) .name');
+  await keep(page, 'impact');
+}
+
+/** A target that a bounded throw does not reach; the hat misses the rack. */
+async function cannot(page) {
+  const [x, y] = await place(page, 'hat', 0.2);
+  await pull(page, [x, y], [x + 60, y - 50]);
+  await letGo(page);
+  await until(page, '(s) => s.card !== null && s.notice?.key === "changes"');
+  await page.click('#notice button:has-text("Show")');
+  await page.mouse.move(5, 500);
+  await keep(page, 'cannot');
+}
+
+/** The goals of the scene, met: the hat lands on the peg in the pose that is asked for. */
+async function meet(page) {
+  await page.click('#bodies li:nth-child(3) .name');
+  await page.click('#meet');
+  await until(page, '(s) => s.document.nails.every((n) => n.on && n.met)', patience);
+  await closeNotice(page);
+  await page.click('#nails li:nth-child(1) .name');
+  await keep(page, 'meet');
+}
+
+const oneGoal = (document) => ({ ...document, constraints: document.constraints.slice(0, 1) });
+const narrow = (document) => ({ ...document, controls: [{ vary: 'velocity', body: 'hat', min: -4.5, max: 4.5 }], constraints: [] });
+const browser = await launch();
+try {
+  const acts = [['hat-on-coatrack.json', drag], ['hat-on-coatrack.json', nails, oneGoal], ['mug-on-mark.json', impact], ['hat-on-coatrack.json', cannot, narrow],
+    ['hat-on-coatrack.json', meet]];
+  for (const [scene, act, change] of acts) if (!only || act.name === only) await withStudio(browser, scene, act, change);
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What a hand waits for: updates that take long, a release that is stopped, and nothing at rest. Without limits of time:
+// bench/studio/latency.mjs measures.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { until } from './browser.mjs';
+import { answered, idle, letGo, place, pull, skip, state, withStudio } from './hand.mjs';
+
+test('Escape stops a release that searches on; what it got to is one step, and can be undone', { skip }, () =>
+  withStudio('mug.json', async (page) => {
+    const opened = await state(page, '(s) => [...s.motion.tracks[3].arcs]');
+    const [x, y] = await place(page, 'spoon', 0.6);
+    await pull(page, [x, y], [x + 350, y - 60]);
+    await page.mouse.up();
+    await until(page, '(s) => s.gesture.state === "settling" && s.gesture.settlingShown');
+    await page.keyboard.press('Escape');
+    await idle(page);
+    await until(page, '(s) => s.document.held_by === null && s.document.undo !== null', 120000);
+    assert.equal(await state(page, '(s) => s.motion.stopped'), true);
+    await page.keyboard.press('Control+z');
+    await until(page, '(s) => s.document.undo === null', 120000);
+    assert.deepEqual(await state(page, '(s) => [...s.motion.tracks[3].arcs]'), opened);
+  }));
+
+test('no shader is compiled from one update of a drag to the next', { skip }, () =>
+  withStudio('hat-on-coatrack.json', async (page) => {
+    const [x, y] = await place(page, 'hat', 0.5), shaders = () => page.evaluate(() => globalThis.carom.shaders());
+    const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await pull(page, [x, y], [x + 12, y - 12]);
+    await drawn();
+    const before = await shaders();
+    assert.ok(before.length > 0);
+    for (let k = 1; k <= 5; ++k) {
+      await page.mouse.move(x + 12 + k, y - 12);
+      await answered(page);
+      await drawn();
+    }
+    assert.deepEqual(await shaders(), before);
+    await letGo(page);
+  }));
+
+test('at rest, after a drag, nothing is drawn and nothing is said', { skip }, () =>
+  withStudio('hat-on-coatrack.json', async (page) => {
+    let messages = 0;
+    page.on('websocket', (socket) => {
+      socket.on('framesent', () => ++messages);
+      socket.on('framereceived', () => ++messages);
+    });
+    await page.reload();
+    await until(page, '(s) => s.connected === "open" && s.motion');
+    const [x, y] = await place(page, 'hat', 0.5);
+    await pull(page, [x, y], [x + 12, y - 12]);
+    await letGo(page);
+    assert.ok(messages > 4);
+    await page.evaluate(async () => {
+      for (let last = -1; last !== globalThis.carom.frames();) {
+        last = globalThis.carom.frames();
+        await new Promise((next) => setTimeout(next, 300));
+      }
+    });
+    const [frames, heard] = [await page.evaluate(() => globalThis.carom.frames()), messages];
+    await page.evaluate(() => new Promise((done) => setTimeout(done, 2000)));
+    assert.deepEqual([await page.evaluate(() => globalThis.carom.frames()), messages], [frames, heard]);
+  }));
