@@ -161,7 +161,7 @@ async function slow(scene, name, time) {
       return performance.now() - began;
     });
     const about = { scene: `${scene} (${name})` };
-    put('one simulation, with the start of the command', { ...about, values: simulations });
+    put('one simulation with the start of the command', { ...about, values: simulations });
     const at = await hold(page, name, time);
     await page.evaluate(() => (globalThis.carom.log.frames.length = globalThis.carom.log.motions.length = 0));
     await circle(page, at, 40, 10);
@@ -178,7 +178,7 @@ async function slow(scene, name, time) {
     const arrivals = [];
     await page.keyboard.press('Escape');
     await until(page, '(s) => s.gesture.state === "idle" && s.document.held_by === null', patience);
-    for (const [dx, dy] of [[20, -15], [-10, -15], [15, 5]]) {
+    for (const [dx, dy] of [[20, -10], [-30, 15], [3, -2]]) {
       await hold(page, name, time);
       await page.mouse.move(at[0] + dx, at[1] + dy, { steps: 3 });
       const moved = await now(page);
@@ -240,7 +240,7 @@ const parts = {
     for (const quality of ['low', 'high']) for (const [width, height] of sizes) await redraws('hat-on-coatrack.json', { width, height, quality });
   },
   rest: () => rest('hat-on-coatrack.json'),
-  slow: () => slow('mug.json', 'mug', 0.3),
+  slow: () => slow('mug.json', 'mug', 0.15),
 };
 for (const [name, act] of Object.entries(parts)) {
   if (!only || only.split(',').includes(name)) await act();

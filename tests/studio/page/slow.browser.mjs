@@ -22,6 +22,19 @@ test('Escape stops a release that searches on; what it got to is one step, and c
     assert.deepEqual(await state(page, '(s) => [...s.motion.tracks[3].arcs]'), opened);
   }));
 
+test('a hand that rests gets there: updates go on without another event of the mouse, and the page draws meanwhile', { skip }, () =>
+  withStudio('mug.json', async (page) => {
+    const [x, y] = await place(page, 'mug', 0.15), frames = () => page.evaluate(() => globalThis.carom.frames());
+    const before = await frames();
+    await pull(page, [x, y], [x + 20, y - 10]);
+    await until(page, '(s) => s.motion.reached && s.gesture.answered === s.gesture.seq', 120000);
+    assert.equal(await state(page, '(s) => s.gesture.state'), 'dragging');
+    assert.ok(await state(page, '(s) => s.motion.distance') <= 1e-6);
+    assert.ok((await frames()) > before);
+    await letGo(page);
+    assert.ok(await state(page, '(s) => s.motion.reached'));
+  }));
+
 test('no shader is compiled from one update of a drag to the next', { skip }, () =>
   withStudio('hat-on-coatrack.json', async (page) => {
     const [x, y] = await place(page, 'hat', 0.5), shaders = () => page.evaluate(() => globalThis.carom.shaders());
