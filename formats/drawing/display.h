@@ -50,8 +50,11 @@ struct DisplayTrack {
   };
   /// An orientation, shape to world.
   struct TurnKey {
-    float time = 0;                      ///< s; the orientation is that of this very time
-    float w = 1, x = 0, y = 0, z = 0;    ///< unit quaternion
+    float time = 0;  ///< s; the orientation is that of this very time
+    float w = 1;     ///< real part of the unit quaternion
+    float x = 0;     ///< imaginary parts of it
+    float y = 0;     ///< y
+    float z = 0;     ///< z
 
     bool operator==(const TurnKey&) const = default;  ///< the same numbers
   };
