@@ -152,8 +152,9 @@ async function rest(scene) {
   });
 }
 
-/** A scene in which an update takes long: the page must go on drawing, and what was asked for last must come. */
-async function slow(scene, name, time) {
+/** A scene in which an update takes long: the page must go on drawing, and what was asked for last must come. `far` is what is
+ * dragged out of reach, so that its release searches on. */
+async function slow(scene, name, time, far) {
   await withStudio(scene, {}, async (page, studio) => {
     const simulations = [0, 1, 2].map(() => {
       const began = performance.now();
@@ -193,11 +194,11 @@ async function slow(scene, name, time) {
 
     const answers = [];
     for (const dx of [200, -150, 120]) {
-      const [x, y] = await hold(page, name, time);
+      const [x, y] = await hold(page, far.name, far.time);
       await page.mouse.move(x + dx, y - 200, { steps: 3 });
       await page.mouse.up();
       await until(page, '(s) => s.gesture.state !== "dragging"');
-      await pause(500);
+      await pause(300);
       if ((await state(page, '(s) => s.gesture.state')) === 'settling') {
         const pressed = await now(page);
         await page.keyboard.press('Escape');
@@ -240,7 +241,7 @@ const parts = {
     for (const quality of ['low', 'high']) for (const [width, height] of sizes) await redraws('hat-on-coatrack.json', { width, height, quality });
   },
   rest: () => rest('hat-on-coatrack.json'),
-  slow: () => slow('mug.json', 'mug', 0.15),
+  slow: () => slow('mug.json', 'mug', 0.15, { name: 'mug', time: 0.3 }),
 };
 for (const [name, act] of Object.entries(parts)) {
   if (!only || only.split(',').includes(name)) await act();
