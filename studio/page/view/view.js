@@ -29,6 +29,8 @@ export class View {
     this.drawn = drawn;
     this.frames = 0;
     this.wanted = 0;
+    /** @type {{seq: number, frame: number}} the drag for whose answer a frame was put off, and the frames drawn by then */
+    this.waited = { seq: 0, frame: -1 };
     this.watch = new FrameWatch();
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(colours.view);
@@ -76,11 +78,21 @@ export class View {
   /** @param {number} time ms */
   frame(time) {
     this.wanted = 0;
+    if (this.waits()) return this.invalidate();
     this.draw();
     if (this.watch.frame(time, this.wanted !== 0 || this.store.state.playing || this.store.state.gesture.state === 'dragging') &&
       this.store.state.quality === 'high') {
       this.store.set({ quality: 'low' });
     }
+  }
+
+  /** Where drawing in software takes longer than most answers, a frame is put off for one that is on its way: it would
+   * show what was before, and the page hears nothing while it is drawn. Once for an answer, and never two in a row. */
+  waits() {
+    const { quality, gesture: { state, seq, answered } } = this.store.state;
+    if (quality !== 'low' || state !== 'dragging' || answered >= seq || this.waited.seq === seq || this.waited.frame === this.frames) return false;
+    this.waited = { seq, frame: this.frames };
+    return true;
   }
 
   draw() {
