@@ -83,6 +83,7 @@ class Worker {
   void cancelHold(const Asker& asker);
   EditSession& session();                       // fails where no scene is open
   EditSession& sessionFor(const Asker& asker);  // and where another page holds a body
+  EditSession& sessionAtRest(const Asker& asker);  // and where this one does
   void requireHold(const Asker& asker, std::int64_t gesture) const;
   void requireRev(std::int64_t rev) const;
   void requireNoHold() const;

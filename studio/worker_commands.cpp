@@ -12,6 +12,12 @@ void Worker::requireNoHold() const {
   if (hold_) throw Refusal("busy", "a body is held; let go of it first");
 }
 
+EditSession& Worker::sessionAtRest(const Asker& asker) {
+  EditSession& session = sessionFor(asker);
+  requireNoHold();
+  return session;
+}
+
 /// After a step: a new motion, and what changed besides.
 void Worker::sayChange(const Asker& asker, const SessionUpdate& update) {
   ++rev_;
@@ -39,8 +45,7 @@ void Worker::perform(const Asker& asker, const Undo&) {
 }
 
 void Worker::perform(const Asker& asker, const Redo&) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   const SessionUpdate update = session.redo();
   sayScene({}, *update.motion);
   sayChange(asker, update);
@@ -53,14 +58,12 @@ void Worker::perform(const Asker& asker, const Stop&) {
 }
 
 void Worker::perform(const Asker& asker, const MeetNails&) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   sayChange(asker, session.meetNails(mailbox_.beginWork()));
 }
 
 void Worker::perform(const Asker& asker, const MakeNail& nail) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   if (nail.constraint.empty())
     session.nailAsItIs(nail.body, nail.at);
   else
@@ -70,8 +73,7 @@ void Worker::perform(const Asker& asker, const MakeNail& nail) {
 }
 
 void Worker::perform(const Asker& asker, const SetNail& nail) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   session.setNail(NailId{nail.nail},
                   readConstraintText(nail.constraint, session.scene(), session.duration(), "/constraint"),
                   mailbox_.beginWork());
@@ -79,30 +81,26 @@ void Worker::perform(const Asker& asker, const SetNail& nail) {
 }
 
 void Worker::perform(const Asker& asker, const NailOn& nail) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   session.setNailOn(NailId{nail.nail}, nail.on);
   sayChange(asker, session.last());
 }
 
 void Worker::perform(const Asker& asker, const Unnail& nail) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   session.unnail(NailId{nail.nail});
   sayChange(asker, session.last());
 }
 
 void Worker::perform(const Asker& asker, const SetControls& set) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   requireRev(set.rev);
   session.setControls(readControlsText(set.controls, session.scene(), "/controls"));
   sayChange(asker, session.last());
 }
 
 void Worker::perform(const Asker& asker, const SetNumbers& set) {
-  EditSession& session = sessionFor(asker);
-  requireNoHold();
+  EditSession& session = sessionAtRest(asker);
   requireRev(set.rev);
   session.setContent(scene_->edited(set.edits), nameOfEdits(set.edits, session.scene()));
   sayScene({}, session.motion());

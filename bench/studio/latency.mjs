@@ -8,7 +8,7 @@ import { cpus, loadavg } from 'node:os';
 import { performance } from 'node:perf_hooks';
 import { resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { canRun, executable, launch, leftOut, openPage, until } from '../../tests/studio/page/browser.mjs';
+import { canRun, countMessages, executable, launch, leftOut, openPage, place, state, until } from '../../tests/studio/page/browser.mjs';
 import { chromiumProcesses, cpuOf } from './processes.mjs';
 
 const [, , carom, csv = fileURLToPath(new URL('../../docs/charts/studio.csv', import.meta.url))] = process.argv;
@@ -18,8 +18,6 @@ const { RealStudio } = await import('../../tests/studio/page/real_studio.mjs');
 
 const sizes = [[1024, 640], [1440, 900], [2560, 1440]], spacing = 16, patience = 120000;
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
-const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
-const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
 const now = (page) => page.evaluate(() => performance.now());
 const sum = (values) => values.reduce((a, b) => a + b, 0);
 
@@ -132,21 +130,17 @@ async function redraws(scene, size) {
 
 async function rest(scene) {
   await withStudio(scene, {}, async (page, studio) => {
-    let messages = 0;
-    page.on('websocket', (socket) => {
-      socket.on('framesent', () => ++messages);
-      socket.on('framereceived', () => ++messages);
-    });
+    const messages = countMessages(page);
     await page.reload();
     await until(page, '(s) => s.connected === "open" && s.motion');
-    const heard = messages;
+    const heard = messages.count;
     if (!heard) throw new Error('no message was counted at all');
     await still(page);
-    const { gpu } = chromiumProcesses(), at = messages, frames = await page.evaluate(() => globalThis.carom.frames());
+    const { gpu } = chromiumProcesses(), at = messages.count, frames = await page.evaluate(() => globalThis.carom.frames());
     const began = [cpuOf(gpu), cpuOf(studio.process.pid)];
     await pause(2000);
     put('frames in 2 s at rest', { scene, values: [(await page.evaluate(() => globalThis.carom.frames())) - frames], unit: '', median_wanted: 0 });
-    put('messages in 2 s at rest', { scene, values: [messages - at], unit: '', median_wanted: 0 });
+    put('messages in 2 s at rest', { scene, values: [messages.count - at], unit: '', median_wanted: 0 });
     put('CPU of the GPU process in 2 s at rest', { scene, values: [cpuOf(gpu) - began[0]] });
     put('CPU of the server in 2 s at rest', { scene, values: [cpuOf(studio.process.pid) - began[1]] });
   });

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
-#include "editing/session_replay.h"
 #include "tests/editing/session_scenes.h"
 
 namespace carom {
@@ -13,18 +12,6 @@ namespace {
 
 using namespace testing_scenes;
 using namespace testing_sessions;
-
-void expectSameAgain(const EditSession& session, const Scene& scene) {
-  OdeContacts contacts(scene);
-  SessionReplay replay(session.journal(), contacts);
-  while (!replay.done()) {
-    const ReplayedGesture gesture = replay.next();
-    EXPECT_TRUE(gesture.differences.empty()) << gesture.differences[0];
-  }
-  EXPECT_TRUE(sameScene(replay.session().scene(), session.scene()));
-  EXPECT_EQ(replay.session().nails(), session.nails());
-  EXPECT_EQ(replay.session().duration(), session.duration());
-}
 
 TEST(SessionContents, ReplaceAllThereIsInOneStep) {
   BoxSession s;

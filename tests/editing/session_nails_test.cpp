@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
-#include "editing/session_replay.h"
 #include "tests/editing/session_scenes.h"
 
 namespace carom {
@@ -13,22 +12,6 @@ namespace {
 
 using namespace testing_scenes;
 using namespace testing_sessions;
-
-void expectSameAgain(const EditSession& session, const Scene& scene) {
-  OdeContacts contacts(scene);
-  SessionReplay replay(session.journal(), contacts);
-  while (!replay.done()) {
-    const ReplayedGesture gesture = replay.next();
-    EXPECT_TRUE(gesture.differences.empty()) << gesture.differences[0];
-  }
-  EXPECT_TRUE(sameScene(replay.session().scene(), session.scene()));
-  ASSERT_EQ(replay.session().nails(), session.nails());
-  const std::vector<NailState> here = session.nailStates(), there = replay.session().nailStates();
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    EXPECT_EQ(here[i].on, there[i].on) << i;
-    EXPECT_EQ(here[i].met, there[i].met) << i;
-  }
-}
 
 Vec3 placeOf(const EditSession& session, double t) { return session.motion().stateAt("box", t).position; }
 

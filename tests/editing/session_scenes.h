@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstring>
 
 #include "editing/session.h"
+#include "editing/session_replay.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
@@ -43,6 +46,24 @@ inline bool sameScene(const Scene& a, const Scene& b) {
     if (a.materials[i].elasticity != b.materials[i].elasticity || a.materials[i].friction != b.materials[i].friction)
       return false;
   return true;
+}
+
+/// What the journal of a session plays is the session: its scene, its duration, and its nails and how they are.
+inline void expectSameAgain(const EditSession& session, const Scene& scene) {
+  OdeContacts contacts(scene);
+  SessionReplay replay(session.journal(), contacts);
+  while (!replay.done()) {
+    const ReplayedGesture gesture = replay.next();
+    EXPECT_TRUE(gesture.differences.empty()) << gesture.differences[0];
+  }
+  EXPECT_TRUE(sameScene(replay.session().scene(), session.scene()));
+  EXPECT_EQ(replay.session().duration(), session.duration());
+  ASSERT_EQ(replay.session().nails(), session.nails());
+  const std::vector<NailState> here = session.nailStates(), there = replay.session().nailStates();
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    EXPECT_EQ(here[i].on, there[i].on) << i;
+    EXPECT_EQ(here[i].met, there[i].met) << i;
+  }
 }
 
 }  // namespace carom::testing_sessions

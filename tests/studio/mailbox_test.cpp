@@ -5,14 +5,11 @@
 
 #include <thread>
 
+#include "tests/studio/letters.h"
+
 namespace carom::studio {
 namespace {
 
-Letter drag(SocketId from, std::int64_t seq) {
-  Drag drag;
-  drag.gesture = 1, drag.seq = seq;
-  return {from, {seq + 100, drag}};
-}
 template <class What>
 Letter letter(SocketId from, std::int64_t id, What what = {}) {
   return {from, {id, what}};

@@ -8,14 +8,10 @@
 #include <atomic>
 #include <thread>
 
+#include "tests/studio/letters.h"
+
 namespace carom::studio {
 namespace {
-
-Letter drag(SocketId from, std::int64_t seq) {
-  Drag drag;
-  drag.gesture = 1, drag.seq = seq;
-  return {from, {seq + 100, drag}};
-}
 
 // Every command arrives once, in the order of its socket.
 TEST(Mailbox, ServesManyThreads) {

@@ -58,6 +58,22 @@ export async function until(page, test, patience = 30000) {
   }
 }
 
+/** What a function, given as text, says of the page's state. */
+export const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
+/** Where a body is on the screen at a time. */
+export const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
+/** Until what was asked for has been drawn. */
+export const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** Counts messages from the next socket on: `.count`. */
+export function countMessages(page) {
+  const messages = { count: 0 };
+  page.on('websocket', (socket) => {
+    for (const event of ['framesent', 'framereceived']) socket.on(event, () => ++messages.count);
+  });
+  return messages;
+}
+
 /** Runs `act` with a stand-in for the server and a page; nothing may have been complained of. */
 export async function openFake(browser, options, act) {
   const studio = new FakeStudio(options.studio), page = await openPage(browser, await studio.listen(), options);

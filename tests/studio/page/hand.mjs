@@ -5,6 +5,8 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before } from 'node:test';
 import { canRun, launch, leftOut, openPage, until } from './browser.mjs';
+
+export { place, state } from './browser.mjs';
 import { hasCommand, RealStudio } from './real_studio.mjs';
 
 export const skip = canRun() ? (hasCommand() ? false : 'CAROM_COMMAND names no carom') : leftOut;
@@ -28,8 +30,6 @@ export async function withStudio(scene, act, { change, ...options } = {}) {
   }
 }
 
-export const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
-export const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
 export const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
 export const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq');
 /** Let go of, and told what that came to: the document comes after the motion. */

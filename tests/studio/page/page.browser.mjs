@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { axeSource, canRun, launch, leftOut, openFake, until } from './browser.mjs';
+import { axeSource, canRun, frame, launch, leftOut, openFake, place as placeOf, state, until } from './browser.mjs';
 import { FakeStudio } from './fake_studio.mjs';
 
 const ball = 'ball <b>', skip = canRun() ? false : leftOut;
@@ -17,9 +17,7 @@ before(async () => {
 after(() => browser?.close());
 
 const withPage = (options, act) => openFake(browser, options, act);
-const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-const place = (page, time) => page.evaluate(([name, t]) => globalThis.carom.bodyOnScreen(name, t), [ball, time]);
-const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
+const place = (page, time) => placeOf(page, ball, time);
 
 async function picture(page, name) {
   await page.mouse.move(...(await page.evaluate(() => [innerWidth / 2, 20])));

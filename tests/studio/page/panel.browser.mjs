@@ -2,7 +2,7 @@
 // Nails, numbers, the time line, dialogs and what the machine asks for (less motion, fewer colours), with the real mouse.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { canRun, launch, leftOut, openFake, openPage, until } from './browser.mjs';
+import { canRun, launch, leftOut, openFake, openPage, place as placeOf, state, until } from './browser.mjs';
 import { FakeStudio } from './fake_studio.mjs';
 
 const skip = canRun() ? false : leftOut, ball = 'ball <b>';
@@ -12,8 +12,7 @@ before(async () => {
 });
 after(() => browser?.close());
 
-const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
-const place = (page, time) => page.evaluate(([name, t]) => globalThis.carom.bodyOnScreen(name, t), [ball, time]);
+const place = (page, time) => placeOf(page, ball, time);
 const idle = (page) => until(page, '(s) => s.gesture.state === "idle"');
 const last = (studio, type) => studio.heard.findLast((one) => one.type === type);
 

@@ -3,7 +3,7 @@
 // calls it.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { launch, openPage, until } from './browser.mjs';
+import { launch, openPage, place, state, until } from './browser.mjs';
 import { RealStudio } from './real_studio.mjs';
 
 const [folder, only] = process.argv.slice(2);
@@ -11,8 +11,6 @@ const [folder, only] = process.argv.slice(2);
 const size = { width: 1024, height: 762, quality: 'low' };
 const patience = 120000;  // drawing in software is slow, and nobody waits
 
-const state = (page, test) => page.evaluate(`(${test})(globalThis.carom.store.state)`);
-const place = (page, name, time) => page.evaluate(([n, t]) => globalThis.carom.bodyOnScreen(n, t), [name, time]);
 const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
 const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq && !s.motion.more', patience);
 const idle = (page) => until(page, '(s) => s.gesture.state === "idle"', patience);

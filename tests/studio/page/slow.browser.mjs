@@ -3,7 +3,7 @@
 // bench/studio/latency.mjs measures.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { until } from './browser.mjs';
+import { countMessages, frame, until } from './browser.mjs';
 import { answered, idle, letGo, place, pull, skip, state, withStudio } from './hand.mjs';
 
 test('Escape stops a release that searches on; what it got to is one step, and can be undone', { skip }, () =>
@@ -38,15 +38,14 @@ test('a hand that rests gets there: updates go on without another event of the m
 test('no shader is compiled from one update of a drag to the next', { skip }, () =>
   withStudio('hat-on-coatrack.json', async (page) => {
     const [x, y] = await place(page, 'hat', 0.5), shaders = () => page.evaluate(() => globalThis.carom.shaders());
-    const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
     await pull(page, [x, y], [x + 12, y - 12]);
-    await drawn();
+    await frame(page);
     const before = await shaders();
     assert.ok(before.length > 0);
     for (let k = 1; k <= 5; ++k) {
       await page.mouse.move(x + 12 + k, y - 12);
       await answered(page);
-      await drawn();
+      await frame(page);
     }
     assert.deepEqual(await shaders(), before);
     await letGo(page);
@@ -54,24 +53,20 @@ test('no shader is compiled from one update of a drag to the next', { skip }, ()
 
 test('at rest, after a drag, nothing is drawn and nothing is said', { skip }, () =>
   withStudio('hat-on-coatrack.json', async (page) => {
-    let messages = 0;
-    page.on('websocket', (socket) => {
-      socket.on('framesent', () => ++messages);
-      socket.on('framereceived', () => ++messages);
-    });
+    const messages = countMessages(page);
     await page.reload();
     await until(page, '(s) => s.connected === "open" && s.motion');
     const [x, y] = await place(page, 'hat', 0.5);
     await pull(page, [x, y], [x + 12, y - 12]);
     await letGo(page);
-    assert.ok(messages > 4);
+    assert.ok(messages.count > 4);
     await page.evaluate(async () => {
       for (let last = -1; last !== globalThis.carom.frames();) {
         last = globalThis.carom.frames();
         await new Promise((next) => setTimeout(next, 300));
       }
     });
-    const [frames, heard] = [await page.evaluate(() => globalThis.carom.frames()), messages];
+    const [frames, heard] = [await page.evaluate(() => globalThis.carom.frames()), messages.count];
     await page.evaluate(() => new Promise((done) => setTimeout(done, 2000)));
-    assert.deepEqual([await page.evaluate(() => globalThis.carom.frames()), messages], [frames, heard]);
+    assert.deepEqual([await page.evaluate(() => globalThis.carom.frames()), messages.count], [frames, heard]);
   }));

@@ -7,13 +7,12 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { colours, impactColours, inkOf } from '../../../studio/page/colours.js';
-import { axeSource, canRun, launch, leftOut, openPage, until } from './browser.mjs';
+import { axeSource, canRun, frame, launch, leftOut, openPage, place as placeOf, until } from './browser.mjs';
 import { FakeStudio } from './fake_studio.mjs';
 import { decodePng, nearestInk } from './png.mjs';
 
 const skip = canRun() ? false : leftOut, ball = 'ball <b>', ballInk = inkOf('#2468b8');
-const place = (page, time) => page.evaluate(([name, t]) => globalThis.carom.bodyOnScreen(name, t), [ball, time]);
-const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const place = (page, time) => placeOf(page, ball, time);
 
 /** Moves the pointer to where it is over nothing. */
 async function park(page) {
