@@ -28,7 +28,7 @@ constexpr const char* kUsage =
     "edits_bench [--tasks N] [--seed S] [--only FAMILY] [--task INDEX] [--config NAME[,NAME...]] [--budget SECONDS]\n"
     "            [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--best FILE] [--improve]\n"
     "            [--save FOLDER]\n"
-    "  --tasks     how many (300)               --only      ball, box, hull or meeting\n"
+    "  --tasks     how many (all), the first     --only      of one family: ball, box, hull, meeting, chain, ...\n"
     "  --task      one task alone               --config    of the configurations (all)\n"
     "  --budget    s, of each edit (5)          --threads   tasks at a time (1: times are right)\n"
     "  --list      says what tasks there are    --failures  lists what was not met, with status and message\n"
@@ -37,7 +37,7 @@ constexpr const char* kUsage =
     "  --save      writes every task as a scene document, edit-INDEX.json\n";
 
 struct Settings {
-  int tasks = 300, threads = 1;
+  int tasks = kTasks, threads = 1;
   std::uint64_t seed = 1;
   std::optional<int> task;
   std::string only, configurations, csv, summary, save, best = CAROM_EDITS_BEST_KNOWN;
@@ -100,8 +100,9 @@ void forEach(int count, int threads, const char* what, const std::function<void(
 
 std::vector<Task> makeTasks(const Settings& s) {
   std::vector<int> indices;
-  for (int i = s.task.value_or(0); i < s.task.value_or(s.tasks - 1) + 1; ++i)
+  for (int i = s.task.value_or(0); i < s.task.value_or(kTasks - 1) + 1; ++i)
     if (s.only.empty() || s.only == nameOf(wantedOf(i).family)) indices.push_back(i);
+  if (static_cast<int>(indices.size()) > s.tasks) indices.resize(static_cast<std::size_t>(s.tasks));
   std::vector<Task> tasks(indices.size());
   forEach(static_cast<int>(indices.size()), s.threads, "task", [&](int i) {
     const std::size_t k = static_cast<std::size_t>(i);

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "adjoint/simulate/simulate.h"
+#include "bench/edits/checks.h"
+#include "bench/edits/tables.h"
 #include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 
@@ -20,10 +22,6 @@ namespace {
 
 // Bounds may be met with rounding.
 constexpr double kBoundSlack = 1e-9;
-
-double changeOf(const Variable& v, double value) {
-  return v.logarithmic ? std::log(value / v.start) / v.scale : (value - v.start) / v.scale;
-}
 
 bool keepsBounds(const EditProblem& problem, const Eigen::VectorXd& values) {
   for (int i = 0; i < problem.controls.size(); ++i) {
@@ -46,7 +44,7 @@ void judge(const Task& task, ContactSource& contacts, const std::vector<ChangedN
   const Motion motion = simulate(problem.controls.sceneAt(values), contacts, task.duration);
   const RowValues rows = problem.constraints.evaluate(motion);
   if (rows.available) outcome.residual = rows.scaled.cwiseAbs().maxCoeff();
-  outcome.met = outcome.residual <= kLargestResidual && keepsBounds(problem, values);
+  outcome.met = outcome.residual <= kLargestResidual && keepsBounds(problem, values) && beginsWith(motion, task.sequence);
 }
 
 }  // namespace
