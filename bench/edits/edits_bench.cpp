@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "bench/edits/report.h"
+#include "bench/edits/serve.h"
 #include "formats/documents/scene_json.h"
 
 namespace carom::bench {
@@ -27,14 +29,15 @@ namespace {
 constexpr const char* kUsage =
     "edits_bench [--tasks N] [--seed S] [--only FAMILY] [--task INDEX] [--config NAME[,NAME...]] [--budget SECONDS]\n"
     "            [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--best FILE] [--improve]\n"
-    "            [--save FOLDER]\n"
+    "            [--save FOLDER] [--serve]\n"
     "  --tasks     how many (all), the first     --only      of one family: ball, box, hull, meeting, chain, ...\n"
     "  --task      one task alone               --config    of the configurations (all)\n"
     "  --budget    s, of each edit (5)          --threads   tasks at a time (1: times are right)\n"
     "  --list      says what tasks there are    --failures  lists what was not met, with status and message\n"
     "  --csv       one line a task              --summary   one line a configuration\n"
     "  --improve   keeps smaller changes in the file of the best known (--best)\n"
-    "  --save      writes every task as a scene document, edit-INDEX.json\n";
+    "  --save      writes every task as a scene document, edit-INDEX.json\n"
+    "  --serve     answers questions about tasks, see serve.h\n";
 
 struct Settings {
   int tasks = kTasks, threads = 1;
@@ -42,12 +45,13 @@ struct Settings {
   std::optional<int> task;
   std::string only, configurations, csv, summary, save, best = CAROM_EDITS_BEST_KNOWN;
   double budget = 5;
-  bool list = false, failures = false, improve = false;
+  bool list = false, failures = false, improve = false, serves = false;
 };
 
 Settings readSettings(int argc, char** argv) {
   Settings s;
-  std::map<std::string, bool*> flags = {{"--list", &s.list}, {"--failures", &s.failures}, {"--improve", &s.improve}};
+  std::map<std::string, bool*> flags = {{"--list", &s.list}, {"--failures", &s.failures}, {"--improve", &s.improve},
+                                        {"--serve", &s.serves}};
   std::map<std::string, std::function<void(const std::string&)>> values = {
       {"--tasks", [&](const std::string& v) { s.tasks = std::stoi(v); }},
       {"--seed", [&](const std::string& v) { s.seed = std::stoull(v); }},
@@ -143,6 +147,11 @@ void saveScenes(const std::string& folder, const std::vector<Task>& tasks) {
 }
 
 void run(const Settings& s) {
+  if (s.serves) {
+    BestKnown best(s.best);
+    serve(s.seed, std::cin, std::cout, best);
+    return;
+  }
   const std::vector<Task> tasks = makeTasks(s);
   if (!s.save.empty()) saveScenes(s.save, tasks);
   if (s.list) printList(tasks);
