@@ -68,9 +68,9 @@ void bound(const Scene& start, const Eigen::VectorXd& hidden, std::vector<Contro
   }
 }
 
-class Draw {
+class DrawAnywhere {
  public:
-  Draw(std::uint64_t seed, int index, int attempt, const Wanted& wanted)
+  DrawAnywhere(std::uint64_t seed, int index, int attempt, const Wanted& wanted)
       : dice_(seed, static_cast<std::uint64_t>(index), static_cast<std::uint64_t>(attempt)) {
     task_.seed = seed, task_.index = index, task_.wanted = wanted;
   }
@@ -152,7 +152,7 @@ class Draw {
 }  // namespace
 
 std::optional<Task> drawAnywhere(std::uint64_t seed, int index, int attempt, const Wanted& wanted) {
-  return Draw(seed, index, attempt, wanted).make();
+  return DrawAnywhere(seed, index, attempt, wanted).make();
 }
 
 }  // namespace carom::bench

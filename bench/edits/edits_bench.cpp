@@ -28,13 +28,14 @@ namespace {
 
 constexpr const char* kUsage =
     "edits_bench [--tasks N] [--seed S] [--only FAMILY] [--task INDEX] [--config NAME[,NAME...]] [--budget SECONDS]\n"
-    "            [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--best FILE] [--improve]\n"
-    "            [--save FOLDER] [--serve]\n"
+    "            [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--families FILE]\n"
+    "            [--best FILE] [--improve] [--save FOLDER] [--serve]\n"
     "  --tasks     how many (all), the first     --only      of one family: ball, box, hull, meeting, chain, ...\n"
     "  --task      one task alone               --config    of the configurations (all)\n"
     "  --budget    s, of each edit (5)          --threads   tasks at a time (1: times are right)\n"
     "  --list      says what tasks there are    --failures  lists what was not met, with status and message\n"
     "  --csv       one line a task              --summary   one line a configuration\n"
+    "  --families  one line a family and configuration\n"
     "  --improve   keeps smaller changes in the file of the best known (--best)\n"
     "  --save      writes every task as a scene document, edit-INDEX.json\n"
     "  --serve     answers questions about tasks, see serve.h\n";
@@ -43,7 +44,7 @@ struct Settings {
   int tasks = kTasks, threads = 1;
   std::uint64_t seed = 1;
   std::optional<int> task;
-  std::string only, configurations, csv, summary, save, best = CAROM_EDITS_BEST_KNOWN;
+  std::string only, configurations, csv, summary, families, save, best = CAROM_EDITS_BEST_KNOWN;
   double budget = 5;
   bool list = false, failures = false, improve = false, serves = false;
 };
@@ -62,6 +63,7 @@ Settings readSettings(int argc, char** argv) {
       {"--threads", [&](const std::string& v) { s.threads = std::max(1, std::stoi(v)); }},
       {"--csv", [&](const std::string& v) { s.csv = v; }},
       {"--summary", [&](const std::string& v) { s.summary = v; }},
+      {"--families", [&](const std::string& v) { s.families = v; }},
       {"--best", [&](const std::string& v) { s.best = v; }},
       {"--save", [&](const std::string& v) { s.save = v; }},
   };
@@ -165,7 +167,8 @@ void run(const Settings& s) {
   printSummary(tasks, runs, best);
   if (s.failures) printFailures(tasks, runs);
   if (!s.csv.empty()) writeOutcomes(s.csv, tasks, runs, best);
-  if (!s.summary.empty()) writeSummary(s.summary, tasks, runs, best);
+  if (!s.summary.empty()) writeSummary(s.summary, tasks, runs, best, false);
+  if (!s.families.empty()) writeSummary(s.families, tasks, runs, best, true);
 }
 
 }  // namespace

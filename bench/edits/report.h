@@ -41,11 +41,11 @@ void printList(const std::vector<Task>& tasks);
 void printSummary(const std::vector<Task>& tasks, const std::vector<Run>& runs, const BestKnown& best);
 /// One line a failure: index, what the task is, status and message.
 void printFailures(const std::vector<Task>& tasks, const std::vector<Run>& runs);
-/// One line a task and configuration; one line a configuration, and one a family of it. Throw std::runtime_error where a
+/// One line a task and configuration; one line a configuration, or one a family of each. Throw std::runtime_error where a
 /// file cannot be written.
 void writeOutcomes(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
                    const BestKnown& best);
 void writeSummary(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
-                  const BestKnown& best);
+                  const BestKnown& best, bool by_family);
 
 }  // namespace carom::bench

@@ -21,12 +21,12 @@ using namespace editing_detail;
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr int kTasks = 48;  // every family with every goal, of each three needs
+constexpr int kMade = 48;  // every family with every goal, of each three needs
 
 const std::vector<Task>& tasks() {
   static const std::vector<Task> all = [] {
     std::vector<Task> made;
-    for (int i = 0; i < kTasks; ++i) made.push_back(makeTask(kSeed, i));
+    for (int i = 0; i < kMade; ++i) made.push_back(makeTask(kSeed, i));
     return made;
   }();
   return all;
