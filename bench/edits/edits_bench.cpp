@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "bench/edits/report.h"
+#include "bench/edits/serve.h"
 #include "formats/documents/scene_json.h"
 
 namespace carom::bench {
@@ -26,28 +28,31 @@ namespace {
 
 constexpr const char* kUsage =
     "edits_bench [--tasks N] [--seed S] [--only FAMILY] [--task INDEX] [--config NAME[,NAME...]] [--budget SECONDS]\n"
-    "            [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--best FILE] [--improve]\n"
-    "            [--save FOLDER]\n"
-    "  --tasks     how many (300)               --only      ball, box, hull or meeting\n"
+    "            [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--families FILE]\n"
+    "            [--best FILE] [--improve] [--save FOLDER] [--serve]\n"
+    "  --tasks     how many (all), the first     --only      of one family: ball, box, hull, meeting, chain, ...\n"
     "  --task      one task alone               --config    of the configurations (all)\n"
     "  --budget    s, of each edit (5)          --threads   tasks at a time (1: times are right)\n"
     "  --list      says what tasks there are    --failures  lists what was not met, with status and message\n"
     "  --csv       one line a task              --summary   one line a configuration\n"
+    "  --families  one line a family and configuration\n"
     "  --improve   keeps smaller changes in the file of the best known (--best)\n"
-    "  --save      writes every task as a scene document, edit-INDEX.json\n";
+    "  --save      writes every task as a scene document, edit-INDEX.json\n"
+    "  --serve     answers questions about tasks, see serve.h\n";
 
 struct Settings {
-  int tasks = 300, threads = 1;
+  int tasks = kTasks, threads = 1;
   std::uint64_t seed = 1;
   std::optional<int> task;
-  std::string only, configurations, csv, summary, save, best = CAROM_EDITS_BEST_KNOWN;
+  std::string only, configurations, csv, summary, families, save, best = CAROM_EDITS_BEST_KNOWN;
   double budget = 5;
-  bool list = false, failures = false, improve = false;
+  bool list = false, failures = false, improve = false, serves = false;
 };
 
 Settings readSettings(int argc, char** argv) {
   Settings s;
-  std::map<std::string, bool*> flags = {{"--list", &s.list}, {"--failures", &s.failures}, {"--improve", &s.improve}};
+  std::map<std::string, bool*> flags = {{"--list", &s.list}, {"--failures", &s.failures}, {"--improve", &s.improve},
+                                        {"--serve", &s.serves}};
   std::map<std::string, std::function<void(const std::string&)>> values = {
       {"--tasks", [&](const std::string& v) { s.tasks = std::stoi(v); }},
       {"--seed", [&](const std::string& v) { s.seed = std::stoull(v); }},
@@ -58,6 +63,7 @@ Settings readSettings(int argc, char** argv) {
       {"--threads", [&](const std::string& v) { s.threads = std::max(1, std::stoi(v)); }},
       {"--csv", [&](const std::string& v) { s.csv = v; }},
       {"--summary", [&](const std::string& v) { s.summary = v; }},
+      {"--families", [&](const std::string& v) { s.families = v; }},
       {"--best", [&](const std::string& v) { s.best = v; }},
       {"--save", [&](const std::string& v) { s.save = v; }},
   };
@@ -100,8 +106,9 @@ void forEach(int count, int threads, const char* what, const std::function<void(
 
 std::vector<Task> makeTasks(const Settings& s) {
   std::vector<int> indices;
-  for (int i = s.task.value_or(0); i < s.task.value_or(s.tasks - 1) + 1; ++i)
+  for (int i = s.task.value_or(0); i < s.task.value_or(kTasks - 1) + 1; ++i)
     if (s.only.empty() || s.only == nameOf(wantedOf(i).family)) indices.push_back(i);
+  if (static_cast<int>(indices.size()) > s.tasks) indices.resize(static_cast<std::size_t>(s.tasks));
   std::vector<Task> tasks(indices.size());
   forEach(static_cast<int>(indices.size()), s.threads, "task", [&](int i) {
     const std::size_t k = static_cast<std::size_t>(i);
@@ -142,6 +149,11 @@ void saveScenes(const std::string& folder, const std::vector<Task>& tasks) {
 }
 
 void run(const Settings& s) {
+  if (s.serves) {
+    BestKnown best(s.best);
+    serve(s.seed, std::cin, std::cout, best);
+    return;
+  }
   const std::vector<Task> tasks = makeTasks(s);
   if (!s.save.empty()) saveScenes(s.save, tasks);
   if (s.list) printList(tasks);
@@ -155,7 +167,8 @@ void run(const Settings& s) {
   printSummary(tasks, runs, best);
   if (s.failures) printFailures(tasks, runs);
   if (!s.csv.empty()) writeOutcomes(s.csv, tasks, runs, best);
-  if (!s.summary.empty()) writeSummary(s.summary, tasks, runs, best);
+  if (!s.summary.empty()) writeSummary(s.summary, tasks, runs, best, false);
+  if (!s.families.empty()) writeSummary(s.families, tasks, runs, best, true);
 }
 
 }  // namespace

@@ -156,6 +156,8 @@ std::vector<Constraint> drawGoal(const Motion& hidden, const Wanted& wanted, Dic
       return goalPose(hidden, wanted, dice);
     case Goal::two_nails:
       return goalTwoNails(hidden, wanted, dice);
+    case Goal::impact_comes:
+      break;  // of other families
   }
   return {};
 }

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "adjoint/simulate/simulate.h"
+#include "bench/edits/checks.h"
+#include "bench/edits/tables.h"
 #include "editing/problem/jacobian.hpp"
 #include "ode_bridge/ode_contacts.h"
 
@@ -21,10 +23,6 @@ namespace {
 // Bounds may be met with rounding.
 constexpr double kBoundSlack = 1e-9;
 
-double changeOf(const Variable& v, double value) {
-  return v.logarithmic ? std::log(value / v.start) / v.scale : (value - v.start) / v.scale;
-}
-
 bool keepsBounds(const EditProblem& problem, const Eigen::VectorXd& values) {
   for (int i = 0; i < problem.controls.size(); ++i) {
     const Variable& v = problem.controls.variables()[static_cast<std::size_t>(i)];
@@ -35,21 +33,28 @@ bool keepsBounds(const EditProblem& problem, const Eigen::VectorXd& values) {
   return validity.size() == 0 || validity.minCoeff() >= -kBoundSlack;
 }
 
-void judge(const Task& task, ContactSource& contacts, const std::vector<ChangedNumber>& answer, Outcome& outcome) {
+Eigen::VectorXd valuesOf(const Task& task, ContactSource& contacts, const std::vector<ChangedNumber>& answer) {
   const EditProblem problem(task.start, contacts, task.duration, task.controls, task.constraints);
   Eigen::VectorXd values = problem.controls.startValues();
-  for (int i = 0; i < problem.controls.size(); ++i) {
-    values[i] = answer.at(static_cast<std::size_t>(i)).after;
-    const double y = changeOf(problem.controls.variables()[static_cast<std::size_t>(i)], values[i]);
-    outcome.objective += 0.5 * y * y;
-  }
-  const Motion motion = simulate(problem.controls.sceneAt(values), contacts, task.duration);
-  const RowValues rows = problem.constraints.evaluate(motion);
-  if (rows.available) outcome.residual = rows.scaled.cwiseAbs().maxCoeff();
-  outcome.met = outcome.residual <= kLargestResidual && keepsBounds(problem, values);
+  for (int i = 0; i < problem.controls.size(); ++i) values[i] = answer.at(static_cast<std::size_t>(i)).after;
+  return values;
 }
 
 }  // namespace
+
+void judge(const Task& task, ContactSource& contacts, const Eigen::VectorXd& values, Outcome& outcome) {
+  const EditProblem problem(task.start, contacts, task.duration, task.controls, task.constraints);
+  for (int i = 0; i < problem.controls.size(); ++i) {
+    const double y = changeOf(problem.controls.variables()[static_cast<std::size_t>(i)], values[i]);
+    outcome.objective += 0.5 * y * y;
+  }
+  outcome.residual = std::numeric_limits<double>::infinity();
+  const Motion motion = simulate(problem.controls.sceneAt(values), contacts, task.duration);
+  const RowValues rows = problem.constraints.evaluate(motion);
+  if (rows.available) outcome.residual = rows.scaled.cwiseAbs().maxCoeff();
+  outcome.met =
+      outcome.residual <= kLargestResidual && keepsBounds(problem, values) && beginsWith(motion, task.sequence);
+}
 
 Outcome solve(const Task& task, const Configuration& configuration, double budget_seconds) {
   using Clock = std::chrono::steady_clock;
@@ -70,7 +75,7 @@ Outcome solve(const Task& task, const Configuration& configuration, double budge
     outcome.iterations = result.iterations;
     outcome.claimed = result.solved();
     outcome.sequence_changed = result.signature_changed;
-    judge(task, contacts, result.changed, outcome);
+    judge(task, contacts, valuesOf(task, contacts, result.changed), outcome);
   } catch (const std::exception& error) {
     outcome.met = outcome.claimed = false;
     outcome.message = std::string("an exception: ") + error.what();

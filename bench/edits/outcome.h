@@ -27,4 +27,7 @@ struct Outcome {
 
 Outcome solve(const Task& task, const Configuration& configuration, double budget_seconds);
 
+/// What values of the numbers that vary come to: fills in `met`, `residual` and `objective`.
+void judge(const Task& task, ContactSource& contacts, const Eigen::VectorXd& values, Outcome& outcome);
+
 }  // namespace carom::bench

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bench/edits/tasks.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +8,8 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
+#include "bench/edits/anywhere.h"
+#include "bench/edits/checks.h"
 #include "bench/edits/dice.h"
 #include "bench/edits/goals.h"
 #include "bench/edits/throws.h"
@@ -65,51 +66,6 @@ std::optional<Hidden> drawHidden(const ControlSet& controls, const ValidityRows&
   return hidden;
 }
 
-// Whether the first `count` impacts are ordinary ones: single, and far from grazing and from the border of stick and
-// slip.
-bool isPlain(const Motion& motion, std::size_t count) {
-  if (motion.events.size() < count) return false;
-  return std::all_of(
-      motion.events.begin(), motion.events.begin() + static_cast<std::ptrdiff_t>(count),
-      [](const Event& e) { return e.contacts.size() == 1 && e.margins.smallest() >= TaskLimits::kSmallestMargin; });
-}
-
-bool meets(const Motion& motion, std::size_t count) {
-  const int a = bodyIndex(*motion.scene, "thrown"), b = bodyIndex(*motion.scene, "other");
-  return std::any_of(motion.events.begin(), motion.events.begin() + static_cast<std::ptrdiff_t>(count),
-                     [&](const Event& e) { return e.touches(a, b); });
-}
-
-// Ends a little after the last constraint of both motions. An impact whose time is free may come later under way.
-double durationFor(const std::vector<Constraint>& constraints, double last) {
-  const bool impact =
-      std::any_of(constraints.begin(), constraints.end(), [](const Constraint& c) { return c.at.impact > 0; });
-  return impact ? 1.2 * last + 0.05 : last + 0.01;
-}
-
-// Largest scaled residual of the constraint that is met best.
-double smallestMiss(const ConstraintSet& constraints, const RowValues& rows) {
-  Eigen::VectorXd misses = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(constraints.constraints().size()));
-  for (int i = 0; i < constraints.size(); ++i) {
-    double& miss = misses[constraints.rows()[static_cast<std::size_t>(i)].constraint];
-    miss = std::max(miss, std::abs(rows.scaled[i]));
-  }
-  return misses.minCoeff();
-}
-
-Eigen::MatrixXd dimensionless(const EditProblem& problem, const Eigen::VectorXd& changes, Eigen::MatrixXd J) {
-  J = J * problem.controls.valueRates(changes).asDiagonal();
-  for (Eigen::Index i = 0; i < J.rows(); ++i) J.row(i) /= problem.constraints.rows()[static_cast<std::size_t>(i)].scale;
-  return J;
-}
-
-bool hasIndependentRows(Eigen::MatrixXd J) {
-  if (J.rows() > J.cols() || !J.allFinite()) return false;
-  for (Eigen::Index i = 0; i < J.rows(); ++i) J.row(i).normalize();
-  if (!J.allFinite()) return false;
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(J).singularValues().minCoeff() >= TaskLimits::kSmallestSingular;
-}
-
 // A scene with its controls, and the motions of start and hidden throw up to one impact more than wanted.
 class Draw {
  public:
@@ -150,7 +106,7 @@ class Draw {
     }
     const std::size_t impacts = static_cast<std::size_t>(wanted_.impacts);
     if (!isPlain(motion, impacts)) return false;
-    if (wanted_.family == Family::meeting && !meets(motion, impacts)) return false;
+    if (wanted_.family == Family::meeting && !meets(motion, impacts, "thrown", "other")) return false;
     task_.constraints = drawGoal(motion, wanted_, dice_);
     if (task_.constraints.empty()) return false;
 
@@ -175,16 +131,11 @@ class Draw {
   }
 
   bool isReachable(const Hidden& hidden, ContactSource& contacts) {
-    const EditProblem problem(task_.start, contacts, task_.duration, task_.controls, task_.constraints);
-    const RowsAndJacobian at = evaluateByAdjoint(problem, hidden.values);
-    if (!at.rows.available) return false;
-    const Eigen::MatrixXd J = dimensionless(problem, hidden.changes, at.jacobian);
-    if (!hasIndependentRows(J)) return false;
-    task_.growth = J.cwiseAbs().maxCoeff();
+    if (!bench::isReachable(task_, hidden.values, contacts)) return false;
     task_.hidden_values = hidden.values;
     task_.hidden_distance = hidden.distance;
     task_.hidden_objective = 0.5 * hidden.changes.squaredNorm();
-    return task_.growth <= TaskLimits::kLargestGrowth;
+    return true;
   }
 
   Dice dice_;
@@ -198,7 +149,9 @@ Task makeTask(std::uint64_t seed, int index) {
   const Wanted wanted = wantedOf(index);
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     try {
-      if (std::optional<Task> task = Draw(seed, index, attempt, wanted).make()) {
+      const bool near = index < kThrownTasks;
+      if (std::optional<Task> task = near ? Draw(seed, index, attempt, wanted).make()
+                                          : drawAnywhere(seed, index, attempt, wanted)) {
         task->attempts = attempt + 1;
         return *task;
       }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,7 +17,7 @@ namespace carom::bench {
 
 /// What every task keeps to.
 struct TaskLimits {
-  /// The hidden throw differs from the start by this much: the norm of the changes of all numbers together, each in its
+  /// Of throws with a start near by: the hidden throw differs from the start by this much: the norm of the changes of all numbers together, each in its
   /// own natural scale (the person's weights left out). Those that need another impact sequence may lie further.
   static constexpr double kNearest = 0.05, kFarthestSame = 0.5, kFarthestOther = 0.8;
   static constexpr double kSmallestMargin = 1e-3;  ///< of grazing and of stick and slip, of both motions
@@ -36,13 +37,14 @@ struct Task {
   double duration = 0;
   std::vector<Control> controls;
   std::vector<Constraint> constraints;
+  std::vector<std::string> sequence;  ///< wished: with which the motion begins, see beginsWith
 
   int numbers = 0, rows = 0;
   Eigen::VectorXd hidden_values;  ///< of the numbers that vary
   double hidden_distance = 0;     ///< TaskLimits::kNearest and so on
   double hidden_objective = 0;    ///< 1/2 |changes|^2, weighted: an upper bound of the smallest change
   double growth = 0;              ///< largest entry of the dimensionless Jacobian at the hidden throw
-  double miss = 0;                ///< largest scaled residual at the start
+  double miss = 0;                ///< largest scaled residual at the start; infinite where it lacks a row
   int attempts = 0;               ///< draws until one kept to the limits
 };
 
