@@ -42,8 +42,9 @@ class TriaxialRotation {
   /// Sensitivity over [0, elapsed]: in closed form (variation_pass.hpp), and where that is singular by Taylor series of
   /// the variational equations, see flight_triaxial_sensitivity.cpp. `products`: dtheta_dproducts too.
   RotationSensitivity sensitivityAt(double elapsed, bool products = false) const;
-  /// [0, elapsed] for its variations in closed form; none where that is singular, or the turn small.
-  std::optional<RotationStretch<double>> stretchOver(double elapsed) const;
+  /// [0, elapsed] for its variations in closed form; none where that is singular or `times` as near to it as first
+  /// derivatives may be, or the turn small.
+  std::optional<RotationStretch<double>> stretchOver(double elapsed, double times = 1) const;
 
  private:
   struct Segment {

@@ -53,8 +53,8 @@ Vec3 TriaxialRotation::squaresOver(double elapsed, const Vec3& start) const {
   return sum;
 }
 
-std::optional<RotationStretch<double>> TriaxialRotation::stretchOver(double elapsed) const {
-  if (!(L_.norm() * D_.maxCoeff() * elapsed > kLeastTurn)) return std::nullopt;
+std::optional<RotationStretch<double>> TriaxialRotation::stretchOver(double elapsed, double times) const {
+  if (!(L_.norm() * D_.maxCoeff() * elapsed > times * kLeastTurn)) return std::nullopt;
   if (!closed_form_ && segments_.size() > kSegments) return std::nullopt;  // where the closed form is singular
   const Mat3 end = orientationAt(elapsed).toRotationMatrix(), start = q_.toRotationMatrix();
   RotationStretch<double> s;
@@ -63,7 +63,7 @@ std::optional<RotationStretch<double>> TriaxialRotation::stretchOver(double elap
   s.turned = end.transpose() * start;
   s.elapsed = elapsed;
   s.squares.setZero();
-  if (!VariationPass<double>(s).isRegular()) return std::nullopt;
+  if (!VariationPass<double>(s).isRegular(times)) return std::nullopt;
   // after whole periods M is what it was
   const double period = closed_form_ ? closed_form_->period() : elapsed, count = std::floor(elapsed / period);
   if (count >= 2) s.squares = count * squaresOver(period, s.start);

@@ -32,8 +32,8 @@ class VariationPass {
  public:
   explicit VariationPass(const RotationStretch<S>& stretch);
 
-  /// Far enough from what is singular for full precision.
-  bool isRegular() const;
+  /// Far enough from what is singular for full precision of these variations, `times` so far.
+  bool isRegular(double times) const;
 
   /// dM at the end by dM at the start with R(0) held, and by D.
   M3<S> momentumByStart() const;
@@ -112,14 +112,14 @@ void VariationPass<S>::integrate() {
 }
 
 template <class S>
-bool VariationPass<S>::isRegular() const {
-  constexpr double kLeastDifference = 0.05, kLeastAcross = 1e-3, kLeastCancelled = 0.05;
+bool VariationPass<S>::isRegular(double times) const {
+  constexpr double kLeastDifference = 0.05, kLeastAcross = 0.03, kLeastCancelled = 0.05;
   const Vec3 delta = valuesOf(delta_), f = valuesOf(f_start_), M = valuesOf(s_.start);
   const double largest = delta.cwiseAbs().maxCoeff();
   const double terms = valuesOf(uneven_).cwiseAbs().dot(f.cwiseAbs2());
-  return delta.cwiseAbs().minCoeff() > kLeastDifference * largest &&
-         f.squaredNorm() > kLeastAcross * std::pow(largest * M.squaredNorm(), 2) &&
-         std::abs(valueOf(regular_)) > kLeastCancelled * terms;
+  return delta.cwiseAbs().minCoeff() > times * kLeastDifference * largest &&
+         f.norm() > times * kLeastAcross * largest * M.squaredNorm() &&
+         std::abs(valueOf(regular_)) > times * kLeastCancelled * terms;
 }
 
 template <class S>
