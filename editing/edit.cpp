@@ -64,6 +64,8 @@ EditResult Edit::solve(const EditOptions& options) const {
   EditProblem problem = this->problem();
   problem.step_limit = options.step_limit;
   problem.stop = options.stop;
+  problem.awaited = problem.constraints.awaited();
+  problem.least_duration = problem.constraints.leastDuration();
   EditSearch search(problem, options);
   const EditSolution solution = findSolution(search);
   EditResult result = verify(scene_, search, solution);

@@ -10,8 +10,18 @@ namespace carom {
 
 /// May an edit change which impacts happen?
 enum class SequencePolicy {
+  smallest,      ///< wherever the change is smaller
   prefer_start,  ///< only where the start's sequence does not reach the constraints
   stay,          ///< never
+};
+
+/// How long an edit looks for a smaller change once its constraints are met, and for a way to meet them where none is
+/// near. The work is counted, so that the answer is the same on every machine and any number of threads
+/// (docs/editing.md).
+enum class Effort {
+  fast,     ///< the first solution
+  normal,   ///< a few rounds of samples more
+  thorough  ///< many
 };
 
 /// How far an edit is.
@@ -30,10 +40,11 @@ enum class SecondDerivatives {
 
 /// How an edit is solved.
 struct EditOptions {
-  int max_iterations = 200;  ///< steps of all stages together; the one under way may add a few
+  int max_iterations = 1000;  ///< steps of all stages together; the one under way may add a few
   double time_budget_seconds = std::numeric_limits<double>::infinity();  ///< gives up after so long
   double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
-  SequencePolicy sequence = SequencePolicy::prefer_start;           ///< whether impacts may become others
+  SequencePolicy sequence = SequencePolicy::smallest;                   ///< whether impacts may become others
+  Effort effort = Effort::normal;                                   ///< how long a smaller change is looked for
   SecondDerivatives second_derivatives = SecondDerivatives::exact;  ///< where Ipopt takes them from
   int alternatives = 1;  ///< distinct solutions that are looked for, see EditResult::alternatives
   int threads = 0;       ///< of the search across impact sequences; 0: all cores. The answer does not depend on it

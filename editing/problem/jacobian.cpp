@@ -114,6 +114,8 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
   SimulateOptions options;
   options.asked = problem.asked;
   options.step_limit = problem.step_limit;
+  options.awaited = problem.awaited;
+  options.least_duration = problem.least_duration;
   if (!even_if_stopped) options.stop = problem.stop;
   return simulate(problem.controls.sceneAt(values), contacts ? *contacts : *problem.contacts, until, options);
 }

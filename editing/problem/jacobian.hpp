@@ -41,6 +41,9 @@ struct EditProblem {
 
   double duration;           ///< s, of the motion
   double horizon;            ///< s; nothing after it counts for the constraints
+  /// Of motions that are tried: they end where nothing later counts for the constraints. Empty: at the horizon.
+  std::vector<AwaitedImpact> awaited;
+  double least_duration = 0;  ///< s; then only after this, too
   std::vector<Asked> asked;  ///< as little as the rows and their derivatives need
   /// Of every motion, see SimulateOptions.
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();

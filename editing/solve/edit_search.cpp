@@ -79,7 +79,8 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
 EditPointPtr EditSearch::evaluateStart() {
   EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
   if (!point->rows.available) return point;
-  until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
+  if (problem_.awaited.empty())
+    until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
   recent_.push_back(point);
   consider(point);
   return point;

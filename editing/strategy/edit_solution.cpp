@@ -15,14 +15,8 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Rounds of the search across impact sequences.
-constexpr int kRounds = 6;
-/// More of them after the first solution, for smaller ones.
-constexpr int kRoundsToImprove = 2;
-/// Of the objective: a fifth of a natural scale.
-constexpr double kLargeChange = 0.02;
-/// Rounds when the constraints stand against each other in the sequence of the start: mostly they do so in all.
-constexpr int kRoundsAgainstContradiction = 2;
+/// What counts as a smaller change, as a share of the objective.
+constexpr double kClearlyLess = 0.98;
 
 /// A point once more brought as near to the constraints as rounding allows, within its own impact sequence.
 EditPointPtr polished(EditSearch& search, const EditPointPtr& point) {
@@ -40,14 +34,6 @@ std::string unmetRows(const EditSearch& search, const EditPoint& point) {
   return listOf(unmet);
 }
 
-/// Whether even the linearised rows cannot be brought much nearer to their targets from here.
-bool isStuck(EditSearch& search, EditPoint& point) {
-  search.differentiate(point);
-  const double before = point.rows.scaled.norm();
-  const double after = residualsAfter(search, point, smallestStep(search, point)).norm();
-  return !(after < 0.5 * before);
-}
-
 EditSolution unsolved(EditSearch& search, EditSolution solution) {
   const std::string nearest = "The nearest that was found misses " + unmetRows(search, *solution.point) + ".";
   const bool stays = search.options().sequence == SequencePolicy::stay;
@@ -58,14 +44,13 @@ EditSolution unsolved(EditSearch& search, EditSolution solution) {
   } else if (search.halt() == Halt::cancelled) {
     solution.status = EditStatus::cancelled;
     solution.message = "The edit was cancelled before the constraints were met. " + nearest;
-  } else if (search.iterationsLeft() > 0 && isStuck(search, *solution.point)) {
-    solution.status = EditStatus::infeasible;
+  } else if (search.iterationsLeft() > 0) {
+    solution.status = EditStatus::not_converged;
     solution.message = "No way was found to meet all constraints" + where + " with these controls. " + nearest;
   } else {
     solution.status = EditStatus::not_converged;
-    const std::string limit = search.iterationsLeft() > 0 ? "" : ", its limit,";
-    solution.message = "The search ended after " + std::to_string(search.iterations()) + " iterations" + limit +
-                       " without meeting the constraints" + where + ". " + nearest;
+    solution.message = "The search ended after " + std::to_string(search.iterations()) +
+                       " iterations, its limit, without meeting the constraints" + where + ". " + nearest;
   }
   return solution;
 }
@@ -85,10 +70,23 @@ EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const 
   return solves(inside) ? inside : nullptr;
 }
 
+/// A first solution, and then smaller changes, until so many rounds brought none.
+void searchAcross(const EditSearch& search, SequenceSearch& across) {
+  const SearchPlan& plan = planOf(search.options().effort);
+  for (int rounds = plan.first_rounds; across.solutions().empty() && rounds > 0 && across.round(); --rounds) {
+  }
+  if (across.solutions().empty()) return;
+  for (int rounds = plan.improving_rounds, idle = 0; rounds > 0 && idle < plan.idle_rounds; --rounds) {
+    const double before = across.solutions().front()->objective;
+    if (!across.round()) return;
+    idle = across.solutions().front()->objective < kClearlyLess * before ? 0 : idle + 1;
+  }
+}
+
 /// Distinct solutions until there are as many as the options ask for, the smallest change first.
 std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch& across, const EditPointPtr& first) {
   across.add(first);
-  while (static_cast<int>(across.solutions().size()) < search.options().alternatives && across.round()) continue;
+  while (static_cast<int>(across.solutions().size()) < search.options().alternatives && across.round(SequenceSearch::Seek::others)) continue;
   return across.solutions();
 }
 
@@ -117,24 +115,14 @@ EditSolution findSolution(EditSearch& search) {
   if (!contradicts) solution.growth = growthOf(start->motion, search.problem(), start->rows);
   const EditPointPtr inside = contradicts ? nullptr : solveInSequence(search, choice, start);
   SequenceSearch across(search, start);
-  for (int rounds = contradicts ? kRoundsAgainstContradiction : kRounds;
-       may_leave && !inside && rounds > 0 && across.solutions().empty() && across.round(); --rounds) {
-  }
-  // The first that is found across sequences is seldom the smallest, nor is a large change within one.
-  const bool large = inside && inside->objective > kLargeChange;
-  if (large) across.add(inside);
-  const auto seek = large ? SequenceSearch::Seek::smaller_inside : SequenceSearch::Seek::smaller;
-  for (int rounds = kRoundsToImprove; !across.solutions().empty() && rounds > 0 && across.round(seek); --rounds) {
-  }
+  if (inside) across.add(inside);
+  if (may_leave) searchAcross(search, across);
 
-  solution.point = polished(search, large ? across.solutions().front() : inside ? inside : search.best());
+  solution.point = polished(search, across.solutions().empty() ? search.best() : across.solutions().front());
   if (!search.reached(*solution.point)) {
-    if (contradicts && search.halt() == Halt::none) {
-      solution.status = EditStatus::infeasible;
-      solution.message = choice.contradiction;
-      return solution;
-    }
-    return unsolved(search, std::move(solution));
+    solution = unsolved(search, std::move(solution));
+    if (contradicts && search.halt() == Halt::none) solution.message = choice.contradiction + " " + solution.message;
+    return solution;
   }
   solution.status = EditStatus::solved;
   if (may_leave && search.options().alternatives > 1) solution.others = moreSolutions(search, across, solution.point);

@@ -10,8 +10,8 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Half widths of boxes and lengths along free directions, natural scales; used in turn.
-constexpr double kSampleRadii[] = {0.1, 0.3, 1, 0.03, 0.5, 0.2, 3};
+/// Half widths of boxes and lengths along free directions, as shares of the reach; used in turn.
+constexpr double kSampleRadii[] = {0.1 / 3, 0.1, 1.0 / 3, 0.01, 0.5 / 3, 0.2 / 3, 1};
 /// Shares of a Gauss-Newton step; used in turn.
 constexpr double kShares[] = {1, 0.5, 1.5, 0.75, 0.25, 2};
 
@@ -40,16 +40,16 @@ Eigen::VectorXd inBox(const EvenPoints& points, int k, const Eigen::VectorXd& ce
   return from + points.inCube(k).cwiseProduct(to - from);
 }
 
-Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre) {
+Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre, double reach) {
   Eigen::VectorXd x = centre;
   const int n = static_cast<int>(x.size()), turn = k / (2 * n);
-  x[(k / 2) % n] += (k % 2 ? -1 : 1) * inTurn(kSampleRadii, turn);
+  x[(k / 2) % n] += (k % 2 ? -1 : 1) * reach * inTurn(kSampleRadii, turn);
   return x;
 }
 
-Eigen::VectorXd along(int k, const Surroundings& s) {
+Eigen::VectorXd along(int k, const Surroundings& s, double reach) {
   Eigen::VectorXd x = s.at + inTurn(kShares, k) * s.step;
-  const double length = inTurn(kSampleRadii, k / 2) * (k < 2 ? 0 : 1);  // the step itself first
+  const double length = reach * inTurn(kSampleRadii, k / 2) * (k < 2 ? 0 : 1);  // the step itself first
   if (s.free.cols() > 0) x += length * (s.free * EvenPoints(s.free.cols()).onSphere(k));
   return x;
 }
@@ -85,7 +85,8 @@ Eigen::VectorXd EvenPoints::onSphere(int k) const {
 }
 
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
-                                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count) {
+                                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
+                                     double reach) {
   const EvenPoints points(centre.size());
   const int kinds = 2 + 2 * static_cast<int>(around.size());
   std::vector<Eigen::VectorXd> list;
@@ -93,12 +94,12 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
     const int kind = i % kinds, k = i / kinds;
     Eigen::VectorXd x;
     if (kind == 0) {
-      x = inBox(points, k, centre, inTurn(kSampleRadii, k), lower, upper);
+      x = inBox(points, k, centre, reach * inTurn(kSampleRadii, k), lower, upper);
     } else if (kind == 1) {
-      x = alone(k, centre);
+      x = alone(k, centre, reach);
     } else {
       const auto& from = around[static_cast<std::size_t>(kind - 2) / 2];
-      x = along(2 * k + kind % 2, from);
+      x = along(2 * k + kind % 2, from, reach);
     }
     list.push_back(within(x, centre, lower, upper));
   }

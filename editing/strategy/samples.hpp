@@ -32,9 +32,11 @@ struct Surroundings {
 };
 
 /// A part of `count` of one endless sequence of samples, from number `first` on, all within the bounds. They take
-/// turns: points of boxes around `centre` with half widths from 0.03 to 3 (natural scales, times the weights); single
-/// numbers changed; and from each of `around` on, a share of the step and something along the free directions.
+/// turns: points of boxes around `centre` with half widths from a hundredth of `reach` to all of it (natural scales,
+/// times the weights); single numbers changed; and from each of `around` on, a share of the step and something along
+/// the free directions.
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
-                                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count);
+                                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
+                                     double reach = 3);
 
 }  // namespace carom::editing_detail

@@ -8,27 +8,32 @@
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/minimise.hpp"
 #include "editing/solve/projection.hpp"
+#include "editing/strategy/landing.hpp"
 #include "editing/strategy/samples.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-constexpr int kSampleRounds = 8;
-constexpr int kSamples = 64;
 /// Of each group so many points, the nearest to the constraints, are looked at more closely.
 constexpr std::size_t kOfEachGroup = 2;
-constexpr std::size_t kLandings = 10;
+/// So many of them for each landing, at most.
+constexpr std::size_t kForEachLanding = 4;
 constexpr int kLandingSteps = 30;
-constexpr std::size_t kMinimised = 3;
 constexpr int kMinimisingIterations = 40;
 /// A step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 1.5;
+/// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
+constexpr double kLeadsNowhere = 0.5;
 /// A solution from which the change could still fall by this share, if it were not for the border of its sequence.
 constexpr double kAtBorder = 0.05;
 /// Once there is a solution only points from which the change is expected to be smaller than this share of it count.
-constexpr double kClearlySmaller = 0.9;
+constexpr double kClearlySmaller = 0.995;
 /// Solutions of one sequence whose changes differ by less than this share of them are the same.
 constexpr double kSameChange = 0.1;
+/// Samples double from one round without a solution to the next, so often.
+constexpr int kDoublings = 4;
+/// The reach of samples, natural scales; around a solution in lengths of its change.
+constexpr double kReach = 3, kReachOfChange = 1.2;
 
 // Around a point that meets the constraints the step is one towards a smaller change: along the free directions, which
 // matters at the border of a sequence, or else back to the start.
@@ -49,7 +54,10 @@ bool areDistinct(const EditPoint& a, const EditPoint& b) {
 }
 
 SequenceSearch::SequenceSearch(EditSearch& search, EditPointPtr start)
-    : search_(search), pool_(*search.problem().contacts), start_(std::move(start)) {}
+    : search_(search),
+      plan_(planOf(search.options().effort)),
+      pool_(*search.problem().contacts),
+      start_(std::move(start)) {}
 
 template <class Work>
 void SequenceSearch::forAll(std::size_t count, const Work& work) {
@@ -62,14 +70,42 @@ void SequenceSearch::forAll(std::size_t count, const Work& work) {
 
 bool SequenceSearch::round(Seek seek) {
   if (search_.problem().unknowns() == 0) return false;  // nowhere to go
-  if (round_ == kSampleRounds || !search_.goesOn()) return false;
+  if (!search_.goesOn()) return false;
   const std::vector<EditPointPtr> points = sample();
   if (!reportBatch()) return false;
-  const std::vector<EditPointPtr> landed = land(promising(points, seek), seek);
+  const std::vector<EditPointPtr> landed = landAll(promising(points, seek), seek);
   if (!reportBatch()) return false;
-  minimise(landed);
+  minimise(landed, seek);
   ++round_;
+  rounds_without_ = solutions_.empty() ? rounds_without_ + 1 : 0;
   return true;
+}
+
+// The cheaper a motion is, the more of them.
+int SequenceSearch::sampleCount() const {
+  const double steps = static_cast<double>(std::max<std::size_t>(1, start_->motion.steps));
+  const double doubled = std::ldexp(plan_.sample_steps / steps, std::min(rounds_without_, kDoublings));
+  const double least = std::ldexp(plan_.least_samples, std::min(rounds_without_, kDoublings));
+  return static_cast<int>(std::clamp(doubled, std::min<double>(least, plan_.most_samples), 1.0 * plan_.most_samples));
+}
+
+// What changes less than the best lies nearer to the start.
+double SequenceSearch::reach() const {
+  if (solutions_.empty()) return kReach;
+  return std::min(kReach, kReachOfChange * lengthOf(search_.problem(), solutions_.front()->changes));
+}
+
+double SequenceSearch::lengthToBeat(Seek seek) const {
+  if (seek == Seek::others || solutions_.empty()) return std::numeric_limits<double>::infinity();
+  return kClearlySmaller * lengthOf(search_.problem(), solutions_.front()->changes);
+}
+
+// With a solution in the sequence of the start, others count only where they are allowed to.
+bool SequenceSearch::isAllowed(const EditPoint& point) const {
+  if (search_.options().sequence == SequencePolicy::smallest || solutions_.empty()) return true;
+  const bool inside = std::any_of(solutions_.begin(), solutions_.end(),
+                                  [&](const EditPointPtr& s) { return s->signature == start_->signature; });
+  return !inside || point.signature == start_->signature;
 }
 
 bool SequenceSearch::reportBatch() {
@@ -80,8 +116,10 @@ bool SequenceSearch::reportBatch() {
 std::vector<EditPointPtr> SequenceSearch::sample() {
   std::vector<Surroundings> around = {surroundingsOf(search_, *start_)};
   if (search_.best() != start_) around.push_back(surroundingsOf(search_, *search_.best()));
+  const int count = sampleCount();
   const std::vector<Eigen::VectorXd> places =
-      samples(start_->changes, around, search_.lower(), search_.upper(), round_ * kSamples, kSamples);
+      samples(start_->changes, around, search_.lower(), search_.upper(), samples_, count, reach());
+  samples_ += count;
   std::vector<EditPointPtr> points(places.size());
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
     points[i] = search_.make(places[i], true, {&contacts, nullptr});
@@ -93,38 +131,44 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
   return points;
 }
 
+// A few of each impact sequence, all in all no more than can be looked at.
+std::vector<EditPointPtr> SequenceSearch::nearestOfEachGroup(const std::vector<EditPointPtr>& points) const {
+  const auto nearer = [](const EditPointPtr& a, const EditPointPtr& b) { return a->violation < b->violation; };
+  std::map<std::string, std::vector<EditPointPtr>> groups;
+  for (const EditPointPtr& point : points)
+    if (isAllowed(*point)) groups[point->signature].push_back(point);
+  const std::size_t each = std::max(kOfEachGroup, plan_.landings / std::max<std::size_t>(1, groups.size()));
+  std::vector<EditPointPtr> nearest;
+  for (auto& [signature, group] : groups) {
+    std::stable_sort(group.begin(), group.end(), nearer);
+    group.resize(std::min(group.size(), each));
+    nearest.insert(nearest.end(), group.begin(), group.end());
+  }
+  std::stable_sort(nearest.begin(), nearest.end(), nearer);
+  nearest.resize(std::min(nearest.size(), kForEachLanding * plan_.landings));
+  return nearest;
+}
+
 // Those from which the linearised rows lead to the smallest change by the shortest step, sequences that were not tried
 // often first.
 std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointPtr>& points, Seek seek) {
-  std::map<std::string, std::vector<EditPointPtr>> groups;
-  for (const EditPointPtr& point : points)
-    if (seek != Seek::smaller_inside || point->signature == start_->signature)
-      groups[point->signature].push_back(point);
   std::vector<std::pair<double, EditPointPtr>> ranked;
-  for (auto& [signature, group] : groups) {
-    std::stable_sort(group.begin(), group.end(),
-                     [](const EditPointPtr& a, const EditPointPtr& b) { return a->violation < b->violation; });
-    group.resize(std::min(group.size(), seek == Seek::smaller_inside ? kLandings : kOfEachGroup));
-    for (const EditPointPtr& point : group) ranked.push_back({0, point});
-  }
-  const bool improving = seek != Seek::anything && !solutions_.empty();
-  const double largest =
-      improving ? kClearlySmaller * std::sqrt(2 * solutions_.front()->objective) : std::numeric_limits<double>::max();
-  const auto controlsOf = [&](const Eigen::VectorXd& changes) {
-    return changes.head(search_.problem().controls.size());
-  };
+  for (const EditPointPtr& point : nearestOfEachGroup(points)) ranked.push_back({0, point});
+  const double to_beat = lengthToBeat(seek);
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     auto& [score, point] = ranked[i];
     search_.differentiate(*point);
     const Eigen::VectorXd step = smallestStep(search_, *point);
-    const double change = controlsOf(point->changes + step).norm();
-    score = (point->changes + step).norm() + kStepsAreUncertain * step.norm();
-    if (!std::isfinite(score) || change > largest) score = std::numeric_limits<double>::infinity();
+    const double left = residualsAfter(search_, *point, step).norm();
+    const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
+    const double change = lengthOf(search_.problem(), smallestChange(search_, *point));
+    score = change + kStepsAreUncertain * step.norm();
+    if (leads_nowhere || !std::isfinite(score) || change > to_beat) score = std::numeric_limits<double>::infinity();
   });
-  if (improving) std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
+  std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
   for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ranked.resize(std::min(ranked.size(), kLandings));
+  ranked.resize(std::min(ranked.size(), plan_.landings));
   std::vector<EditPointPtr> chosen;
   for (const auto& [score, point] : ranked) {
     ++tries_[point->signature];
@@ -133,25 +177,27 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
   return chosen;
 }
 
-std::vector<EditPointPtr> SequenceSearch::land(const std::vector<EditPointPtr>& candidates, Seek seek) {
-  const std::string* within = seek == Seek::smaller_inside ? &start_->signature : nullptr;
+std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr>& candidates, Seek seek) {
+  const Landing landing{kLandingSteps, lengthToBeat(seek), nullptr};
   std::vector<EditPointPtr> landed(candidates.size());
   std::vector<int> steps(candidates.size(), 0);
   forAll(candidates.size(), [&](std::size_t i, ContactSource& contacts) {
     EditSearch branch = search_.branch({&contacts, nullptr}, true);
-    landed[i] = projectOntoConstraints(branch, candidates[i], kLandingSteps, within);
+    landed[i] = land(branch, candidates[i], landing);
     steps[i] = branch.iterations() - search_.iterations();
   });
-  for (const EditPointPtr& point : landed) search_.consider(point);
+  std::erase(landed, nullptr);
+  for (const EditPointPtr& point : landed)
+    if (isAllowed(*point)) search_.consider(point);
   if (!steps.empty()) search_.count(*std::max_element(steps.begin(), steps.end()));
   return landed;
 }
 
 // Of each sequence the smallest change that arrived, the smallest of all first.
-void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed) {
+void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek) {
   std::map<std::string, EditPointPtr> smallest;
   for (const EditPointPtr& point : landed) {
-    if (!search_.reached(*point)) continue;
+    if (!search_.reached(*point) || !isAllowed(*point)) continue;
     EditPointPtr& slot = smallest[point->signature];
     if (!slot || point->objective < slot->objective) slot = point;
   }
@@ -159,10 +205,12 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed) {
   for (const auto& [signature, point] : smallest) arrived.push_back(point);
   std::stable_sort(arrived.begin(), arrived.end(),
                    [](const EditPointPtr& a, const EditPointPtr& b) { return a->objective < b->objective; });
-  arrived.resize(std::min(arrived.size(), kMinimised));
+  arrived.resize(std::min(arrived.size(), plan_.minimised));
   for (const EditPointPtr& point : arrived) {
+    search_.differentiate(*point);
+    const bool hopeless = lengthOf(search_.problem(), smallestChange(search_, *point)) > lengthToBeat(seek);
     const EditPointPtr end =
-        search_.halt() == Halt::none ? minimiseWithin(search_, point, kMinimisingIterations) : point;
+        search_.halt() == Halt::none && !hopeless ? minimiseWithin(search_, point, kMinimisingIterations) : point;
     add(search_.reached(*end) ? end : point);
   }
 }

@@ -7,44 +7,56 @@
 
 #include "editing/detail/parallel.hpp"
 #include "editing/solve/edit_search.hpp"
+#include "editing/strategy/effort.hpp"
 
 /// Solutions in other impact sequences. Internal to editing/.
 namespace carom::editing_detail {
 
 /// A local discrete search, after Harada, Witkin and Baraff (1995), in rounds. Each simulates samples around the start
 /// and the best point on all cores, groups them by impact sequence, goes from the most promising of each group onto the
-/// constraints, whatever impacts that takes, and minimises the change within the sequences where that arrived.
+/// constraints, whatever impacts that takes, and minimises the change within the sequences where that arrived. Once
+/// there is a solution, only smaller changes are looked for: sequences that are seen to hold none, as their rows are
+/// linear, are left.
 /// Everything is done, or taken over, in a fixed order: the answer is the same on any number of cores. Clock and
 /// callback are asked between batches.
 class SequenceSearch {
  public:
   SequenceSearch(EditSearch& search, EditPointPtr start);
 
-  /// What a round looks for once there is a solution: others, only such as change clearly less, or of those only such
-  /// as stay in the sequence of the start.
-  enum class Seek { anything, smaller, smaller_inside };
+  /// What a round looks for.
+  enum class Seek {
+    smaller,  ///< a solution, or one of a smaller change than the best
+    others    ///< solutions that differ from those that are known
+  };
   /// False when there was nothing left to do.
-  bool round(Seek seek = Seek::anything);
+  bool round(Seek seek = Seek::smaller);
   /// Distinct solutions, the smallest change first.
   const std::vector<EditPointPtr>& solutions() const { return solutions_; }
   /// Takes a solution in, unless it is one of those that are known already.
   void add(const EditPointPtr& solution);
 
  private:
+  int sampleCount() const;
+  double reach() const;
+  double lengthToBeat(Seek seek) const;
+  bool isAllowed(const EditPoint& point) const;
   std::vector<EditPointPtr> sample();
+  std::vector<EditPointPtr> nearestOfEachGroup(const std::vector<EditPointPtr>& points) const;
   std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points, Seek seek);
-  std::vector<EditPointPtr> land(const std::vector<EditPointPtr>& candidates, Seek seek);
-  void minimise(const std::vector<EditPointPtr>& landed);
+  std::vector<EditPointPtr> landAll(const std::vector<EditPointPtr>& candidates, Seek seek);
+  void minimise(const std::vector<EditPointPtr>& landed, Seek seek);
   bool reportBatch();
   template <class Work>
   void forAll(std::size_t count, const Work& work);
 
   EditSearch& search_;
+  const SearchPlan& plan_;
   ContactPool pool_;
   EditPointPtr start_;
   std::map<std::string, int> tries_;  // landings from a sequence so far
   std::vector<EditPointPtr> solutions_;
-  int round_ = 0;
+  int round_ = 0, rounds_without_ = 0;
+  int samples_ = 0;  // taken so far, of the endless sequence of them
 };
 
 /// Whether two solutions differ in their impact sequence, or else clearly in their numbers.

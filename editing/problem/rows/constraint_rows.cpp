@@ -108,17 +108,27 @@ void ConstraintSet::addRegionRows(const Scene& scene, int index, int region_inde
   }
 }
 
-double ConstraintSet::horizon(double duration) const {
+std::vector<AwaitedImpact> ConstraintSet::awaited() const {
+  std::vector<AwaitedImpact> impacts;
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (const When& at = constraints_[i].at; at.impact > 0 && !constraints_[i].targets.empty())
+      impacts.push_back({bound_[i].body, at.impact, bound_[i].with});
+  return impacts;
+}
+
+double ConstraintSet::leastDuration() const {
   double last = 0;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const When& at = constraints_[i].at;
-    if (!constraints_[i].targets.empty()) {
-      if (at.impact > 0) return duration;
-      last = std::max(last, at.span ? at.span->second : at.time);
-    }
+    if (!constraints_[i].targets.empty() && at.impact == 0) last = std::max(last, at.span ? at.span->second : at.time);
     for (const BoundRegion& region : bound_[i].regions) last = std::max(last, region.to);
   }
-  return last > 0 ? std::min(last, duration) : duration;
+  return last;
+}
+
+double ConstraintSet::horizon(double duration) const {
+  const double last = leastDuration();
+  return awaited().empty() && last > 0 ? std::min(last, duration) : duration;
 }
 
 ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen::VectorXd& times) const {

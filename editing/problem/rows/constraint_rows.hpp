@@ -10,6 +10,7 @@
 
 #include "adjoint/derivative/derivative_tape.h"
 #include "adjoint/motion/motion.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/constraint.h"
 #include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
@@ -88,6 +89,9 @@ class ConstraintSet {
 
   /// Nothing after this time counts: the last time nailed, or `duration` when an impact is.
   double horizon(double duration) const;
+  /// The impacts at which something is held, and the last time that is held besides.
+  std::vector<AwaitedImpact> awaited() const;
+  double leastDuration() const;
   /// What of a motion counts for the constraints: its events up to the last of them, and the time of that. Without
   /// free times their spans count whole.
   struct Extent {

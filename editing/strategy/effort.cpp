@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "editing/strategy/effort.hpp"
+
+namespace carom::editing_detail {
+namespace {
+
+constexpr SearchPlan kFast{.first_rounds = 8,
+                           .improving_rounds = 0,
+                           .idle_rounds = 1,
+                           .sample_steps = 2e4,
+                           .least_samples = 64,
+                           .most_samples = 1024,
+                           .landings = 8,
+                           .minimised = 2};
+constexpr SearchPlan kNormal{.first_rounds = 10,
+                             .improving_rounds = 3,
+                             .idle_rounds = 1,
+                             .sample_steps = 4e4,
+                             .least_samples = 64,
+                             .most_samples = 1024,
+                             .landings = 12,
+                             .minimised = 3};
+constexpr SearchPlan kThorough{.first_rounds = 16,
+                               .improving_rounds = 12,
+                               .idle_rounds = 4,
+                               .sample_steps = 4e5,
+                               .least_samples = 256,
+                               .most_samples = 4096,
+                               .landings = 60,
+                               .minimised = 8};
+
+}  // namespace
+
+const SearchPlan& planOf(Effort effort) {
+  switch (effort) {
+    case Effort::fast:
+      return kFast;
+    case Effort::normal:
+      return kNormal;
+    case Effort::thorough:
+      return kThorough;
+  }
+  return kNormal;
+}
+
+}  // namespace carom::editing_detail

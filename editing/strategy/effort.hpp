@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "editing/edit_options.h"
+
+/// How much work a search does. Internal to editing/.
+namespace carom::editing_detail {
+
+/// The work of a search, all of it counted: the same on every machine and any number of threads.
+struct SearchPlan {
+  int first_rounds;      ///< until a first solution
+  int improving_rounds;  ///< after it, for smaller changes
+  int idle_rounds;       ///< so many in a row without a clearly smaller change end them
+  double sample_steps;   ///< of the samples of one round, in steps of simulations (SimulateOptions::step_limit)
+  int least_samples, most_samples;  ///< of one round; the more, the cheaper one of them is
+  std::size_t landings;             ///< points of a round from which steps go onto the constraints
+  std::size_t minimised;            ///< of those that arrive, the smallest, within their sequences
+};
+
+/// The plan of an effort.
+const SearchPlan& planOf(Effort effort);
+
+}  // namespace carom::editing_detail

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "editing/strategy/landing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editing/solve/projection.hpp"
+
+namespace carom::editing_detail {
+namespace {
+
+/// Rows this near, dimensionless: what the linear rows say of the smallest change is worth something.
+constexpr double kNearRows = 0.1;
+/// Shares of the way along the constraints that are tried.
+constexpr double kSharesAlong[] = {1, 0.3, 0.1};
+/// The way along the constraints that is left, as a share of the change, at which a landing ends.
+constexpr double kArrived = 1e-3;
+/// The penalty of the merit function, in multipliers.
+constexpr double kAboveMultipliers = 2;
+
+/// The rows and their linear model, as they were at other unknowns.
+EditPoint linearAt(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& changes) {
+  const ConstraintSet& constraints = search.problem().constraints;
+  const Eigen::VectorXd way = changes - point.changes;
+  EditPoint seen;
+  seen.changes = changes;
+  seen.rows.values = point.rows.values;
+  seen.rows.residuals = seen.rows.scaled = Eigen::VectorXd::Zero(constraints.size());
+  const Eigen::VectorXd moved = *point.row_jacobian * way;
+  for (int i = 0; i < constraints.size(); ++i) {
+    const double scale = constraints.rows()[static_cast<std::size_t>(i)].scale;
+    seen.rows.values[i] += moved[i] * scale;
+    seen.rows.residuals[i] = constraints.residual(i, seen.rows.values[i]);
+    seen.rows.scaled[i] = seen.rows.residuals[i] / scale;
+  }
+  seen.validity = point.validity + *point.validity_jacobian * way;
+  seen.row_jacobian = point.row_jacobian;
+  seen.validity_jacobian = point.validity_jacobian;
+  return seen;
+}
+
+/// Largest multiplier of the rows at the smallest change z of the linear rows: z = J^T m.
+double largestMultiplier(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& smallest) {
+  const Eigen::Index n = search.problem().controls.size();
+  const Eigen::MatrixXd J = point.row_jacobian->leftCols(n);
+  Eigen::MatrixXd normal = J * J.transpose();
+  normal.diagonal().array() += 1e-12 * std::max(normal.diagonal().maxCoeff(), 1e-300);
+  const Eigen::VectorXd m = normal.ldlt().solve(J * smallest.head(n));
+  return m.allFinite() ? m.lpNorm<Eigen::Infinity>() : 0;
+}
+
+double merit(const EditPoint& point, double penalty) {
+  return point.objective + penalty * (point.rows.scaled.lpNorm<1>() - point.validity.cwiseMin(0).sum());
+}
+
+/// The first point along the steps with a smaller merit; null where there is none.
+EditPointPtr stepAlong(EditSearch& search, const EditPoint& point, const Eigen::VectorXd& onto,
+                       const Eigen::VectorXd& along, double penalty, const std::string* signature) {
+  const double before = merit(point, penalty);
+  for (const double share : kSharesAlong) {
+    const EditPointPtr trial = search.evaluate(point.changes + onto + share * along);
+    if (search.halt() != Halt::none) return nullptr;
+    if (trial && (!signature || trial->signature == *signature) && merit(*trial, penalty) < before) return trial;
+  }
+  return nullptr;
+}
+
+bool isBetter(const EditSearch& search, const EditPoint& a, const EditPoint& b) {
+  if (search.reached(a) && search.reached(b)) return a.objective < b.objective;
+  return a.violation < b.violation;
+}
+
+}  // namespace
+
+Eigen::VectorXd smallestChange(const EditSearch& search, const EditPoint& point) {
+  Eigen::VectorXd origin = point.changes;
+  origin.head(search.problem().controls.size()).setZero();
+  return origin + smallestStep(search, linearAt(search, point, origin));
+}
+
+double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes) {
+  return changes.head(problem.controls.size()).norm();
+}
+
+EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing) {
+  EditPointPtr point = from, best = from;
+  for (int k = 0; k < landing.max_steps; ++k) {
+    search.differentiate(*point);
+    if (!point->row_jacobian->allFinite()) break;
+    const Eigen::VectorXd smallest = smallestChange(search, *point);
+    if (!smallest.allFinite()) break;
+    if (point->violation < kNearRows && lengthOf(search.problem(), smallest) > landing.below) return nullptr;
+    const Eigen::VectorXd onto = smallestStep(search, *point);
+    const Eigen::VectorXd along = smallest - point->changes - onto;
+    if (search.reached(*point) && along.norm() <= kArrived * point->changes.norm()) break;
+    const double penalty = kAboveMultipliers * largestMultiplier(search, *point, smallest);
+    EditPointPtr next = stepAlong(search, *point, onto, along, penalty, landing.signature);
+    if (!next && search.halt() == Halt::none && !search.reached(*point))
+      next = projectOntoConstraints(search, point, 1, landing.signature);
+    if (!next || next == point) break;
+    point = std::move(next);
+    if (isBetter(search, *point, *best)) best = point;
+    if (!search.step(point->objective, point->violation)) break;
+  }
+  return best;
+}
+
+}  // namespace carom::editing_detail

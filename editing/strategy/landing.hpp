@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "editing/solve/edit_search.hpp"
+
+/// From a sample onto the constraints. Internal to editing/.
+namespace carom::editing_detail {
+
+/// The smallest changes that meet the rows as they are linear around a differentiated point, within the bounds; free
+/// times stay near those of the point. Where the rows are linear indeed, it is where the edit ends.
+Eigen::VectorXd smallestChange(const EditSearch& search, const EditPoint& point);
+/// The length of the changes of controls alone.
+double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes);
+
+/// What a landing keeps to.
+struct Landing {
+  int max_steps = 30;
+  /// Given up where no smaller change than this is in sight: the edit knows one of this length.
+  double below = std::numeric_limits<double>::infinity();
+  const std::string* signature = nullptr;  ///< not null: points of other impact sequences are refused
+};
+
+/// Steps onto the constraints and along them towards the smallest change, whatever impacts that takes. Each is
+/// accepted where it makes the merit |z|^2 / 2 + nu |r|_1 smaller, nu above the multipliers of the linear rows. The
+/// point with the smallest violation, of those within the tolerance that with the smallest change; null where it was
+/// given up.
+EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing);
+
+}  // namespace carom::editing_detail
