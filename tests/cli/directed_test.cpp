@@ -51,7 +51,8 @@ void expectEndsIn(const Motion& motion, const Vec3& middle, double reach, double
 class DirectedScene : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, DirectedScene,
                          testing::Values("book-on-shelf", "hat-on-coatrack", "mug-on-mark", "meeting", "ball-into-cup",
-                                         "die-face-down", "only-causes", "curling", "off-the-table", "putt"),
+                                         "die-face-down", "only-causes", "curling", "off-the-table", "putt", "bounce",
+                                         "rack-of-ten", "rack-of-fifteen"),
                          [](const auto& scene) {
                            std::string name = scene.param;
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -126,6 +127,23 @@ TEST(DirectedGallery, ThePuttIsAimedUpTheSlopeAndFalls) {
   const Directed putt = direct("putt");
   EXPECT_LT(putt.document.scene.bodies[1].velocity.y(), -0.2);
   expectEndsIn(putt.motion, {3, 0, 0}, 0.0327, -0.05);
+}
+
+TEST(DirectedGallery, TheBounceIsThatOfTheClosedForm) {
+  const Directed bounce = direct("bounce");
+  const double e = bounce.document.scene.materials[0].elasticity, way = 1.65 + 0.5, back = 1.65 + 2;
+  EXPECT_NEAR(bounce.document.scene.bodies[2].velocity.x(), (back + e * way) / (0.6 * e), 1e-9);
+  EXPECT_EQ(bounce.motion.impacts, 2u);
+}
+
+TEST(DirectedGallery, TheLastBallOfTheRackIsAtTheTarget) {
+  for (const char* name : {"rack-of-ten", "rack-of-fifteen"}) {
+    const Directed rack = direct(name);
+    const std::string last = rack.document.scene.bodies.back().name;
+    const Vec3 at = rack.motion.stateAt(last, rack.motion.end).position;
+    EXPECT_TRUE((at - Vec3(0.9, 0.75, 0)).norm() <= 1e-9) << name << " " << at.transpose();
+    EXPECT_GE(rack.motion.impacts, 4u) << name;
+  }
 }
 
 }  // namespace
