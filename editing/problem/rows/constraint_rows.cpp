@@ -29,9 +29,12 @@ double boundingRadiusAboutCenter(const Body& body) {
 
 }  // namespace
 
-ConstraintSet::ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints, double duration)
+ConstraintSet::ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints, double duration,
+                             const OwnFunctions& own)
     : body_count_(static_cast<int>(scene.bodies.size())), constraints_(constraints), bound_(constraints.size()) {
   for (std::size_t i = 0; i < constraints.size(); ++i) bind(scene, static_cast<int>(i), duration);
+  for (std::size_t i = 0; i < own.rows.size(); ++i) addOwnRow(scene, static_cast<int>(i), own.rows[i], duration);
+  if (own.objective) objective_.emplace(scene, *own.objective, duration, "minimise");
   for (int i = 0; i < size(); ++i) (rows_[i].isRange() ? ranges_ : equations_).push_back(i);
 }
 
@@ -56,6 +59,7 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
   const std::size_t first_row = rows_.size();
   for (std::size_t t = 0; t < constraint.targets.size(); ++t) {
     bound.kinds.push_back(&checkedKind(constraint.targets[t], at, where));
+    checkBody(*bound.kinds.back(), scene.bodies[bound.body], constraint, where);
     addTargetRows(scene, index, static_cast<int>(t));
   }
   for (std::size_t r = 0; r < constraint.regions.size(); ++r) {
@@ -82,8 +86,25 @@ void ConstraintSet::addTargetRows(const Scene& scene, int index, int target_inde
       if (std::isinf(row.lower) && std::isinf(row.upper)) continue;  // left free
     }
     row.scale = kind.scale ? scales.*kind.scale : 1;
+    if (kind.by_mass) row.scale *= modelOf(scene.bodies[bound_[index].body]).mass;
     rows_.push_back(std::move(row));
   }
+}
+
+void ConstraintSet::addOwnRow(const Scene& scene, int index, const OwnFunctions::Row& own, double duration) {
+  own_.emplace_back(scene, own.function, duration, "require " + std::to_string(index));
+  Target target{"", {own.wanted.value}};
+  target.min = {own.wanted.min}, target.max = {own.wanted.max};
+  checkWanted(target, own_.back().where);
+  Row row;
+  row.own = index, row.target_index = -1;
+  row.name = own.function.name;
+  row.target = row.lower = row.upper = own.wanted.value;
+  if (std::isnan(own.wanted.value)) {
+    row.lower = limitOf(target.min, 0, -kInfinity), row.upper = limitOf(target.max, 0, kInfinity);
+  }
+  row.scale = own.function.scale;
+  rows_.push_back(std::move(row));
 }
 
 void ConstraintSet::addRegionRows(const Scene& scene, int index, int region_index, double duration) {
@@ -118,6 +139,8 @@ double ConstraintSet::horizon(double duration) const {
     }
     for (const BoundRegion& region : bound_[i].regions) last = std::max(last, region.to);
   }
+  for (const BoundFunction& own : own_) last = std::max(last, own.waits() ? duration : own.end);
+  if (objective_) last = std::max(last, objective_->waits() ? duration : objective_->end);
   return last > 0 ? std::min(last, duration) : duration;
 }
 
@@ -137,12 +160,15 @@ ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen:
       extent.time = std::max(extent.time, motion.events[*event].time);
     }
   }
+  for (const BoundFunction& own : own_) extent.time = std::max(extent.time, own.extentIn(motion));
+  if (objective_) extent.time = std::max(extent.time, objective_->extentIn(motion));
   while (extent.events < motion.events.size() && motion.events[extent.events].time <= extent.time) ++extent.events;
   return extent;
 }
 
 std::vector<bool> ConstraintSet::asksOrientation() const {
-  std::vector<bool> asks(static_cast<std::size_t>(body_count_), false);
+  const bool of_anything = !own_.empty() || objective_;
+  std::vector<bool> asks(static_cast<std::size_t>(body_count_), of_anything);
   for (const Bound& bound : bound_) {
     for (const QuantityKind* kind : bound.kinds) {
       if (kind->turns) asks[static_cast<std::size_t>(bound.body)] = true;
@@ -182,6 +208,7 @@ std::string ConstraintSet::describeConstraint(int index) const {
 
 std::string ConstraintSet::describeRow(int row) const {
   const Row& r = rows_[row];
+  if (r.own >= 0) return "'" + r.name + "'";
   if (r.region < 0) return r.name + " of " + describeConstraint(r.constraint);
   const BoundRegion& region = bound_[r.constraint].regions[r.region];
   return r.name + " of '" + constraints_[r.constraint].body + "' from " + number(region.from) + " s to " +
