@@ -64,14 +64,37 @@ struct Region {
   std::optional<double> margin = std::nullopt;
 };
 
-/// What is asked of one body at one moment.
+/// The n-th impact of a body (1 = first), counting only those with `with` when it is not empty.
+struct ImpactOf {
+  std::string body;       ///< by name
+  int n = 1;              ///< which of them
+  std::string with = {};  ///< body that it meets; empty: any
+};
+
+/// That a body hits another one: the first impact of the two that is allowed. Where the motion has none in `during` but
+/// has one beside it, that one is moved there.
+struct Hit {
+  std::string with;  ///< the other body, by name
+  /// s, first and last time; without it at any time.
+  std::optional<std::pair<double, double>> during = std::nullopt;
+  std::optional<ImpactOf> after = std::nullopt;   ///< only after this impact, which has to come
+  std::optional<ImpactOf> before = std::nullopt;  ///< only before this impact, if that comes
+};
+
+/// What is asked of one body at one moment; or which impacts come, and in which order.
 struct Constraint {
-  std::string body;             ///< by name
+  std::string body;             ///< by name; of a sequence: empty
   When at;                      ///< the moment
   std::vector<Target> targets;  ///< what its numbers shall be then
   /// Not empty: targets are seen from this body, in its shape's axes (docs/scenes.md).
   std::string relative_to = {};
   std::vector<Region> regions = {};  ///< whenever `at` is
+  /// The body hits another one. Such a constraint holds nothing else, and its `at` does not count.
+  std::optional<Hit> hits = std::nullopt;
+  /// Not empty: impacts in the order in which they come, "cue red", names or patterns with * and ?; "..." stands for any
+  /// number of others. They are those of the bodies that are named first, with bodies that are named or move, from the
+  /// first one on; what comes after the last one is free. Such a constraint holds nothing else.
+  std::vector<std::string> sequence = {};
   std::string notes = {};            ///< for people; kept in documents
 };
 

@@ -33,6 +33,20 @@ Nail Edit::nail(const std::string& body, When at) {
   return Nail(this, next_id_++);
 }
 
+Edit& Edit::hit(const std::string& body, Hit hit) {
+  nails_.push_back({next_id_++, Constraint{body, When(0), {}}});
+  nails_.back().constraint.hits = std::move(hit);
+  return *this;
+}
+
+Edit& Edit::hit(const std::string& body, const std::string& with) { return hit(body, Hit{with}); }
+
+Edit& Edit::sequence(std::vector<std::string> impacts) {
+  nails_.push_back({next_id_++, Constraint{"", When(0), {}}});
+  nails_.back().constraint.sequence = std::move(impacts);
+  return *this;
+}
+
 void Edit::unnail(const Nail& nail) {
   std::erase_if(nails_, [&](const Nailed& nailed) { return nailed.id == nail.id_; });
 }

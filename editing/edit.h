@@ -43,6 +43,12 @@ class Edit {
   }
   /// A new nail of a body, which holds nothing yet.
   Nail nail(const std::string& body, When at);
+  /// A body hits another one, as `hit` says: edit.hit("cue", {.with = "yellow", .during = {{0.5, 1}}}).
+  Edit& hit(const std::string& body, Hit hit);
+  /// The same at any time.
+  Edit& hit(const std::string& body, const std::string& with);
+  /// Impacts come in this order, see Constraint::sequence: edit.sequence({"cue red", "cue rail*", "...", "cue yellow"}).
+  Edit& sequence(std::vector<std::string> impacts);
   /// Removes a nail.
   void unnail(const Nail& nail);
 

@@ -40,13 +40,11 @@ struct SimulateOptions {
   std::function<bool(const Motion&)> enough = {};
   double least_duration = 0;  ///< s; only beside `enough`
 };
-  double least_duration = 0;  ///< s; only where impacts are awaited
-};
 
 /// Simulates a scene from impact to impact up to `duration` seconds.
 /// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies; a lowest
-/// bounce that is no number of 0 to 1e9 m); ends early, with a status and a sentence, where the motion cannot be continued. The same input gives the same motion to the
-/// last bit.
+/// bounce that is no number of 0 to 1e9 m); ends early, with a status and a sentence, where the motion cannot be
+/// continued. The same input gives the same motion to the last bit.
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
 
 }  // namespace carom

@@ -69,6 +69,7 @@ bool SessionSolver::takeOverPart(Budget& budget) {
     return true;
   }
   keepIfBetter(trial);
+  if (trial->rows.scaled.size() == 0) return false;
   if ((trial->rows.scaled - found->rows.scaled).cwiseAbs().maxCoeff() <= options_.tolerance) return false;
   std::vector<bool> counts = bodiesThatCount(problem_, *trial);
   if (!contains(division_.bodies, counts)) {

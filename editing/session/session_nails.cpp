@@ -41,6 +41,7 @@ std::string worstOf(const ConstraintSet& set, const RowValues& rows) {
 
 double timeOf(const ConstraintSet& set, const RowValues& rows, const Motion& motion) {
   const Constraint& nail = set.constraints()[0];
+  if (nail.hits || !nail.sequence.empty()) return set.extentIn(motion).time;
   if (nail.targets.empty()) {
     const auto clearance = set.clearance(motion, 0);
     return clearance ? clearance->time : 0;
@@ -71,10 +72,12 @@ NailState EditSession::State::stateOf(const SessionNail& nail, const Motion& mot
   if (!rows.available) {
     state.available = state.met = false;
     state.time = state.error = state.scaled_error = std::numeric_limits<double>::quiet_NaN();
-    state.message = whyMissing(nail.constraint, motion);
+    state.message = rows.lacking.empty() ? whyMissing(nail.constraint, motion) : rows.message;
     return state;
   }
   state.time = timeOf(set, rows, motion);
+  state.met = true;
+  if (set.size() == 0) return state;
   state.error = rows.residuals.cwiseAbs().maxCoeff();
   state.scaled_error = rows.scaled.cwiseAbs().maxCoeff();
   state.met = state.scaled_error <= options.tolerance;

@@ -49,6 +49,8 @@ std::string wordsOf(const When& at) {
 
 std::string wordsOf(const Constraint& constraint) {
   const std::string name = "'" + constraint.body + "'";
+  if (constraint.hits) return name + " hits '" + constraint.hits->with + "'";
+  if (!constraint.sequence.empty()) return "the wished sequence of impacts";
   return constraint.targets.empty() ? name : name + " " + wordsOf(constraint.at);
 }
 

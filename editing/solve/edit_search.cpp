@@ -75,6 +75,7 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
   } catch (const InputError&) {
     return nullptr;
   }
+  if (maker.keep_lacking && point && !point->rows.lacking.empty()) return point;
   return point && point->rows.available && point->rows.scaled.allFinite() ? point : nullptr;
 }
 

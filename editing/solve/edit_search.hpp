@@ -36,6 +36,7 @@ struct MotionMaker {
   ContactSource* contacts = nullptr;  ///< null: that of the problem
   EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/simulate/simulate_along.h)
   bool even_if_stopped = false;       ///< simulated to the end although a stop was requested
+  bool keep_lacking = false;          ///< motions that lack impacts, which rows wait for, are points too
 };
 
 /// Simulates up to a time and reads the rows. `nearest_times`: the free times of `unknowns` do not count, they are

@@ -9,6 +9,8 @@
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/minimise.hpp"
 #include "editing/solve/projection.hpp"
+#include "editing/strategy/approach.hpp"
+#include "editing/strategy/impossible.hpp"
 #include "editing/strategy/row_choice.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
@@ -76,6 +78,7 @@ EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const 
 bool mayBecomeAvailable(const EditSearch& search) {
   const EditProblem& problem = search.problem();
   if (search.options().sequence == SequencePolicy::stay || problem.unknowns() == 0) return false;
+  if (search.best()->motion.status == MotionStatus::step_limit) return false;
   const std::vector<Constraint>& held = problem.constraints.constraints();
   return std::none_of(held.begin(), held.end(), [&](const Constraint& c) {
     return !c.targets.empty() && c.at.impact == 0 && c.at.time > problem.duration;
@@ -121,6 +124,11 @@ EditSolution findSolution(EditSearch& search) {
     solution.status = EditStatus::solved;
     return solution;
   }
+  if (const std::string why = whyImpossible(search, *start); !why.empty()) {
+    solution.status = EditStatus::infeasible;
+    solution.message = why;
+    return solution;
+  }
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
   const RowChoice choice = start->rows.available ? chooseRows(search, start) : RowChoice{};
   const bool contradicts = !choice.contradiction.empty();  // in this impact sequence at least
@@ -136,6 +144,9 @@ EditSolution findSolution(EditSearch& search) {
   solution.point = polished(search, across.solutions().empty() ? search.best() : across.solutions().front());
   if (!search.reached(*solution.point)) {
     solution = unsolved(search, std::move(solution));
+    if (across.nearestLacking() && !solution.point->rows.available)
+      solution.message += " " + across.nearestLacking()->rows.message + " " +
+                          describeApproach(search.problem(), *across.nearestLacking());
     if (contradicts && search.halt() == Halt::none) solution.message = choice.contradiction + " " + solution.message;
     return solution;
   }

@@ -41,6 +41,7 @@ EditPoint linearAt(const EditSearch& search, const EditPoint& point, const Eigen
 
 /// Largest multiplier of the rows at the smallest change z of the linear rows: z = J^T m.
 double largestMultiplier(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& smallest) {
+  if (point.row_jacobian->rows() == 0) return 0;
   const Eigen::Index n = search.problem().controls.size();
   const Eigen::MatrixXd J = point.row_jacobian->leftCols(n);
   Eigen::MatrixXd normal = J * J.transpose();

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/minimise.hpp"
 #include "editing/solve/projection.hpp"
+#include "editing/strategy/approach.hpp"
 #include "editing/strategy/landing.hpp"
 #include "editing/strategy/samples.hpp"
 
@@ -20,6 +22,7 @@ constexpr std::size_t kOfEachGroup = 2;
 constexpr std::size_t kForEachLanding = 4;
 constexpr int kLandingSteps = 30;
 constexpr int kMinimisingIterations = 40;
+constexpr int kApproachSteps = 8;
 /// A step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 1.5;
 /// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
@@ -44,6 +47,12 @@ Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
   const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
   const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();
   return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
+}
+
+/// Where nothing is known of the rows: everything around it.
+Surroundings anywhereAround(const EditPoint& point) {
+  const Eigen::Index n = point.changes.size();
+  return {point.changes, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
 }
 
 }  // namespace
@@ -116,6 +125,7 @@ bool SequenceSearch::reportBatch() {
 std::vector<EditPointPtr> SequenceSearch::sample() {
   std::vector<Surroundings> around;
   if (start_->rows.available) around.push_back(surroundingsOf(search_, *start_));
+  if (nearest_lacking_ && solutions_.empty()) around.push_back(anywhereAround(*nearest_lacking_));
   if (search_.best() != start_) around.push_back(surroundingsOf(search_, *search_.best()));
   const int count = sampleCount();
   const std::vector<Eigen::VectorXd> places =
@@ -123,13 +133,49 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
   samples_ += count;
   std::vector<EditPointPtr> points(places.size());
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
-    points[i] = search_.make(places[i], true, {&contacts, nullptr});
+    points[i] = search_.make(places[i], true, {&contacts, nullptr, false, solutions_.empty()});
   });
   std::erase(points, nullptr);
+  const auto lacks = [](const EditPointPtr& point) { return !point->rows.lacking.empty(); };
+  std::vector<EditPointPtr> lacking;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(lacking), lacks);
+  std::erase_if(points, lacks);
+  if (round_ == 0 && lacks(start_)) lacking.push_back(start_);
+  for (const EditPointPtr& point : approachAll(std::move(lacking))) points.push_back(point);
   if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
   if (search_.best() != start_) points.insert(points.begin(), search_.best());
   for (const EditPointPtr& point : points) search_.consider(point);
   return points;
+}
+
+// From the points that lack least, steps towards the impacts that they lack. Returns those that arrived.
+std::vector<EditPointPtr> SequenceSearch::approachAll(std::vector<EditPointPtr> lacking) {
+  std::vector<std::pair<double, EditPointPtr>> ranked;
+  const auto share = [](const EditPointPtr& point) {
+    double sum = 0;
+    for (const LackingImpact& impact : point->rows.lacking) sum += 1 - impact.share;
+    return sum;
+  };
+  std::stable_sort(lacking.begin(), lacking.end(),
+                   [&](const EditPointPtr& a, const EditPointPtr& b) { return share(a) < share(b); });
+  lacking.resize(std::min(lacking.size(), kForEachLanding * plan_.landings));
+  for (const EditPointPtr& point : lacking) ranked.emplace_back(0, point);
+  forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
+    ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
+  });
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  ranked.resize(std::min(ranked.size(), plan_.landings));
+  forAll(ranked.size(), [&](std::size_t i, ContactSource& contacts) {
+    EditSearch branch = search_.branch({&contacts, nullptr, false, true}, true);
+    ranked[i].second = approach(branch, ranked[i].second, kApproachSteps);
+    ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
+  });
+  std::vector<EditPointPtr> arrived;
+  for (const auto& [lack, point] : ranked) {
+    if (point->rows.available) arrived.push_back(point);
+    if (!point->rows.lacking.empty() && lack < least_lack_) least_lack_ = lack, nearest_lacking_ = point;
+  }
+  return arrived;
 }
 
 // A few of each impact sequence, all in all no more than can be looked at.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,6 +35,8 @@ class SequenceSearch {
   const std::vector<EditPointPtr>& solutions() const { return solutions_; }
   /// Takes a solution in, unless it is one of those that are known already.
   void add(const EditPointPtr& solution);
+  /// The point that lacks least of the impacts that are waited for; null where none lacked any.
+  const EditPointPtr& nearestLacking() const { return nearest_lacking_; }
 
  private:
   int sampleCount() const;
@@ -41,6 +44,7 @@ class SequenceSearch {
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
   std::vector<EditPointPtr> sample();
+  std::vector<EditPointPtr> approachAll(std::vector<EditPointPtr> lacking);
   std::vector<EditPointPtr> nearestOfEachGroup(const std::vector<EditPointPtr>& points) const;
   std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points, Seek seek);
   std::vector<EditPointPtr> landAll(const std::vector<EditPointPtr>& candidates, Seek seek);
@@ -55,6 +59,8 @@ class SequenceSearch {
   EditPointPtr start_;
   std::map<std::string, int> tries_;  // landings from a sequence so far
   std::vector<EditPointPtr> solutions_;
+  EditPointPtr nearest_lacking_;
+  double least_lack_ = std::numeric_limits<double>::infinity();
   int round_ = 0, rounds_without_ = 0;
   int samples_ = 0;  // taken so far, of the endless sequence of them
 };

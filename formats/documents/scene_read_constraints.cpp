@@ -134,12 +134,57 @@ void requireTargets(const Constraint& constraint, const Json& value, const std::
     fail(where + "/relative_to", describe(value["relative_to"]), target + "stands still in the world");
 }
 
+ImpactOf readImpactOf(const Json& value, const Scene& scene, const std::string& where) {
+  ImpactOf impact;
+  readBodyName(value["body"], where + "/body", scene);
+  impact.body = value["body"].get<std::string>();
+  if (value.contains("impact")) impact.n = value["impact"].get<int>();
+  if (!value.contains("with")) return impact;
+  readBodyName(value["with"], where + "/with", scene);
+  impact.with = value["with"].get<std::string>();
+  return impact;
+}
+
+Hit readHit(const Json& value, const Scene& scene, double duration, const std::string& where) {
+  Hit hit;
+  readBodyName(value["hits"], where + "/hits", scene);
+  hit.with = value["hits"].get<std::string>();
+  if (value["hits"] == value["body"]) fail(where + "/hits", quotedText(hit.with), "another body than the one that hits");
+  if (value.contains("during")) hit.during = readSpan(value["during"], duration, where + "/during");
+  if (value.contains("after")) hit.after = readImpactOf(value["after"], scene, where + "/after");
+  if (value.contains("before")) hit.before = readImpactOf(value["before"], scene, where + "/before");
+  return hit;
+}
+
+/// What a hit or a sequence has beside it is refused: both are constraints of their own.
+void requireAlone(const Json& value, const std::vector<std::string>& words, const std::string& where) {
+  for (const auto& member : value.items())
+    if (std::find(words.begin(), words.end(), member.key()) == words.end())
+      fail(pointerTo(where, member.key()), describe(member.value()), "a constraint of its own for it");
+}
+
+Constraint readSequence(const Json& value, const std::string& where) {
+  requireAlone(value, {"sequence", "notes"}, where);
+  Constraint constraint{"", When(0), {}};
+  for (const Json& impact : value["sequence"]) constraint.sequence.push_back(impact.get<std::string>());
+  constraint.notes = textOr(value, "notes");
+  return constraint;
+}
+
 Constraint readConstraint(const Json& value, const Scene& scene, double duration, const std::string& where) {
+  if (value.contains("sequence")) return readSequence(value, where);
+  if (!value.contains("body")) fail(where, "a constraint without \"body\"", "the name of a moving body");
   const int body = readBodyName(value["body"], where + "/body", scene);
   const auto& name = scene.bodies[static_cast<std::size_t>(body)].name;
   if (scene.bodies[static_cast<std::size_t>(body)].fixed)
     fail(where + "/body", "the fixed body " + quotedText(name), "a moving body");
   Constraint constraint{name, When(0), {}};
+  if (value.contains("hits")) {
+    requireAlone(value, {"body", "hits", "during", "after", "before", "notes"}, where);
+    constraint.hits = readHit(value, scene, duration, where);
+    constraint.notes = textOr(value, "notes");
+    return constraint;
+  }
   if (value.contains("at")) constraint.at = readWhen(value["at"], value["body"], scene, duration, where + "/at");
   for (const auto& member : value.items()) {
     const std::string& word = member.key();

@@ -138,6 +138,10 @@ void requireFinite(const std::string& where, double value) {
 }
 
 void requireWritable(const Constraint& constraint, const std::string& where) {
+  if (constraint.hits && constraint.hits->during) {
+    requireFinite(where + "/during/0", constraint.hits->during->first);
+    requireFinite(where + "/during/1", constraint.hits->during->second);
+  }
   requireFinite(where + "/at", constraint.at.time);
   if (constraint.at.span) {
     requireFinite(where + "/at/between/0", constraint.at.span->first);
@@ -152,8 +156,38 @@ void requireWritable(const Constraint& constraint, const std::string& where) {
     requireRegion(region, where + (region.side == Region::Side::avoid ? "/avoid" : "/inside"));
 }
 
+namespace {
+
+void writeImpactOf(JsonWriter& out, const char* member, const std::optional<ImpactOf>& impact) {
+  if (!impact) return;
+  out.key(member).beginObject(Layout::line);
+  out.members("body", impact->body, "impact", impact->n).unlessEmpty("with", impact->with);
+  out.endObject();
+}
+
+void writeHit(JsonWriter& out, const Constraint& constraint) {
+  const Hit& hit = *constraint.hits;
+  out.beginObject(Layout::line).members("body", constraint.body, "hits", hit.with);
+  if (hit.during) writeSpan(out, "during", *hit.during);
+  writeImpactOf(out, "after", hit.after);
+  writeImpactOf(out, "before", hit.before);
+  out.unlessEmpty("notes", constraint.notes);
+  out.endObject();
+}
+
+void writeSequence(JsonWriter& out, const Constraint& constraint) {
+  out.beginObject(Layout::line).key("sequence").beginArray(Layout::line);
+  for (const std::string& impact : constraint.sequence) out.value(impact);
+  out.endArray().unlessEmpty("notes", constraint.notes);
+  out.endObject();
+}
+
+}  // namespace
+
 /// Members of an object differ, so that targets of one kind need objects of their own.
 void writeConstraint(JsonWriter& out, const Constraint& constraint) {
+  if (constraint.hits) return writeHit(out, constraint);
+  if (!constraint.sequence.empty()) return writeSequence(out, constraint);
   std::vector<const Target*> left;
   for (const Target& target : constraint.targets) left.push_back(&target);
   bool first = true;

@@ -174,7 +174,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Outcomes, AnInfeasibleEditEndsWithThreeAndWritesNothing) {
   json scene = exampleScene("two-balls");
-  scene["constraints"][0]["position"] = {0, 0, 5000};  // nothing can move the ball upwards
+  json held = scene["constraints"][0], other = held;
+  held["position"] = {0, 0, 5000}, other["position"] = {0, 0, 4000};  // one number at two values
+  scene["constraints"] = {held, other};
   scene["controls"] = {{{"vary", "elasticity"}, {"material", scene["materials"].begin().key()}}};
   const std::string path = writeTemporary("infeasible.json", scene.dump()),
                     output = temporaryPath("infeasible-out.json");

@@ -194,7 +194,7 @@ TEST(Edit, MoreNailedThanCanVary) {
   edit.nail("ball", 0.6).position({0, any, 1.4});
   const EditResult r = edit.solve();
   EXPECT_FALSE(r.solved());
-  EXPECT_EQ(r.status, EditStatus::infeasible) << r.message;
+  EXPECT_EQ(r.status, EditStatus::not_converged) << r.message;  // there is no proof
   expectHonest(r, 0.6, contacts);
 }
 
@@ -228,15 +228,20 @@ TEST(Edit, ANailAfterTheEndIsABadStart) {
   EXPECT_TRUE(std::isnan(r.scaled_residual));
 }
 
-TEST(Edit, AnImpactThatDoesNotComeIsABadStart) {
+TEST(Edit, AnImpactThatDoesNotComeIsLookedFor) {
   const Scene scene = floorAndWall();
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 0.6);
-  edit.vary(velocity("ball"));
+  edit.vary(velocity("ball").within(-9, 9));
   edit.nail("ball", nthImpact(3, "wall")).position({any, any, 1});
   const EditResult r = edit.solve();
-  EXPECT_EQ(r.status, EditStatus::bad_start);
+  EXPECT_EQ(r.status, EditStatus::not_converged);
   EXPECT_NE(r.message.find("mpact 3 with 'wall'"), std::string::npos) << r.message;
+  EditOptions options;
+  options.sequence = SequencePolicy::stay;
+  const EditResult stays = edit.solve(options);
+  EXPECT_EQ(stays.status, EditStatus::bad_start);
+  EXPECT_NE(stays.message.find("mpact 3 with 'wall'"), std::string::npos) << stays.message;
 }
 
 TEST(Edit, AStartOutsideItsBoundsIsMovedAndSaid) {
@@ -261,7 +266,7 @@ TEST(Edit, BoundsAreKept) {
   EditOptions options;
   options.sequence = SequencePolicy::stay;
   const EditResult r = edit.solve(options);
-  EXPECT_EQ(r.status, EditStatus::infeasible) << r.message;
+  EXPECT_EQ(r.status, EditStatus::not_converged) << r.message;
   for (const ChangedNumber& number : r.changed) {
     EXPECT_LE(number.after, 6);
     EXPECT_GE(number.after, -6);

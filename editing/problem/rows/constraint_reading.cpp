@@ -24,13 +24,10 @@ constexpr int kLooks = 64;
 ConstraintSet::Reading ConstraintSet::read(const Motion& motion, int index, double free_time) const {
   const Constraint& constraint = constraints_[index];
   const Bound& bound = bound_[index];
-  if (constraint.at.impact > 0) {
-    const std::optional<int> event = motion.findImpact(bound.body, constraint.at.impact, bound.with);
+  if (waitsForImpact(index)) {
+    const std::optional<int> event = awaited(motion, index);
     if (event) return readAt(motion, index, Instant::before(*event), motion.events[*event].time);
-    Reading reading;
-    reading.message = describeImpact(constraint.at, "Impact") + " of '" + constraint.body + "' does not come within " +
-                      number(motion.end) + " s.";
-    return reading;
+    return {};
   }
   const double t = bound.free_time >= 0 ? free_time : constraint.at.time;
   if (t <= motion.end) return readAt(motion, index, Instant::at(t), t);
@@ -66,10 +63,15 @@ double ConstraintSet::residual(int row, double value) const {
   return value < r.lower ? value - r.lower : value > r.upper ? value - r.upper : value - value;  // NaN stays NaN
 }
 
+const Target& ConstraintSet::targetOf(const Row& row) const {
+  static const Target none;  // of the time of a hit
+  return row.target_index < 0 ? none : constraints_[row.constraint].targets[row.target_index];
+}
+
 void ConstraintSet::readRow(int i, const Reading& reading, RowValues& out) const {
   const Row& row = rows_[i];
   const Bound& bound = bound_[row.constraint];
-  const Target& target = constraints_[row.constraint].targets[row.target_index];
+  const Target& target = targetOf(row);
   const QuantityKind& kind = *row.kind;
   if (kind.read) return putReading(i, readMotionQuantity(reading, i), out);
   out.values[i] = kind.value(reading.seen, reading.time, target)[row.component];
@@ -141,7 +143,7 @@ std::vector<StateSeed> ConstraintSet::seedRates(const Motion& motion, const Eige
   }
   if (!row.kind || row.kind->read) return std::vector<StateSeed>(rates.size());  // theirs are noted, or constant
   const Bound& bound = bound_[row.constraint];
-  const Target& target = constraints_[row.constraint].targets[row.target_index];
+  const Target& target = targetOf(row);
   const QuantityKind& kind = *row.kind;
   if (bound.relative_to < 0 && !kind.seed_rate) return {StateSeed()};
   const Reading reading = read(motion, row.constraint, bound.free_time >= 0 ? times[bound.free_time] : 0);
@@ -176,6 +178,13 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
   out.values = out.residuals = out.scaled = Eigen::VectorXd::Constant(size(), kNotRead);
   out.seeds.resize(rows_.size());
   out.notes.resize(rows_.size());
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const int index = static_cast<int>(k);
+    if (!waitsForImpact(index) || awaited(motion, index)) continue;
+    out.available = false;
+    out.lacking.push_back(lacking(motion, index));
+    if (out.message.empty()) out.message = out.lacking.back().sentence;
+  }
   int current = -1;
   Reading reading;
   for (int i = 0; i < size(); ++i) {
@@ -210,7 +219,7 @@ double ConstraintSet::missAt(const Motion& motion, int index, double time) const
   for (int i = 0; i < size(); ++i) {
     const Row& row = rows_[i];
     if (row.constraint != index || row.region >= 0) continue;
-    const Target& target = constraints_[index].targets[row.target_index];
+    const Target& target = targetOf(row);
     const double value = row.kind->read ? readMotionQuantity(reading, i).value
                                         : row.kind->value(reading.seen, time, target)[row.component];
     const double scaled = residual(i, value) / row.scale;

@@ -42,6 +42,7 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
   const Constraint& constraint = constraints_[index];
   const std::string where = "/constraints/" + std::to_string(index);
   Bound& bound = bound_[index];
+  bindImpacts(scene, index, where);
   bound.body = findAt(where + "/body", [&] { return bodyIndex(scene, constraint.body); });
   const When& at = constraint.at;
   checkWhen(at, where + "/at");
@@ -67,7 +68,7 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
     checkRegion(region, where + (region.side == Region::Side::avoid ? "/avoid" : "/inside"));
     addRegionRows(scene, index, static_cast<int>(r), duration);
   }
-  if (rows_.size() == first_row) throw InputError(where, "found no number to hold, expected at least one");
+  if (rows_.size() == first_row && !bound.hit && !bound.sequence) throw InputError(where, "found no number to hold, expected at least one");
 }
 
 void ConstraintSet::addTargetRows(const Scene& scene, int index, int target_index) {
@@ -129,65 +130,6 @@ void ConstraintSet::addRegionRows(const Scene& scene, int index, int region_inde
   }
 }
 
-bool ConstraintSet::waits() const {
-  const auto own_waits = [](const BoundFunction& own) { return own.waits(); };
-  const auto constraint_waits = [](const Constraint& c) { return c.at.impact > 0 && !c.targets.empty(); };
-  return std::any_of(constraints_.begin(), constraints_.end(), constraint_waits) ||
-         std::any_of(own_.begin(), own_.end(), own_waits) || (objective_ && objective_->waits());
-}
-
-bool ConstraintSet::hasWhatItWaitsFor(const Motion& motion) const {
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const When& at = constraints_[i].at;
-    if (at.impact == 0 || constraints_[i].targets.empty()) continue;
-    if (!motion.findImpact(bound_[i].body, at.impact, bound_[i].with)) return false;
-  }
-  const auto has = [&](const BoundFunction& own) {
-    return !own.waits() || motion.findImpact(own.body, own.function.until->impact, own.with);
-  };
-  return std::all_of(own_.begin(), own_.end(), has) && (!objective_ || has(*objective_));
-}
-
-double ConstraintSet::leastDuration() const {
-  double last = 0;
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const When& at = constraints_[i].at;
-    if (!constraints_[i].targets.empty() && at.impact == 0) last = std::max(last, at.span ? at.span->second : at.time);
-    for (const BoundRegion& region : bound_[i].regions) last = std::max(last, region.to);
-  }
-  for (const BoundFunction& own : own_)
-    if (!own.waits()) last = std::max(last, own.end);
-  if (objective_ && !objective_->waits()) last = std::max(last, objective_->end);
-  return last;
-}
-
-double ConstraintSet::horizon(double duration) const {
-  const double last = leastDuration();
-  return !waits() && last > 0 ? std::min(last, duration) : duration;
-}
-
-ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen::VectorXd& times) const {
-  Extent extent;
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const When& at = constraints_[i].at;
-    for (const BoundRegion& region : bound_[i].regions)
-      extent.time = std::max(extent.time, std::min(region.to, motion.end));
-    if (constraints_[i].targets.empty()) continue;
-    const int free = bound_[i].free_time;
-    if (at.span) {
-      extent.time = std::max(extent.time, free < times.size() ? times[free] : at.span->second);
-    } else if (at.impact == 0) {
-      extent.time = std::max(extent.time, at.time);
-    } else if (const auto event = motion.findImpact(bound_[i].body, at.impact, bound_[i].with)) {
-      extent.time = std::max(extent.time, motion.events[*event].time);
-    }
-  }
-  for (const BoundFunction& own : own_) extent.time = std::max(extent.time, own.extentIn(motion));
-  if (objective_) extent.time = std::max(extent.time, objective_->extentIn(motion));
-  while (extent.events < motion.events.size() && motion.events[extent.events].time <= extent.time) ++extent.events;
-  return extent;
-}
-
 std::vector<bool> ConstraintSet::asksOrientation() const {
   const bool of_anything = !own_.empty() || objective_;
   std::vector<bool> asks(static_cast<std::size_t>(body_count_), of_anything);
@@ -223,6 +165,7 @@ std::string ConstraintSet::describeConstraint(int index) const {
   const When& at = constraint.at;
   std::string text = "'" + constraint.body + "'";
   if (!constraint.relative_to.empty()) text += " seen from '" + constraint.relative_to + "'";
+  if (constraint.hits) return text + " when it hits '" + constraint.hits->with + "'";
   if (constraint.targets.empty()) return text;
   if (at.span) return text + " between " + number(at.span->first) + " s and " + number(at.span->second) + " s";
   return text + " at " + (at.impact == 0 ? number(at.time) + " s" : describeImpact(at, "its impact"));

@@ -14,6 +14,7 @@
 #include "editing/problem/rows/bound_function.hpp"
 #include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
+#include "editing/problem/rows/wished_impacts.hpp"
 #include "editing/wanted.h"
 
 namespace carom::editing_detail {
@@ -65,6 +66,7 @@ struct RowNote {
 struct RowValues {
   bool available = true;      ///< false: some row does not exist in this motion
   std::string message;        ///< which, and why
+  std::vector<LackingImpact> lacking;  ///< impacts that were wished and are not there
   Eigen::VectorXd times;      ///< of the free times, at which rows were read, s
   Eigen::VectorXd values;     ///< NaN where not available
   Eigen::VectorXd residuals;  ///< value - target; of a range how far outside, negative below it
@@ -145,6 +147,8 @@ class ConstraintSet {
     int free_time = -1;                      ///< index into free_times_
     std::vector<const QuantityKind*> kinds;  ///< of each target
     std::vector<BoundRegion> regions;
+    std::optional<BoundHit> hit;
+    std::optional<BoundSequence> sequence;
   };
   struct Reading {
     bool available = false;
@@ -156,6 +160,12 @@ class ConstraintSet {
     BodyState seen;        ///< what targets are about
   };
   void bind(const Scene& scene, int index, double duration);
+  void bindImpacts(const Scene& scene, int index, const std::string& where);
+  /// The event of a constraint that waits for one, if it is there.
+  std::optional<int> awaited(const Motion& motion, int constraint) const;
+  bool waitsForImpact(int constraint) const;
+  LackingImpact lacking(const Motion& motion, int constraint) const;
+  const Target& targetOf(const Row& row) const;
   void addTargetRows(const Scene& scene, int index, int target);
   void addOwnRow(const Scene& scene, int index, const OwnFunctions::Row& own, double duration);
   void addRegionRows(const Scene& scene, int index, int region, double duration);

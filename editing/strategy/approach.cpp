@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "editing/strategy/approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/adjoint.h"
+#include "editing/detail/messages.hpp"
+#include "editing/problem/rows/closest_approach.hpp"
+
+namespace carom::editing_detail {
+namespace {
+
+/// A share of the wish counts as much as so many distances.
+constexpr double kShareCounts = 10;
+/// How far into the other body a step aims, in lengths of the smaller one.
+constexpr double kInto = 0.3;
+/// Shares of a step that are tried.
+constexpr double kShortenings[] = {1, 0.5, 0.2};
+
+/// Of the smaller of two bodies, m.
+double lengthOfPair(const EditProblem& problem, int a, int b) {
+  const Scene& scene = problem.controls.startScene();
+  double length = kInfinity;
+  for (const int body : {a, b}) {
+    const Shape& shape = scene.bodies[static_cast<std::size_t>(body)].shape;
+    const double radius = kindOf(shape).boundingRadius(shape);
+    if (radius > 0) length = std::min(length, radius);
+  }
+  return std::isfinite(length) ? length : 1;
+}
+
+/// Null where it is not known: the motion ends at once, or nothing tells distances.
+std::optional<ClosestApproach> nearestOf(const EditPoint& point, const LackingImpact& lacking) {
+  std::optional<ClosestApproach> nearest;
+  for (const auto& [a, b] : lacking.pairs) {
+    try {
+      std::optional<ClosestApproach> one = closestApproach(point.motion, a, b, lacking.from, lacking.to);
+      if (one && (!nearest || one->value() < nearest->value())) nearest = std::move(one);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+  return nearest;
+}
+
+double lackOf(const EditProblem& problem, const LackingImpact& lacking, const std::optional<ClosestApproach>& nearest) {
+  const double share = kShareCounts * (1 - lacking.share);
+  if (!nearest) return share + 1;
+  const double d = nearest->value();
+  return share + d / (d + lengthOfPair(problem, nearest->a, nearest->b));
+}
+
+}  // namespace
+
+double lackOf(const EditProblem& problem, const EditPoint& point) {
+  double lack = 0;
+  for (const LackingImpact& lacking : point.rows.lacking) lack += lackOf(problem, lacking, nearestOf(point, lacking));
+  return lack;
+}
+
+EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps) {
+  const EditProblem& problem = search.problem();
+  const Eigen::Index n = problem.controls.size();
+  double lack = lackOf(problem, *point);
+  for (int k = 0; k < max_steps && !point->rows.lacking.empty(); ++k) {
+    const std::optional<ClosestApproach> nearest = nearestOf(*point, point->rows.lacking.front());
+    if (!nearest || !(nearest->value() > 0)) break;
+    const std::vector<StateSeed> seeds = nearest->seeds(point->motion);
+    const Eigen::VectorXd row = problem.controls.gather(adjoint(point->motion, seeds), point->values)
+                                    .cwiseProduct(problem.rates(point->changes).head(n));
+    if (!(row.squaredNorm() > 0) || !row.allFinite()) break;
+    const double aim = nearest->value() + kInto * lengthOfPair(problem, nearest->a, nearest->b);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(problem.unknowns());
+    step.head(n) = -aim / row.squaredNorm() * row;
+    EditPointPtr next;
+    for (const double share : kShortenings) {
+      const Eigen::VectorXd there = (point->changes + share * step).cwiseMax(search.lower()).cwiseMin(search.upper());
+      const EditPointPtr trial = search.evaluate(there, true);
+      if (!trial) continue;
+      const double left = lackOf(problem, *trial);
+      if (!(left < lack)) continue;
+      next = trial, lack = left;
+      break;
+    }
+    if (!next || !search.step(next->objective, next->violation)) break;
+    point = std::move(next);
+  }
+  return point;
+}
+
+std::string describeApproach(const EditProblem& problem, const EditPoint& point) {
+  if (point.rows.lacking.empty()) return "";
+  const std::optional<ClosestApproach> nearest = nearestOf(point, point.rows.lacking.front());
+  if (!nearest) return "";
+  const std::vector<Body>& bodies = problem.controls.startScene().bodies;
+  const auto name = [&](int body) { return "'" + bodies[static_cast<std::size_t>(body)].name + "'"; };
+  return "The nearest that " + name(nearest->a) + " and " + name(nearest->b) + " came was " +
+         brief(nearest->value()) + " m, at " + brief(nearest->time) + " s.";
+}
+
+}  // namespace carom::editing_detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "editing/solve/edit_search.hpp"
+
+/// Towards impacts that a motion lacks. Internal to editing/.
+namespace carom::editing_detail {
+
+/// How much a point lacks of the impacts that it waits for: of each, the share of what was wished that did not come, and
+/// d / (d + L) of the least distance d at which the bodies that should meet next pass, of length L. 0: it lacks none.
+double lackOf(const EditProblem& problem, const EditPoint& point);
+
+/// Steps that make the least distance smaller at which the bodies of the first such impact pass; each aims a little
+/// into the other body, so that what arrives does not graze. Returns a point that lacks no impact, or the one that
+/// lacks least.
+EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps);
+
+/// "The nearest that 'cue' and 'yellow' came was 0.12 m, at 0.8 s." Empty where nothing is known of distances.
+std::string describeApproach(const EditProblem& problem, const EditPoint& point);
+
+}  // namespace carom::editing_detail

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// Impacts that the start lacks: hits, wished sequences, rows at an impact that does not come yet.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "adjoint/base/errors.h"
+#include "editing/edit.h"
+#include "ode_bridge/ode_contacts.h"
+
+namespace carom::tests {
+namespace {
+
+Body ball(const std::string& name, const Vec3& place) {
+  Body body;
+  body.name = name;
+  body.material = "resin";
+  body.shape = Sphere{0.03};
+  body.mass = 0.2;
+  body.position = place;
+  return body;
+}
+
+/// A table of 2 m by 1 m, seen from above, without gravity and friction: the cue ball runs along x and meets nothing but
+/// rails.
+Scene table() {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  Material resin;
+  resin.name = "resin", resin.elasticity = 0.95, resin.friction = 0;
+  scene.materials = {resin};
+  const struct {
+    const char* name;
+    Vec3 inwards;
+    double distance;
+  } rails[] = {{"rail_east", -Vec3::UnitX(), 1},
+               {"rail_west", Vec3::UnitX(), 1},
+               {"rail_north", -Vec3::UnitY(), 0.5},
+               {"rail_south", Vec3::UnitY(), 0.5}};
+  for (const auto& rail : rails) {
+    Body body;
+    body.name = rail.name;
+    body.fixed = true;
+    body.material = "resin";
+    body.shape = Plane{rail.inwards, -rail.distance};
+    scene.bodies.push_back(body);
+  }
+  scene.bodies.push_back(ball("cue", {-0.5, 0, 0}));
+  scene.bodies.back().velocity = Vec3(1.5, 0, 0);
+  scene.bodies.push_back(ball("red", {0.2, 0.2, 0}));
+  scene.bodies.push_back(ball("yellow", {0.3, -0.3, 0}));
+  return scene;
+}
+
+int indexOf(const Motion& motion, const std::string& body) { return bodyIndex(*motion.scene, body); }
+
+/// Names of those that the cue ball meets, in order.
+std::vector<std::string> metByCue(const Motion& motion) {
+  std::vector<std::string> met;
+  const int cue = indexOf(motion, "cue");
+  for (const Event& event : motion.events)
+    for (const Contact& c : event.contacts)
+      if (c.a == cue || c.b == cue)
+        met.push_back(motion.scene->bodies[static_cast<std::size_t>(c.a == cue ? c.b : c.a)].name);
+  return met;
+}
+
+struct Table {
+  Scene scene = table();
+  OdeContacts contacts{scene};
+  Edit edit{scene, contacts, 4};
+  Table() { edit.vary(velocity("cue").only({"x", "y"})); }
+};
+
+TEST(WishedImpacts, AHitFromAMiss) {
+  Table t;
+  t.edit.hit("cue", "yellow");
+  const EditResult r = t.edit.solve();
+  ASSERT_EQ(r.status, EditStatus::solved_sequence_changed) << r.message;
+  EXPECT_TRUE(r.motion.findImpact(indexOf(r.motion, "cue"), 1, indexOf(r.motion, "yellow"))) << r.message;
+  EXPECT_TRUE(r.residuals.empty());
+}
+
+TEST(WishedImpacts, AHitDuringASpan) {
+  Table t;
+  t.edit.hit("cue", {.with = "red", .during = {{0.9, 1.0}}});
+  const EditResult r = t.edit.solve();
+  ASSERT_TRUE(r.solved()) << r.message;
+  const auto event = r.motion.findImpact(indexOf(r.motion, "cue"), 1, indexOf(r.motion, "red"));
+  ASSERT_TRUE(event);
+  const double time = r.motion.events[static_cast<std::size_t>(*event)].time;
+  EXPECT_GE(time, 0.9 - 1e-9);
+  EXPECT_LE(time, 1.0 + 1e-9);
+  ASSERT_EQ(r.residuals.size(), 1u);
+  EXPECT_EQ(r.residuals[0].component, "time");
+}
+
+TEST(WishedImpacts, AHitAfterAnother) {
+  Table t;
+  t.edit.hit("cue", {.with = "yellow", .after = ImpactOf{"cue", 1, "rail_east"}});
+  const EditResult r = t.edit.solve();
+  ASSERT_TRUE(r.solved()) << r.message;
+  const int cue = indexOf(r.motion, "cue");
+  const auto rail = r.motion.findImpact(cue, 1, indexOf(r.motion, "rail_east"));
+  const auto last = r.motion.world_lines[static_cast<std::size_t>(cue)].events;
+  bool hit_after = false;
+  ASSERT_TRUE(rail);
+  for (int e : last)
+    if (e > *rail && r.motion.events[static_cast<std::size_t>(e)].meets(cue, indexOf(r.motion, "yellow"))) hit_after = true;
+  EXPECT_TRUE(hit_after);
+}
+
+TEST(WishedImpacts, ARowAtAnImpactThatDoesNotComeYet) {
+  Table t;
+  t.edit.nail("cue", nthImpact(1, "yellow")).time(0.8);
+  const EditResult r = t.edit.solve();
+  ASSERT_EQ(r.status, EditStatus::solved_sequence_changed) << r.message;
+  const auto event = r.motion.findImpact(indexOf(r.motion, "cue"), 1, indexOf(r.motion, "yellow"));
+  ASSERT_TRUE(event);
+  EXPECT_NEAR(r.motion.events[static_cast<std::size_t>(*event)].time, 0.8, 1e-9);
+}
+
+TEST(WishedImpacts, ThreeCushions) {
+  Table t;
+  t.edit.sequence({"cue red", "cue rail*", "cue rail*", "cue rail*", "cue yellow"});
+  const EditResult r = t.edit.solve();
+  ASSERT_TRUE(r.solved()) << r.message;
+  const std::vector<std::string> met = metByCue(r.motion);
+  ASSERT_GE(met.size(), 5u);
+  EXPECT_EQ(met[0], "red");
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(met[i].substr(0, 4), "rail") << i;
+  EXPECT_EQ(met[4], "yellow");
+}
+
+TEST(WishedImpacts, WhateverLiesBetween) {
+  Table t;
+  t.edit.sequence({"cue yellow", "...", "cue red"});
+  const EditResult r = t.edit.solve();
+  ASSERT_TRUE(r.solved()) << r.message;
+  const std::vector<std::string> met = metByCue(r.motion);
+  EXPECT_EQ(met[0], "yellow");
+  EXPECT_NE(std::find(met.begin() + 1, met.end(), "red"), met.end());
+}
+
+TEST(WishedImpacts, TheAnswerDoesNotDependOnThreads) {
+  Table t;
+  t.edit.hit("cue", "yellow");
+  EditOptions one, many;
+  one.threads = 1, many.threads = 3;
+  const EditResult a = t.edit.solve(one), b = t.edit.solve(many);
+  ASSERT_TRUE(a.solved());
+  for (std::size_t i = 0; i < a.changed.size(); ++i) EXPECT_EQ(a.changed[i].after, b.changed[i].after);
+}
+
+TEST(WishedImpacts, WithBodiesInReverseOrder) {
+  Scene scene = table();
+  std::reverse(scene.bodies.begin(), scene.bodies.end());
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 4);
+  edit.vary(velocity("cue").only({"x", "y"}));
+  edit.sequence({"cue rail*", "cue yellow"});
+  const EditResult r = edit.solve();
+  ASSERT_TRUE(r.solved()) << r.message;
+  const std::vector<std::string> met = metByCue(r.motion);
+  ASSERT_GE(met.size(), 2u);
+  EXPECT_EQ(met[0].substr(0, 4), "rail");
+  EXPECT_EQ(met[1], "yellow");
+}
+
+TEST(WishedImpacts, WhatCannotBeHitIsToldWithHowNearItCame) {
+  Table t;
+  Edit edit(t.scene, t.contacts, 0.3);
+  edit.vary(velocity("cue").only({"x"}).within(1, 2));
+  edit.hit("cue", "yellow");
+  const EditResult r = edit.solve();
+  EXPECT_EQ(r.status, EditStatus::not_converged);
+  EXPECT_NE(r.message.find("The nearest that 'cue' and 'yellow' came"), std::string::npos) << r.message;
+}
+
+void expectRefused(const Edit& edit, const std::string& place, const std::string& found) {
+  try {
+    edit.solve();
+    FAIL() << "not refused: " << place;
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(place), std::string::npos) << what;
+    EXPECT_NE(what.find(found), std::string::npos) << what;
+  }
+}
+
+TEST(WishedImpacts, BadOnesAreRefused) {
+  const auto with = [](const auto& ask, const std::string& place, const std::string& found) {
+    Table t;
+    ask(t.edit);
+    expectRefused(t.edit, place, found);
+  };
+  with([](Edit& e) { e.hit("cue", "blue"); }, "/constraints/0/hits", "'blue'");
+  with([](Edit& e) { e.hit("blue", "cue"); }, "/constraints/0/body", "'blue'");
+  with([](Edit& e) { e.hit("cue", "cue"); }, "/constraints/0/hits", "another body");
+  with([](Edit& e) { e.hit("cue", {.with = "red", .during = {{1, 0.5}}}); }, "/constraints/0/during/1", "0.5");
+  with([](Edit& e) { e.hit("cue", {.with = "red", .after = ImpactOf{"cue", 0}}); }, "/constraints/0/after/impact", "0");
+  with([](Edit& e) { e.hit("cue", {.with = "red", .before = ImpactOf{"green"}}); }, "/constraints/0/before/body", "'green'");
+  with([](Edit& e) { e.sequence({"cue red", "cue"}); }, "/constraints/0/sequence/1", "'cue'");
+  with([](Edit& e) { e.sequence({"cue bl*"}); }, "/constraints/0/sequence/0", "two bodies");
+  with([](Edit& e) { e.sequence({"..."}); }, "/constraints/0/sequence", "found no impact");
+}
+
+}  // namespace
+}  // namespace carom::tests
