@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "adjoint/base/errors.h"
 #include "adjoint/scene/body_model.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
@@ -139,6 +140,20 @@ TEST(QuantityEdits, OfSeveralLowestPointsOneIsTakenAndSaidSo) {
   Scene tilted = restingBox();
   tilted.bodies[1].orientation = Quat(0.9, 0.2, -0.1, 0.3).normalized();
   EXPECT_TRUE(readRow(tilted, {"box", 0.5, {{"height", {2}}}}).reliability.reliable);
+}
+
+TEST(QuantityEdits, UpHasNoDerivativeWithoutGravity) {
+  const Scene scene = restingBox();
+  OdeContacts contacts(scene);
+  const std::vector<Constraint> height{{"box", 0.5, {{"height", {2}}}}};
+  EXPECT_NO_THROW(EditProblem(scene, contacts, 1, {velocity("box")}, height));
+  try {
+    EditProblem(scene, contacts, 1, {gravity()}, height);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where(), "/constraints/0/height");
+    EXPECT_EQ(error.message(), "found a gravity of 0 that may vary, expected another one: up is against it");
+  }
 }
 
 TEST(QuantityEdits, AtRestThereIsNoDerivativeOfTheSpeed) {
