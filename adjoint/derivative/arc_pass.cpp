@@ -21,29 +21,44 @@ PathInputsDerivative<double> PathLinearization::inputs(const ContactPath& path, 
   return d;
 }
 
+namespace {
+
+const Material& materialOfBody(const Scene& scene, int body) {
+  return materialOf(scene, scene.bodies[static_cast<std::size_t>(body)]);
+}
+
+}  // namespace
+
+PathLinearization::PathLinearization(const Motion& motion, const ContactPath& path, double elapsed)
+    : scene(*motion.scene),
+      friction(rulesOf(materialOfBody(scene, path.body), materialOfBody(scene, path.face)).friction),
+      path_(path),
+      elapsed_(elapsed),
+      orientation_(motion.plan.bodies[static_cast<std::size_t>(path.body)].derivative_tier != Tier::none) {}
+
+const PathSensitivity<double>& PathLinearization::sensitivity(bool turns) const {
+  if (whole_) return *whole_;
+  std::optional<PathSensitivity<double>>& slot = turns && orientation_ ? whole_ : without_turn_;
+  if (!slot) slot = pathSensitivity<double>(path_.form, path_.inputs, elapsed_, turns && orientation_);
+  return *slot;
+}
+
 std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, const ContactPath& path,
                                                         double elapsed) {
-  const Scene& scene = *motion.scene;
-  const auto material = [&](int body) -> const Material& {
-    return materialOf(scene, scene.bodies[static_cast<std::size_t>(body)]);
-  };
-  const bool orientation = motion.plan.bodies[static_cast<std::size_t>(path.body)].derivative_tier != Tier::none;
-  return std::make_shared<PathLinearization>(
-      PathLinearization{pathSensitivity<double>(path.form, path.inputs, elapsed, orientation), scene,
-                        rulesOf(material(path.body), material(path.face)).friction});
+  return std::make_shared<PathLinearization>(motion, path, elapsed);
 }
 
 StateDerivative arcTangent(const Arc& arc, double t, const ArcSensitivity& S, const StateDerivative& dstart,
                            const SceneTangent& dscene, const BodyModelDerivative& dmodel) {
   if (!S.path) return flightTangent(arc, t, S, dstart, dscene.gravity, dmodel);
-  return tangent(S.path->sensitivity, dstart, S.path->inputs(*arc.path(), dscene, dmodel));
+  return tangent(S.path->sensitivity(true), dstart, S.path->inputs(*arc.path(), dscene, dmodel));
 }
 
 StateDerivative arcPullback(const Arc& arc, double t, const ArcSensitivity& S, const StateDerivative& end_bar,
                             SceneGradient& scene_bar, BodyModelDerivative& model_bar) {
   if (!S.path) return flightPullback(arc, t, S, end_bar, scene_bar.gravity, model_bar);
   PathInputsDerivative<double> inputs_bar;
-  const StateDerivative start_bar = pullback(S.path->sensitivity, end_bar, inputs_bar);
+  const StateDerivative start_bar = pullback(S.path->sensitivity(!end_bar.theta.isZero(0)), end_bar, inputs_bar);
   const ContactPath& path = *arc.path();
   pathInputsPullback<double>(S.path->scene, path, path.inputs.normal, S.path->friction, inputs_bar, scene_bar, model_bar);
   return start_bar;

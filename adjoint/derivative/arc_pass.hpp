@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "adjoint/contact/path_sensitivity.hpp"
 #include "adjoint/derivative/derivative_tape.h"
@@ -30,14 +31,25 @@ void pathInputsPullback(const Scene& scene, const ContactPath& path, const V3<S>
         bar.reach * path.reach_rates.transpose().template cast<S>();
 }
 
-/// A path in lasting contact from its start to one time, linearised, and how its inputs come from the scene.
-struct PathLinearization {
-  PathSensitivity<double> sensitivity;
+/// A path in lasting contact from its start to one time, linearised on first use, and how its inputs come from the scene.
+/// Not for use from two threads at once.
+class PathLinearization {
+ public:
+  PathLinearization(const Motion& motion, const ContactPath& path, double elapsed);
+
+  /// `turns`: of the orientation too, which costs most. Without, its rows may be missing.
+  const PathSensitivity<double>& sensitivity(bool turns) const;
+  PathInputsDerivative<double> inputs(const ContactPath& path, const SceneTangent& dscene,
+                                      const BodyModelDerivative& dmodel) const;
+
   const Scene& scene;     // of the motion
   Rule<double> friction;  // of the materials, the body's first
 
-  PathInputsDerivative<double> inputs(const ContactPath& path, const SceneTangent& dscene,
-                                      const BodyModelDerivative& dmodel) const;
+ private:
+  const ContactPath& path_;
+  double elapsed_;
+  bool orientation_;  // is asked for
+  mutable std::optional<PathSensitivity<double>> without_turn_, whole_;
 };
 
 std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, const ContactPath& path, double elapsed);

@@ -58,10 +58,12 @@ EventGuard<double> guardOf(const Motion& motion, const Event& event, std::vector
 Pass passOf(const Motion& motion, const Event& event) {
   std::vector<Part> parts;
   const std::vector<double> weights = guardWeights(event);
+  parts.reserve(weights.size());
   for (std::size_t k = 0; k < weights.size(); ++k)
     parts.push_back(partOf(motion, event, event.contacts[k], weights[k]));
   EventGuard<double> guard = guardOf(motion, event, parts);
   std::vector<StateDerivative> rate_before, rate_after;
+  rate_before.reserve(event.participants.size()), rate_after.reserve(event.participants.size());
   for (const Participant& p : event.participants) {
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
     const Arc& next = arcs[static_cast<std::size_t>(p.arc) + 1];

@@ -59,6 +59,7 @@ class TriaxialRotation {
   double endOfSegments() const { return segments_.back().start + segments_.back().length; }
   Vec3 bodyMomentumAt(double elapsed) const;
   Vec3 squaresOver(double elapsed, const Vec3& start) const;
+  Vec3 squaresOfPeriod(double period, const Vec3& start) const;
   RotationSensitivity closedSensitivity(const RotationStretch<double>& stretch, bool products) const;
   RotationSensitivity sensitivityOver(double elapsed, bool products) const;
   template <int N>

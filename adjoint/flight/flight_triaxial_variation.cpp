@@ -53,6 +53,18 @@ Vec3 TriaxialRotation::squaresOver(double elapsed, const Vec3& start) const {
   return sum;
 }
 
+// Equal steps suit what is periodic: n of them to the distance of the pole leave exp(-2 pi n).
+Vec3 TriaxialRotation::squaresOfPeriod(double period, const Vec3& start) const {
+  constexpr double kSteps = 7;
+  const double count = std::ceil(kSteps * period / closed_form_->poleDistance());
+  Vec3 sum = Vec3::Zero();
+  for (double i = 0; i < count; ++i) {
+    const Vec3 M = L_.norm() * closed_form_->directionAt(period * i / count);
+    sum += (M - start).cwiseProduct(M + start);
+  }
+  return sum * (period / count);
+}
+
 std::optional<RotationStretch<double>> TriaxialRotation::stretchOver(double elapsed, double times) const {
   if (!(L_.norm() * D_.maxCoeff() * elapsed > times * kLeastTurn)) return std::nullopt;
   if (!closed_form_ && segments_.size() > kSegments) return std::nullopt;  // where the closed form is singular
@@ -64,10 +76,13 @@ std::optional<RotationStretch<double>> TriaxialRotation::stretchOver(double elap
   s.elapsed = elapsed;
   s.squares.setZero();
   if (!VariationPass<double>(s).isRegular(times)) return std::nullopt;
-  // after whole periods M is what it was
-  const double period = closed_form_ ? closed_form_->period() : elapsed, count = std::floor(elapsed / period);
-  if (count >= 2) s.squares = count * squaresOver(period, s.start);
-  s.squares += squaresOver(count >= 2 ? std::max(0.0, std::fma(-period, count, elapsed)) : elapsed, s.start);
+  double rest = elapsed;
+  if (closed_form_) {
+    const double period = 0.5 * closed_form_->period(), count = std::floor(elapsed / period);  // of the squares
+    rest = std::max(0.0, std::fma(-period, count, elapsed));
+    if (count > 0) s.squares = count * squaresOfPeriod(period, s.start);
+  }
+  s.squares += squaresOver(rest, s.start);
   return s;
 }
 
