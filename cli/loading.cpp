@@ -154,6 +154,7 @@ RowValues requireRows(const std::string& path, const EditProblem& problem, const
     const auto [place, reason] = describeMissingRegion(motion, constraint, row.region);
     throw FormatError(path, where + place, reason);
   }
+  if (row.overSpan()) throw FormatError(path, where + "/closest_approach", rows.message);
   throw FormatError(path, where + "/at" + (constraint.at.span ? "/between/0" : ""),
                     describeMissing(motion, constraint));
 }

@@ -38,15 +38,19 @@ inline When between(double from, double to) {
 }
 
 /// One target of a constraint. `quantity` is the word of the scene document: position, orientation, velocity,
-/// angular_velocity, time, point, speed, kinetic_energy, impulse, height. `value` holds 3 numbers (`any` leaves one
-/// free); for orientation the quaternion w, x, y, z (shape to world); for time, speed, energy, impulse and height 1. A component may be held within a range instead: its `value` is `any` and
-/// `min`, `max` (empty, or as many as `value`; `any`: no limit on that side) give the range.
+/// angular_velocity, time, point, speed, kinetic_energy, impulse, height, distance, closest_approach. `value` holds 3
+/// numbers (`any` leaves one free); for orientation the quaternion w, x, y, z (shape to world); from time on 1, but for
+/// point. A component may be held within a range instead: its `value` is `any` and `min`, `max` (empty, or as many as
+/// `value`; `any`: no limit on that side) give the range.
 struct Target {
   std::string quantity;            ///< word of the scene document
   std::vector<double> value;       ///< SI; `any` where free or in a range
   Vec3 body_point = Vec3::Zero();  ///< point: in the shape's axes
   std::vector<double> min = {};    ///< least values, SI
   std::vector<double> max = {};    ///< greatest values, SI
+  std::string to = {};             ///< distance, closest_approach: name of the other body
+  /// closest_approach: s, first and last; without it the whole motion.
+  std::optional<std::pair<double, double>> during = std::nullopt;
 };
 
 /// A part of space that the body stays out of, or within, over a span of time: at every moment of it, not only at some.

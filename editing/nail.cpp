@@ -32,7 +32,8 @@ Constraint& Nail::constraint() {
 Nail& Nail::set(Target target) {
   std::vector<Target>& targets = constraint().targets;
   const auto same = std::find_if(targets.begin(), targets.end(), [&](const Target& other) {
-    return other.quantity == target.quantity && other.body_point == target.body_point;
+    return other.quantity == target.quantity && other.body_point == target.body_point && other.to == target.to &&
+           other.during == target.during;
   });
   if (same != targets.end()) {
     *same = std::move(target);
@@ -71,6 +72,23 @@ Nail& Nail::impulse(Wanted p) { return setNumber("impulse", p); }
 Nail& Nail::height(Wanted h) { return setNumber("height", h); }
 Nail& Nail::point(const Vec3& body_point, const Vec3& world) { return set({"point", numbersOf(world), body_point}); }
 Nail& Nail::point(const Vec3& body_point, Wanted x, Wanted y, Wanted z) { return set("point", {x, y, z}, body_point); }
+
+Nail& Nail::distance(const std::string& to, Wanted distance) {
+  Target target;
+  target.quantity = "distance";
+  target.to = to;
+  put(distance, 0, 1, target);
+  return set(std::move(target));
+}
+
+Nail& Nail::closestApproach(const std::string& to, Wanted distance, std::optional<std::pair<double, double>> during) {
+  Target target;
+  target.quantity = "closest_approach";
+  target.to = to;
+  target.during = during;
+  put(distance, 0, 1, target);
+  return set(std::move(target));
+}
 
 Nail& Nail::relativeTo(const std::string& body) {
   constraint().relative_to = body;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "editing/constraint.h"
 #include "editing/wanted.h"
@@ -32,6 +34,13 @@ class Nail {
   Nail& kineticEnergy(Wanted e);   ///< J, of moving and turning
   Nail& impulse(Wanted p);         ///< N s, that the body gets in the impact; only for nails at an impact
   Nail& height(Wanted h);          ///< m, of the lowest point, against gravity (along z without it)
+
+  /// m, from the body's shape to that of another body, more than 0.
+  Nail& distance(const std::string& to, Wanted distance);
+  /// m, the least distance of the two over a time of its own (s, first and last; without it the whole motion),
+  /// whatever the time of the nail.
+  Nail& closestApproach(const std::string& to, Wanted distance,
+                        std::optional<std::pair<double, double>> during = std::nullopt);
 
   /// All quantities are those of the body as seen from another one, in the axes of its shape
   /// (docs/scenes.md). "" takes it back.

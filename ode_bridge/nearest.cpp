@@ -111,7 +111,8 @@ class PiecePlaces {
   void keep(const FeaturePair& features, const ContactPoint& c, bool mark, const FeatureName& f, const FeatureName& g) {
     const double separation = separationAlong(a_, b_, c.normal);
     // the lines through edges may come nearer than the edges, and the normal of a crossing is as good as its sine
-    if (!(separation >= c.gap - room_) || !(c.gap >= points_.lower - room_) || !(c.gap <= points_.upper + room_)) return;
+    if (!(separation >= c.gap - room_)) return;
+    if (!(c.gap >= points_.lower - room_) || !(c.gap <= points_.upper + room_)) return;
     if (!onFeature(a_, f, c) || !onFeature(b_, g, c)) return;
     found_ = true;
     out_.push_back({features, c, separation, mark});
@@ -238,7 +239,7 @@ Nearest nearestOf(const Placed& a, const Placed& b) {
   out.gap = best->at.gap;
   out.features = best->features;
   out.normal = best->at.normal;
-  const double size = std::min(a.solid->plane ? kUnbounded : a.solid->bound(), b.solid->plane ? kUnbounded : b.solid->bound());
+  const double size = std::min(a.solid->bound(), b.solid->bound());
   out.several = best->mark || std::any_of(places.begin(), places.end(), [&](const NearPlace& p) {
     return p.at.gap <= best->at.gap + kEqual * scale && !samePlace(p, *best, size);
   });

@@ -7,7 +7,8 @@
 /// Nearest points of bodies that are apart, and the features that they lie on.
 namespace carom::ode_bridge_detail {
 
-/// Upper and lower bound on the distance of two pieces, equal but for rounding on polytopes; the lower one may be below 0.
+/// Upper and lower bound on the distance of two pieces, equal but for rounding on polytopes; the lower one may be
+/// below 0.
 struct PieceDistance {
   double upper = 0, lower = 0;  ///< m
   Vec3 at_a = Vec3::Zero(), at_b = Vec3::Zero();  ///< nearest points of the cores, world; of a half space not set

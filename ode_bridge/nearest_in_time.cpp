@@ -10,8 +10,8 @@
 #include "ode_bridge/touching.hpp"
 
 // The least distance m known so far is a level that nothing may lie below. Bodies grown by m touch where their distance
-// is m, so that the steps of the search for impacts, which cannot pass a touch of those grown bodies, exclude lower distances;
-// where a step ends below the level, the way down from there ends in a lower least distance.
+// is m, so that the steps of the search for impacts, which cannot pass a touch of those grown bodies, exclude lower
+// distances; where a step ends below the level, the way down from there ends in a lower least distance.
 
 namespace carom::ode_bridge_detail {
 
@@ -41,7 +41,8 @@ struct Waiting {
 
 class LeastDistance {
  public:
-  LeastDistance(const Solid& a, const Solid& b, const Arc& arc_a, const Arc& arc_b, double from, double to, double under)
+  LeastDistance(const Solid& a, const Solid& b, const Arc& arc_a, const Arc& arc_b, double from, double to,
+                double under)
       : solid_a_(a), solid_b_(b), arc_a_(arc_a), arc_b_(arc_b), from_(from), to_(to), level_(under) {}
 
   std::optional<NearestInTime> find() {
@@ -98,8 +99,9 @@ class LeastDistance {
 
   void advance(const Waiting& now) {
     const Placed a(solid_a_, arc_a_, now.time), b(solid_b_, arc_b_, now.time);
-    Node na = a.solid->nodes[static_cast<std::size_t>(now.node_a)], nb = b.solid->nodes[static_cast<std::size_t>(now.node_b)];
-    // the half space stays as it is
+    Node na = a.solid->nodes[static_cast<std::size_t>(now.node_a)];
+    Node nb = b.solid->nodes[static_cast<std::size_t>(now.node_b)];
+    // a half space stays as it is, the other grows
     const double level = std::isfinite(level_) ? level_ : 0;
     const bool leaves = na.piece >= 0 && nb.piece >= 0;
     const double size = (a.solid->plane ? 0 : na.radius) + (b.solid->plane ? 0 : nb.radius);
@@ -108,7 +110,8 @@ class LeastDistance {
     const double apart = separationOf(pa, pb), left = to_ - now.time;
     if (apart > kFarApart * size) return later(now, safeStep(pa, pb, apart, left));
     if (!leaves) return open(now, na, nb);
-    Piece piece_a = a.solid->pieces[static_cast<std::size_t>(na.piece)], piece_b = b.solid->pieces[static_cast<std::size_t>(nb.piece)];
+    Piece piece_a = a.solid->pieces[static_cast<std::size_t>(na.piece)];
+    Piece piece_b = b.solid->pieces[static_cast<std::size_t>(nb.piece)];
     (a.solid->plane ? piece_b : piece_a).radius += level;
     const PlacedPiece p{&a, &piece_a}, q{&b, &piece_b};
     const Witness witness = findWitness(p, q);

@@ -39,8 +39,8 @@ class BodyDistance {
   virtual Nearest nearest(int a, int b, const Pose& A, const Pose& B) const = 0;
 
   /// The least distance over [from, to], on arcs that are available so far. Every step of the search is one in which
-  /// bounds on the relative motion exclude less, so that nothing is missed between samples. Nothing where no distance is less
-  /// than `under`. Throws NotComputable as a search for impacts does.
+  /// bounds on the relative motion exclude less, so that nothing is missed between samples. Nothing where no distance
+  /// is less than `under`. Throws NotComputable as a search for impacts does.
   virtual std::optional<NearestInTime> nearestInTime(
       int a, int b, const Arc& arc_a, const Arc& arc_b, double from, double to,
       double under = std::numeric_limits<double>::infinity()) const = 0;

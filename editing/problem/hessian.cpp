@@ -3,7 +3,6 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/second_order/second_order.h"
-#include "editing/problem/rows/region_way.hpp"
 
 // With v the control values, t the free times and z the unknowns, v = v(z) and t = t(z) each by each:
 //   d^2 f/dz^2 = diag(v') d^2 f/d(v, t)^2 diag(v') + diag(df/dv v'').
@@ -27,31 +26,9 @@ StateSeed weighted(StateSeed seed, double weight) {
 }
 
 int freeTimeOf(const EditProblem& problem, const Row& row) {
-  for (int k = 0; k < problem.times() && row.region < 0; ++k)
+  for (int k = 0; k < problem.times() && !row.overSpan(); ++k)
     if (problem.constraints.freeTimes()[k].constraint == row.constraint) return k;
   return -1;
-}
-
-// How the instant of a clearance moves with the controls.
-Eigen::VectorXd clearanceTimeRate(const Clearance& c, DerivativeTape& tape,
-                                  std::span<const ReadingDirection> controls) {
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(controls.size()));
-  if (c.keeps == Clearance::Keeps::place) return {};
-  const Motion& motion = tape.motion();
-  const int k = motion.arcAt(c.seed.body, c.time);
-  const Arc& arc = motion.world_lines[static_cast<std::size_t>(c.seed.body)].arcs[static_cast<std::size_t>(k)];
-  const Vec3 v = arc.velocityAt(c.time), n = c.seed.center_of_mass;
-  const double bend = n.dot(accelerationAt(arc, c.time)) + v.dot(c.bend * v);  // of the clearance by the time
-  for (std::size_t j = 0; j < controls.size(); ++j) {
-    const BodyStateRate d = tangent(tape, controls[j].scene).at(c.seed.body, Instant::at(c.time));
-    const auto at = static_cast<Eigen::Index>(j);
-    if (c.keeps == Clearance::Keeps::two_faces) {
-      r[at] = -c.between.dot(d.center_of_mass) / c.between.dot(v);
-    } else {
-      r[at] = -(n.dot(d.velocity) + v.dot(c.bend * d.center_of_mass)) / bend;
-    }
-  }
-  return r;
 }
 
 void addObjective(const EditProblem& problem, const RowValues& rows, double weight, Readings& out) {
@@ -75,8 +52,7 @@ Readings readingsOf(const EditProblem& problem, DerivativeTape& tape, const RowV
       throw NotComputable("second derivatives are not known of " + problem.constraints.describeRow(i));
     const Row& row = problem.constraints.rows()[i];
     Eigen::VectorXd time_rate;
-    if (row.region >= 0)
-      time_rate = clearanceTimeRate(*problem.constraints.clearance(tape.motion(), i), tape, controls);
+    if (row.overSpan()) time_rate = problem.constraints.timeRate(tape, i, controls);
     for (const StateSeed& seed : rows.seeds[i]) {
       out.seeds.push_back(weighted(seed, weights[i]));
       out.row.push_back(i);

@@ -216,7 +216,7 @@ Eigen::MatrixXd jacobianByTimes(const EditProblem& problem, const Motion& motion
   for (int k = 0; k < problem.times(); ++k) {
     for (int i = 0; i < problem.constraints.size(); ++i) {
       const Row& row = problem.constraints.rows()[i];
-      if (row.constraint != problem.constraints.freeTimes()[k].constraint || row.region >= 0) continue;
+      if (row.constraint != problem.constraints.freeTimes()[k].constraint || row.overSpan()) continue;
       for (const StateSeed& seed : rows.seeds[i]) J(i, k) += timeDerivative(motion, seed);
     }
   }

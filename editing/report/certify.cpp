@@ -22,7 +22,7 @@ std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues&
     if (known == instants.end()) instants.push_back({body, time, false});
   };
   for (int i = 0; i < problem.constraints.size(); ++i) {
-    if (problem.constraints.rows()[static_cast<std::size_t>(i)].region >= 0) continue;
+    if (problem.constraints.rows()[static_cast<std::size_t>(i)].overSpan()) continue;
     for (const StateSeed& seed : rows.seeds[static_cast<std::size_t>(i)]) {
       if (seed.at.event >= 0) {
         at_impact = true;

@@ -74,6 +74,19 @@ void readTime(const Json& value, bool at_impact, double duration, Target& target
     requireWithin(limit.value().get<double>(), duration, pointerTo(where, limit.key()));
 }
 
+/// To another body, which the caller looks up.
+void readDistance(const Json& value, Target& target, double duration, const std::string& where) {
+  target.to = value["to"].get<std::string>();
+  const bool exact = value.contains("value");
+  target.value = {exact ? value["value"].get<double>() : any};
+  if (exact && (value.contains("min") || value.contains("max")))
+    fail(where + "/value", "a value beside a range", "one of the two");
+  if (!exact && !value.contains("min") && !value.contains("max"))
+    fail(where, "an object without a number", "\"value\", \"min\" or \"max\"");
+  readRange(value, 0, target, where);
+  if (value.contains("during")) target.during = readSpan(value["during"], duration, where + "/during");
+}
+
 Target readTarget(const std::string& quantity, const Json& value, const When& at, double duration,
                   const std::string& where) {
   Target target;
@@ -86,6 +99,8 @@ Target readTarget(const std::string& quantity, const Json& value, const When& at
   } else if (quantity == "point") {
     readNumbers(value["world"], target, where + "/world");
     target.body_point = readVector(value["body_point"]);
+  } else if (value.is_object() && value.contains("to")) {
+    readDistance(value, target, duration, where);
   } else if (value.is_array()) {
     readNumbers(value, target, where);
   } else {
@@ -127,7 +142,7 @@ void requireTargets(const Constraint& constraint, const Json& value, const std::
   if (constraint.regions.empty())
     fail(where, "a constraint without a target",
          "one of position, orientation, velocity, angular_velocity, time, point, speed, kinetic_energy, impulse, height, "
-         "avoid, inside");
+         "distance, closest_approach, avoid, inside");
   const std::string target = "a target beside it, such as position: a region ";
   if (value.contains("at")) fail(where + "/at", describe(value["at"]), target + "has its time in \"during\"");
   if (value.contains("relative_to"))
@@ -197,6 +212,10 @@ Constraint readConstraint(const Json& value, const Scene& scene, double duration
       readRegions(member.value(), side, duration, place, constraint.regions);
     } else {
       constraint.targets.push_back(readTarget(word, member.value(), constraint.at, duration, place));
+      if (const std::string& to = constraint.targets.back().to; !to.empty()) {
+        readBodyName(member.value()["to"], place + "/to", scene);
+        if (to == name) fail(place + "/to", quotedText(to), "another body than the constrained one");
+      }
     }
   }
   requireTargets(constraint, value, where);

@@ -55,12 +55,23 @@ void writeComponents(JsonWriter& out, const Target& target) {
 }
 
 bool isOneNumber(const Target& target) {
-  const std::array words{"time", "speed", "kinetic_energy", "impulse", "height"};
+  const std::array words{"time", "speed", "kinetic_energy", "impulse", "height", "distance", "closest_approach"};
   return std::find(words.begin(), words.end(), target.quantity) != words.end();
+}
+
+void writeDistance(JsonWriter& out, const Target& target) {
+  const double min = limitAt(target.min, 0), max = limitAt(target.max, 0);
+  out.beginObject().members("to", target.to);
+  if (!std::isnan(target.value[0])) out.members("value", target.value[0]);
+  if (!std::isnan(min)) out.members("min", min);
+  if (!std::isnan(max)) out.members("max", max);
+  if (target.during) writeSpan(out, "during", *target.during);
+  out.endObject();
 }
 
 void writeTarget(JsonWriter& out, const Target& target) {
   out.key(target.quantity);
+  if (!target.to.empty()) return writeDistance(out, target);
   if (isOneNumber(target)) {
     writeComponent(out, target, 0);
   } else if (target.quantity == "point") {
@@ -194,7 +205,9 @@ void writeConstraint(JsonWriter& out, const Constraint& constraint) {
   while (first || !left.empty()) {
     out.beginObject(Layout::line);
     out.members("body", constraint.body);
-    if (!left.empty()) writeWhen(out, constraint.at);
+    const bool at_instant =
+        std::any_of(left.begin(), left.end(), [](auto* t) { return t->quantity != "closest_approach"; });
+    if (at_instant) writeWhen(out, constraint.at);
     if (!left.empty()) out.unlessEmpty("relative_to", constraint.relative_to);
     std::vector<const Target*> written, next;
     for (const Target* target : left) {

@@ -40,11 +40,13 @@ TEST(ConstraintSet, NamesItsRows) {
   const char* expected[] = {"position.x",    "position.z", "orientation.x", "orientation.y",
                             "orientation.z", "velocity.x", "velocity.y",    "time",
                             "point.x",       "point.y",    "point.z",       "angular_velocity.y",
-                            "speed",         "kinetic_energy", "height",    "impulse",
-                            "speed",         "kinetic_energy"};
-  ASSERT_EQ(set.size(), 18);
-  for (int i = 0; i < 18; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
+                            "speed",         "kinetic_energy", "height",    "distance to 'floor'",
+                            "closest_approach to 'floor'", "impulse", "speed", "kinetic_energy"};
+  ASSERT_EQ(set.size(), 20);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
   EXPECT_EQ(set.describeRow(0), "position.x of 'box' at 0.4 s");
+  EXPECT_EQ(set.describeRow(15), "distance to 'floor' of 'box' at 0.4 s");
+  EXPECT_EQ(set.describeRow(16), "closest_approach to 'floor' of 'box' from 0.05 s to 0.3 s");
   EXPECT_EQ(set.describeRow(7), "time of 'box' at its impact 2 with 'floor'");
 }
 
@@ -94,7 +96,7 @@ TEST(Jacobian, AdjointAndTangentAgreeEntryByEntry) {
         problem.controls.valuesOf(Eigen::VectorXd::LinSpaced(problem.controls.size(), -away, away));
     const RowsAndJacobian a = evaluateByAdjoint(problem, values), t = evaluateByTangent(problem, values);
     ASSERT_TRUE(a.rows.available) << a.rows.message;
-    ASSERT_EQ(a.jacobian.rows(), 18);
+    ASSERT_EQ(a.jacobian.rows(), 20);
     ASSERT_EQ(a.jacobian.cols(), problem.controls.size());
     for (int j = 0; j < a.jacobian.cols(); ++j) {
       const double scale = t.jacobian.col(j).cwiseAbs().maxCoeff();

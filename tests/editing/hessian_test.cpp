@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "editing/problem/rows/closest_approach.hpp"
 #include "editing/solve/edit_search.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
@@ -174,6 +175,60 @@ TEST(Hessian, OfRegions) {
     SCOPED_TRACE(problem.constraints.describeRow(i));
     expectDerivative(problem, at, Eigen::VectorXd::Unit(problem.constraints.size(), i));
   }
+}
+
+Body turning(const std::string& name, const Shape& shape, const Vec3& position, const Vec3& velocity,
+             const Vec3& spin) {
+  Body body;
+  body.name = name, body.shape = shape, body.mass = 1, body.position = position, body.velocity = velocity;
+  body.angular_velocity = spin;
+  body.orientation = Quat(0.8, 0.3, -0.4, 0.2).normalized();
+  return body;
+}
+
+/// Two that pass each other, turning: nearest at features of many kinds.
+std::vector<Scene> passing() {
+  const Shape shapes[] = {Sphere{0.1}, Box{{0.3, 0.2, 0.1}}, Capsule{0.05, 0.4}, Cylinder{0.12, 0.3}, Cone{0.15, 0.3}};
+  std::vector<Scene> scenes;
+  for (const Shape& a : shapes)
+    for (const Shape& b : shapes) {
+      Scene scene;
+      scene.bodies = {turning("a", a, {-1, 0.1, 0.2}, {3, 0.3, 0.5}, {1.5, 2, -1}),
+                      turning("b", b, {0.1, 0.35, 0.4}, {-0.2, 0.5, 0.7}, {-1, 1, 2})};
+      scenes.push_back(std::move(scene));
+    }
+  return scenes;
+}
+
+TEST(Hessian, OfDistancesAndClosestApproaches) {
+  int least = 0, event = 0;
+  for (const Scene& scene : passing()) {
+    OdeContacts contacts(scene);
+    const std::vector<Constraint> constraints{
+        {"a", 0.25, {{.quantity = "distance", .value = {0.1}, .to = "b"}}},
+        {"b", between(0.1, 0.4), {{.quantity = "distance", .value = {0.1}, .to = "a"}}},
+        {"a", 0.0, {{.quantity = "closest_approach", .value = {0.1}, .to = "b", .during = {{0.05, 0.6}}}}}};
+    const EditProblem problem(scene, contacts, 0.6,
+                              {velocity("a"), angularVelocity("b"), orientation("a"), size("a"), size("b")},
+                              constraints);
+    const Eigen::VectorXd at = someUnknowns(problem, 0.003);
+    const EditPointPtr point = pointAt(problem, at, problem.horizon, false);
+    ASSERT_TRUE(point && point->rows.available);
+    SCOPED_TRACE(std::string(kindOf(scene.bodies[0].shape).word) + " and " + kindOf(scene.bodies[1].shape).word);
+    const auto closest = closestApproach(point->motion, 0, 1, 0.05, 0.6);
+    if (!closest->nearest.apart()) {
+      EXPECT_EQ(point->rows.values[2], 0);
+      ++event;
+      continue;
+    }
+    least += closest->keeps == Clearance::Keeps::least;
+    for (int i = 0; i < problem.constraints.size(); ++i) {
+      SCOPED_TRACE(problem.constraints.describeRow(i));
+      expectDerivative(problem, at, Eigen::VectorXd::Unit(problem.constraints.size(), i));
+    }
+  }
+  EXPECT_GE(least, 15);
+  EXPECT_LE(event, 5);
 }
 
 // A ball lands with spin on a slope and slides round a bend, where its acceleration is another one at every time.

@@ -77,7 +77,13 @@ std::vector<Constraint> everyQuantity() {
           {"box",
            nthImpact(2, "floor"),
            {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}},
-          {"box", 0.4, {{"speed", {3}}, {"kinetic_energy", {20}}, {"height", {1}}}},
+          {"box",
+           0.4,
+           {{"speed", {3}},
+            {"kinetic_energy", {20}},
+            {"height", {1}},
+            {.quantity = "distance", .value = {0.3}, .to = "floor"},
+            {.quantity = "closest_approach", .value = {0.5}, .to = "floor", .during = {{0.05, 0.3}}}}},
           {"box", nthImpact(2, "floor"), {{"impulse", {4}}, {"speed", {2}}, {"kinetic_energy", {10}}}}};
 }
 

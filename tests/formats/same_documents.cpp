@@ -154,6 +154,8 @@ void expectSameEdit(const Document& a, const Document& b) {
     ASSERT_EQ(c.targets.size(), d.targets.size());
     for (std::size_t k = 0; k < c.targets.size(); ++k) {
       EXPECT_EQ(c.targets[k].quantity, d.targets[k].quantity);
+      EXPECT_EQ(c.targets[k].to, d.targets[k].to);
+      EXPECT_EQ(c.targets[k].during, d.targets[k].during);
       ASSERT_EQ(c.targets[k].value.size(), d.targets[k].value.size());
       for (std::size_t n = 0; n < c.targets[k].value.size(); ++n) {
         const double x = c.targets[k].value[n], y = d.targets[k].value[n];

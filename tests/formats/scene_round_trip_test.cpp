@@ -112,7 +112,15 @@ Numbers shown(Numbers numbers) {
 
 TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   const Document d = parseDocument(documentWithEverything(), "everything");
-  ASSERT_EQ(d.constraints.size(), 7u);
+  ASSERT_EQ(d.constraints.size(), 9u);
+  const Target &distance = d.constraints[7].targets[0], &closest = d.constraints[8].targets[0];
+  EXPECT_EQ(distance.quantity + " " + distance.to, "distance pill");
+  EXPECT_EQ(shown(distance.value), Numbers{99});
+  EXPECT_EQ(distance.min, Numbers{0.15});
+  EXPECT_EQ(distance.max, Numbers{8.5});
+  EXPECT_EQ(closest.quantity + " " + closest.to, "closest_approach can");
+  EXPECT_EQ(closest.value, Numbers{0.065});
+  EXPECT_EQ(closest.during, (std::pair<double, double>(0.45, 1.95)));
   const Constraint& hat = d.constraints[4];
   EXPECT_EQ(hat.at.span, (std::pair<double, double>(0.31, 1.9)));
   EXPECT_EQ(hat.at.impact, 0);

@@ -84,6 +84,8 @@ const std::vector<Told> kTold = {
     {"/definitions/constraint/properties/time/anyOf/1", "times"},
     {"/definitions/constraint/properties/point", "point"},
     {"/definitions/range", "Ranges"},
+    {"/definitions/constraint/properties/distance", "distance"},
+    {"/definitions/constraint/properties/closest_approach", "closest_approach"},
     {"/definitions/region", "Regions"},
 };
 

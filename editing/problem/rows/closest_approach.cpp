@@ -7,28 +7,28 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/motion/guard.hpp"
+#include "editing/detail/messages.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-struct Poses {
-  Pose a, b;
-};
-
 Pose poseAt(const Motion& motion, int body, const Instant& at) {
   return shapePose(motion, body, readPlace(motion, body, at).state);
 }
-Poses posesOf(const Motion& motion, const DistanceReading& d) {
-  return {poseAt(motion, d.a, d.at), poseAt(motion, d.b, d.at)};
+DistanceReading placeAt(const Motion& motion, int a, int b, const Instant& at) {
+  DistanceReading d;
+  d.a = a, d.b = b, d.at = at;
+  d.time = at.event >= 0 ? motion.events[static_cast<std::size_t>(at.event)].time : at.time;
+  d.geometry = motion.geometry;
+  d.pose_a = poseAt(motion, a, at), d.pose_b = poseAt(motion, b, at);
+  return d;
 }
 
-ContactJacobian jacobianOf(const Motion& motion, const DistanceReading& d) {
-  const Poses p = posesOf(motion, d);
-  return motion.geometry->jacobian(d.a, d.b, d.nearest.features, p.a, p.b);
-}
+using SizeRow = Eigen::Matrix<double, 7, Eigen::Dynamic>;
 
-StateSeed seedOf(int body, const Instant& at, const Eigen::Matrix<double, 1, 6>& by_pose) {
+StateSeed seedOf(int body, const Instant& at, const Eigen::Matrix<double, 1, 6>& by_pose, const SizeRow& by_size) {
   StateSeed seed;
+  seed.size = by_size.row(0).transpose();
   seed.body = body;
   seed.at = at;
   seed.center_of_mass = by_pose.head<3>().transpose();
@@ -60,13 +60,27 @@ BodyRates inTime(const Motion& motion, int body, double time) {
   const ReadPlace place = readPlace(motion, body, Instant::at(time));
   const auto b = static_cast<std::size_t>(body);
   const BodyModel& model = (*motion.models)[b];
-  const StateDerivative rate = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(time, place.state);
+  const Arc& arc = motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)];
+  const StateDerivative rate = arc.rateAt(time, place.state);
   return {sixOf(rate.x, rate.theta),
           sixOf(rate.v, angularVelocityTangent(model, place.state, rate, BodyModelDerivative{}))};
 }
 
 BodyRates alongControl(const BodyStateRate& d) {
   return {sixOf(d.center_of_mass, d.orientation), sixOf(d.velocity, d.angular_velocity)};
+}
+PairTangent alongBoth(const BodyStateRate& da, const BodyStateRate& db) {
+  return {both(alongControl(da).pose, alongControl(db).pose), da.size, db.size};
+}
+
+ContactJacobian nothing() {
+  ContactJacobian J;
+  J.size_a.setZero(7, 0), J.size_b.setZero(7, 0);
+  return J;
+}
+
+std::vector<StateSeed> seedPair(const DistanceReading& d, const ContactJacobian& J) {
+  return {seedOf(d.a, d.at, J.pose.row(0).head<6>(), J.size_a), seedOf(d.b, d.at, J.pose.row(0).tail<6>(), J.size_b)};
 }
 
 }  // namespace
@@ -78,33 +92,20 @@ const BodyDistance& distancesOf(const Motion& motion) {
   return *distances;
 }
 
-std::vector<StateSeed> DistanceReading::seeds(const Motion& motion) const {
-  ContactJacobian J;
-  if (nearest.apart()) J = jacobianOf(motion, *this);
-  return {seedOf(a, at, J.pose.row(0).head<6>()), seedOf(b, at, J.pose.row(0).tail<6>())};
+std::vector<StateSeed> DistanceReading::seeds() const {
+  if (!nearest.apart()) return seedPair(*this, nothing());
+  return seedPair(*this, geometry->jacobian(a, b, nearest.features, pose_a, pose_b));
 }
 
-Eigen::VectorXd DistanceReading::bySize(const Motion& motion, bool second) const {
-  if (!nearest.apart()) return {};
-  const ContactJacobian J = jacobianOf(motion, *this);
-  return (second ? J.size_b : J.size_a).row(0).transpose();
-}
-
-std::vector<StateSeed> DistanceReading::seedRates(const Motion& motion, const BodyStateRate& da,
-                                                  const BodyStateRate& db) const {
-  ContactJacobian J;
-  if (nearest.apart()) {
-    const Poses p = posesOf(motion, *this);
-    const std::array<PairTangent, 1> direction{{{both(alongControl(da).pose, alongControl(db).pose), {}, {}}}};
-    J = motion.geometry->jacobianRates(a, b, nearest.features, p.a, p.b, direction)[0];
-  }
-  return {seedOf(a, at, J.pose.row(0).head<6>()), seedOf(b, at, J.pose.row(0).tail<6>())};
+std::vector<StateSeed> DistanceReading::seedRates(const BodyStateRate& da, const BodyStateRate& db) const {
+  if (!nearest.apart()) return seedPair(*this, nothing());
+  const std::array<PairTangent, 1> direction{alongBoth(da, db)};
+  return seedPair(*this, geometry->jacobianRates(a, b, nearest.features, pose_a, pose_b, direction)[0]);
 }
 
 DistanceReading readDistance(const Motion& motion, int a, int b, const Instant& at) {
-  DistanceReading d{a, b, at, at.event >= 0 ? motion.events[static_cast<std::size_t>(at.event)].time : at.time, {}};
-  const Poses p = posesOf(motion, d);
-  d.nearest = distancesOf(motion).nearest(a, b, p.a, p.b);
+  DistanceReading d = placeAt(motion, a, b, at);
+  d.nearest = distancesOf(motion).nearest(a, b, d.pose_a, d.pose_b);
   return d;
 }
 
@@ -113,19 +114,18 @@ DistanceReading readDistance(const Motion& motion, int a, int b, const Instant& 
 Eigen::VectorXd ClosestApproach::timeRate(DerivativeTape& tape, std::span<const ReadingDirection> controls) const {
   if (keeps == Clearance::Keeps::place) return {};
   const Motion& motion = tape.motion();
-  const Poses p = posesOf(motion, *this);
   const BodyRates a_in_time = inTime(motion, a, time), b_in_time = inTime(motion, b, time);
   const PoseRate velocities = both(a_in_time.pose, b_in_time.pose);
   std::vector<PairTangent> directions{{velocities, {}, {}}};
   std::vector<PoseRate> accelerations{both(a_in_time.velocity, b_in_time.velocity)};
   for (const ReadingDirection& control : controls) {
     const MotionTangent moved = tangent(tape, control.scene);
-    const BodyRates da = alongControl(moved.at(a, at)), db = alongControl(moved.at(b, at));
-    directions.push_back({both(da.pose, db.pose), {}, {}});
-    accelerations.push_back(both(da.velocity, db.velocity));
+    const BodyStateRate da = moved.at(a, at), db = moved.at(b, at);
+    directions.push_back(alongBoth(da, db));
+    accelerations.push_back(both(alongControl(da).velocity, alongControl(db).velocity));
   }
-  const ContactJacobian J = motion.geometry->jacobian(a, b, nearest.features, p.a, p.b);
-  const auto rates = motion.geometry->jacobianRates(a, b, nearest.features, p.a, p.b, directions);
+  const ContactJacobian J = geometry->jacobian(a, b, nearest.features, pose_a, pose_b);
+  const auto rates = geometry->jacobianRates(a, b, nearest.features, pose_a, pose_b, directions);
   const auto rateOf = [&](std::size_t k) {
     return rates[k].pose.row(0).dot(velocities) + J.pose.row(0).dot(accelerations[k]);
   };
@@ -162,10 +162,16 @@ std::optional<int> meetingWithin(const Motion& motion, int a, int b, double from
   return std::nullopt;
 }
 
-ClosestApproach touchAt(int a, int b, const Instant& at, double time) {
-  ClosestApproach touch;
-  touch.a = a, touch.b = b, touch.at = at, touch.time = time;
-  touch.nearest.gap = 0;
+ClosestApproach approachAt(const Motion& motion, int a, int b, const Instant& at, const Nearest& nearest) {
+  ClosestApproach approach;
+  static_cast<DistanceReading&>(approach) = placeAt(motion, a, b, at);
+  approach.nearest = nearest;
+  return approach;
+}
+
+Nearest touching() {
+  Nearest touch;
+  touch.gap = 0;
   return touch;
 }
 
@@ -176,7 +182,7 @@ std::optional<ClosestApproach> closestApproach(const Motion& motion, int a, int 
   const BodyDistance& distances = distancesOf(motion);
   for (const auto& [body, other] : {std::pair{a, b}, std::pair{b, a}})
     if (const auto e = meetingWithin(motion, body, other, from, to))
-      return touchAt(a, b, Instant::before(*e), motion.events[static_cast<std::size_t>(*e)].time);
+      return approachAt(motion, a, b, Instant::before(*e), touching());
   std::vector<int> events = eventsWithin(motion, a, b, from, to);
   std::optional<ClosestApproach> best;
   double start = from;
@@ -184,14 +190,14 @@ std::optional<ClosestApproach> closestApproach(const Motion& motion, int a, int 
     const bool last = k == events.size();
     const double end = last ? to : motion.events[static_cast<std::size_t>(events[k])].time;
     const double under = best ? best->value() : std::numeric_limits<double>::infinity();
-    const auto found = distances.nearestInTime(a, b, arcFrom(motion, a, start), arcFrom(motion, b, start), start, end, under);
+    const auto found =
+        distances.nearestInTime(a, b, arcFrom(motion, a, start), arcFrom(motion, b, start), start, end, under);
     // the start of a later stretch is the end of the one before
     if (found && !(k > 0 && found->time == start)) {
-      best = touchAt(a, b, Instant::at(found->time), found->time);
-      best->nearest = found->nearest;
+      const bool at_event = !last && found->time == end;
+      best = approachAt(motion, a, b, at_event ? Instant::before(events[k]) : Instant::at(found->time), found->nearest);
       best->below = found->below;
       if (found->time > start && found->time < end) best->keeps = Clearance::Keeps::least;
-      if (!last && found->time == end) best->at = Instant::before(events[k]);
       if (!found->nearest.apart()) break;
     } else if (found && best) {
       best->below = std::max(best->below, found->below + best->value() - found->nearest.gap);
@@ -200,6 +206,45 @@ std::optional<ClosestApproach> closestApproach(const Motion& motion, int a, int 
   }
   if (best && !best->nearest.apart()) best->keeps = Clearance::Keeps::place;
   return best;
+}
+
+namespace {
+
+std::string namesIn(const QuantityPlace& place) {
+  const std::vector<Body>& bodies = place.motion.scene->bodies;
+  const auto name = [&](int body) { return "'" + bodies[static_cast<std::size_t>(body)].name + "'"; };
+  return name(place.body) + " and " + name(place.to);
+}
+
+RowReading rowOf(const DistanceReading& reading, const QuantityPlace& place) {
+  RowReading out;
+  out.value = reading.value();
+  out.seeds = reading.seeds();
+  out.second_order = true;
+  out.seed_rates = [reading](std::span<const BodyStateRate> rates) { return reading.seedRates(rates[0], rates[1]); };
+  const std::string when = " at t = " + number(reading.time) + " s";
+  if (!reading.nearest.apart()) {
+    out.doubt = namesIn(place) + " touch" + when + ", and their distance stays 0 as long as they do";
+  } else if (reading.nearest.several) {
+    out.doubt = namesIn(place) + " are nearest to each other in several places" + when +
+                ", where the derivative of their distance is one-sided";
+  }
+  return out;
+}
+
+}  // namespace
+
+RowReading readDistanceRow(const QuantityPlace& place) {
+  return rowOf(readDistance(place.motion, place.body, place.to, place.at), place);
+}
+
+RowReading readClosestApproachRow(const QuantityPlace& place) {
+  if (const auto closest = closestApproach(place.motion, place.body, place.to, place.from, place.until))
+    return rowOf(*closest, place);
+  RowReading out;
+  out.missing = "The motion ends at " + number(place.motion.end) + " s, before " + number(place.until) +
+                " s, up to which the closest approach of " + namesIn(place) + " counts. " + place.motion.message;
+  return out;
 }
 
 }  // namespace carom::editing_detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,9 +9,10 @@
 #include "adjoint/derivative/tangent.h"
 #include "adjoint/motion/body_distance.hpp"
 #include "adjoint/second_order/reading_direction.h"
+#include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
 
-/// How far the shapes of two bodies are from each other: at an instant, and where they come nearest over a span of time.
+/// How far the shapes of two bodies are from each other: at an instant, and where they come nearest over a span.
 namespace carom::editing_detail {
 
 using namespace adjoint_detail;
@@ -24,14 +26,14 @@ struct DistanceReading {
   Instant at;
   double time = 0;  ///< s
   Nearest nearest;
+  std::shared_ptr<const ContactGeometry> geometry;  ///< of the motion, which may be gone
+  Pose pose_a, pose_b;
 
   double value() const { return nearest.gap; }
   /// One of each body, in the order a, b; without weights where they touch or overlap.
-  std::vector<StateSeed> seeds(const Motion& motion) const;
-  /// By the dimensions of a shape at fixed poses; `second`: of b's.
-  Eigen::VectorXd bySize(const Motion& motion, bool second) const;
-  /// How the weights of `seeds` change with the states.
-  std::vector<StateSeed> seedRates(const Motion& motion, const BodyStateRate& da, const BodyStateRate& db) const;
+  std::vector<StateSeed> seeds() const;
+  /// How the weights of `seeds` change with the states and the dimensions.
+  std::vector<StateSeed> seedRates(const BodyStateRate& da, const BodyStateRate& db) const;
 };
 
 /// Throws InputError where the motion's source of contacts does not know distances.
@@ -51,5 +53,9 @@ struct ClosestApproach : DistanceReading {
 /// The least distance of two bodies over [from, to]; where they collide within it, 0 at their first impact there. Null
 /// where the motion ends before the span does.
 std::optional<ClosestApproach> closestApproach(const Motion& motion, int a, int b, double from, double to);
+
+/// The rows of the quantities `distance` and `closest_approach`.
+RowReading readDistanceRow(const QuantityPlace& place);
+RowReading readClosestApproachRow(const QuantityPlace& place);
 
 }  // namespace carom::editing_detail

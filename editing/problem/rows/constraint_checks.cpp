@@ -110,6 +110,19 @@ void checkBody(const QuantityKind& kind, const Body& body, const Constraint& con
                                                  ", expected none: it is of the body itself, in the world");
 }
 
+int checkedOther(const QuantityKind& kind, const Target& target, const Scene& scene, const std::string& body,
+                 const std::string& where) {
+  if (!kind.to_another && !target.to.empty())
+    throw InputError(where + "/to", "found '" + target.to + "' beside " + kind.word + ", expected none");
+  if (!kind.over_span && target.during)
+    throw InputError(where + "/during", std::string("found a span beside ") + kind.word + ", expected none");
+  if (target.during) checkSpan(*target.during, where + "/during");
+  if (!kind.to_another) return -1;
+  const int other = findAt(where + "/to", [&] { return bodyIndex(scene, target.to); });
+  if (target.to == body) throw InputError(where + "/to", "found '" + body + "' itself, expected another body");
+  return other;
+}
+
 void checkSpan(const std::pair<double, double>& span, const std::string& where) {
   const auto [from, to] = span;
   if (!(std::isfinite(from) && from >= 0)) {

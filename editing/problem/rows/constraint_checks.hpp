@@ -13,6 +13,9 @@ namespace carom::editing_detail {
 const QuantityKind& checkedKind(const Target& target, const When& at, const std::string& where);
 /// What the kind asks of the body, and of the one that it is seen from.
 void checkBody(const QuantityKind& kind, const Body& body, const Constraint& constraint, const std::string& where);
+/// The other body that a distance is to; -1 where the kind has none.
+int checkedOther(const QuantityKind& kind, const Target& target, const Scene& scene, const std::string& body,
+                 const std::string& where);
 /// Time, impact and span.
 void checkWhen(const When& at, const std::string& where);
 /// Of one number: a value, or a range with a limit at least.

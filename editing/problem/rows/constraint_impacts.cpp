@@ -37,7 +37,7 @@ void ConstraintSet::bindImpacts(const Scene& scene, int index, const std::string
 
 bool ConstraintSet::waitsForImpact(int index) const {
   const Bound& bound = bound_[index];
-  return bound.hit || bound.sequence || (constraints_[index].at.impact > 0 && !constraints_[index].targets.empty());
+  return bound.hit || bound.sequence || (constraints_[index].at.impact > 0 && bound.at_instant);
 }
 
 std::optional<int> ConstraintSet::awaited(const Motion& motion, int index) const {
@@ -89,8 +89,11 @@ double ConstraintSet::leastDuration() const {
   double last = 0;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const When& at = constraints_[i].at;
-    if (!constraints_[i].targets.empty() && at.impact == 0) last = std::max(last, at.span ? at.span->second : at.time);
-    for (const BoundRegion& region : bound_[i].regions) last = std::max(last, region.to);
+    const Bound& bound = bound_[i];
+    if (bound.at_instant && at.impact == 0) last = std::max(last, at.span ? at.span->second : at.time);
+    for (std::size_t t = 0; t < bound.kinds.size(); ++t)
+      if (bound.kinds[t]->over_span) last = std::max(last, bound.during[t].second);
+    for (const BoundRegion& region : bound.regions) last = std::max(last, region.to);
   }
   for (const BoundFunction& own : own_)
     if (!own.waits()) last = std::max(last, own.end);
@@ -109,12 +112,15 @@ ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen:
     const When& at = constraints_[i].at;
     for (const BoundRegion& region : bound_[i].regions)
       extent.time = std::max(extent.time, std::min(region.to, motion.end));
+    for (std::size_t t = 0; t < bound_[i].kinds.size(); ++t)
+      if (bound_[i].kinds[t]->over_span)
+        extent.time = std::max(extent.time, std::min(bound_[i].during[t].second, motion.end));
     if (waitsForImpact(static_cast<int>(i))) {
       if (const auto event = awaited(motion, static_cast<int>(i)))
         extent.time = std::max(extent.time, motion.events[*event].time);
       continue;
     }
-    if (constraints_[i].targets.empty()) continue;
+    if (!bound_[i].at_instant) continue;
     const int free = bound_[i].free_time;
     if (at.span) {
       extent.time = std::max(extent.time, free < times.size() ? times[free] : at.span->second);

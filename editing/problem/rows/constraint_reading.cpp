@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "editing/detail/messages.hpp"
+#include "editing/problem/rows/closest_approach.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 #include "editing/problem/rows/constraint_rows.hpp"
 #include "editing/problem/rows/relative.hpp"
@@ -92,7 +93,24 @@ RowReading ConstraintSet::readMotionQuantity(const Reading& reading, int i) cons
   const Row& row = rows_[i];
   const Bound& bound = bound_[row.constraint];
   return row.kind->read(
-      {*reading.motion, bound.body, bound.relative_to, reading.instant, reading.time, row.scale});
+      {*reading.motion, bound.body, bound.relative_to, reading.instant, reading.time, row.scale,
+       bound.to[row.target_index]});
+}
+
+RowReading ConstraintSet::readOverSpan(const Motion& motion, int i) const {
+  const Row& row = rows_[i];
+  const Bound& bound = bound_[row.constraint];
+  const auto [from, until] = bound.during[row.target_index];
+  return row.kind->read({motion, bound.body, -1, {}, from, row.scale, bound.to[row.target_index], from, until});
+}
+
+Eigen::VectorXd ConstraintSet::timeRate(DerivativeTape& tape, int i, std::span<const ReadingDirection> controls) const {
+  const Row& row = rows_[i];
+  if (row.region >= 0) return clearanceTimeRate(*clearance(tape.motion(), i), tape, controls);
+  if (!row.overSpan()) return {};
+  const Bound& bound = bound_[row.constraint];
+  const auto [from, until] = bound.during[row.target_index];
+  return closestApproach(tape.motion(), bound.body, bound.to[row.target_index], from, until)->timeRate(tape, controls);
 }
 
 void ConstraintSet::readObjective(const Motion& motion, RowValues& out) const {
@@ -193,6 +211,8 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
       putReading(i, own_[static_cast<std::size_t>(row.own)].read(motion), out);
     } else if (row.region >= 0) {
       readRegion(motion, i, out);
+    } else if (row.overSpan()) {
+      putReading(i, readOverSpan(motion, i), out);
     } else {
       if (row.constraint != current) {
         current = row.constraint;
@@ -218,7 +238,7 @@ double ConstraintSet::missAt(const Motion& motion, int index, double time) const
   double sum = 0;
   for (int i = 0; i < size(); ++i) {
     const Row& row = rows_[i];
-    if (row.constraint != index || row.region >= 0) continue;
+    if (row.constraint != index || row.overSpan()) continue;
     const Target& target = targetOf(row);
     const double value = row.kind->read ? readMotionQuantity(reading, i).value
                                         : row.kind->value(reading.seen, time, target)[row.component];

@@ -53,22 +53,33 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
       throw InputError(where + "/relative_to", "found '" + constraint.body + "' itself, expected another body");
     }
   }
-  if (at.span && !constraint.targets.empty()) {
+  const std::size_t first_row = rows_.size();
+  for (std::size_t t = 0; t < constraint.targets.size(); ++t) bindTarget(scene, index, static_cast<int>(t), duration);
+  if (at.span && bound.at_instant) {
     bound.free_time = static_cast<int>(free_times_.size());
     free_times_.push_back({index, at.span->first, at.span->second, naturalScales(scene, bound.body).time});
-  }
-  const std::size_t first_row = rows_.size();
-  for (std::size_t t = 0; t < constraint.targets.size(); ++t) {
-    bound.kinds.push_back(&checkedKind(constraint.targets[t], at, where));
-    checkBody(*bound.kinds.back(), scene.bodies[bound.body], constraint, where);
-    addTargetRows(scene, index, static_cast<int>(t));
   }
   for (std::size_t r = 0; r < constraint.regions.size(); ++r) {
     const Region& region = constraint.regions[r];
     checkRegion(region, where + (region.side == Region::Side::avoid ? "/avoid" : "/inside"));
     addRegionRows(scene, index, static_cast<int>(r), duration);
   }
-  if (rows_.size() == first_row && !bound.hit && !bound.sequence) throw InputError(where, "found no number to hold, expected at least one");
+  if (rows_.size() == first_row && !bound.hit && !bound.sequence)
+    throw InputError(where, "found no number to hold, expected at least one");
+}
+
+void ConstraintSet::bindTarget(const Scene& scene, int index, int target_index, double duration) {
+  const Constraint& constraint = constraints_[index];
+  const Target& target = constraint.targets[target_index];
+  const std::string where = "/constraints/" + std::to_string(index);
+  Bound& bound = bound_[index];
+  const QuantityKind& kind = checkedKind(target, constraint.at, where);
+  checkBody(kind, scene.bodies[bound.body], constraint, where);
+  bound.kinds.push_back(&kind);
+  bound.to.push_back(checkedOther(kind, target, scene, constraint.body, where + "/" + target.quantity));
+  bound.during.push_back(target.during.value_or(std::pair{0.0, duration}));
+  bound.at_instant |= !kind.over_span;
+  addTargetRows(scene, index, target_index);
 }
 
 void ConstraintSet::addTargetRows(const Scene& scene, int index, int target_index) {
@@ -81,6 +92,7 @@ void ConstraintSet::addTargetRows(const Scene& scene, int index, int target_inde
     row.constraint = index, row.target_index = target_index, row.component = c, row.kind = &kind;
     row.name = kind.word;
     if (kind.rows > 1) row.name += std::string(".") + "xyz"[c];
+    if (kind.to_another) row.name += " to '" + target.to + "'";
     row.target = row.lower = row.upper = wanted[c];
     if (std::isnan(wanted[c])) {
       row.lower = limitOf(target.min, c, -kInfinity), row.upper = limitOf(target.max, c, kInfinity);
@@ -137,6 +149,8 @@ std::vector<bool> ConstraintSet::asksOrientation() const {
     for (const QuantityKind* kind : bound.kinds) {
       if (kind->turns) asks[static_cast<std::size_t>(bound.body)] = true;
     }
+    for (const int other : bound.to)
+      if (other >= 0) asks[static_cast<std::size_t>(other)] = true;
     if (bound.relative_to >= 0) asks[static_cast<std::size_t>(bound.relative_to)] = true;
   }
   return asks;
@@ -174,6 +188,10 @@ std::string ConstraintSet::describeConstraint(int index) const {
 std::string ConstraintSet::describeRow(int row) const {
   const Row& r = rows_[row];
   if (r.own >= 0) return "'" + r.name + "'";
+  if (r.kind && r.kind->over_span) {
+    const auto [from, to] = bound_[r.constraint].during[r.target_index];
+    return r.name + " of '" + constraints_[r.constraint].body + "' from " + number(from) + " s to " + number(to) + " s";
+  }
   if (r.region < 0) return r.name + " of " + describeConstraint(r.constraint);
   const BoundRegion& region = bound_[r.constraint].regions[r.region];
   return r.name + " of '" + constraints_[r.constraint].body + "' from " + number(region.from) + " s to " +

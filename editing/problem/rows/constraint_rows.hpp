@@ -46,6 +46,8 @@ struct Row {
   double scale = 1;             ///< residual / scale is dimensionless
 
   bool isRange() const { return !(lower == upper); }
+  /// Holds over a span of its own, whatever the time of the constraint.
+  bool overSpan() const { return region >= 0 || (kind && kind->over_span); }
 };
 
 /// A time that a constraint `between` two times leaves to the edit: an unknown beside the controls.
@@ -109,6 +111,9 @@ class ConstraintSet {
                                    std::span<const BodyStateRate> rates) const;
   /// What the row of a region reads.
   std::optional<Clearance> clearance(const Motion& motion, int row) const;
+  /// How the time at which a row over a span reads the motion moves with the controls; empty where it stays, or moves
+  /// with an event.
+  Eigen::VectorXd timeRate(DerivativeTape& tape, int row, std::span<const ReadingDirection> controls) const;
 
   /// How far a value lies outside what a row allows, SI; negative below, 0 inside.
   double residual(int row, double value) const;
@@ -146,6 +151,9 @@ class ConstraintSet {
     int relative_to = -1;
     int free_time = -1;                      ///< index into free_times_
     std::vector<const QuantityKind*> kinds;  ///< of each target
+    std::vector<int> to;                     ///< the other body of each, or -1
+    std::vector<std::pair<double, double>> during;  ///< s, of each; of a quantity over a span
+    bool at_instant = false;                 ///< some target is read when the constraint says
     std::vector<BoundRegion> regions;
     std::optional<BoundHit> hit;
     std::optional<BoundSequence> sequence;
@@ -172,7 +180,9 @@ class ConstraintSet {
   Reading read(const Motion& motion, int constraint, double free_time) const;
   Reading readAt(const Motion& motion, int constraint, const Instant& instant, double time) const;
   void readRow(int row, const Reading& reading, RowValues& out) const;
+  void bindTarget(const Scene& scene, int index, int target, double duration);
   RowReading readMotionQuantity(const Reading& reading, int row) const;
+  RowReading readOverSpan(const Motion& motion, int row) const;
   void putReading(int row, RowReading reading, RowValues& out) const;
   void readRegion(const Motion& motion, int row, RowValues& out) const;
   void readObjective(const Motion& motion, RowValues& out) const;

@@ -3,6 +3,7 @@
 
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/numeric/so3_rates.hpp"
+#include "editing/problem/rows/closest_approach.hpp"
 #include "editing/problem/rows/motion_quantities.hpp"
 
 namespace carom::editing_detail {
@@ -199,8 +200,39 @@ const QuantityKind kHeight{
     .unit = "m",
 };
 
-const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation,   &kVelocity, &kAngularVelocity, &kTime, &kPoint,
-                                              &kSpeed,    &kKineticEnergy, &kImpulse,  &kHeight};
+const QuantityKind kDistance{
+    .word = "distance",
+    .rows = 1,
+    .numbers = 1,
+    .all_or_nothing = true,
+    .turns = true,
+    .scale = &NaturalScales::length,
+    .target = oneNumber,
+    .read = readDistanceRow,
+    .positive = true,
+    .from_another = false,
+    .unit = "m",
+    .to_another = true,
+};
+const QuantityKind kClosestApproach{
+    .word = "closest_approach",
+    .rows = 1,
+    .numbers = 1,
+    .all_or_nothing = true,
+    .turns = true,
+    .scale = &NaturalScales::length,
+    .target = oneNumber,
+    .read = readClosestApproachRow,
+    .positive = true,
+    .from_another = false,
+    .unit = "m",
+    .to_another = true,
+    .over_span = true,
+};
+
+const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation, &kVelocity,      &kAngularVelocity,
+                                              &kTime,     &kPoint,       &kSpeed,         &kKineticEnergy,
+                                              &kImpulse,  &kHeight,      &kDistance,      &kClosestApproach};
 
 }  // namespace
 

@@ -19,6 +19,8 @@ struct QuantityPlace {
   Instant at;
   double time;   ///< s, of the instant
   double scale;  ///< of the row, see Row::scale
+  int to = -1;   ///< the other body of a distance
+  double from = 0, until = 0;  ///< s, of a quantity of a span
 };
 
 /// One row of the table of quantities that a constraint can hold: what the editor asks of a kind. A quantity has up to
@@ -50,6 +52,8 @@ struct QuantityKind {
   bool of_shape = false;     ///< the body must have a lowest point
   bool from_another = true;  ///< makes sense as seen from another body
   const char* unit = "";     ///< SI, for refusals
+  bool to_another = false;   ///< is about another body too, which the target names
+  bool over_span = false;    ///< has a span of time of its own, whatever the constraint's
 };
 
 std::span<const QuantityKind* const> quantityKinds();

@@ -18,7 +18,7 @@ double missOf(const ConstraintSet& constraints, const RowValues& rows, int const
   double sum = 0;
   for (int i = 0; i < constraints.size(); ++i) {
     const Row& row = constraints.rows()[static_cast<std::size_t>(i)];
-    if (row.constraint == constraint && row.region < 0) sum += rows.scaled[i] * rows.scaled[i];
+    if (row.constraint == constraint && !row.overSpan()) sum += rows.scaled[i] * rows.scaled[i];
   }
   return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }

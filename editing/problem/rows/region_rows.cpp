@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "adjoint/derivative/tangent.h"
 #include "editing/problem/rows/region_way.hpp"
 
 namespace carom::editing_detail {
@@ -50,6 +51,27 @@ std::optional<Clearance> leastClearance(const Motion& motion, int body, const Bo
     clearance.seed.at = at_event ? Instant::before(line.events[k]) : Instant::at(clearance.time);
   }
   return clearance;
+}
+
+Eigen::VectorXd clearanceTimeRate(const Clearance& c, DerivativeTape& tape,
+                                  std::span<const ReadingDirection> controls) {
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(controls.size()));
+  if (c.keeps == Clearance::Keeps::place) return {};
+  const Motion& motion = tape.motion();
+  const int k = motion.arcAt(c.seed.body, c.time);
+  const Arc& arc = motion.world_lines[static_cast<std::size_t>(c.seed.body)].arcs[static_cast<std::size_t>(k)];
+  const Vec3 v = arc.velocityAt(c.time), n = c.seed.center_of_mass;
+  const double bend = n.dot(accelerationAt(arc, c.time)) + v.dot(c.bend * v);  // of the clearance by the time
+  for (std::size_t j = 0; j < controls.size(); ++j) {
+    const BodyStateRate d = tangent(tape, controls[j].scene).at(c.seed.body, Instant::at(c.time));
+    const auto at = static_cast<Eigen::Index>(j);
+    if (c.keeps == Clearance::Keeps::two_faces) {
+      r[at] = -c.between.dot(d.center_of_mass) / c.between.dot(v);
+    } else {
+      r[at] = -(n.dot(d.velocity) + v.dot(c.bend * d.center_of_mass)) / bend;
+    }
+  }
+  return r;
 }
 
 }  // namespace carom::editing_detail

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "adjoint/derivative/derivative_tape.h"
 #include "adjoint/motion/motion.h"
+#include "adjoint/second_order/reading_direction.h"
 #include "editing/constraint.h"
 
 /// How far a body stays on the right side of a region.
@@ -46,5 +48,9 @@ struct Clearance {
 };
 /// Null where the motion ends before the span does.
 std::optional<Clearance> leastClearance(const Motion& motion, int body, const BoundRegion& region, int component);
+
+/// How the time of a clearance moves with the controls; empty where it keeps its place.
+Eigen::VectorXd clearanceTimeRate(const Clearance& clearance, DerivativeTape& tape,
+                                  std::span<const ReadingDirection> controls);
 
 }  // namespace carom::editing_detail
