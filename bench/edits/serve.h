@@ -15,7 +15,7 @@ namespace carom::bench {
 ///                     motion lacks one
 ///   judge Y...        {"met", "objective", "residual"}, as of an answer of carom's
 ///   offer NAME Y...   the same, and keeps it in the file of the best known if it is met, and smaller
-/// Ends with the input, and writes the file then if something was offered. Throws std::runtime_error for other requests.
+/// Ends with the input. Throws std::runtime_error for other requests.
 void serve(std::uint64_t seed, std::istream& in, std::ostream& out, BestKnown& best);
 
 }  // namespace carom::bench

@@ -107,12 +107,13 @@ class Problem:
         return np.clip(found.x, self.lower, self.upper)
 
 
-def starts(problem, count, dice, hidden):
+def starts(problem, count, dice, hidden, known):
+    """Smaller than the smallest change that is known by now: `known()`."""
     yield np.clip(np.zeros(problem.numbers), problem.lower, problem.upper)
     if hidden:
         yield np.array(problem.facts["hidden_changes"])
     for i in range(1, count):
-        reach = 10.0 ** dice.uniform(-1.5, 0.7)
+        reach = min(10.0 ** dice.uniform(-1.5, 0.7), np.sqrt(2 * known()))
         y = dice.normal(size=problem.numbers)
         yield np.clip(reach * y / np.linalg.norm(y), problem.lower, problem.upper)
 
@@ -121,7 +122,7 @@ def solve(problem, count, seconds, dice, hidden):
     """Smallest change that is met, when each smaller one was found, and how many starts had their rows."""
     began = time.perf_counter()
     best, best_y, history, tried = np.inf, None, [], 0
-    for start in starts(problem, count, dice, hidden):
+    for start in starts(problem, count, dice, hidden, lambda: best):
         if time.perf_counter() - began > seconds:
             break
         if not problem.rows(start)["available"]:
