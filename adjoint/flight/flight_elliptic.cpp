@@ -101,14 +101,25 @@ void EllipticRotation::prepareTheta(double tan_eta) {
   turn_per_half_period_ = circular_ ? M_PI : M_PI + M_PI * eta / K1;
 }
 
+EllipticRotation::Argument EllipticRotation::argumentAt(double t) const {
+  const double K = modulus_.completeK(), u = p_ * t + e_, half_periods = std::round(u / (2 * K));
+  return {half_periods, std::fma(-2 * K, half_periods, u)};
+}
+
+// Of length 1.
+Vec3 EllipticRotation::momentumAt(const Argument& u) const {
+  const EllipticModulus::Functions f = modulus_.at(u.reduced);
+  const double sign = 2 * std::round(0.5 * u.half_periods) == u.half_periods ? 1 : -1;
+  return amplitude_.cwiseProduct(Vec3(sign * f.cn, sign * f.sn, f.dn)).normalized();
+}
+
+Vec3 EllipticRotation::directionAt(double t) const { return axes_.conjugate() * momentumAt(argumentAt(t)); }
+
 // exp([psi e_z]x) A(t), up to a constant turn about e_z: A is the turn of M to e_z by the shortest way, after one about
 // e_z by the azimuth of M, which is taken from psi.
 Quat EllipticRotation::relative(double t) const {
-  const double K = modulus_.completeK(), u = p_ * t + e_;
-  const double half_periods = std::round(u / (2 * K)), reduced = std::fma(-2 * K, half_periods, u);
-  const EllipticModulus::Functions f = modulus_.at(reduced);
-  const double sign = 2 * std::round(0.5 * half_periods) == half_periods ? 1 : -1;
-  const Vec3 M = amplitude_.cwiseProduct(Vec3(sign * f.cn, sign * f.sn, f.dn)).normalized();
+  const auto [half_periods, reduced] = argumentAt(t);
+  const Vec3 M = momentumAt({half_periods, reduced});
 
   // theta_1 by Chebyshev's recurrences
   double re = 0, im = 0;

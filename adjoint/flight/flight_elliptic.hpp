@@ -23,12 +23,21 @@ class EllipticRotation {
 
   /// Error: of the order of the rounding of the angle turned.
   Quat orientationAt(double t) const { return before_ * relative(t); }
+  /// Of R^T L in principal axes.
+  Vec3 directionAt(double t) const;
+  /// Of M from the real axis to its nearest pole in complex time, s.
+  double poleDistance() const { return complement_.completeK() / std::abs(p_); }
   /// Time after which M is the same and R has turned about L, s.
   double period() const { return 4 * modulus_.completeK() / std::abs(p_); }
 
  private:
   EllipticRotation(double m, double m1) : modulus_(m1), complement_(m) {}
   void prepareTheta(double tan_eta);
+  struct Argument {
+    double half_periods, reduced;  // u = 2K half_periods + reduced
+  };
+  Argument argumentAt(double t) const;
+  Vec3 momentumAt(const Argument& u) const;
   Quat relative(double t) const;
 
   static constexpr std::size_t kTerms = 5;

@@ -11,6 +11,9 @@
 
 namespace carom::adjoint_detail {
 
+template <class S>
+struct RotationStretch;
+
 /// Torque-free rotation with three different moments: Taylor segments at first, which are the cheapest to read, and the
 /// closed form (flight_elliptic.hpp) after them, where more segments would cost more than it does. With l = |L| the
 /// direction of L in principal axes, u = R^T L / l, obeys a quadratic system, and R is a twist about u(0) followed by
@@ -36,9 +39,12 @@ class TriaxialRotation {
   double availableUntil() const;
   std::size_t series() const { return segments_.size(); }
   Quat orientationAt(double elapsed) const;
-  /// Sensitivity over [0, elapsed] by the variational equations of the same system, see
-  /// flight_triaxial_sensitivity.cpp. `products`: dtheta_dproducts too.
+  /// Sensitivity over [0, elapsed]: in closed form (variation_pass.hpp), and where that is singular by Taylor series of
+  /// the variational equations, see flight_triaxial_sensitivity.cpp. `products`: dtheta_dproducts too.
   RotationSensitivity sensitivityAt(double elapsed, bool products = false) const;
+  /// [0, elapsed] for its variations in closed form; none where that is singular or `times` as near to it as first
+  /// derivatives may be, or the turn small.
+  std::optional<RotationStretch<double>> stretchOver(double elapsed, double times = 1) const;
 
  private:
   struct Segment {
@@ -51,6 +57,9 @@ class TriaxialRotation {
   static Quat orientationIn(const Segment& segment, double h);
   const Segment& segmentAt(double elapsed) const;
   double endOfSegments() const { return segments_.back().start + segments_.back().length; }
+  Vec3 bodyMomentumAt(double elapsed) const;
+  Vec3 squaresOver(double elapsed, const Vec3& start) const;
+  RotationSensitivity closedSensitivity(const RotationStretch<double>& stretch, bool products) const;
   RotationSensitivity sensitivityOver(double elapsed, bool products) const;
   template <int N>
   RotationSensitivity segmentSensitivity(const Segment& segment, double& h) const;

@@ -6,6 +6,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/flight/flight_triaxial.hpp"
 #include "adjoint/flight/periodic_sensitivity.hpp"
+#include "adjoint/flight/variation_pass.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
@@ -228,6 +229,7 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& segment,
 
 // Segment by segment, or in shorter steps where the series of the variations demand them.
 RotationSensitivity TriaxialRotation::sensitivityOver(double elapsed, bool products) const {
+  if (const auto stretch = stretchOver(elapsed)) return closedSensitivity(*stretch, products);
   RotationSensitivity total;
   std::size_t steps = 0;
   for (double t = 0; t < elapsed;) {

@@ -5,11 +5,13 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/flight/flight_triaxial.hpp"
+#include "adjoint/flight/variation_pass.hpp"
 #include "adjoint/numeric/elementary.hpp"
 #include "adjoint/second_order/dual_rotation.hpp"
 
-// The variational equations of flight_triaxial_sensitivity.cpp in dual numbers with K directions: M at the start of the
-// arc, the moments, the products of inertia. For a full symmetric A = J^-1, with B = dA of a column,
+// In closed form (variation_pass.hpp) in dual numbers with K directions, or, where that is singular or products of
+// inertia are among the directions, by the variational equations of flight_triaxial_sensitivity.cpp in the same. Directions: M at
+// the start of the arc, the moments, the products of inertia. For a full symmetric A = J^-1, with B = dA of a column,
 //   M' = M x w,  w = A M,   dM' = dM x w + M x (A dM + B M),   (M.eta)' = w.dM + M.B M,
 // dM and M.eta as Taylor series; then eta = ((dM - lambda) x M + (M.eta) M)/|M|^2, or its own series for small turns.
 // The columns are dM(0) along the three axes, the moments, the products. Values of orientations are those of the arc.
@@ -20,6 +22,7 @@ namespace {
 constexpr std::size_t kOrder = 20;
 constexpr std::size_t kMostColumns = 9;
 constexpr double kSmallTurn = 0.05;
+constexpr double kMargin = 3;  // of the closed form: second derivatives lose digits sooner than first ones
 
 template <int K>
 struct Steps {
@@ -227,6 +230,40 @@ BodyResponse responseOf(const typename Steps<K>::Columns& eta, const ResponseWan
   return out;
 }
 
+// The ends of the stretch move as its variations say.
+template <int K>
+RotationStretch<Dual<K>> movedStretch(const RotationStretch<double>& s) {
+  const VariationPass<double> pass(s);
+  RotationStretch<Dual<K>> out{s.D.cast<Dual<K>>(),       s.start.cast<Dual<K>>(),  s.end.cast<Dual<K>>(),
+                               s.squares.cast<Dual<K>>(), s.turned.cast<Dual<K>>(), s.elapsed};
+  const auto move = [&](std::size_t first, const Mat3& end, const Mat3& squares, const Mat3& eta) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const std::size_t lane = first + static_cast<std::size_t>(i);
+      setRates(out.end, end.col(i), lane);
+      setRates(out.squares, squares.col(i), lane);
+      setRates(out.turned, Mat3(-skew(Vec3(eta.col(i))) * s.turned), lane);
+    }
+  };
+  move(0, pass.momentumByStart(), pass.squaresByStart(), pass.turnByStart());
+  setRates(out.start, Vec3::UnitX(), 0), setRates(out.start, Vec3::UnitY(), 1), setRates(out.start, Vec3::UnitZ(), 2);
+  if constexpr (K >= 6) {
+    const Mat3 by_I = -Mat3(s.D.cwiseAbs2().asDiagonal());
+    move(3, pass.momentumByD() * by_I, pass.squaresByD() * by_I, pass.turnByInertia());
+    for (Eigen::Index i = 0; i < 3; ++i) out.D[i].rate[static_cast<std::size_t>(3 + i)] = by_I(i, i);
+  }
+  return out;
+}
+
+template <int K>
+BodyResponse closedResponse(const RotationStretch<double>& stretch, const ResponseWanted& wanted) {
+  const VariationPass<Dual<K>> pass(movedStretch<K>(stretch));
+  typename Steps<K>::Columns eta(3, wanted.products ? 9 : wanted.inertia ? 6 : 3);
+  eta.template leftCols<3>() = pass.turnByStart();
+  if (wanted.inertia) eta.template middleCols<3>(3) = pass.turnByInertia();
+  if (wanted.products) eta.template middleCols<3>(6) = pass.turnByProducts();
+  return responseOf<K>(eta, wanted);
+}
+
 template <int K>
 BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wanted) {
   using S = Steps<K>;
@@ -279,6 +316,11 @@ BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wante
 
 BodyResponse bodyResponse(const Arc& arc, double elapsed, const ResponseWanted& wanted) {
   if (wanted.lanes == 9) return respond<9>(arc, elapsed, wanted);
+  TriaxialRotation rotation;
+  rotation.begin(arc.model().inverse_inertia, arc.startState().q, arc.startState().L);
+  rotation.extendTo(elapsed);
+  if (const auto stretch = rotation.stretchOver(elapsed, kMargin))
+    return wanted.lanes == 6 ? closedResponse<6>(*stretch, wanted) : closedResponse<3>(*stretch, wanted);
   if (wanted.lanes == 6) return respond<6>(arc, elapsed, wanted);
   return respond<3>(arc, elapsed, wanted);
 }

@@ -39,6 +39,7 @@ void readRows(const EditProblem& problem, EditPoint& point) {
   point.violation = 0;
   for (double residual : point.rows.scaled) point.violation = std::max(point.violation, std::abs(residual));
   for (double h : point.validity) point.violation = std::max(point.violation, -h);
+  if (!point.rows.available) point.violation = std::numeric_limits<double>::infinity();
 }
 
 EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
@@ -78,11 +79,11 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
 
 EditPointPtr EditSearch::evaluateStart() {
   EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
+  consider(point);
   if (!point->rows.available) return point;
   if (problem_.awaited.empty())
     until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
   recent_.push_back(point);
-  consider(point);
   return point;
 }
 

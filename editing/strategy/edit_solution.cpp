@@ -35,7 +35,9 @@ std::string unmetRows(const EditSearch& search, const EditPoint& point) {
 }
 
 EditSolution unsolved(EditSearch& search, EditSolution solution) {
-  const std::string nearest = "The nearest that was found misses " + unmetRows(search, *solution.point) + ".";
+  const std::string nearest = solution.point->rows.available
+                                  ? "The nearest that was found misses " + unmetRows(search, *solution.point) + "."
+                                  : solution.point->rows.message;
   const bool stays = search.options().sequence == SequencePolicy::stay;
   const std::string where = stays ? " within the impact sequence of the start" : "";
   if (search.halt() == Halt::out_of_time) {
@@ -70,6 +72,16 @@ EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const 
   return solves(inside) ? inside : nullptr;
 }
 
+/// Whether rows that the motion of the start lacks may be there in others: not those of times after its duration.
+bool mayBecomeAvailable(const EditSearch& search) {
+  const EditProblem& problem = search.problem();
+  if (search.options().sequence == SequencePolicy::stay || problem.unknowns() == 0) return false;
+  const std::vector<Constraint>& held = problem.constraints.constraints();
+  return std::none_of(held.begin(), held.end(), [&](const Constraint& c) {
+    return !c.targets.empty() && c.at.impact == 0 && c.at.time > problem.duration;
+  });
+}
+
 /// A first solution, and then smaller changes, until so many rounds brought none.
 void searchAcross(const EditSearch& search, SequenceSearch& across) {
   const SearchPlan& plan = planOf(search.options().effort);
@@ -100,7 +112,7 @@ EditSolution findSolution(EditSearch& search) {
     solution.message = "The edit was cancelled before the motion of its start was known.";
     return solution;
   }
-  if (!start->rows.available) {
+  if (!start->rows.available && !mayBecomeAvailable(search)) {
     solution.status = EditStatus::bad_start;
     solution.message = start->rows.message;
     return solution;
@@ -110,10 +122,13 @@ EditSolution findSolution(EditSearch& search) {
     return solution;
   }
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
-  const RowChoice choice = chooseRows(search, start);
+  const RowChoice choice = start->rows.available ? chooseRows(search, start) : RowChoice{};
   const bool contradicts = !choice.contradiction.empty();  // in this impact sequence at least
-  if (!contradicts) solution.growth = growthOf(start->motion, search.problem(), start->rows);
-  const EditPointPtr inside = contradicts ? nullptr : solveInSequence(search, choice, start);
+  EditPointPtr inside;
+  if (start->rows.available && !contradicts) {
+    solution.growth = growthOf(start->motion, search.problem(), start->rows);
+    inside = solveInSequence(search, choice, start);
+  }
   SequenceSearch across(search, start);
   if (inside) across.add(inside);
   if (may_leave) searchAcross(search, across);

@@ -89,9 +89,9 @@ int SequenceSearch::sampleCount() const {
   return static_cast<int>(std::clamp(doubled, std::min<double>(least, plan_.most_samples), 1.0 * plan_.most_samples));
 }
 
-// What changes less than the best lies nearer to the start.
+// What changes less than the best lies nearer to the start. While there is none, every other round reaches further.
 double SequenceSearch::reach() const {
-  if (solutions_.empty()) return kReach;
+  if (solutions_.empty()) return std::ldexp(kReach, rounds_without_ / 2);
   return std::min(kReach, kReachOfChange * lengthOf(search_.problem(), solutions_.front()->changes));
 }
 
@@ -114,7 +114,8 @@ bool SequenceSearch::reportBatch() {
 }
 
 std::vector<EditPointPtr> SequenceSearch::sample() {
-  std::vector<Surroundings> around = {surroundingsOf(search_, *start_)};
+  std::vector<Surroundings> around;
+  if (start_->rows.available) around.push_back(surroundingsOf(search_, *start_));
   if (search_.best() != start_) around.push_back(surroundingsOf(search_, *search_.best()));
   const int count = sampleCount();
   const std::vector<Eigen::VectorXd> places =
@@ -125,7 +126,7 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
     points[i] = search_.make(places[i], true, {&contacts, nullptr});
   });
   std::erase(points, nullptr);
-  if (round_ == 0) points.insert(points.begin(), start_);
+  if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
   if (search_.best() != start_) points.insert(points.begin(), search_.best());
   for (const EditPointPtr& point : points) search_.consider(point);
   return points;

@@ -149,30 +149,17 @@ TEST(FreeRotation, TriaxialArcs) {
   std::cout << "worst orientation " << worst_state << ", worst sensitivity " << worst_sensitivity << '\n';
 }
 
-struct LongFlight {
+struct NamedFlight {
   std::string what;
   Vec3 inertia, spin;  // in principal axes
   double time;
 };
 
-/// Flights of many periods, where the closed form and the formula for whole periods are in use: errors in multiples of
-/// what the rounding of the start is worth at the end.
-TEST(FreeRotation, LongFlights) {
-  const Vec3 direction = Vec3(2, -1, 2) / 3, nearly_middle = Vec3(1e-3, 1, 1e-3).normalized();
+/// Errors in multiples of what the rounding of the start is worth at the end.
+void expectExact(const std::vector<NamedFlight>& flights) {
   const Quat q = Quat(0.4, 0.3, -0.8, 0.2).normalized();
-  const std::vector<LongFlight> flights = {
-      {"box", {0.0045, 0.0087, 0.0108}, direction, 50},
-      {"nearly symmetric", {1, 1 + 1e-6, 1.7}, direction, 50},
-      {"nearly symmetric about the least", {1, 1.7, 1.7 + 1e-9}, direction, 50},
-      {"strongly triaxial", {1, 3, 3.9}, direction, 50},
-      {"backwards about the greatest", {1, 2, 2.5}, {0.3, -0.2, -1}, 50},
-      {"nearly about the least", {1, 2, 2.5}, {1, 1e-6, 1e-6}, 40},
-      {"about the least but for a rounding", {1, 2, 2.5}, {1, 1e-13, 1e-13}, 40},
-      {"nearly about the greatest", {1, 2, 2.5}, {1e-9, 1e-9, 1}, 40},
-      {"nearly about the middle", {1, 2, 2.5}, nearly_middle, 170},
-      {"nearly on the separatrix", {1, 2, 2.5}, {1, 1e-9, std::sqrt(0.8) * (1 + 1e-5)}, 100}};
   double worst_state = 0, worst_sensitivity = 0;
-  for (const LongFlight& flight : flights) {
+  for (const NamedFlight& flight : flights) {
     SCOPED_TRACE(flight.what);
     const Vec3 L = q * flight.inertia.cwiseProduct(flight.spin);
     TriaxialRotation rotation;
@@ -195,6 +182,37 @@ TEST(FreeRotation, LongFlights) {
   }
   std::cout << "worst orientation " << worst_state << " roundings of the start, worst sensitivity " << worst_sensitivity
             << " of them times their growth\n";
+}
+
+/// Flights of many periods, where the closed form and the formula for whole periods are in use.
+TEST(FreeRotation, LongFlights) {
+  const Vec3 direction = Vec3(2, -1, 2) / 3, nearly_middle = Vec3(1e-3, 1, 1e-3).normalized();
+  const std::vector<NamedFlight> flights = {
+      {"box", {0.0045, 0.0087, 0.0108}, direction, 50},
+      {"nearly symmetric", {1, 1 + 1e-6, 1.7}, direction, 50},
+      {"nearly symmetric about the least", {1, 1.7, 1.7 + 1e-9}, direction, 50},
+      {"strongly triaxial", {1, 3, 3.9}, direction, 50},
+      {"backwards about the greatest", {1, 2, 2.5}, {0.3, -0.2, -1}, 50},
+      {"nearly about the least", {1, 2, 2.5}, {1, 1e-6, 1e-6}, 40},
+      {"about the least but for a rounding", {1, 2, 2.5}, {1, 1e-13, 1e-13}, 40},
+      {"nearly about the greatest", {1, 2, 2.5}, {1e-9, 1e-9, 1}, 40},
+      {"nearly about the middle", {1, 2, 2.5}, nearly_middle, 170},
+      {"nearly on the separatrix", {1, 2, 2.5}, {1, 1e-9, std::sqrt(0.8) * (1 + 1e-5)}, 100}};
+  expectExact(flights);
+}
+
+/// On both sides of the borders at which the variations in closed form lose digits, and series take over.
+TEST(FreeRotation, WhereTheClosedFormEnds) {
+  std::vector<NamedFlight> flights;
+  for (const double share : {0.01, 0.02, 0.03, 0.04, 0.06, 0.1}) {
+    const std::string by = " by " + std::to_string(share);
+    flights.push_back({"moments apart" + by, {1, 1 + share, 1.7}, Vec3(2, -1, 2) / 3, 7});
+    flights.push_back({"off the least axis" + by, {1, 2, 2.5}, {1, share, share}, 7});
+    flights.push_back({"off the separatrix" + by, {1, 2, 2.5}, {1, 0.3, std::sqrt(0.8) * (1 + share)}, 7});
+  }
+  for (const double turn : {0.01, 0.29, 0.31, 0.5, 1.5})
+    flights.push_back({"turn " + std::to_string(turn), {1, 2, 2.5}, {1, 0.7, -0.4}, turn / 1.9});
+  expectExact(flights);
 }
 
 }  // namespace
