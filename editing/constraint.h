@@ -38,8 +38,8 @@ inline When between(double from, double to) {
 }
 
 /// One target of a constraint. `quantity` is the word of the scene document: position, orientation, velocity,
-/// angular_velocity, time, point. `value` holds 3 numbers (`any` leaves one free); for orientation the quaternion
-/// w, x, y, z (shape to world); for time 1. A component may be held within a range instead: its `value` is `any` and
+/// angular_velocity, time, point, speed, kinetic_energy, impulse, height. `value` holds 3 numbers (`any` leaves one
+/// free); for orientation the quaternion w, x, y, z (shape to world); for time, speed, energy, impulse and height 1. A component may be held within a range instead: its `value` is `any` and
 /// `min`, `max` (empty, or as many as `value`; `any`: no limit on that side) give the range.
 struct Target {
   std::string quantity;            ///< word of the scene document

@@ -7,10 +7,12 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
+#include "editing/detail/thrown_by_user.hpp"
 #include "editing/problem/jacobian.hpp"
 #include "editing/report/alternatives.hpp"
 #include "editing/report/explain.hpp"
 #include "editing/report/verify.hpp"
+#include "editing/solve/minimise.hpp"
 #include "editing/strategy/edit_solution.hpp"
 
 namespace carom {
@@ -41,7 +43,24 @@ std::vector<Constraint> Edit::constraints() const {
   return constraints;
 }
 
-EditProblem Edit::problem() const { return EditProblem(scene_, contacts_, duration_, controls_, constraints()); }
+Edit& Edit::require(MotionFunction function, Wanted wanted) {
+  required_.emplace_back(std::move(function), wanted);
+  return *this;
+}
+
+Edit& Edit::minimise(MotionFunction function, double change_weight) {
+  minimised_ = std::move(function);
+  change_weight_ = change_weight;
+  return *this;
+}
+
+EditProblem Edit::problem() const {
+  OwnFunctions own;
+  for (const auto& [function, wanted] : required_) own.rows.push_back({function, wanted});
+  own.objective = minimised_;
+  own.change_weight = change_weight_;
+  return EditProblem(scene_, contacts_, duration_, controls_, constraints(), own);
+}
 
 namespace {
 
@@ -60,14 +79,25 @@ void checkEditOptions(const EditOptions& options) {
 
 EditResult Edit::solve(const EditOptions& options) const {
   checkEditOptions(options);
+  try {
+    return solved(options);
+  } catch (const ThrownByUser& by_user) {
+    std::rethrow_exception(by_user.thrown);
+  }
+}
+
+EditResult Edit::solved(const EditOptions& options) const {
   const auto began = std::chrono::steady_clock::now();
   EditProblem problem = this->problem();
   problem.step_limit = options.step_limit;
   problem.stop = options.stop;
-  problem.awaited = problem.constraints.awaited();
+  if (problem.constraints.waits())
+    problem.enough = [&](const Motion& motion) { return problem.constraints.hasWhatItWaitsFor(motion); };
   problem.least_duration = problem.constraints.leastDuration();
   EditSearch search(problem, options);
-  const EditSolution solution = findSolution(search);
+  EditSolution solution = findSolution(search);
+  if (problem.constraints.objective() && solution.status == EditStatus::solved)
+    solution.point = lowerObjective(search, solution.point);
   EditResult result = verify(scene_, search, solution);
   if (options.explain) explainInto(result, scene_, search, solution);
   if (result.solved() && search.halt() != Halt::cancelled) result.alternatives = alternativesTo(scene_, search, solution);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adjoint/motion/motion.h"
@@ -9,6 +11,7 @@
 #include "editing/control.h"
 #include "editing/edit_options.h"
 #include "editing/edit_result.h"
+#include "editing/motion_function.h"
 #include "editing/nail.h"
 
 namespace carom {
@@ -19,7 +22,8 @@ class EditProblem;
 
 /// Finds the smallest weighted change of some numbers of a scene such that its motion meets constraints:
 ///   minimise 1/2 sum (w_i z_i)^2  subject to  rows = targets, physical validity and bounds,
-/// with z_i the change of a number in units of its natural scale (logarithmic for mass and moments of inertia).
+/// with z_i the change of a number in units of its natural scale (logarithmic for mass and moments of inertia); or the
+/// change that makes a function of the motion small.
 /// Nothing is claimed that was not verified: the resulting scene is simulated afresh, and residuals are of that motion.
 class Edit {
  public:
@@ -42,16 +46,24 @@ class Edit {
   /// Removes a nail.
   void unnail(const Nail& nail);
 
+  /// Holds a function of the motion to a value, or within a range (SI, in its own unit): one more row, beside the nails.
+  Edit& require(MotionFunction function, Wanted wanted);
+  /// Minimises function/scale + change_weight 1/2 sum (w_i z_i)^2 in place of the change alone. What one wants large is
+  /// made small with the other sign. Found is a minimum nearby, in the impact sequences that were looked at; without
+  /// weight of the change, numbers that matter neither to it nor to the rows are where they happened to be left.
+  Edit& minimise(MotionFunction function, double change_weight = 0);
+
   const std::vector<Control>& controls() const { return controls_; }  ///< what may vary
   std::vector<Constraint> constraints() const;                        ///< what the nails hold
 
-  /// Throws InputError for bad input; everything else is a status and a message.
+  /// Throws InputError for bad input, and what functions of the motion throw; everything else is a status and a message.
   EditResult solve(const EditOptions& options = {}) const;
   /// The same controls and constraints as rows and derivatives, at the start; for the command.
   editing_detail::EditProblem problem() const;
 
  private:
   friend class Nail;
+  EditResult solved(const EditOptions& options) const;
   struct Nailed {
     int id;
     Constraint constraint;
@@ -62,6 +74,9 @@ class Edit {
   double duration_;
   std::vector<Control> controls_;
   std::vector<Nailed> nails_;
+  std::vector<std::pair<MotionFunction, Wanted>> required_;
+  std::optional<MotionFunction> minimised_;
+  double change_weight_ = 0;
   int next_id_ = 0;
 };
 

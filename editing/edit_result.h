@@ -36,7 +36,7 @@ struct ChangedNumber {
 
 /// One number that was held, in the verified motion.
 struct HeldNumber {
-  int constraint = -1;                      ///< index of the Constraint
+  int constraint = -1;                      ///< index of the Constraint; -1: a function of Edit::require
   std::string name;                         ///< "position.x of 'hat' at 1.4 s"
   std::string component;                    ///< "position.x"
   double value = 0;                         ///< SI; NaN where the motion does not have it
@@ -78,7 +78,7 @@ struct EditResult {
   std::vector<MetTime> times;  ///< one for each constraint `between` two times
   double residual = 0;         ///< largest |error| of that motion, SI (m, m/s, rad, rad/s, s mixed)
   double scaled_residual = 0;  ///< the same, dimensionless: this is compared with EditOptions::tolerance
-  double objective = 0;        ///< 1/2 sum (w_i z_i)^2
+  double objective = 0;        ///< 1/2 sum (w_i z_i)^2, or what Edit::minimise says
   int iterations = 0;          ///< steps of all stages together
   double milliseconds = 0;     ///< that it took
   std::vector<std::string> sequence_before;  ///< of the start, one line an impact

@@ -57,12 +57,18 @@ Nail& Nail::velocity(const Vec3& v) { return set({"velocity", numbersOf(v)}); }
 Nail& Nail::velocity(Wanted x, Wanted y, Wanted z) { return set("velocity", {x, y, z}); }
 Nail& Nail::angularVelocity(const Vec3& w) { return set({"angular_velocity", numbersOf(w)}); }
 Nail& Nail::angularVelocity(Wanted x, Wanted y, Wanted z) { return set("angular_velocity", {x, y, z}); }
-Nail& Nail::time(Wanted t) {
+Nail& Nail::setNumber(const char* quantity, const Wanted& wanted) {
   Target target;
-  target.quantity = "time";
-  put(t, 0, 1, target);
+  target.quantity = quantity;
+  put(wanted, 0, 1, target);
   return set(std::move(target));
 }
+
+Nail& Nail::time(Wanted t) { return setNumber("time", t); }
+Nail& Nail::speed(Wanted v) { return setNumber("speed", v); }
+Nail& Nail::kineticEnergy(Wanted e) { return setNumber("kinetic_energy", e); }
+Nail& Nail::impulse(Wanted p) { return setNumber("impulse", p); }
+Nail& Nail::height(Wanted h) { return setNumber("height", h); }
 Nail& Nail::point(const Vec3& body_point, const Vec3& world) { return set({"point", numbersOf(world), body_point}); }
 Nail& Nail::point(const Vec3& body_point, Wanted x, Wanted y, Wanted z) { return set("point", {x, y, z}, body_point); }
 

@@ -28,6 +28,11 @@ class Nail {
   /// The same, component by component.
   Nail& point(const Vec3& body_point, Wanted x, Wanted y, Wanted z);
 
+  Nail& speed(Wanted v);           ///< m/s, of the velocity
+  Nail& kineticEnergy(Wanted e);   ///< J, of moving and turning
+  Nail& impulse(Wanted p);         ///< N s, that the body gets in the impact; only for nails at an impact
+  Nail& height(Wanted h);          ///< m, of the lowest point, against gravity (along z without it)
+
   /// All quantities are those of the body as seen from another one, in the axes of its shape
   /// (docs/scenes.md). "" takes it back.
   Nail& relativeTo(const std::string& body);
@@ -42,6 +47,7 @@ class Nail {
   Nail(Edit* edit, int id) : edit_(edit), id_(id) {}
   Constraint& constraint();
   Nail& set(Target target);
+  Nail& setNumber(const char* quantity, const Wanted& wanted);
   Nail& set(const char* quantity, const Wanted (&wanted)[3], const Vec3& body_point = Vec3::Zero());
 
   Edit* edit_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "adjoint/motion/body_distance.hpp"
 #include "adjoint/motion/body_geometry.h"
 #include "ode_bridge/solids/solid.hpp"
 
@@ -80,7 +81,9 @@ ContactPoint contactOf(GapKind kind, const WorldFeature& of_a, const WorldFeatur
 
 /// The gaps above, for the solids of a scene. Where contactOf returns NaN so does the Jacobian. Throws InputError for
 /// bodies and features that are not there.
-class FeatureGeometry final : public ContactGeometry, public BodyGeometry {
+class FeatureGeometry final : public ContactGeometry,
+                              public BodyGeometry,
+                              public adjoint_detail::BodyDistance {
  public:
   explicit FeatureGeometry(std::vector<Solid> solids) : solids_(std::move(solids)) {}
 
@@ -95,6 +98,10 @@ class FeatureGeometry final : public ContactGeometry, public BodyGeometry {
   double boundingRadius(int body) const override;
   double overlap(int a, int b, const Pose& A, const Pose& B) const override;
   std::vector<FeatureLimit> limits(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;
+
+  adjoint_detail::Nearest nearest(int a, int b, const Pose& A, const Pose& B) const override;
+  std::optional<adjoint_detail::NearestInTime> nearestInTime(int a, int b, const Arc& arc_a, const Arc& arc_b,
+                                                             double from, double to, double under) const override;
 
   const Solid& solid(int body) const { return solids_[static_cast<std::size_t>(body)]; }
   const std::vector<Solid>& solids() const { return solids_; }

@@ -39,10 +39,12 @@ class ReversePass {
     const auto b = static_cast<std::size_t>(seed.body);
     const ReadPlace place = readPlace(motion_, seed.body, seed.at);
     const StateDerivative bar = seedPullback((*motion_.models)[b], place.state, seed, bars_.model[b]);
+    bars_.scene.gravity += seed.gravity;
+    if (seed.size.size() > 0) bars_.scene.bodies[b].size += seed.size;
     const auto rate = [&] {
       return motion_.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(place.time, place.state);
     };
-    if (seed.at.event >= 0 && bars_.readBefore(seed.at.event, seed.body, bar, seed.time, rate)) return;
+    if (seed.at.event >= 0 && bars_.readAtEvent(seed.at, seed.body, bar, seed.time, rate)) return;
     throughArc(seed.body, place.arc, place.time, tape_.arcUntil(seed.body, place.arc, place.time), bar);
   }
 

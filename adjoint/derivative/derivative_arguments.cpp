@@ -14,9 +14,16 @@ void checkSeed(const char* where, const Motion& motion, const StateSeed& seed) {
     checkTime(where, motion, seed.at.time);
   }
   for (const Vec3* weights :
-       {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity, &seed.center_of_mass})
+       {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity, &seed.center_of_mass, &seed.gravity})
     checkEntries(where, "a weight of", *weights);
+  checkEntries(where, "a weight of", Eigen::VectorXd(seed.inertia.reshaped()));
   checkedNumber(where, "a weight of", seed.time);
+  checkedNumber(where, "a weight of", seed.mass);
+  if (seed.size.size() == 0) return;
+  const Shape& shape = motion.scene->bodies[static_cast<std::size_t>(seed.body)].shape;
+  checkCount(where, "weights of dimensions", static_cast<std::size_t>(seed.size.size()),
+             static_cast<std::size_t>(kindOf(shape).dimensions(shape).size()));
+  checkEntries(where, "a weight of", seed.size);
 }
 
 void checkDirection(const char* where, const Scene& scene, const SceneTangent& d) {

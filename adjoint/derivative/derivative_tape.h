@@ -22,21 +22,24 @@ struct ArcSensitivity : RotationSensitivity {
   std::shared_ptr<const adjoint_detail::PathLinearization> path;
 };
 
-/// When a state is read: at a time, or just before an event (then the time itself moves with the causes). A body that
-/// takes no part in the event is read at the time of the event.
+/// When a state is read: at a time, or just before or after an event (then the time itself moves with the causes). A
+/// body that takes no part in the event is read at the time of the event.
 struct Instant {
-  double time = 0;  ///< s, where there is no event
-  int event = -1;   ///< just before this one; -1: at a time
+  double time = 0;       ///< s, where there is no event
+  int event = -1;        ///< just before this one; -1: at a time
+  bool follows = false;  ///< just after the event instead
 
   /// At a given time, s.
   static Instant at(double time) { return {time, -1}; }
   /// Just before an event.
   static Instant before(int event) { return {0, event}; }
+  /// Just after an event.
+  static Instant after(int event) { return {0, event, true}; }
 };
 
 /// One linear functional of the state of a body at an instant, in the terms of BodyState: the weights of position,
 /// orientation (world rotation vector), velocity and angular velocity, and of the time of the event; besides, of the
-/// centre of mass.
+/// centre of mass, and of numbers of the scene that a reading depends on by itself, not through the motion.
 struct StateSeed {
   int body = -1;  ///< whose state is read
   Instant at;     ///< when
@@ -46,6 +49,13 @@ struct StateSeed {
   Vec3 angular_velocity = Vec3::Zero();  ///< weights of the angular velocity
   Vec3 center_of_mass = Vec3::Zero();  ///< weights of the place of the centre of mass
   double time = 0;                       ///< weight of the time of the event
+  double mass = 0;                       ///< weight of the body's mass
+  Mat3 inertia = Mat3::Zero();           ///< weights of its inertia tensor about the centre of mass, axes of the shape
+  Eigen::VectorXd size = {};             ///< weights of the dimensions of its shape; empty: none
+  Vec3 gravity = Vec3::Zero();           ///< weights of the scene's gravity
+
+  /// All weights times a number.
+  StateSeed& operator*=(double factor);
 };
 
 /// How far a derivative can be trusted: the smallest margins of the events that it passed through.

@@ -6,6 +6,19 @@
 #include "adjoint/derivative/seed_pass.hpp"
 #include "adjoint/motion/time_argument.hpp"
 
+namespace carom {
+
+StateSeed& StateSeed::operator*=(double factor) {
+  for (Vec3* weights : {&position, &orientation, &velocity, &angular_velocity, &center_of_mass, &gravity})
+    *weights *= factor;
+  time *= factor, mass *= factor;
+  inertia *= factor;
+  size *= factor;
+  return *this;
+}
+
+}  // namespace carom
+
 namespace carom::adjoint_detail {
 
 StateDerivative seedPullback(const BodyModel& model, const State& state, const StateSeed& seed,
@@ -35,11 +48,17 @@ ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
     const Event& event =
         motion.events[checkedIndex("an instant that is read", "event", instant.event, motion.events.size())];
     const Participant* p = event.find(body);
-    return p ? ReadPlace{event.time, p->arc, p->before} : readPlace(motion, body, Instant::at(event.time));
+    if (!p) return readPlace(motion, body, Instant::at(event.time));
+    if (!instant.follows) return {event.time, p->arc, p->before};
+    return {event.time, p->arc + 1, motion.world_lines[b].arcs[static_cast<std::size_t>(p->arc) + 1].startState()};
   }
   checkTime("an instant that is read", motion, instant.time);
   const int k = motion.arcAt(body, instant.time);
   return {instant.time, k, motion.world_lines[b].arcs[static_cast<std::size_t>(k)].stateAt(instant.time)};
+}
+
+bool startsArc(const Motion& motion, int body, const Instant& instant) {
+  return instant.follows && motion.events[static_cast<std::size_t>(instant.event)].find(body) != nullptr;
 }
 
 double timeDerivative(const Motion& motion, const StateSeed& seed) {

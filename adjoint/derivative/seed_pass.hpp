@@ -5,6 +5,12 @@
 
 namespace carom::adjoint_detail {
 
+/// Exactly.
+template <class S>
+bool isZeroMatrix(const M3<S>& m) {
+  return carom::isZero<S>(m.col(0)) && carom::isZero<S>(m.col(1)) && carom::isZero<S>(m.col(2));
+}
+
 /// What is read of a state, in any kind of number S, see seed.hpp; R and L are of the state, a `Seed` has the weights of a StateSeed.
 template <class S, class Model, class Seed>
 StateDerivativeOf<S> seedPullbackOf(const Model& model, const M3<S>& R, const V3<S>& L, const Seed& seed,
@@ -14,6 +20,8 @@ StateDerivativeOf<S> seedPullbackOf(const Model& model, const M3<S>& R, const V3
   bar.theta = seed.orientation;
   bar.v = seed.velocity;
   if (!model.moving) return bar;
+  model_bar.mass += seed.mass;
+  if (!isZeroMatrix(seed.inertia)) model_bar.addInertiaBar(model.R_BG * seed.inertia * model.R_BG.transpose());
   const M3<S> R_WG = model.shapeToWorld(R);
   bar.theta += seed.position.cross(R_WG * model.center);  // -p_bar.(theta x c_W)
   model_bar.center -= R_WG.transpose() * seed.position;

@@ -16,7 +16,9 @@ using namespace adjoint_detail;
 
 double BodyStateRate::dot(const StateSeed& s) const {
   return position.dot(s.position) + orientation.dot(s.orientation) + velocity.dot(s.velocity) +
-         angular_velocity.dot(s.angular_velocity) + center_of_mass.dot(s.center_of_mass) + time * s.time;
+         angular_velocity.dot(s.angular_velocity) + center_of_mass.dot(s.center_of_mass) + time * s.time +
+         mass * s.mass + inertia.cwiseProduct(s.inertia).sum() + gravity.dot(s.gravity) +
+         (size.size() > 0 && s.size.size() > 0 ? size.dot(s.size) : 0);
 }
 
 StateDerivative MotionTangent::stateTangent(int body, int k, double t) const {
@@ -30,7 +32,9 @@ BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
   const auto b = static_cast<std::size_t>(body);
   const ReadPlace place = readPlace(motion, body, instant);
   BodyStateRate rate;
-  StateDerivative ds = stateTangent(body, place.arc, place.time);
+  const bool starts = startsArc(motion, body, instant);
+  StateDerivative ds =
+      starts ? starts_[b][static_cast<std::size_t>(place.arc)] : stateTangent(body, place.arc, place.time);
   if (instant.event >= 0) {  // the instant moves along
     rate.time = eventTime(instant.event);
     ds.addScaled(rate.time, motion.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(place.time, place.state));
@@ -41,6 +45,10 @@ BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
   rate.orientation = ds.theta;
   rate.velocity = ds.v;
   rate.angular_velocity = angularVelocityTangent(model, place.state, ds, dmodels_[b]);
+  rate.mass = dmodels_[b].mass;
+  rate.inertia = model.R_BG.transpose() * dmodels_[b].inertiaTensor() * model.R_BG;
+  if (!sizes_.empty()) rate.size = sizes_[b];
+  rate.gravity = direction_.gravity;
   return rate;
 }
 
@@ -69,6 +77,8 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
   t.direction_.gravity = direction.gravity;
   const auto is_impact = [](const Event& event) { return event.kind == EventKind::impact; };
   if (!std::ranges::all_of(motion.events, is_impact)) t.direction_ = direction;
+  if (!std::ranges::all_of(direction.bodies, [](const BodyDerivative& d) { return d.size.isZero(0); }))
+    for (const BodyDerivative& d : direction.bodies) t.sizes_.push_back(d.size);
   t.starts_.resize(motion.world_lines.size());
   for (std::size_t b = 0; b < motion.world_lines.size(); ++b) {
     const Body& body = motion.scene->bodies[b];

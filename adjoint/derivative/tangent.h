@@ -20,6 +20,10 @@ struct BodyStateRate {
   Vec3 angular_velocity = Vec3::Zero();  ///< of the angular velocity
   Vec3 center_of_mass = Vec3::Zero();  ///< m/unit, of the place of the centre of mass
   double time = 0;                     ///< of the instant
+  double mass = 0;                     ///< of the body's mass
+  Mat3 inertia = Mat3::Zero();         ///< of its inertia tensor about the centre of mass, axes of the shape
+  Eigen::VectorXd size = {};           ///< of the dimensions of its shape; empty: none changes
+  Vec3 gravity = Vec3::Zero();         ///< of the scene's gravity
 
   /// Rate of the functional: the sum of weights times rates.
   double dot(const StateSeed& seed) const;
@@ -46,6 +50,7 @@ class MotionTangent {
   std::vector<BodyModelDerivative> dmodels_;
   std::vector<std::vector<StateDerivative>> starts_;  // of every arc of every body, at fixed time
   std::vector<double> event_time_;
+  std::vector<Eigen::VectorXd> sizes_;  // of every body; empty where none changes
   StateDerivative stateTangent(int body, int arc, double t) const;
 };
 

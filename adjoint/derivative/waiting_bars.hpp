@@ -29,18 +29,20 @@ class WaitingBars {
   std::vector<StateBar> start;
   std::vector<BodyModelDerivativeOf<S>> model;
 
-  /// What is read of a body just before an event, whose weight of time is `time`; `rateOf()`: how fast its state changes
-  /// there. False where the body has no part in the event: then `bar` is still to go through its flight.
+  /// What is read of a body at an event, whose weight of time is `time`; `rateOf()`: how fast its state changes there.
+  /// False where the body has no part in the event: then `bar` is still to go through its flight.
   template <class Rate>
-  bool readBefore(int event, int body, const StateBar& bar, const S& time, const Rate& rateOf) {
+  bool readAtEvent(const Instant& instant, int body, const StateBar& bar, const S& time, const Rate& rateOf) {
+    const int event = instant.event;
     AtEvent& at = atEvent(event);
     at.time += time;
     const Participant* p = eventOf(event).find(body);
-    if (p) {
+    if (p && !instant.follows) {
       at.before[placeOf(event, *p)] += bar;
-    } else {  // it moves on while the event comes later
-      at.time += bar.dot(rateOf());
+      return true;
     }
+    at.time += bar.dot(rateOf());  // it moves on while the event comes later
+    if (p) at.after[placeOf(event, *p)] += bar;
     return p;
   }
   /// Of a body at the start of its arc k, which is an event or the start of the motion.

@@ -80,6 +80,14 @@ BodyState Motion::stateBefore(int event, int body) const {
   return toBodyState((*models)[b], p->before);
 }
 
+BodyState Motion::stateAfter(int event, int body) const {
+  const std::size_t b = checkedIndex("stateAfter", "body", body, world_lines.size());
+  const Event& e = events[checkedIndex("stateAfter", "event", event, events.size())];
+  const Participant* p = e.find(body);
+  if (!p) return stateAt(body, e.time);
+  return toBodyState((*models)[b], world_lines[b].arcs[static_cast<std::size_t>(p->arc) + 1].startState());
+}
+
 std::optional<int> Motion::findImpact(int body, int n, int with) const {
   if (!has_events) throw InputError("found a motion whose events were not recorded, expected one with them");
   const std::size_t b = checkedIndex("findImpact", "body", body, world_lines.size());

@@ -147,6 +147,8 @@ struct Motion {
   /// State just before event `event`; of a body that takes no part in it, at its time. Throws InputError for an event
   /// or a body that is not there, as do all that follow.
   BodyState stateBefore(int event, int body) const;
+  /// State just after it.
+  BodyState stateAfter(int event, int body) const;
 
   /// The event that is the n-th impact of a body (1 = first), counting only those with the body `with` unless that is
   /// -1; none where it has fewer.

@@ -9,6 +9,7 @@
 
 #include "adjoint/base/required.h"
 #include "adjoint/base/types.h"
+#include "adjoint/scene/farthest_point.h"
 #include "adjoint/scene/shapes/cone.h"
 #include "adjoint/scene/shapes/kind_of.h"
 #include "adjoint/scene/surface.h"
@@ -118,6 +119,8 @@ struct ShapeKind {
   Required<double(const Shape&)> boundingRadius;  ///< about the shape's origin; infinite for a plane
   /// Of a ball about the shape's origin that lies within the shape, m; 0 where none is known.
   Required<double(const Shape&)> innerRadius;
+  /// Where it reaches farthest along a direction of its axes. Throws InputError for a plane, which has no such place.
+  Required<FarthestPoint(const Shape&, const Vec3& direction)> farthest;
 };
 
 /// The rows, in the order of the alternatives of Shape.

@@ -25,8 +25,10 @@ namespace {
 
 // A seed with the rates of its weights.
 struct DualSeed {
-  NVec position, orientation, velocity, angular_velocity, center_of_mass;
-  Num time;
+  NVec position, orientation, velocity, angular_velocity, center_of_mass, gravity;
+  NMat inertia;
+  Eigen::Matrix<Num, Eigen::Dynamic, 1> size;
+  Num time, mass;
 };
 
 // Responses of arcs, shared by all directions; by body, arc, time, directions of the response and products.
@@ -39,7 +41,9 @@ bool hasRates(const NVec& v) { return hasRates(v[0]) || hasRates(v[1]) || hasRat
 bool hasRates(const StateBar& s) { return hasRates(s.x) || hasRates(s.theta) || hasRates(s.v) || hasRates(s.L); }
 bool hasRates(const DualSeed& s) {
   return hasRates(s.position) || hasRates(s.orientation) || hasRates(s.velocity) || hasRates(s.angular_velocity) ||
-         hasRates(s.center_of_mass) || hasRates(s.time);
+         hasRates(s.center_of_mass) || hasRates(s.gravity) || hasRates(s.time) || hasRates(s.mass) ||
+         std::any_of(s.size.begin(), s.size.end(), [](const Num& n) { return hasRates(n); }) ||
+         hasRates(NVec(s.inertia.col(0))) || hasRates(NVec(s.inertia.col(1))) || hasRates(NVec(s.inertia.col(2)));
 }
 
 // The reverse pass of adjoint.cpp in dual numbers. It leaves out what the directions do not influence and has no
@@ -63,11 +67,15 @@ class DualPass {
     if (!influenced(seed.body, place.arc) && !event_influenced && !hasRates(time) && !hasRates(weights)) return;
     const auto b = static_cast<std::size_t>(seed.body);
     const DualState state =
-        lanes_.stateAt(seed.body, place.arc, time, place.state, plainSensitivity(seed.body, place.arc, place.time));
+        startsArc(motion_, seed.body, seed.at)
+            ? lanes_.startOf(seed.body, place.arc)
+            : lanes_.stateAt(seed.body, place.arc, time, place.state, plainSensitivity(seed.body, place.arc, place.time));
+    bars_.scene.gravity += weights.gravity;
+    if (weights.size.size() > 0) bars_.scene.bodies[b].size += weights.size;
     const StateBar bar = seedPullbackOf(lanes_.model(seed.body), state.R, state.L, weights, bars_.model[b]);
     const auto rate = [&] { return lanes_.rate(seed.body, place.arc, time, state); };
     if (seed.at.event < 0) time_rate = bar.dot(rate()).rate;
-    if (seed.at.event >= 0 && bars_.readBefore(seed.at.event, seed.body, bar, weights.time, rate)) return;
+    if (seed.at.event >= 0 && bars_.readAtEvent(seed.at, seed.body, bar, weights.time, rate)) return;
     throughFlight(seed.body, place.arc, time, state, bar);
   }
 
@@ -189,7 +197,8 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
   std::vector<DualSeed> out;
   for (const StateSeed& s : seeds)
     out.push_back({constant(s.position), constant(s.orientation), constant(s.velocity), constant(s.angular_velocity),
-                   constant(s.center_of_mass), s.time});
+                   constant(s.center_of_mass), constant(s.gravity), constant(s.inertia), s.size.cast<Num>(), s.time,
+                   s.mass});
   if (!seed_rates) return out;
   const Motion& motion = lanes.motion();
   for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
@@ -207,7 +216,13 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
       setRates(out[i].velocity, weights[i].velocity, lane);
       setRates(out[i].angular_velocity, weights[i].angular_velocity, lane);
       setRates(out[i].center_of_mass, weights[i].center_of_mass, lane);
+      setRates(out[i].gravity, weights[i].gravity, lane);
+      setRates(out[i].inertia, weights[i].inertia, lane);
+      if (weights[i].size.size() > 0 && out[i].size.size() == 0)
+        out[i].size = Eigen::VectorXd::Zero(weights[i].size.size()).cast<Num>();
+      for (Eigen::Index d = 0; d < weights[i].size.size(); ++d) out[i].size[d].rate[lane] = weights[i].size[d];
       out[i].time.rate[lane] = weights[i].time;
+      out[i].mass.rate[lane] = weights[i].mass;
     }
   }
   return out;

@@ -34,12 +34,6 @@ double lowestBounce(const Scene& scene) {
   return 1e-12 * size;
 }
 
-void checkAwaited(const AwaitedImpact& awaited, std::size_t bodies) {
-  checkedIndex("simulate", "body", awaited.body, bodies);
-  if (awaited.with != -1) checkedIndex("simulate", "the other body", awaited.with, bodies);
-  if (awaited.n < 1) refuseNumber("simulate", "impact", awaited.n, "1 (the first) or more");
-}
-
 double checkedBounce(double lowest) {
   if (!(lowest >= 0 && lowest <= 1e9)) refuseNumber("simulate", "lowest bounce", lowest, "a height from 0 to 1e9 m");
   return lowest;
@@ -49,7 +43,6 @@ double checkedBounce(double lowest) {
 
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options) {
   checkDuration("simulate", duration);
-  for (const AwaitedImpact& awaited : options.awaited) checkAwaited(awaited, scene.bodies.size());
   if (!options.asked.empty()) checkCount("simulate", "bodies asked for", options.asked.size(), scene.bodies.size());
   validate(scene);
   fixMatrixBlocks();
@@ -73,7 +66,7 @@ void Simulator::runToEnd() {
     finish(MotionStatus::not_computable, now_, error.what());
     return;
   }
-  now_ = motion_.duration = std::min(motion_.duration, end_of_awaited_);
+  now_ = motion_.duration = std::min(motion_.duration, last_asked_for_);
   finish(MotionStatus::complete, motion_.duration, "complete");
 }
 
@@ -103,7 +96,7 @@ bool Simulator::follow() {
 
 Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
     : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit),
-      awaited_(options.awaited), least_duration_(options.least_duration),
+      enough_(options.enough), least_duration_(options.least_duration),
       refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
       builder_(scene, duration), motion_(builder_.motion), queue_(scene.bodies.size()) {
   contacts_.countIn(&work_);
@@ -314,12 +307,8 @@ void Simulator::commit() {
   searches_ = 0;
   for (const Participant& p : event.participants)
     if (p.impact > 0) ++impacts_[index(p.body)];
-  const auto happened = [&](AwaitedImpact& awaited) {
-    const Participant* p = event.find(awaited.body);
-    return p && p->impact > 0 && (awaited.with < 0 || event.meets(awaited.body, awaited.with)) && --awaited.n == 0;
-  };
-  if (std::erase_if(awaited_, happened) > 0 && awaited_.empty())
-    end_of_awaited_ = std::max(event.time, least_duration_);
+  const double time = event.time;
+  const bool ask = motion_.has_events && enough_ && event.counts();
   builder_.add(std::move(event), std::move(draft_.arcs));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {  // the participants
     const int body = bodies_[i];
@@ -329,6 +318,9 @@ void Simulator::commit() {
     if (any_lasted_) onward_[index(body)] = draft_.onward.empty() ? kInFlight : std::move(draft_.onward[i]);
     enter(body, draft_.outlooks[i]);
   }
+  if (!ask || !enough_(motion_)) return;
+  last_asked_for_ = std::max(time, least_duration_);
+  enough_ = nullptr;
 }
 
 void Simulator::finish(MotionStatus status, double end, std::string message) {

@@ -12,14 +12,6 @@
 
 namespace carom {
 
-/// The n-th impact of a body (1 = first), counting only those with the body `with` unless that is -1, as
-/// Motion::findImpact counts.
-struct AwaitedImpact {
-  int body = -1;  ///< index
-  int n = 1;      ///< which of them
-  int with = -1;  ///< index of the other body; -1: any
-};
-
 /// How far to simulate, and what to keep.
 struct SimulateOptions {
   /// Events of every kind, bounces too low to be impacts to people among them, after which the motion ends with
@@ -43,15 +35,17 @@ struct SimulateOptions {
   std::stop_token stop = {};
   /// Called every few thousand steps, in the thread of the call. The motion does not depend on it.
   std::function<void(const SimulateProgress&)> progress = {};
-  /// Not empty: once all of these impacts have happened, and `least_duration` is over, the motion ends, complete, with
-  /// that time as its duration.
-  std::vector<AwaitedImpact> awaited = {};
+  /// Asked after every impact, of the motion up to it, which has its events: once it says yes, and `least_duration` is
+  /// over, the motion ends, complete, with that time as its duration. Not asked where events are not recorded.
+  std::function<bool(const Motion&)> enough = {};
+  double least_duration = 0;  ///< s; only beside `enough`
+};
   double least_duration = 0;  ///< s; only where impacts are awaited
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.
-/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies; awaited
-/// impacts of bodies that are not there; a lowest bounce that is no number of 0 to 1e9 m); ends early, with a status and a sentence, where the motion cannot be continued. The same input gives the same motion to the
+/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies; a lowest
+/// bounce that is no number of 0 to 1e9 m); ends early, with a status and a sentence, where the motion cannot be continued. The same input gives the same motion to the
 /// last bit.
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
 

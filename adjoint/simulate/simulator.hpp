@@ -186,8 +186,8 @@ class Simulator {
   const Scene& scene_;
   ContactSource& contacts_;
   std::size_t impact_limit_;
-  std::vector<AwaitedImpact> awaited_;  // that have not happened yet; n: so many more
-  double least_duration_, end_of_awaited_ = EventQueue::kNever;  // nothing after it is asked for
+  std::function<bool(const Motion&)> enough_;  // empty once it has said yes
+  double least_duration_, last_asked_for_ = EventQueue::kNever;  // nothing after it is asked for
   bool refuse_overlaps_;
   WorkCount work_;
   bool work_ended_ = false;

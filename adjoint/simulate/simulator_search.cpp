@@ -90,7 +90,7 @@ void Simulator::predictDraft() {
 // The earliest impact whose arcs are in force.
 bool Simulator::takeNext(Prediction& next) {
   while (!queue_.empty()) {
-    if (queue_.time() > end_of_awaited_) return false;
+    if (queue_.time() > last_asked_for_) return false;
     const int body = queue_.body();
     now_ = std::max(now_, queue_.time());
     work_.reached(now_, motion_.impacts);

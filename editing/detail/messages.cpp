@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editing/detail/messages.hpp"
 
+#include <cctype>
 #include <cstdio>
 
 namespace carom::editing_detail {
@@ -15,6 +16,11 @@ std::string brief(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.3g", value);
   return buffer;
+}
+
+std::string sentence(std::string clause) {
+  if (!clause.empty()) clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
+  return clause + ".";
 }
 
 std::string listOf(const std::vector<std::string>& items) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editing/problem/hessian.hpp"
 
+#include "adjoint/base/errors.h"
 #include "adjoint/second_order/second_order.h"
 #include "editing/problem/rows/region_way.hpp"
 
@@ -16,16 +17,13 @@ namespace {
 // The seeds of all rows with weight.
 struct Readings {
   std::vector<StateSeed> seeds;
-  std::vector<int> row, first;             // of each seed: its row, and the row's first seed
+  std::vector<int> row;                    // of each seed; that of an objective of one's own comes after all
   std::vector<int> free_time;              // or -1
   std::vector<Eigen::VectorXd> time_rate;  // of the instant by the controls; empty: it stays
 };
 
 StateSeed weighted(StateSeed seed, double weight) {
-  for (Vec3* w : {&seed.position, &seed.orientation, &seed.velocity, &seed.angular_velocity, &seed.center_of_mass})
-    *w *= weight;
-  seed.time *= weight;
-  return seed;
+  return seed *= weight;
 }
 
 int freeTimeOf(const EditProblem& problem, const Row& row) {
@@ -56,20 +54,32 @@ Eigen::VectorXd clearanceTimeRate(const Clearance& c, DerivativeTape& tape,
   return r;
 }
 
+void addObjective(const EditProblem& problem, const RowValues& rows, double weight, Readings& out) {
+  if (weight == 0) return;
+  if (!rows.objective || !rows.objective->second_order)
+    throw NotComputable("second derivatives are not known of the objective");
+  for (const StateSeed& seed : rows.objective->seeds) {
+    out.seeds.push_back(weighted(seed, weight));
+    out.row.push_back(problem.constraints.size());
+    out.free_time.push_back(-1);
+    out.time_rate.emplace_back();
+  }
+}
+
 Readings readingsOf(const EditProblem& problem, DerivativeTape& tape, const RowValues& rows,
                     const Eigen::VectorXd& weights, std::span<const ReadingDirection> controls) {
   Readings out;
   for (int i = 0; i < problem.constraints.size(); ++i) {
     if (weights[i] == 0) continue;
+    if (!rows.notes[i].second_order)
+      throw NotComputable("second derivatives are not known of " + problem.constraints.describeRow(i));
     const Row& row = problem.constraints.rows()[i];
-    const int first = static_cast<int>(out.seeds.size());
     Eigen::VectorXd time_rate;
     if (row.region >= 0)
       time_rate = clearanceTimeRate(*problem.constraints.clearance(tape.motion(), i), tape, controls);
     for (const StateSeed& seed : rows.seeds[i]) {
       out.seeds.push_back(weighted(seed, weights[i]));
       out.row.push_back(i);
-      out.first.push_back(first);
       out.free_time.push_back(freeTimeOf(problem, row));
       out.time_rate.push_back(time_rate);
     }
@@ -78,14 +88,22 @@ Readings readingsOf(const EditProblem& problem, DerivativeTape& tape, const RowV
 }
 
 SeedRates seedRatesOf(const EditProblem& problem, const Motion& motion, const RowValues& rows,
-                      const Eigen::VectorXd& weights, const Readings& readings) {
-  return [&](std::span<const BodyStateRate> rates) {
+                      const Eigen::VectorXd& weights, double objective_weight, const Readings& readings) {
+  return [&, objective_weight](std::span<const BodyStateRate> rates) {
     std::vector<StateSeed> out;
     while (out.size() < rates.size()) {
       const int row = readings.row[out.size()];
-      const std::size_t count = rows.seeds[row].size();
-      for (const StateSeed& seed :
-           problem.constraints.seedRates(motion, rows.times, row, rates.subspan(out.size(), count)))
+      if (row == problem.constraints.size()) {
+        const std::span<const BodyStateRate> of_objective = rates.subspan(out.size());
+        std::vector<StateSeed> of(of_objective.size());
+        if (rows.objective->seed_rates) of = rows.objective->seed_rates(of_objective);
+        for (const StateSeed& seed : of) out.push_back(weighted(seed, objective_weight));
+        continue;
+      }
+      const std::span<const BodyStateRate> of_row = rates.subspan(out.size(), rows.seeds[row].size());
+      for (const StateSeed& seed : rows.notes[row].seed_rates
+                                       ? rows.notes[row].seed_rates(of_row)
+                                       : problem.constraints.seedRates(motion, rows.times, row, of_row))
         out.push_back(weighted(seed, weights[row]));
     }
     return out;
@@ -113,14 +131,15 @@ Eigen::MatrixXd assemble(const EditProblem& problem, const Eigen::VectorXd& valu
 }  // namespace
 
 Eigen::MatrixXd rowsHessian(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
-                            const RowValues& rows, const Eigen::VectorXd& weights) {
+                            const RowValues& rows, const Eigen::VectorXd& weights, double objective_weight) {
   const Eigen::Index n = problem.controls.size(), all = problem.unknowns();
   const Eigen::VectorXd values = problem.valuesOf(unknowns);
   std::vector<ReadingDirection> directions;
   for (Eigen::Index j = 0; j < n; ++j)
     directions.push_back({problem.controls.scatter(Eigen::VectorXd::Unit(n, j), values), {}});
   DerivativeTape tape(motion);
-  const Readings readings = readingsOf(problem, tape, rows, weights, directions);
+  Readings readings = readingsOf(problem, tape, rows, weights, directions);
+  addObjective(problem, rows, objective_weight, readings);
   if (readings.seeds.empty() || all == 0) return Eigen::MatrixXd::Zero(all, all);
   const auto count = static_cast<Eigen::Index>(readings.seeds.size());
   for (Eigen::Index a = 0; a < all; ++a) {
@@ -133,8 +152,8 @@ Eigen::MatrixXd rowsHessian(const EditProblem& problem, const Eigen::VectorXd& u
       if (a >= n && readings.free_time[ss] == a - n) time[s] = 1;
     }
   }
-  const SecondOrder second = secondOrder(tape, readings.seeds, seedRatesOf(problem, motion, rows, weights, readings),
-                                         directions, RatesWanted::varied);
+  const SecondOrder second = secondOrder(tape, readings.seeds, seedRatesOf(problem, motion, rows, weights, objective_weight, readings), directions,
+                                          RatesWanted::varied);
   const Eigen::VectorXd rates = problem.rates(unknowns);
   Eigen::MatrixXd H = rates.asDiagonal() * assemble(problem, values, readings, second) * rates.asDiagonal();
   H.diagonal().head(n) +=

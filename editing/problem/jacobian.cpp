@@ -24,6 +24,12 @@ double checkedDuration(double duration) {
   return duration;
 }
 
+double checkedChangeWeight(double weight) {
+  if (!(weight >= 0 && std::isfinite(weight)))
+    throw InputError("minimise", "found the weight " + number(weight) + " of the change, expected a number >= 0");
+  return weight;
+}
+
 const Scene& checkedScene(const Scene& scene) {
   validate(scene);
   return scene;
@@ -47,11 +53,13 @@ Eigen::MatrixXd unknown(const EditProblem& problem) {
 }  // namespace
 
 EditProblem::EditProblem(const Scene& scene, ContactSource& contact_source, double length,
-                         const std::vector<Control>& varied, const std::vector<Constraint>& held)
+                         const std::vector<Control>& varied, const std::vector<Constraint>& held,
+                         const OwnFunctions& own)
     : contacts(&contact_source),
       controls(checkedScene(scene), varied),
-      constraints(controls.startScene(), held, checkedDuration(length)),
+      constraints(controls.startScene(), held, checkedDuration(length), own),
       validity(controls),
+      change_weight(checkedChangeWeight(own.change_weight)),
       duration(checkedDuration(length)),
       horizon(constraints.horizon(duration)),
       asked(askedOf(controls, constraints)) {}
@@ -99,8 +107,15 @@ Eigen::VectorXd EditProblem::upper() const {
   return bounds;
 }
 
-double EditProblem::objective(const Eigen::VectorXd& unknowns) const {
+double EditProblem::change(const Eigen::VectorXd& unknowns) const {
   return 0.5 * unknowns.head(controls.size()).squaredNorm();
+}
+
+double EditProblem::objective(const Eigen::VectorXd& unknowns, const RowValues& rows) const {
+  const BoundFunction* own = constraints.objective();
+  if (!own) return change(unknowns);
+  if (!rows.objective) return std::numeric_limits<double>::quiet_NaN();
+  return rows.objective->value / own->function.scale + (change_weight > 0 ? change_weight * change(unknowns) : 0);
 }
 
 Motion simulateScene(const EditProblem& problem, const Scene& scene, double until) {
@@ -114,7 +129,7 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
   SimulateOptions options;
   options.asked = problem.asked;
   options.step_limit = problem.step_limit;
-  options.awaited = problem.awaited;
+  options.enough = problem.enough;
   options.least_duration = problem.least_duration;
   if (!even_if_stopped) options.stop = problem.stop;
   return simulate(problem.controls.sceneAt(values), contacts ? *contacts : *problem.contacts, until, options);
@@ -139,6 +154,14 @@ void askControls(const ControlSet& controls, Reliability& reliability) {
   }
 }
 
+void doubt(const RowNote& note, Reliability& reliability) {
+  if (note.doubt.empty()) return;
+  reliability.smallest_margin = 0;
+  if (!reliability.reliable) return;
+  reliability.reliable = false;
+  reliability.message = note.doubt;
+}
+
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
                                   const RowValues& rows, std::vector<Reliability>* reliability) {
   Eigen::MatrixXd J = unknown(problem);
@@ -149,6 +172,7 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
     const SceneGradient gradient = adjoint(tape, rows.seeds[i], reliability ? &(*reliability)[i] : nullptr);
     J.row(i) = problem.controls.gather(gradient, values).transpose();
     if (reliability) askControls(problem.controls, (*reliability)[i]);
+    if (reliability) doubt(rows.notes[i], (*reliability)[i]);
     if (!reliability || J.row(i).allFinite()) continue;
     (*reliability)[i].reliable = false;
     (*reliability)[i].message =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <stop_token>
 #include <vector>
@@ -20,7 +21,7 @@ namespace carom::editing_detail {
 struct EditProblem {
   /// Throws InputError for a scene, controls or constraints that make no sense. `contacts` is kept by reference.
   EditProblem(const Scene& scene, ContactSource& contacts, double duration, const std::vector<Control>& controls,
-              const std::vector<Constraint>& constraints);
+              const std::vector<Constraint>& constraints, const OwnFunctions& own = {});
 
   ContactSource* contacts;
   ControlSet controls;
@@ -37,12 +38,18 @@ struct EditProblem {
   Eigen::VectorXd lower() const;
   Eigen::VectorXd upper() const;
   /// 1/2 |changes of the controls|^2: the free times cost nothing.
-  double objective(const Eigen::VectorXd& unknowns) const;
+  double change(const Eigen::VectorXd& unknowns) const;
+  /// What is minimised: the change; or an objective of one's own by its scale, and the change as much as it weighs
+  /// beside it. NaN where the rows do not have the objective.
+  double objective(const Eigen::VectorXd& unknowns, const RowValues& rows) const;
+  /// How much the change weighs in the objective.
+  double changeWeight() const { return constraints.objective() ? change_weight : 1; }
 
+  double change_weight;      ///< beside an objective of one's own
   double duration;           ///< s, of the motion
   double horizon;            ///< s; nothing after it counts for the constraints
   /// Of motions that are tried: they end where nothing later counts for the constraints. Empty: at the horizon.
-  std::vector<AwaitedImpact> awaited;
+  std::function<bool(const Motion&)> enough;
   double least_duration = 0;  ///< s; then only after this, too
   std::vector<Asked> asked;  ///< as little as the rows and their derivatives need
   /// Of every motion, see SimulateOptions.
@@ -72,6 +79,9 @@ MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& val
 
 /// Tells the reliability of a row which coefficients of friction and which spins vary.
 void askControls(const ControlSet& controls, Reliability& reliability);
+
+/// Adds what a row says of its own derivative.
+void doubt(const RowNote& note, Reliability& reliability);
 
 /// d(rows)/d(values) of a motion simulated at `values`: one reverse pass a row, whatever the number of controls.
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,

@@ -52,11 +52,12 @@ double largest(const Eigen::VectorXd& values) {
 Reliability reliabilityOf(const EditProblem& problem, const Motion& motion, const RowValues& rows) {
   Reliability worst;
   DerivativeTape tape(motion);
-  for (const std::vector<StateSeed>& seeds : rows.seeds) {
-    if (seeds.empty()) continue;
+  for (std::size_t i = 0; i < rows.seeds.size(); ++i) {
+    if (rows.seeds[i].empty()) continue;
     Reliability one;
-    adjoint(tape, seeds, &one);
+    adjoint(tape, rows.seeds[i], &one);
     askControls(problem.controls, one);
+    doubt(rows.notes[i], one);
     worst.events = std::max(worst.events, one.events);
     worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
     if (worst.reliable && !one.reliable) worst.message = one.message;
@@ -117,7 +118,7 @@ std::string roundingSentence(double growth, double tolerance) {
          number(rounding) + " of the natural scales.";
 }
 
-void conclude(const EditOptions& options, const EditSolution& solution, EditResult& result) {
+void conclude(const EditOptions& options, const EditSolution& solution, bool as_it_was, EditResult& result) {
   result.status = solution.status;
   result.message = solution.message;
   if (solution.status != EditStatus::solved) return;
@@ -128,7 +129,7 @@ void conclude(const EditOptions& options, const EditSolution& solution, EditResu
                      number(result.scaled_residual) + " of the natural scales.";
     return;
   }
-  const bool unchanged = result.objective == 0 && result.iterations == 0;
+  const bool unchanged = as_it_was && result.iterations == 0;
   result.message = unchanged ? "The start meets all constraints already."
                              : "All constraints are met, the largest error is " + number(result.residual) + ".";
   if (result.signature_changed) {
@@ -144,7 +145,8 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   const EditProblem& problem = search.problem();
   const EditPoint& point = *solution.point;
   EditResult result;
-  const bool untouched = point.objective == 0 && !problem.controls.startMoved();
+  const bool as_it_was = problem.change(point.changes) == 0;
+  const bool untouched = as_it_was && !problem.controls.startMoved();
   result.scene = untouched ? written : problem.controls.sceneAt(point.values);
   result.changed = changesOf(problem.controls, point.values);
   result.objective = point.objective;
@@ -162,7 +164,7 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
     certificate.scaled_residual = result.scaled_residual;
     certificate.reliability = result.reliability;
   }
-  conclude(search.options(), solution, result);
+  conclude(search.options(), solution, as_it_was, result);
   if (result.solved() && search.halt() == Halt::cancelled)
     result.message += " It was cancelled while it looked for a smaller change.";
   result.growth = solution.growth;

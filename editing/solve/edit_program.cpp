@@ -48,13 +48,25 @@ EditPointPtr EditProgram::at(const Eigen::VectorXd& x) {
 }
 
 bool EditProgram::objective(const Eigen::VectorXd& x, double& f) {
-  f = search_.problem().objective(x);
-  return true;
+  const EditProblem& problem = search_.problem();
+  if (!problem.constraints.objective()) {
+    f = problem.change(x);
+    return true;
+  }
+  const EditPointPtr point = at(x);
+  if (point) f = point->objective;
+  return point != nullptr;
 }
 
 bool EditProgram::gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) {
+  const EditProblem& problem = search_.problem();
   df_dx = x;
-  df_dx.tail(search_.problem().times()).setZero();
+  df_dx.tail(problem.times()).setZero();
+  if (!problem.constraints.objective()) return true;
+  const EditPointPtr point = at(x);
+  if (!point) return false;
+  differentiateObjective(problem, *point);
+  df_dx = problem.changeWeight() * df_dx + *point->objective_gradient;
   return true;
 }
 
@@ -83,47 +95,84 @@ bool EditProgram::jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) {
   return true;
 }
 
+// Of the constraints, then of an objective of one's own without the change.
+bool EditProgram::gradients(const Eigen::VectorXd& x, Eigen::MatrixXd& df_dx) {
+  if (!jacobian(x, df_dx)) return false;
+  const EditProblem& problem = search_.problem();
+  if (!problem.constraints.objective()) return true;
+  const EditPointPtr point = at(x);
+  differentiateObjective(problem, *point);
+  df_dx.conservativeResize(constraints() + 1, Eigen::NoChange);
+  df_dx.bottomRows(1) = point->objective_gradient->transpose();
+  return true;
+}
+
 // PSB: the symmetric matrix nearest to B (in the Frobenius norm) with B' s = y:
 //   B' = B + (e s^T + s e^T)/s.s - (e.s) s s^T/(s.s)^2,  e = y - B s.
-void EditProgram::learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd& dg_dx) {
+void EditProgram::learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd& df_dx) {
   if (curvature_.empty()) {
-    curvature_.assign(static_cast<std::size_t>(constraints()), Eigen::MatrixXd::Zero(x.size(), x.size()));
+    curvature_.assign(static_cast<std::size_t>(df_dx.rows()), Eigen::MatrixXd::Zero(x.size(), x.size()));
   } else if (x != last_x_) {
     const Eigen::VectorXd s = x - last_x_;
     const double s2 = s.squaredNorm();
     for (std::size_t k = 0; k < curvature_.size(); ++k) {
       const Eigen::Index i = static_cast<Eigen::Index>(k);
-      const Eigen::VectorXd e = (dg_dx.row(i) - last_dg_dx_.row(i)).transpose() - curvature_[k] * s;
+      const Eigen::VectorXd e = (df_dx.row(i) - last_df_dx_.row(i)).transpose() - curvature_[k] * s;
       curvature_[k] += (e * s.transpose() + s * e.transpose()) / s2 - e.dot(s) / (s2 * s2) * s * s.transpose();
     }
   }
   last_x_ = x;
-  last_dg_dx_ = dg_dx;
+  last_df_dx_ = df_dx;
 }
 
 bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                           Eigen::MatrixXd& h) {
   const EditPointPtr point = at(x);
   if (!point) return false;
-  if (search_.options().second_derivatives == SecondDerivatives::exact && hasSecondOrder(point->motion)) {
-    const EditProblem& problem = search_.problem();
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(problem.constraints.size());
-    for (std::size_t k = 0; k < rows_.size(); ++k)
-      weights[rows_[k]] += multipliers[static_cast<Eigen::Index>(k)] /
-                           problem.constraints.rows()[static_cast<std::size_t>(rows_[k])].scale;
-    h = rowsHessian(problem, x, point->motion, point->rows, weights) +
-        validityHessian(problem, x, multipliers.tail(problem.validity.size()));
-    h.diagonal().head(problem.controls.size()).array() += factor;
-    return true;
+  const EditProblem& problem = search_.problem();
+  h = Eigen::MatrixXd::Zero(x.size(), x.size());
+  h.diagonal().head(problem.controls.size()).setConstant(factor * problem.changeWeight());
+  Eigen::VectorXd factors(constraints() + (problem.constraints.objective() ? 1 : 0));
+  factors.head(constraints()) = multipliers;
+  if (problem.constraints.objective()) factors.tail(1).setConstant(factor);
+  const bool exact = search_.options().second_derivatives == SecondDerivatives::exact;
+  return exact && hasSecondOrder(point->motion) ? addExact(x, *point, factors, h) : addLearnt(x, factors, h);
+}
+
+bool EditProgram::addExact(const Eigen::VectorXd& x, const EditPoint& point, const Eigen::VectorXd& factors,
+                           Eigen::MatrixXd& h) {
+  const EditProblem& problem = search_.problem();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(problem.constraints.size());
+  Eigen::VectorXd learnt = Eigen::VectorXd::Zero(factors.size());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const auto row = static_cast<std::size_t>(rows_[k]);
+    if (point.rows.notes[row].second_order) {
+      weights[rows_[k]] += factors[at] / problem.constraints.rows()[row].scale;
+    } else {
+      learnt[at] = factors[at], has_learnt_ = true;
+    }
   }
-  Eigen::MatrixXd dg_dx;
-  if (!jacobian(x, dg_dx)) return false;
-  learnCurvature(x, dg_dx);
-  h = factor * Eigen::MatrixXd::Identity(x.size(), x.size());
-  h.diagonal().tail(search_.problem().times()).setZero();
-  for (std::size_t k = 0; k < curvature_.size(); ++k) {
-    h += multipliers[static_cast<Eigen::Index>(k)] * curvature_[k];
+  double of_objective = 0;
+  if (const BoundFunction* own = problem.constraints.objective()) {
+    const double factor = factors.tail(1)[0];
+    if (point.rows.objective->second_order) {
+      of_objective = factor / own->function.scale;
+    } else {
+      learnt.tail(1)[0] = factor, has_learnt_ = true;
+    }
   }
+  const Eigen::VectorXd of_validity = factors.segment(static_cast<Eigen::Index>(rows_.size()), problem.validity.size());
+  h += rowsHessian(problem, x, point.motion, point.rows, weights, of_objective) +
+       validityHessian(problem, x, of_validity);
+  return !has_learnt_ || addLearnt(x, learnt, h);
+}
+
+bool EditProgram::addLearnt(const Eigen::VectorXd& x, const Eigen::VectorXd& factors, Eigen::MatrixXd& h) {
+  Eigen::MatrixXd df_dx;
+  if (!gradients(x, df_dx)) return false;
+  learnCurvature(x, df_dx);
+  for (std::size_t k = 0; k < curvature_.size(); ++k) h += factors[static_cast<Eigen::Index>(k)] * curvature_[k];
   return true;
 }
 

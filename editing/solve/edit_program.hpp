@@ -11,11 +11,13 @@
 /// An edit as a nonlinear program. Internal to editing/.
 namespace carom::editing_detail {
 
-/// minimise 1/2 |y|^2 subject to chosen rows = 0, ranges, validity >= 0, bounds; y the unknowns of EditProblem, of
-/// which the free times cost nothing.
+/// minimise 1/2 |y|^2, or an objective of one's own (EditProblem::objective), subject to chosen rows = 0, ranges,
+/// validity >= 0, bounds; y the unknowns of EditProblem, of which the free times cost nothing.
 ///
 /// The objective's second derivative is the identity; those of the rows are exact (hessian.hpp), or learnt from their
-/// gradients, row by row, by Powell's symmetric rank-one-two (PSB) secant update, or left to the solver.
+/// gradients, row by row, by Powell's symmetric rank-one-two (PSB) secant update, or left to the solver. Where exact ones
+/// are asked for, the rows that have none (RowNote::second_order) are learnt, and they alone. So is an objective of
+/// one's own.
 class EditProgram final : public NonlinearProgram {
  public:
   /// `rows` are of those that hold a number. With a signature, points whose motion has another impact sequence are
@@ -39,17 +41,21 @@ class EditProgram final : public NonlinearProgram {
  private:
   EditPointPtr at(const Eigen::VectorXd& x);
   double anchor(int row) const;
-  void learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd& dg_dx);
+  bool addExact(const Eigen::VectorXd& x, const EditPoint& point, const Eigen::VectorXd& factors, Eigen::MatrixXd& h);
+  bool gradients(const Eigen::VectorXd& x, Eigen::MatrixXd& df_dx);
+  void learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd& df_dx);
+  bool addLearnt(const Eigen::VectorXd& x, const Eigen::VectorXd& factors, Eigen::MatrixXd& h);
 
   EditSearch& search_;
   Eigen::VectorXd start_;
   std::vector<int> rows_;  // equations first, then ranges
   std::size_t equations_;  // how many
   const std::string* signature_;
-  std::vector<Eigen::MatrixXd> curvature_;  // of each constraint
+  std::vector<Eigen::MatrixXd> curvature_;  // of each constraint, and of an objective of one's own
+  bool has_learnt_ = false;  // at some point so far there were no second derivatives of something
   ProgressMonitor monitor_;
   Eigen::VectorXd last_x_;
-  Eigen::MatrixXd last_dg_dx_;
+  Eigen::MatrixXd last_df_dx_;
 };
 
 }  // namespace carom::editing_detail

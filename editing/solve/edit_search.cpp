@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/derivative/adjoint.h"
 
 namespace carom::editing_detail {
 namespace {
@@ -40,6 +41,7 @@ void readRows(const EditProblem& problem, EditPoint& point) {
   for (double residual : point.rows.scaled) point.violation = std::max(point.violation, std::abs(residual));
   for (double h : point.validity) point.violation = std::max(point.violation, -h);
   if (!point.rows.available) point.violation = std::numeric_limits<double>::infinity();
+  point.objective = problem.objective(point.changes, point.rows);
 }
 
 EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns, double until, bool nearest_times,
@@ -57,7 +59,6 @@ EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
   if (nearest_times && problem.times() > 0)
     point->changes.tail(problem.times()) = problem.unknownTimes(problem.constraints.nearestTimes(point->motion));
   point->validity = problem.validity.evaluate(problem.controls, point->values);
-  point->objective = problem.objective(unknowns);
   readRows(problem, *point);
   point->signature = point->motion.signature(problem.constraints.extentIn(point->motion, point->rows.times).events);
   return point;
@@ -81,7 +82,7 @@ EditPointPtr EditSearch::evaluateStart() {
   EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
   consider(point);
   if (!point->rows.available) return point;
-  if (problem_.awaited.empty())
+  if (!problem_.enough)
     until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
   recent_.push_back(point);
   return point;
@@ -129,6 +130,15 @@ void differentiate(const EditProblem& problem, EditPoint& point) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(problem.validity.size(), n + k);
   H.leftCols(n) = problem.validity.jacobian(problem.controls, point.values) * rates.head(n).asDiagonal();
   point.validity_jacobian = std::move(H);
+}
+
+void differentiateObjective(const EditProblem& problem, EditPoint& point) {
+  const BoundFunction* own = problem.constraints.objective();
+  if (!own || point.objective_gradient) return;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(problem.unknowns());
+  gradient.head(problem.controls.size()) =
+      problem.controls.gather(adjoint(point.motion, point.rows.objective->seeds), point.values) / own->function.scale;
+  point.objective_gradient = gradient.cwiseProduct(problem.rates(point.changes));
 }
 
 void EditSearch::consider(const EditPointPtr& point) {

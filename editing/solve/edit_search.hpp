@@ -25,7 +25,8 @@ struct EditPoint {
   std::string signature;     ///< of the events that count
   Eigen::VectorXd validity;  ///< h >= 0
   double violation = 0;      ///< largest scaled residual or lack of validity
-  double objective = 0;
+  double objective = 0;      ///< what is minimised: EditProblem::objective
+  std::optional<Eigen::VectorXd> objective_gradient;  ///< of an objective of one's own, without the change; on demand
   std::optional<Eigen::MatrixXd> row_jacobian, validity_jacobian;  ///< by all unknowns, dimensionless; on demand
 };
 using EditPointPtr = std::shared_ptr<EditPoint>;
@@ -49,6 +50,8 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
 void readRows(const EditProblem& problem, EditPoint& point);
 /// Fills in the point's derivatives.
 void differentiate(const EditProblem& problem, EditPoint& point);
+/// Fills in that of an objective of one's own, by all unknowns.
+void differentiateObjective(const EditProblem& problem, EditPoint& point);
 
 /// Evaluates points, remembers the best, and watches the clock and the callback.
 class EditSearch {

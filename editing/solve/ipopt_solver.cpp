@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "editing/detail/thrown_by_user.hpp"
+
 namespace carom::editing_detail {
 namespace {
 
@@ -140,6 +142,7 @@ class Adapter {
                         Number, Index, UserDataPtr data) {
     Adapter& a = self(data);
     a.iterations_ = count;
+    if (a.thrown_) return FALSE;
     try {
       return a.program_.iteration({count, objective, inf_pr});
     } catch (...) {
@@ -160,11 +163,15 @@ class Adapter {
     return true;
   }
 
-  /// Ipopt takes a refused point calmly; an exception must not pass through it.
+  /// Ipopt takes a refused point calmly; an exception must not pass through it. What the caller threw waits for its end.
   template <class Evaluation>
   bool evaluate(Evaluation evaluation) {
+    if (thrown_) return false;
     try {
       return evaluation();
+    } catch (const ThrownByUser&) {
+      thrown_ = std::current_exception();
+      return false;
     } catch (...) {
       return false;
     }

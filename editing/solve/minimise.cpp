@@ -2,6 +2,7 @@
 #include "editing/solve/minimise.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/edit_program.hpp"
@@ -12,6 +13,9 @@ namespace carom::editing_detail {
 namespace {
 
 constexpr double kOptimality = 1e-8, kLeastTolerance = 1e-10;
+/// Of an objective of one's own: rounds in which it falls by more than this share, each of so many iterations.
+constexpr int kLoweringRounds = 8, kLoweringIterations = 100;
+constexpr double kLowers = 1e-9;
 
 }  // namespace
 
@@ -42,6 +46,22 @@ EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const 
   const EditPointPtr real = search.make(end->changes, false, {nullptr, nullptr, true});
   if (real) search.consider(real);
   return real;
+}
+
+EditPointPtr lowerObjective(EditSearch& search, EditPointPtr point) {
+  for (int round = 0; round < kLoweringRounds && search.goesOn(); ++round) {
+    search.differentiate(*point);
+    const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
+    const double before = point->objective, enough = before - kLowers * (1 + std::abs(before));
+    const auto takeIfLower = [&](const EditPointPtr& end) {
+      if (end && search.reached(*end) && end->objective < point->objective) point = end;
+    };
+    const EditPointPtr from = point;
+    takeIfLower(minimiseWithin(search, from, kLoweringIterations));
+    takeIfLower(followSequence(search, from, split.independent, std::min(kLoweringIterations, search.iterationsLeft())));
+    if (!(point->objective < enough)) break;
+  }
+  return point;
 }
 
 EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {

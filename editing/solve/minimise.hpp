@@ -16,6 +16,9 @@ EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const 
                             const std::string* signature, int max_iterations);
 /// The same within the impact sequence of a point that meets all rows.
 EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations);
+/// An objective of one's own made smaller from a point that meets all rows, within its impact sequence and those that
+/// following it leads to.
+EditPointPtr lowerObjective(EditSearch& search, EditPointPtr point);
 /// The same along the impact sequence of a point as if its features had no edges (adjoint/simulate/simulate_along.h).
 /// Returns the point where that ended, with the motion that it really has, which may be of another sequence; or null.
 EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,

@@ -86,8 +86,11 @@ Target readTarget(const std::string& quantity, const Json& value, const When& at
   } else if (quantity == "point") {
     readNumbers(value["world"], target, where + "/world");
     target.body_point = readVector(value["body_point"]);
-  } else {
+  } else if (value.is_array()) {
     readNumbers(value, target, where);
+  } else {
+    target.value = {value.is_number() ? value.get<double>() : any};
+    if (value.is_object()) readRange(value, 0, target, where);
   }
   return target;
 }
@@ -123,7 +126,8 @@ void requireTargets(const Constraint& constraint, const Json& value, const std::
   if (!constraint.targets.empty()) return;
   if (constraint.regions.empty())
     fail(where, "a constraint without a target",
-         "one of position, orientation, velocity, angular_velocity, time, point, avoid, inside");
+         "one of position, orientation, velocity, angular_velocity, time, point, speed, kinetic_energy, impulse, height, "
+         "avoid, inside");
   const std::string target = "a target beside it, such as position: a region ";
   if (value.contains("at")) fail(where + "/at", describe(value["at"]), target + "has its time in \"during\"");
   if (value.contains("relative_to"))

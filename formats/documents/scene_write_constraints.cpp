@@ -54,9 +54,14 @@ void writeComponents(JsonWriter& out, const Target& target) {
   out.endArray();
 }
 
+bool isOneNumber(const Target& target) {
+  const std::array words{"time", "speed", "kinetic_energy", "impulse", "height"};
+  return std::find(words.begin(), words.end(), target.quantity) != words.end();
+}
+
 void writeTarget(JsonWriter& out, const Target& target) {
   out.key(target.quantity);
-  if (target.quantity == "time") {
+  if (isOneNumber(target)) {
     writeComponent(out, target, 0);
   } else if (target.quantity == "point") {
     out.beginObject().members("body_point", target.body_point).key("world");
@@ -95,7 +100,7 @@ void writeBothSides(JsonWriter& out, const std::vector<Region>& regions) {
 }
 
 void requireTarget(const Target& target, const std::string& where) {
-  if (target.quantity == "time" && target.value.size() != 1)
+  if (isOneNumber(target) && target.value.size() != 1)
     throw InputError(where, "found " + std::to_string(target.value.size()) + " numbers, expected 1");
   for (const std::vector<double>* numbers : {&target.value, &target.min, &target.max}) {
     for (const double value : *numbers)

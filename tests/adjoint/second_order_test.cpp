@@ -82,6 +82,9 @@ void expectSymmetric(const Motion& motion, std::uint64_t number) {
     seeds.push_back(randomSeed(b, Instant::at(0.97 * motion.end), random));
     for (int n = 1; n <= 2; ++n)
       if (const auto e = motion.findImpact(b, n)) seeds.push_back(randomSeed(b, Instant::before(*e), random));
+    seeds.push_back(randomSeedOfScene(*motion.scene, b, Instant::at(0.4 * motion.end), random));
+    if (const auto e = motion.findImpact(b, 1))
+      seeds.push_back(randomSeedOfScene(*motion.scene, b, Instant::after(*e), random));
     // read at the time of an event that it may have no part in
     seeds.push_back(randomSeed(b, Instant::before(static_cast<int>(motion.events.size()) - 1), random));
   }

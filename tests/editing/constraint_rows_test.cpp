@@ -39,9 +39,11 @@ TEST(ConstraintSet, NamesItsRows) {
   const ConstraintSet set(thrownBox(), everyQuantity());
   const char* expected[] = {"position.x",    "position.z", "orientation.x", "orientation.y",
                             "orientation.z", "velocity.x", "velocity.y",    "time",
-                            "point.x",       "point.y",    "point.z",       "angular_velocity.y"};
-  ASSERT_EQ(set.size(), 12);
-  for (int i = 0; i < 12; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
+                            "point.x",       "point.y",    "point.z",       "angular_velocity.y",
+                            "speed",         "kinetic_energy", "height",    "impulse",
+                            "speed",         "kinetic_energy"};
+  ASSERT_EQ(set.size(), 18);
+  for (int i = 0; i < 18; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
   EXPECT_EQ(set.describeRow(0), "position.x of 'box' at 0.4 s");
   EXPECT_EQ(set.describeRow(7), "time of 'box' at its impact 2 with 'floor'");
 }
@@ -92,7 +94,7 @@ TEST(Jacobian, AdjointAndTangentAgreeEntryByEntry) {
         problem.controls.valuesOf(Eigen::VectorXd::LinSpaced(problem.controls.size(), -away, away));
     const RowsAndJacobian a = evaluateByAdjoint(problem, values), t = evaluateByTangent(problem, values);
     ASSERT_TRUE(a.rows.available) << a.rows.message;
-    ASSERT_EQ(a.jacobian.rows(), 12);
+    ASSERT_EQ(a.jacobian.rows(), 18);
     ASSERT_EQ(a.jacobian.cols(), problem.controls.size());
     for (int j = 0; j < a.jacobian.cols(); ++j) {
       const double scale = t.jacobian.col(j).cwiseAbs().maxCoeff();
@@ -172,6 +174,20 @@ const BadConstraint kBadConstraints[] = {
     {"at", {"box", kNaN, {{"position", {0, 0, 0}}}}, "/constraints/0/at", "expected a time"},
     {"negative", {"box", -1, {{"position", {0, 0, 0}}}}, "/constraints/0/at", "expected a time"},
     {"impact", {"box", nthImpact(0, "floor"), {{"position", {0, 0, 0}}}}, "/constraints/0/at/impact", "1 or more"},
+    {"impulse_at_time", {"box", 0.4, {{"impulse", {1}}}}, "/constraints/0/impulse", "expected an impact"},
+    {"no_speed", {"box", 0.4, {{"speed", {0}}}}, "/constraints/0/speed", "expected more than 0 m/s; what is at rest"},
+    {"negative_energy", {"box", 0.4, {{"kinetic_energy", {-1}}}}, "/constraints/0/kinetic_energy", "more than 0 J"},
+    {"max_impulse",
+     {"box", nthImpact(1), {{"impulse", {any}, {}, {}, {0}}}},
+     "/constraints/0/impulse/max",
+     "found 0, expected more than 0 N s"},
+    {"free_height", {"box", 0.4, {{"height", {any}}}}, "/constraints/0/height", "cannot be left free"},
+    {"two_heights", {"box", 0.4, {{"height", {1, 2}}}}, "/constraints/0/height", "found 2 numbers, expected 1"},
+    {"energy_of_floor", {"floor", 0.4, {{"kinetic_energy", {1}}}}, "/constraints/0/body", "found the fixed body 'floor'"},
+    {"height_of_floor", {"floor", 0.4, {{"height", {1}}}}, "/constraints/0/body", "with a lowest point"},
+    {"energy_seen", {"box", 0.4, {{"kinetic_energy", {1}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
+    {"height_seen", {"box", 0.4, {{"height", {1}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
+    {"impulse_seen", {"box", nthImpact(1), {{"impulse", {1}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
     {"all_free", {"box", 0.4, {{"position", {any, any, any}}}}, "/constraints/0", "no number to hold"},
     {"nothing", {"box", 0.4, {}}, "/constraints/0", "no number to hold"},
 };

@@ -110,7 +110,10 @@ TEST(Hessian, OfRowsRelativeToAnotherBody) {
   const Scene scene = withBall();
   OdeContacts contacts(scene);
   std::vector<Constraint> constraints = everyQuantity();
-  for (Constraint& c : constraints) c.relative_to = "other";
+  for (Constraint& c : constraints) {
+    c.relative_to = "other";
+    std::erase_if(c.targets, [](const Target& t) { return !findQuantityKind(t.quantity)->from_another; });
+  }
   const EditProblem problem(
       scene, contacts, 0.6,
       {velocity("box"), angularVelocity("box"), position("other"), angularVelocity("other"), orientation("other")},

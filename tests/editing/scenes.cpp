@@ -76,7 +76,9 @@ std::vector<Constraint> everyQuantity() {
   return {{"box", 0.4, {{"position", {1, any, 2}}, {"orientation", {1, 0, 0, 0}}, {"velocity", {0, 0, any}}}},
           {"box",
            nthImpact(2, "floor"),
-           {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}}};
+           {{"time", {0.5}}, {"point", {1, 2, 3}, {0.1, 0.2, 0.3}}, {"angular_velocity", {any, 1, any}}}},
+          {"box", 0.4, {{"speed", {3}}, {"kinetic_energy", {20}}, {"height", {1}}}},
+          {"box", nthImpact(2, "floor"), {{"impulse", {4}}, {"speed", {2}}, {"kinetic_energy", {10}}}}};
 }
 
 }  // namespace carom::testing_scenes

@@ -83,7 +83,7 @@ const std::vector<Told> kTold = {
     {"/definitions/constraint/properties/at/anyOf/1", "at"},
     {"/definitions/constraint/properties/time/anyOf/1", "times"},
     {"/definitions/constraint/properties/point", "point"},
-    {"/definitions/target/items/anyOf/1", "Ranges"},
+    {"/definitions/range", "Ranges"},
     {"/definitions/region", "Regions"},
 };
 

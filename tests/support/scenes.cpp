@@ -145,6 +145,16 @@ StateSeed randomSeed(int body, const Instant& at, Random& random) {
   return seed;
 }
 
+StateSeed randomSeedOfScene(const Scene& scene, int body, const Instant& at, Random& random) {
+  StateSeed seed = randomSeed(body, at, random);
+  const Shape& shape = scene.bodies[static_cast<std::size_t>(body)].shape;
+  seed.mass = random.in(-1, 1);
+  for (double& weight : seed.inertia.reshaped()) weight = random.in(-1, 1);
+  seed.size = random.vector(kindOf(shape).dimensions(shape).size());
+  seed.gravity = random.vec(1);
+  return seed;
+}
+
 SceneGradient gradientOf(const Motion& motion, int body, double time, int i) {
   const StateSeed seed = seedOf(body, Instant::at(time), i);
   return adjoint(motion, std::span(&seed, 1));

@@ -59,6 +59,8 @@ SceneTangent randomDirection(const Scene& scene, Random& random);
 /// Number i of a body's state: position 0-2, orientation 3-5, velocity 6-8, angular velocity 9-11.
 StateSeed seedOf(int body, const Instant& at, int i);
 StateSeed randomSeed(int body, const Instant& at, Random& random);
+/// With weights of the scene's own numbers besides: mass, inertia, dimensions and gravity.
+StateSeed randomSeedOfScene(const Scene& scene, int body, const Instant& at, Random& random);
 /// Gradient of one number of a state.
 SceneGradient gradientOf(const Motion& motion, int body, double time, int i);
 

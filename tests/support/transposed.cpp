@@ -26,7 +26,10 @@ SceneTangent spinBySize(const Scene& scene, const SceneTangent& d) {
 double absoluteSum(const BodyStateRate& r, const StateSeed& s) {
   return r.position.cwiseAbs().dot(s.position.cwiseAbs()) + r.orientation.cwiseAbs().dot(s.orientation.cwiseAbs()) +
          r.velocity.cwiseAbs().dot(s.velocity.cwiseAbs()) +
-         r.angular_velocity.cwiseAbs().dot(s.angular_velocity.cwiseAbs()) + std::abs(r.time * s.time);
+         r.angular_velocity.cwiseAbs().dot(s.angular_velocity.cwiseAbs()) + std::abs(r.time * s.time) +
+         std::abs(r.mass * s.mass) + r.inertia.cwiseAbs().cwiseProduct(s.inertia.cwiseAbs()).sum() +
+         r.gravity.cwiseAbs().dot(s.gravity.cwiseAbs()) +
+         (r.size.size() > 0 && s.size.size() > 0 ? r.size.cwiseAbs().dot(s.size.cwiseAbs()) : 0);
 }
 
 double absoluteSum(const MotionTangent& t, const std::vector<StateSeed>& seeds) {
@@ -99,7 +102,15 @@ void expectTransposed(const Motion& motion, std::uint64_t seed) {
     for (int n = 1; n <= 2; ++n)
       if (const auto e = motion.findImpact(b, n)) at_impacts.push_back(randomSeed(b, Instant::before(*e), random));
   }
-  for (const auto& [seeds, when] : {std::pair{&at_times, ", at times"}, std::pair{&at_impacts, ", at impacts"}}) {
+  std::vector<StateSeed> of_scene;
+  for (int b : movingBodies(scene)) {
+    of_scene.push_back(randomSeedOfScene(scene, b, Instant::at(random.in(0, motion.end)), random));
+    if (const auto e = motion.findImpact(b, 1))
+      of_scene.push_back(randomSeedOfScene(scene, b, Instant::after(*e), random));
+    of_scene.push_back(randomSeed(b, Instant::after(static_cast<int>(motion.events.size()) - 1), random));
+  }
+  for (const auto& [seeds, when] : {std::pair{&at_times, ", at times"}, std::pair{&at_impacts, ", at impacts"},
+                                    std::pair{&of_scene, ", of the scene and after impacts"}}) {
     // some derivatives are 0 (a lone body's by its mass) and cannot be held to their own size
     const double least = 1e-2 * expectTransposed(tape, all, *seeds, 1e-12, std::string("everything") + when);
     for (const ControlRow& control : controlRows()) {

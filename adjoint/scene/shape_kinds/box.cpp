@@ -27,6 +27,15 @@ struct BoxRow {
   }
   static double outer(const Box& s) { return 0.5 * s.size.norm(); }
   static double inner(const Box& s) { return 0.5 * s.size.minCoeff(); }
+  static FarthestPoint farthest(const Box& s, const Vec3& n) {
+    FarthestPoint p = FarthestPoint::at(Vec3::Zero(), 3);
+    for (int i = 0; i < 3; ++i) {
+      p.corner_rates(i, i) = n[i] < 0 ? -0.5 : 0.5;
+      p.corner[i] = p.corner_rates(i, i) * s.size[i];
+    }
+    p.margin = n.cwiseAbs().cwiseProduct(s.size).minCoeff();
+    return p;
+  }
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <numbers>
 
 #include "adjoint/scene/shape_kinds/kinds.hpp"
@@ -39,6 +40,14 @@ struct CapsuleRow {
   }
   static double outer(const Capsule& s) { return s.radius + s.height / 2; }
   static double inner(const Capsule& s) { return s.radius; }
+  static FarthestPoint farthest(const Capsule& s, const Vec3& n) {
+    const double end = n.z() < 0 ? -0.5 : 0.5;
+    FarthestPoint p = FarthestPoint::at({0, 0, end * s.height}, 2);
+    p.ball = s.radius, p.ball_rates[0] = 1;
+    p.corner_rates(2, 1) = end;
+    p.margin = std::abs(n.z()) * s.height;
+    return p;
+  }
 };
 
 }  // namespace

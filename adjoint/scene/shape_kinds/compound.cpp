@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <limits>
 
 #include "adjoint/base/errors.h"
 #include "adjoint/scene/shape_kinds/kinds.hpp"
@@ -151,6 +152,35 @@ double boundingRadius(const Shape& s) {
   return largest;
 }
 
+// Of all parts the one that reaches farthest, in the axes of the compound.
+FarthestPoint farthest(const Shape& s, const Vec3& n) {
+  FarthestPoint best;
+  Eigen::Index first = 0, of_best = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const CompoundPart& part : parts(s)) {
+    const Quat R = part.orientation.normalized();
+    FarthestPoint p = kindOf(part.shape).farthest(part.shape, R.conjugate() * n);
+    p.corner = part.position + R * p.corner;
+    p.axis = R * p.axis;
+    p.corner_rates = R.toRotationMatrix() * p.corner_rates;
+    const Eigen::Index at = first;
+    first += p.ball_rates.size();
+    const double reach = p.reach(n);
+    if (reach > most) {
+      p.margin = std::min(p.margin, reach - most);
+      best = std::move(p), most = reach, of_best = at;
+    } else {
+      best.margin = std::min(best.margin, most - reach);
+    }
+  }
+  FarthestPoint whole = FarthestPoint::at(best.corner, first);
+  whole.ball = best.ball, whole.rim = best.rim, whole.axis = best.axis, whole.margin = best.margin;
+  whole.corner_rates.middleCols(of_best, best.corner_rates.cols()) = best.corner_rates;
+  whole.ball_rates.segment(of_best, best.ball_rates.size()) = best.ball_rates;
+  whole.rim_rates.segment(of_best, best.rim_rates.size()) = best.rim_rates;
+  return whole;
+}
+
 constexpr int kDeepest = 16;  // compounds inside compounds
 
 void checkCompound(const Shape& s, const validation::ShapeCheck& at) {
@@ -184,6 +214,7 @@ ShapeKind kindRow(KindOf<Compound>) {
       .propertiesRate = compoundPropertiesRate,
       .boundingRadius = boundingRadius,
       .innerRadius = [](const Shape&) { return 0.0; },
+      .farthest = farthest,
   };
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <numbers>
 
 #include "adjoint/numeric/elementary.hpp"
@@ -33,6 +34,16 @@ struct ConeRow {
   static double outer(const Cone& s) { return elementary::hypot(s.radius, s.height / 2); }
   // the side is the nearer: (h/2) r/sqrt(r^2 + h^2)
   static double inner(const Cone& s) { return 0.5 * s.height * (s.radius / elementary::hypot(s.radius, s.height)); }
+  static FarthestPoint farthest(const Cone& s, const Vec3& n) {
+    FarthestPoint apex = FarthestPoint::at({0, 0, 0.5 * s.height}, 2);
+    FarthestPoint base = FarthestPoint::at({0, 0, -0.5 * s.height}, 2);
+    base.rim = s.radius, base.rim_rates[0] = 1;
+    apex.corner_rates(2, 1) = 0.5, base.corner_rates(2, 1) = -0.5;
+    const double further = apex.reach(n) - base.reach(n);
+    apex.margin = further;
+    base.margin = std::min(-further, 2 * s.radius * base.across(n).norm());
+    return further > 0 ? apex : base;
+  }
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "adjoint/numeric/elementary.hpp"
@@ -32,6 +33,14 @@ struct CylinderRow {
   }
   static double outer(const Cylinder& s) { return elementary::hypot(s.radius, s.height / 2); }
   static double inner(const Cylinder& s) { return std::min(s.radius, 0.5 * s.height); }
+  static FarthestPoint farthest(const Cylinder& s, const Vec3& n) {
+    const double end = n.z() < 0 ? -0.5 : 0.5;
+    FarthestPoint p = FarthestPoint::at({0, 0, end * s.height}, 2);
+    p.rim = s.radius, p.rim_rates[0] = 1;
+    p.corner_rates(2, 1) = end;
+    p.margin = std::min(std::abs(n.z()) * s.height, 2 * s.radius * p.across(n).norm());
+    return p;
+  }
 };
 
 }  // namespace

@@ -59,6 +59,7 @@ inline SolidProperties carriedBy(const SolidPropertiesOf<Number>& p) {
 ///   template <class S>
 ///   static SolidPropertiesOf<S> solid(const Cone&, const std::array<S, 2>& numbers);  // with the rates by them
 ///   static double outer(const Cone&), inner(const Cone&);                         // radii, see ShapeKind
+///   static FarthestPoint farthest(const Cone&, const Vec3& n);
 /// Numbers are taken to be lengths, and the shape to have a volume.
 template <class Row, class Kind = typename Row::Kind>
 ShapeKind sizedRow() {
@@ -98,6 +99,7 @@ ShapeKind sizedRow() {
           },
       .boundingRadius = [](const Shape& s) { return Row::outer(as<Kind>(s)); },
       .innerRadius = [](const Shape& s) { return Row::inner(as<Kind>(s)); },
+      .farthest = [](const Shape& s, const Vec3& n) { return Row::farthest(as<Kind>(s), n); },
   };
 }
 

@@ -37,6 +37,9 @@ ShapeKind kindRow(KindOf<Plane>) {
       .propertiesRate = [](const Shape&, const Eigen::VectorXd&) -> SolidProperties { noMass(); },
       .boundingRadius = [](const Shape&) { return std::numeric_limits<double>::infinity(); },
       .innerRadius = [](const Shape&) { return 0.0; },
+      .farthest = [](const Shape&, const Vec3&) -> FarthestPoint {
+        throw InputError("found the farthest point of a plane asked for, expected a shape that ends");
+      },
   };
 }
 

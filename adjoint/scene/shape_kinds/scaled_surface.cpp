@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace carom::shapes {
 
@@ -17,6 +18,26 @@ void requireScale(const validation::ShapeCheck& at, double scale, const Surface&
          "an extent of at least " + text(kLeastLength) + " m");
   if (!(extent <= 2 * kLargest))
     fail(where, text(scale) + ", which takes it to " + text(extent) + " m", "coordinates of at most 1e9");
+}
+
+FarthestPoint farthestVertex(const Surface* surface, double scale, const Vec3& n) {
+  if (!surface || surface->vertices.empty())
+    throw InputError("found the farthest point of a shape without surface asked for, expected one with vertices");
+  const Vec3* farthest = nullptr;
+  double most = -std::numeric_limits<double>::infinity(), second = most;
+  for (const Vec3& v : surface->vertices) {
+    const double reach = n.dot(v);
+    if (reach > most) {
+      second = most, most = reach, farthest = &v;
+    } else {
+      second = std::max(second, reach);
+    }
+  }
+  if (!farthest) farthest = &surface->vertices.front();  // of a direction that is not a number
+  FarthestPoint p = FarthestPoint::at(scale * *farthest, 1);
+  p.corner_rates.col(0) = *farthest;
+  p.margin = scale * (most - second);
+  return p;
 }
 
 double scaledRadius(const Surface* surface, double scale) {

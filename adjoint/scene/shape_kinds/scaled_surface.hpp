@@ -9,6 +9,9 @@ namespace carom::shapes {
 /// Largest distance of a vertex from the origin, times s.
 double scaledRadius(const Surface* surface, double scale);
 
+/// The vertex that is farthest along n, at a scale.
+FarthestPoint farthestVertex(const Surface* surface, double scale, const Vec3& n);
+
 /// Throws InputError unless the scale is positive and keeps the surface within the sizes that can be computed with.
 void requireScale(const validation::ShapeCheck& at, double scale, const Surface& surface);
 
@@ -37,6 +40,7 @@ struct ScaledRow {
   static bool hasVolume(const T& s) { return s.surface && s.surface->closed; }
   static double outer(const T& s) { return scaledRadius(s.surface.get(), s.scale); }
   static double inner(const T&) { return 0; }
+  static FarthestPoint farthest(const T& s, const Vec3& n) { return farthestVertex(s.surface.get(), s.scale, n); }
 };
 
 template <class Row>

@@ -29,6 +29,11 @@ struct SphereRow {
   }
   static double outer(const Sphere& s) { return s.radius; }
   static double inner(const Sphere& s) { return s.radius; }
+  static FarthestPoint farthest(const Sphere& s, const Vec3&) {
+    FarthestPoint p = FarthestPoint::at(Vec3::Zero(), 1);
+    p.ball = s.radius, p.ball_rates[0] = 1;
+    return p;
+  }
 };
 
 }  // namespace

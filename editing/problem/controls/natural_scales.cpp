@@ -37,6 +37,7 @@ NaturalScales naturalScales(const Scene& scene, int body) {
     s.angular_velocity = spin > 0 ? spin : 1;
   }
   s.time = s.length / s.velocity;
+  s.specific_energy = s.velocity * s.velocity;
   return s;
 }
 

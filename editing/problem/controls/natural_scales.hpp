@@ -12,6 +12,7 @@ struct NaturalScales {
   double velocity = 1;          ///< m/s: sqrt(g length); without gravity the body's speed, or one length a second
   double angular_velocity = 1;  ///< rad/s: sqrt(g / length); without gravity the body's spin, or 1 rad/s
   double time = 1;              ///< s: length / velocity
+  double specific_energy = 1;   ///< J/kg: velocity^2
 };
 
 /// A body without a bound (a plane) takes the length of the largest body that has one, or 1 m.

@@ -45,6 +45,16 @@ bool hasLimit(const Target& target, std::size_t component) {
          (!target.max.empty() && !std::isnan(target.max[component]));
 }
 
+void checkPositive(const Target& target, const QuantityKind& kind, const std::string& where) {
+  const auto check = [&](const std::vector<double>& numbers, const std::string& place) {
+    if (numbers.empty() || std::isnan(numbers[0]) || numbers[0] > 0) return;
+    throw InputError(place, "found " + number(numbers[0]) + ", expected more than 0 " + kind.unit +
+                                (findQuantityKind("speed") == &kind ? "; what is at rest has a velocity of [0, 0, 0]" : ""));
+  };
+  check(target.value, where);
+  check(target.max, where + "/max");
+}
+
 void checkNumbers(const Target& target, const QuantityKind& kind, const std::string& where) {
   if (static_cast<int>(target.value.size()) != kind.numbers) {
     throw InputError(
@@ -58,6 +68,7 @@ void checkNumbers(const Target& target, const QuantityKind& kind, const std::str
       throw InputError(where, "found NaN, expected a number: a component of this cannot be left free");
     }
   }
+  if (kind.positive) checkPositive(target, kind, where);
   if (!target.body_point.allFinite()) {
     throw InputError(where, "found a body point that is not finite, expected three numbers");
   }
@@ -81,6 +92,22 @@ const QuantityKind& checkedKind(const Target& target, const When& at, const std:
     throw InputError(place, std::string("found ") + kind->word + " held at a time, expected an impact");
   }
   return *kind;
+}
+
+void checkWanted(const Target& target, const std::string& where) {
+  static const QuantityKind kOneNumber{.word = "", .rows = 1, .numbers = 1, .all_or_nothing = true, .target = nullptr};
+  checkNumbers(target, kOneNumber, where);
+}
+
+void checkBody(const QuantityKind& kind, const Body& body, const Constraint& constraint, const std::string& where) {
+  if (kind.by_mass && body.immovable())
+    throw InputError(where + "/body", std::string("found the ") + (body.fixed ? "fixed" : "kinematic") + " body '" +
+                                          body.name + "', expected one that impacts move: others have no " + kind.word);
+  if (kind.of_shape && kindOf(body.shape).endless)
+    throw InputError(where + "/body", "found the endless body '" + body.name + "', expected one with a lowest point");
+  if (!kind.from_another && !constraint.relative_to.empty())
+    throw InputError(where + "/relative_to", "found '" + constraint.relative_to + "' beside " + kind.word +
+                                                 ", expected none: it is of the body itself, in the world");
 }
 
 void checkSpan(const std::pair<double, double>& span, const std::string& where) {

@@ -11,8 +11,12 @@ namespace carom::editing_detail {
 
 /// The kind of a target, whose numbers are all right.
 const QuantityKind& checkedKind(const Target& target, const When& at, const std::string& where);
+/// What the kind asks of the body, and of the one that it is seen from.
+void checkBody(const QuantityKind& kind, const Body& body, const Constraint& constraint, const std::string& where);
 /// Time, impact and span.
 void checkWhen(const When& at, const std::string& where);
+/// Of one number: a value, or a range with a limit at least.
+void checkWanted(const Target& target, const std::string& where);
 void checkRegion(const Region& region, const std::string& where);
 void checkSpan(const std::pair<double, double>& span, const std::string& where);
 

@@ -49,6 +49,7 @@ ConstraintSet::Reading ConstraintSet::readAt(const Motion& motion, int index, co
   };
   Reading reading;
   reading.available = true;
+  reading.motion = &motion;
   reading.instant = instant;
   reading.time = time;
   reading.seen = reading.own = stateOf(bound.body);
@@ -70,6 +71,7 @@ void ConstraintSet::readRow(int i, const Reading& reading, RowValues& out) const
   const Bound& bound = bound_[row.constraint];
   const Target& target = constraints_[row.constraint].targets[row.target_index];
   const QuantityKind& kind = *row.kind;
+  if (kind.read) return putReading(i, readMotionQuantity(reading, i), out);
   out.values[i] = kind.value(reading.seen, reading.time, target)[row.component];
   StateSeed seed = kind.seed(reading.seen, target, row.component);
   seed.body = bound.body;
@@ -82,6 +84,45 @@ void ConstraintSet::readRow(int i, const Reading& reading, RowValues& out) const
   pair.of_b.body = bound.relative_to;
   pair.of_b.at = reading.instant;
   out.seeds[i] = {std::move(pair.of_a), std::move(pair.of_b)};
+}
+
+RowReading ConstraintSet::readMotionQuantity(const Reading& reading, int i) const {
+  const Row& row = rows_[i];
+  const Bound& bound = bound_[row.constraint];
+  return row.kind->read(
+      {*reading.motion, bound.body, bound.relative_to, reading.instant, reading.time, row.scale});
+}
+
+void ConstraintSet::readObjective(const Motion& motion, RowValues& out) const {
+  out.objective = objective_->read(motion);
+  std::string why = out.objective->missing;
+  if (why.empty() && out.objective->seeds.empty()) why = sentence(out.objective->doubt);
+  if (why.empty()) return;
+  out.available = false;
+  if (out.message.empty()) out.message = why;
+  out.objective.reset();
+}
+
+// Where a number that is not what it shall be has no derivative, nothing leads on from there.
+void ConstraintSet::putReading(int i, RowReading reading, RowValues& out) const {
+  if (!reading.missing.empty()) {
+    out.available = false;
+    if (out.message.empty()) out.message = reading.missing;
+    return;
+  }
+  out.values[i] = reading.value;
+  const bool undefined = reading.seeds.empty();
+  if (undefined && !(residual(i, reading.value) == 0)) {
+    out.available = false;
+    if (out.message.empty()) out.message = sentence(reading.doubt);
+  }
+  if (undefined) {  // what is within its range needs none
+    StateSeed& none = reading.seeds.emplace_back();
+    none.body = rows_[i].own < 0 ? bound_[rows_[i].constraint].body : 0;
+    none.at = Instant::at(0);
+  }
+  out.seeds[i] = std::move(reading.seeds);
+  out.notes[i] = {std::move(reading.doubt), reading.second_order, std::move(reading.seed_rates)};
 }
 
 std::optional<Clearance> ConstraintSet::clearance(const Motion& motion, int i) const {
@@ -98,6 +139,7 @@ std::vector<StateSeed> ConstraintSet::seedRates(const Motion& motion, const Eige
     seed.center_of_mass = clearance(motion, i)->bend * rates[0].center_of_mass;
     return {seed};
   }
+  if (!row.kind || row.kind->read) return std::vector<StateSeed>(rates.size());  // theirs are noted, or constant
   const Bound& bound = bound_[row.constraint];
   const Target& target = constraints_[row.constraint].targets[row.target_index];
   const QuantityKind& kind = *row.kind;
@@ -133,11 +175,14 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
   out.times = times;
   out.values = out.residuals = out.scaled = Eigen::VectorXd::Constant(size(), kNotRead);
   out.seeds.resize(rows_.size());
+  out.notes.resize(rows_.size());
   int current = -1;
   Reading reading;
   for (int i = 0; i < size(); ++i) {
     const Row& row = rows_[i];
-    if (row.region >= 0) {
+    if (row.own >= 0) {
+      putReading(i, own_[static_cast<std::size_t>(row.own)].read(motion), out);
+    } else if (row.region >= 0) {
       readRegion(motion, i, out);
     } else {
       if (row.constraint != current) {
@@ -154,6 +199,7 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
     out.residuals[i] = residual(i, out.values[i]);
     out.scaled[i] = out.residuals[i] / row.scale;
   }
+  if (objective_) readObjective(motion, out);
   return out;
 }
 
@@ -165,7 +211,8 @@ double ConstraintSet::missAt(const Motion& motion, int index, double time) const
     const Row& row = rows_[i];
     if (row.constraint != index || row.region >= 0) continue;
     const Target& target = constraints_[index].targets[row.target_index];
-    const double value = row.kind->value(reading.seen, time, target)[row.component];
+    const double value = row.kind->read ? readMotionQuantity(reading, i).value
+                                        : row.kind->value(reading.seen, time, target)[row.component];
     const double scaled = residual(i, value) / row.scale;
     sum += scaled * scaled;
   }

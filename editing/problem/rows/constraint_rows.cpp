@@ -29,9 +29,12 @@ double boundingRadiusAboutCenter(const Body& body) {
 
 }  // namespace
 
-ConstraintSet::ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints, double duration)
+ConstraintSet::ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints, double duration,
+                             const OwnFunctions& own)
     : body_count_(static_cast<int>(scene.bodies.size())), constraints_(constraints), bound_(constraints.size()) {
   for (std::size_t i = 0; i < constraints.size(); ++i) bind(scene, static_cast<int>(i), duration);
+  for (std::size_t i = 0; i < own.rows.size(); ++i) addOwnRow(scene, static_cast<int>(i), own.rows[i], duration);
+  if (own.objective) objective_.emplace(scene, *own.objective, duration, "minimise");
   for (int i = 0; i < size(); ++i) (rows_[i].isRange() ? ranges_ : equations_).push_back(i);
 }
 
@@ -56,6 +59,7 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
   const std::size_t first_row = rows_.size();
   for (std::size_t t = 0; t < constraint.targets.size(); ++t) {
     bound.kinds.push_back(&checkedKind(constraint.targets[t], at, where));
+    checkBody(*bound.kinds.back(), scene.bodies[bound.body], constraint, where);
     addTargetRows(scene, index, static_cast<int>(t));
   }
   for (std::size_t r = 0; r < constraint.regions.size(); ++r) {
@@ -82,8 +86,25 @@ void ConstraintSet::addTargetRows(const Scene& scene, int index, int target_inde
       if (std::isinf(row.lower) && std::isinf(row.upper)) continue;  // left free
     }
     row.scale = kind.scale ? scales.*kind.scale : 1;
+    if (kind.by_mass) row.scale *= modelOf(scene.bodies[bound_[index].body]).mass;
     rows_.push_back(std::move(row));
   }
+}
+
+void ConstraintSet::addOwnRow(const Scene& scene, int index, const OwnFunctions::Row& own, double duration) {
+  own_.emplace_back(scene, own.function, duration, "require " + std::to_string(index));
+  Target target{"", {own.wanted.value}};
+  target.min = {own.wanted.min}, target.max = {own.wanted.max};
+  checkWanted(target, own_.back().where);
+  Row row;
+  row.own = index, row.target_index = -1;
+  row.name = own.function.name;
+  row.target = row.lower = row.upper = own.wanted.value;
+  if (std::isnan(own.wanted.value)) {
+    row.lower = limitOf(target.min, 0, -kInfinity), row.upper = limitOf(target.max, 0, kInfinity);
+  }
+  row.scale = own.function.scale;
+  rows_.push_back(std::move(row));
 }
 
 void ConstraintSet::addRegionRows(const Scene& scene, int index, int region_index, double duration) {
@@ -108,12 +129,23 @@ void ConstraintSet::addRegionRows(const Scene& scene, int index, int region_inde
   }
 }
 
-std::vector<AwaitedImpact> ConstraintSet::awaited() const {
-  std::vector<AwaitedImpact> impacts;
-  for (std::size_t i = 0; i < constraints_.size(); ++i)
-    if (const When& at = constraints_[i].at; at.impact > 0 && !constraints_[i].targets.empty())
-      impacts.push_back({bound_[i].body, at.impact, bound_[i].with});
-  return impacts;
+bool ConstraintSet::waits() const {
+  const auto own_waits = [](const BoundFunction& own) { return own.waits(); };
+  const auto constraint_waits = [](const Constraint& c) { return c.at.impact > 0 && !c.targets.empty(); };
+  return std::any_of(constraints_.begin(), constraints_.end(), constraint_waits) ||
+         std::any_of(own_.begin(), own_.end(), own_waits) || (objective_ && objective_->waits());
+}
+
+bool ConstraintSet::hasWhatItWaitsFor(const Motion& motion) const {
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const When& at = constraints_[i].at;
+    if (at.impact == 0 || constraints_[i].targets.empty()) continue;
+    if (!motion.findImpact(bound_[i].body, at.impact, bound_[i].with)) return false;
+  }
+  const auto has = [&](const BoundFunction& own) {
+    return !own.waits() || motion.findImpact(own.body, own.function.until->impact, own.with);
+  };
+  return std::all_of(own_.begin(), own_.end(), has) && (!objective_ || has(*objective_));
 }
 
 double ConstraintSet::leastDuration() const {
@@ -123,12 +155,15 @@ double ConstraintSet::leastDuration() const {
     if (!constraints_[i].targets.empty() && at.impact == 0) last = std::max(last, at.span ? at.span->second : at.time);
     for (const BoundRegion& region : bound_[i].regions) last = std::max(last, region.to);
   }
+  for (const BoundFunction& own : own_)
+    if (!own.waits()) last = std::max(last, own.end);
+  if (objective_ && !objective_->waits()) last = std::max(last, objective_->end);
   return last;
 }
 
 double ConstraintSet::horizon(double duration) const {
   const double last = leastDuration();
-  return awaited().empty() && last > 0 ? std::min(last, duration) : duration;
+  return !waits() && last > 0 ? std::min(last, duration) : duration;
 }
 
 ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen::VectorXd& times) const {
@@ -147,12 +182,15 @@ ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen:
       extent.time = std::max(extent.time, motion.events[*event].time);
     }
   }
+  for (const BoundFunction& own : own_) extent.time = std::max(extent.time, own.extentIn(motion));
+  if (objective_) extent.time = std::max(extent.time, objective_->extentIn(motion));
   while (extent.events < motion.events.size() && motion.events[extent.events].time <= extent.time) ++extent.events;
   return extent;
 }
 
 std::vector<bool> ConstraintSet::asksOrientation() const {
-  std::vector<bool> asks(static_cast<std::size_t>(body_count_), false);
+  const bool of_anything = !own_.empty() || objective_;
+  std::vector<bool> asks(static_cast<std::size_t>(body_count_), of_anything);
   for (const Bound& bound : bound_) {
     for (const QuantityKind* kind : bound.kinds) {
       if (kind->turns) asks[static_cast<std::size_t>(bound.body)] = true;
@@ -192,6 +230,7 @@ std::string ConstraintSet::describeConstraint(int index) const {
 
 std::string ConstraintSet::describeRow(int row) const {
   const Row& r = rows_[row];
+  if (r.own >= 0) return "'" + r.name + "'";
   if (r.region < 0) return r.name + " of " + describeConstraint(r.constraint);
   const BoundRegion& region = bound_[r.constraint].regions[r.region];
   return r.name + " of '" + constraints_[r.constraint].body + "' from " + number(region.from) + " s to " +

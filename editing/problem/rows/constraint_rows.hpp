@@ -10,22 +10,35 @@
 
 #include "adjoint/derivative/derivative_tape.h"
 #include "adjoint/motion/motion.h"
-#include "adjoint/simulate/simulate.h"
 #include "editing/constraint.h"
+#include "editing/problem/rows/bound_function.hpp"
 #include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
+#include "editing/wanted.h"
 
 namespace carom::editing_detail {
 
 using namespace adjoint_detail;
 
+/// What the caller of an edit brings along: rows of one's own, and what is minimised in place of the change.
+struct OwnFunctions {
+  struct Row {
+    MotionFunction function;
+    Wanted wanted;
+  };
+  std::vector<Row> rows;
+  std::optional<MotionFunction> objective;
+  double change_weight = 0;  ///< of the change that is minimised beside `objective`
+};
+
 /// One number that a constraint holds: equal to a target, or within a range.
 struct Row {
-  int constraint = -1;          ///< index of the Constraint
+  int constraint = -1;          ///< index of the Constraint; -1: a row of one's own
+  int own = -1;                 ///< index into OwnFunctions::rows; -1: of a constraint
   int target_index = 0;         ///< of its Target; -1: of a region
   int region = -1;              ///< index of its Region; -1: of a target
   int component = 0;            ///< of the quantity, or of the region
-  const QuantityKind* kind = nullptr;  ///< null: of a region
+  const QuantityKind* kind = nullptr;  ///< null: of a region, or one's own
   std::string name;             ///< "position.x", "time", "avoid"
   double target = 0;            ///< SI; 0 for orientation rows; NaN for a range
   double lower = 0, upper = 0;  ///< allowed values, SI; both `target` where that is a number
@@ -41,6 +54,13 @@ struct FreeTime {
   double scale = 1;         ///< natural time of the body, s
 };
 
+/// What there is to know of the derivative of one row, besides its seeds.
+struct RowNote {
+  std::string doubt;          ///< not empty: why it cannot be trusted, a clause
+  bool second_order = true;   ///< second derivatives are known
+  SeedRates seed_rates = {};  ///< of rows that bring their own; may be empty
+};
+
 /// Values of all rows for one motion, SI.
 struct RowValues {
   bool available = true;      ///< false: some row does not exist in this motion
@@ -51,6 +71,8 @@ struct RowValues {
   Eigen::VectorXd scaled;     ///< residual / scale
   /// Derivative of each value by the states of bodies, a sum; empty where not available.
   std::vector<std::vector<StateSeed>> seeds;
+  std::vector<RowNote> notes;  ///< one a row
+  std::optional<RowReading> objective;  ///< of one's own, where there is one and the motion has it
 };
 
 /// The constraints of an edit as rows. Which rows there are depends on the constraints alone, not on the motion.
@@ -59,12 +81,14 @@ class ConstraintSet {
   /// Throws InputError naming "/constraints/<i>": unknown words and bodies, targets that are not numbers, nothing held,
   /// `time` at a time, ... Sizes and speeds of `scene` give the scales; `duration` ends spans that are open.
   ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints,
-                double duration = std::numeric_limits<double>::infinity());
+                double duration = std::numeric_limits<double>::infinity(), const OwnFunctions& own = {});
 
   const std::vector<Constraint>& constraints() const { return constraints_; }
   const std::vector<Row>& rows() const { return rows_; }
   const std::vector<FreeTime>& freeTimes() const { return free_times_; }
   int size() const { return static_cast<int>(rows_.size()); }
+  /// What is minimised in place of the change; null: the change.
+  const BoundFunction* objective() const { return objective_ ? &*objective_ : nullptr; }
   /// Indices of the rows that hold a number, and of those that hold a range.
   const std::vector<int>& equations() const { return equations_; }
   const std::vector<int>& ranges() const { return ranges_; }
@@ -89,8 +113,11 @@ class ConstraintSet {
 
   /// Nothing after this time counts: the last time nailed, or `duration` when an impact is.
   double horizon(double duration) const;
-  /// The impacts at which something is held, and the last time that is held besides.
-  std::vector<AwaitedImpact> awaited() const;
+  /// Whether it depends on the motion up to when it has to be known.
+  bool waits() const;
+  /// Whether a motion has the impacts that are waited for, as far as it is known.
+  bool hasWhatItWaitsFor(const Motion& motion) const;
+  /// The last time that is held besides, s.
   double leastDuration() const;
   /// What of a motion counts for the constraints: its events up to the last of them, and the time of that. Without
   /// free times their spans count whole.
@@ -122,6 +149,7 @@ class ConstraintSet {
   struct Reading {
     bool available = false;
     std::string message;
+    const Motion* motion = nullptr;
     Instant instant;
     double time = 0;
     BodyState own, other;  ///< of the body, and of the one it is seen from
@@ -129,11 +157,15 @@ class ConstraintSet {
   };
   void bind(const Scene& scene, int index, double duration);
   void addTargetRows(const Scene& scene, int index, int target);
+  void addOwnRow(const Scene& scene, int index, const OwnFunctions::Row& own, double duration);
   void addRegionRows(const Scene& scene, int index, int region, double duration);
   Reading read(const Motion& motion, int constraint, double free_time) const;
   Reading readAt(const Motion& motion, int constraint, const Instant& instant, double time) const;
   void readRow(int row, const Reading& reading, RowValues& out) const;
+  RowReading readMotionQuantity(const Reading& reading, int row) const;
+  void putReading(int row, RowReading reading, RowValues& out) const;
   void readRegion(const Motion& motion, int row, RowValues& out) const;
+  void readObjective(const Motion& motion, RowValues& out) const;
   double missAt(const Motion& motion, int constraint, double time) const;
 
   int body_count_ = 0;
@@ -142,6 +174,8 @@ class ConstraintSet {
   std::vector<Row> rows_;
   std::vector<int> equations_, ranges_;
   std::vector<FreeTime> free_times_;
+  std::vector<BoundFunction> own_;  ///< of the rows of one's own
+  std::optional<BoundFunction> objective_;
 };
 
 }  // namespace carom::editing_detail

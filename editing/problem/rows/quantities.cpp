@@ -3,6 +3,7 @@
 
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/numeric/so3_rates.hpp"
+#include "editing/problem/rows/motion_quantities.hpp"
 
 namespace carom::editing_detail {
 
@@ -142,7 +143,64 @@ const QuantityKind kPoint{
     .seed_rate = pointSeedRate,
 };
 
-const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation, &kVelocity, &kAngularVelocity, &kTime, &kPoint};
+
+// What depends on more than the state: see motion_quantities.hpp.
+
+const QuantityKind kSpeed{
+    .word = "speed",
+    .rows = 1,
+    .numbers = 1,
+    .all_or_nothing = true,
+    .scale = &NaturalScales::velocity,
+    .target = oneNumber,
+    .read = readSpeed,
+    .positive = true,
+    .unit = "m/s",
+};
+const QuantityKind kKineticEnergy{
+    .word = "kinetic_energy",
+    .rows = 1,
+    .numbers = 1,
+    .all_or_nothing = true,
+    .turns = true,
+    .scale = &NaturalScales::specific_energy,
+    .target = oneNumber,
+    .read = readKineticEnergy,
+    .by_mass = true,
+    .positive = true,
+    .from_another = false,
+    .unit = "J",
+};
+const QuantityKind kImpulse{
+    .word = "impulse",
+    .rows = 1,
+    .numbers = 1,
+    .all_or_nothing = true,
+    .only_at_impacts = true,
+    .scale = &NaturalScales::velocity,
+    .target = oneNumber,
+    .read = readImpulse,
+    .by_mass = true,
+    .positive = true,
+    .from_another = false,
+    .unit = "N s",
+};
+const QuantityKind kHeight{
+    .word = "height",
+    .rows = 1,
+    .numbers = 1,
+    .all_or_nothing = true,
+    .turns = true,
+    .scale = &NaturalScales::length,
+    .target = oneNumber,
+    .read = readHeight,
+    .of_shape = true,
+    .from_another = false,
+    .unit = "m",
+};
+
+const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation,   &kVelocity, &kAngularVelocity, &kTime, &kPoint,
+                                              &kSpeed,    &kKineticEnergy, &kImpulse,  &kHeight};
 
 }  // namespace
 

@@ -6,9 +6,20 @@
 
 #include "adjoint/derivative/tangent.h"
 #include "editing/constraint.h"
+#include "editing/motion_function.h"
 #include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
+
+/// Where and when a quantity is read.
+struct QuantityPlace {
+  const Motion& motion;
+  int body;
+  int relative_to;  ///< -1: the world
+  Instant at;
+  double time;   ///< s, of the instant
+  double scale;  ///< of the row, see Row::scale
+};
 
 /// One row of the table of quantities that a constraint can hold: what the editor asks of a kind. A quantity has up to
 /// three numbers, each one row of the problem: value - target = 0. A new kind adds a row to quantities.cpp.
@@ -24,13 +35,21 @@ struct QuantityKind {
   /// Target of each row, from the numbers a person gave (NaN: free).
   Vec3 (*target)(const Target&);
   /// Values of the rows, with the time at which the state is read.
-  Vec3 (*value)(const BodyState&, double time, const Target&);
+  Vec3 (*value)(const BodyState&, double time, const Target&) = nullptr;
   /// The row's derivative by the state (body and instant are filled in by the caller).
-  StateSeed (*seed)(const BodyState&, const Target&, int component);
+  StateSeed (*seed)(const BodyState&, const Target&, int component) = nullptr;
   /// How that changes with the state; null where it does not.
   StateSeed (*seed_rate)(const BodyState&, const BodyStateRate&, const Target&, int component) = nullptr;
   /// Values are measured from the target: their own target is 0, and derivatives depend on where it is.
   bool from_target = false;
+
+  /// In place of `value` and `seed`: a single number that depends on more than the state, such as mass or shape.
+  RowReading (*read)(const QuantityPlace&) = nullptr;
+  bool by_mass = false;      ///< its scale is that of a kilogram; the body must be one that impacts move
+  bool positive = false;     ///< never below 0, and without a regular derivative at 0: targets and maxima lie above
+  bool of_shape = false;     ///< the body must have a lowest point
+  bool from_another = true;  ///< makes sense as seen from another body
+  const char* unit = "";     ///< SI, for refusals
 };
 
 std::span<const QuantityKind* const> quantityKinds();

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "adjoint/motion/contact_source.h"
+
+namespace carom::adjoint_detail {
+
+/// Where two bodies are nearest to each other.
+struct Nearest {
+  double gap = std::numeric_limits<double>::infinity();  ///< m; 0 where they touch or overlap
+  /// That of the features is the distance, and its derivatives are those of the distance; kind -1 where they touch or
+  /// overlap.
+  FeaturePair features;
+  Vec3 normal = Vec3::UnitZ();  ///< unit, from b to a
+  /// They are as near in other places, such as along an edge that is parallel to a face: the derivative by the features
+  /// is then one of several one-sided ones.
+  bool several = false;
+
+  bool apart() const { return features.kind >= 0; }
+};
+
+/// The least distance of two bodies over a stretch of time.
+struct NearestInTime {
+  double time = 0;  ///< s
+  Nearest nearest;
+  double rate = 0;   ///< m/s, of the distance at that time; about 0 where it is stationary
+  double below = 0;  ///< m: no distance of the stretch lies further below this one
+};
+
+/// What a ContactGeometry may know of bodies that do not touch. Optional, as BodyGeometry. Immutable.
+class BodyDistance {
+ public:
+  virtual ~BodyDistance() = default;
+
+  /// Of all that the two bodies are made of, to rounding.
+  virtual Nearest nearest(int a, int b, const Pose& A, const Pose& B) const = 0;
+
+  /// The least distance over [from, to], on arcs that are available so far. Every step of the search is one in which
+  /// bounds on the relative motion exclude less, so that nothing is missed between samples. Nothing where no distance is less
+  /// than `under`. Throws NotComputable as a search for impacts does.
+  virtual std::optional<NearestInTime> nearestInTime(
+      int a, int b, const Arc& arc_a, const Arc& arc_b, double from, double to,
+      double under = std::numeric_limits<double>::infinity()) const = 0;
+};
+
+}  // namespace carom::adjoint_detail

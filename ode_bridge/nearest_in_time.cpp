@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <vector>
+
+#include "adjoint/base/errors.h"
+#include "ode_bridge/nearest.hpp"
+#include "ode_bridge/touching.hpp"
+
+// The least distance m known so far is a level that nothing may lie below. Bodies grown by m touch where their distance
+// is m, so that the steps of the search for impacts, which cannot pass a touch of those grown bodies, exclude lower distances;
+// where a step ends below the level, the way down from there ends in a lower least distance.
+
+namespace carom::ode_bridge_detail {
+
+using adjoint_detail::Nearest;
+using adjoint_detail::NearestInTime;
+
+namespace {
+
+// What may lie below the least distance that is found, as a share of the sizes and the distance; after so many steps it
+// is doubled, again and again.
+constexpr double kBelow = 1e-10;
+constexpr int kStepsOfLevel = 5'000;
+constexpr int kMostSearchSteps = 1'000'000;
+// Balls further apart than this share of their size are followed as such; nearer ones are opened.
+constexpr double kFarApart = 0.25;
+constexpr int kMostRounds = 200;
+
+struct Waiting {
+  double time = 0;
+  int node_a = 0, node_b = 0;
+
+  bool operator<(const Waiting& o) const {
+    if (time != o.time) return time > o.time;
+    return node_a != o.node_a ? node_a > o.node_a : node_b > o.node_b;
+  }
+};
+
+class LeastDistance {
+ public:
+  LeastDistance(const Solid& a, const Solid& b, const Arc& arc_a, const Arc& arc_b, double from, double to, double under)
+      : solid_a_(a), solid_b_(b), arc_a_(arc_a), arc_b_(arc_b), from_(from), to_(to), level_(under) {}
+
+  std::optional<NearestInTime> find() {
+    consider(at(from_));
+    if (!touches() && to_ > from_) {
+      consider(at(to_));
+      if (!touches()) sweep();
+    }
+    if (!best_) return std::nullopt;
+    best_->below = slack();
+    return best_;
+  }
+
+ private:
+  bool touches() const { return best_ && !best_->nearest.apart(); }
+
+  // Of the present level.
+  double slack() const {
+    double size = 0;
+    for (const Solid* s : {&solid_a_, &solid_b_})
+      if (!s->plane) size = std::max(size, s->bound());
+    return loose_ * kBelow * (size + (std::isfinite(level_) ? std::abs(level_) : 0));
+  }
+
+  NearestInTime at(double t) const {
+    const Placed a(solid_a_, arc_a_, t), b(solid_b_, arc_b_, t);
+    NearestInTime here{t, nearestOf(a, b)};
+    if (!std::isfinite(here.nearest.gap)) throw NotComputable("their distance is beyond the range of doubles");
+    if (here.nearest.apart()) here.rate = gapRateOf(a, b, here.nearest.features);
+    return here;
+  }
+
+  void consider(const NearestInTime& here) {
+    if (!(here.nearest.gap < level_)) return;
+    best_ = here;
+    level_ = here.nearest.gap;
+  }
+
+  void sweep() {
+    // an end from which the way goes down, first of all
+    if (best_ && best_->time == from_ && best_->rate < 0) consider(wayDown(*best_));
+    if (best_ && best_->time == to_ && best_->rate > 0) consider(wayDown(*best_));
+    queue_.push({from_, 0, 0});
+    while (!queue_.empty() && !touches()) {
+      const Waiting now = queue_.top();
+      queue_.pop();
+      if (++steps_ > kMostSearchSteps)
+        throw NotComputable("it takes more than " + std::to_string(kMostSearchSteps) +
+                            " steps to see how near two bodies come: they turn too fast");
+      if (steps_ % kStepsOfLevel == 0) loose_ *= 2;
+      advance(now);
+    }
+  }
+
+  void advance(const Waiting& now) {
+    const Placed a(solid_a_, arc_a_, now.time), b(solid_b_, arc_b_, now.time);
+    Node na = a.solid->nodes[static_cast<std::size_t>(now.node_a)], nb = b.solid->nodes[static_cast<std::size_t>(now.node_b)];
+    // the half space stays as it is
+    const double level = std::isfinite(level_) ? level_ : 0;
+    const bool leaves = na.piece >= 0 && nb.piece >= 0;
+    const double size = (a.solid->plane ? 0 : na.radius) + (b.solid->plane ? 0 : nb.radius);
+    (a.solid->plane ? nb : na).radius += level;
+    const PlacedNode pa{&a, &na}, pb{&b, &nb};
+    const double apart = separationOf(pa, pb), left = to_ - now.time;
+    if (apart > kFarApart * size) return later(now, safeStep(pa, pb, apart, left));
+    if (!leaves) return open(now, na, nb);
+    Piece piece_a = a.solid->pieces[static_cast<std::size_t>(na.piece)], piece_b = b.solid->pieces[static_cast<std::size_t>(nb.piece)];
+    (a.solid->plane ? piece_b : piece_a).radius += level;
+    const PlacedPiece p{&a, &piece_a}, q{&b, &piece_b};
+    const Witness witness = findWitness(p, q);
+    if (witness.separation < -slack()) {
+      const double before = level_;
+      consider(wayDown(at(now.time)));
+      if (level_ < before) {
+        queue_.push(now);
+        return;
+      }
+    }
+    later(now, safeStep(p, q, witness, slack(), left));
+  }
+
+  void later(Waiting now, double h) {
+    if (std::isnan(h)) throw NotComputable("bounds on their motion are beyond the range of doubles");
+    if (!(now.time + h < to_)) return;
+    now.time = std::max(now.time + h, std::nextafter(now.time, to_));
+    queue_.push(now);
+  }
+
+  void open(const Waiting& now, const Node& a, const Node& b) {
+    const bool first = b.piece >= 0 || (a.piece < 0 && a.radius >= b.radius);
+    const Node& node = first ? a : b;
+    for (const int child : {node.left, node.right}) {
+      Waiting next = now;
+      (first ? next.node_a : next.node_b) = child;
+      queue_.push(next);
+    }
+  }
+
+  // From a place to the bottom of the valley that it is on a side of.
+  NearestInTime wayDown(NearestInTime here) const {
+    if (!here.nearest.apart() || here.rate == 0) return here;
+    const double way = here.rate < 0 ? 1 : -1, end = here.rate < 0 ? to_ : from_;
+    double h = std::abs(end - here.time) / 64;
+    for (int round = 0; round < kMostRounds && here.time != end; ++round) {
+      const double t = way * (here.time + way * h - end) >= 0 ? end : here.time + way * h;
+      if (t == here.time) break;
+      const NearestInTime next = at(t);
+      if (!next.nearest.apart()) return next;
+      if (way * next.rate >= 0) return bottom(here, next);
+      if (next.nearest.gap < here.nearest.gap) {
+        here = next;
+        h *= 2;
+      } else {
+        h /= 4;  // beyond a hill
+      }
+    }
+    return here;
+  }
+
+  // Between a place where the distance falls towards the other and one where it does not: where its rate is 0, by
+  // regula falsi that halves the weight of an end that stays (Illinois).
+  NearestInTime bottom(NearestInTime a, NearestInTime b) const {
+    NearestInTime best = a.nearest.gap < b.nearest.gap ? a : b;
+    double fa = a.rate, fb = b.rate;
+    int stays = 0;
+    for (int round = 0; round < kMostRounds && fb != 0; ++round) {
+      double t = a.time - fa * (b.time - a.time) / (fb - fa);
+      if (round % 8 == 7 || !std::isfinite(t)) t = a.time + 0.5 * (b.time - a.time);
+      if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
+      const NearestInTime here = at(t);
+      if (!here.nearest.apart()) return here;
+      if (here.nearest.gap < best.nearest.gap || std::abs(here.rate) < std::abs(best.rate)) best = here;
+      if ((here.rate < 0) == (a.rate < 0) && here.rate != 0) {
+        a = here, fa = here.rate;
+        if (stays == 1) fb *= 0.5;
+        stays = 1;
+      } else {
+        b = here, fb = here.rate;
+        if (stays == -1) fa *= 0.5;
+        stays = -1;
+      }
+    }
+    return best;
+  }
+
+  const Solid &solid_a_, &solid_b_;
+  const Arc &arc_a_, &arc_b_;
+  double from_, to_, level_, loose_ = 1;
+  int steps_ = 0;
+  std::optional<NearestInTime> best_;
+  std::priority_queue<Waiting> queue_;
+};
+
+}  // namespace
+
+std::optional<NearestInTime> nearestInTimeOf(const Solid& a, const Solid& b, const Arc& arc_a, const Arc& arc_b,
+                                             double from, double to, double under) {
+  return LeastDistance(a, b, arc_a, arc_b, from, to, under).find();
+}
+
+}  // namespace carom::ode_bridge_detail
