@@ -40,8 +40,6 @@ struct SimulateOptions {
   std::function<bool(const Motion&)> enough = {};
   double least_duration = 0;  ///< s; only beside `enough`
 };
-  double least_duration = 0;  ///< s; only where impacts are awaited
-};
 
 /// Simulates a scene from impact to impact up to `duration` seconds.
 /// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies; a lowest
