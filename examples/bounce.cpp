@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bounce that Warp optimises: a ball is thrown off floor and wall into a target. What the edit finds is compared with
-// the closed form.
+// The bounce that Warp optimises: a ball is thrown off floor and wall into a target. What the edit finds is compared
+// with the closed form.
 #include <cmath>
 #include <cstdio>
 

@@ -43,8 +43,8 @@ void sendLastBall(int layers) {
   edit.nail(last, kDuration).position(0.9, 0.75, any);
   const EditResult result = edit.solve();
   const Vec3 at = result.motion.stateAt(last, kDuration).position;
-  std::printf("%zu balls: %s at (%.4f, %.4f), largest error below 1e-9: %s\n", scene.bodies.size() - 1, last.c_str(), at.x(),
-              at.y(), result.solved() && result.residual < 1e-9 ? "yes" : "no");
+  std::printf("%zu balls: %s at (%.4f, %.4f), largest error below 1e-9: %s\n", scene.bodies.size() - 1, last.c_str(),
+              at.x(), at.y(), result.solved() && result.residual < 1e-9 ? "yes" : "no");
 }
 
 }  // namespace

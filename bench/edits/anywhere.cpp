@@ -37,7 +37,8 @@ void moveAway(Scene& scene, const Control& c, bool planar, Dice& dice) {
     const Vec3 before = body.velocity;
     body.velocity = dice.logIn(kSlower, kFaster) * (Eigen::AngleAxisd(angle, axis) * body.velocity);
     for (int i = 0; i < 3; ++i)
-      if (!c.components.empty() && std::find(c.components.begin(), c.components.end(), std::string(1, "xyz"[i])) == c.components.end())
+      if (!c.components.empty() &&
+          std::find(c.components.begin(), c.components.end(), std::string(1, "xyz"[i])) == c.components.end())
         body.velocity[i] = before[i];
   } else if (c.vary == "position") {
     Vec3 by = 0.05 * dice.inCube(1);
@@ -101,15 +102,15 @@ class DrawAnywhere {
     if (!beginsWith(motion, task_.sequence)) return false;
     const bool sequence_missed = !task_.sequence.empty() && !beginsWith(start, task_.sequence);
     if (hidden.missed_at_start && missed.available && !sequence_missed) return false;
-    if (missed.available && !sequence_missed && !(smallestMiss(problem.constraints, missed) >= TaskLimits::kSmallestMiss))
+    if (missed.available && !sequence_missed &&
+        !(smallestMiss(problem.constraints, missed) >= TaskLimits::kSmallestMiss))
       return false;
     task_.miss = missed.available ? missed.scaled.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
     const auto extent = problem.constraints.extentIn(motion);
     if (!isClear(motion, extent.events)) return false;
     task_.wanted.impacts = static_cast<int>(impactsIn(motion, extent.events));
-    task_.wanted.other_sequence =
-        !missed.available ||
-        motion.signature(extent.events) != start.signature(problem.constraints.extentIn(start).events);
+    task_.wanted.other_sequence = !missed.available || motion.signature(extent.events) !=
+                                                           start.signature(problem.constraints.extentIn(start).events);
     keepHidden(problem.controls, values);
     return isReachable(task_, values, contacts);
   }
@@ -132,16 +133,18 @@ class DrawAnywhere {
   // Impacts that matter are single, and far from where derivatives stop; what else happens is free.
   static bool isClear(const Motion& motion, std::size_t count) {
     count = std::min(count, motion.events.size());
-    return std::all_of(motion.events.begin(), motion.events.begin() + static_cast<std::ptrdiff_t>(count),
-                       [](const Event& e) {
-                         if (e.kind != EventKind::impact) return true;
-                         const auto counted = std::count_if(e.contacts.begin(), e.contacts.end(), [](const Contact& c) { return c.counted && !c.held; });
-                         return counted <= 1 && (e.contacts.size() > 1 || e.margins.smallest() >= TaskLimits::kSmallestMargin);
-                       });
+    return std::all_of(
+        motion.events.begin(), motion.events.begin() + static_cast<std::ptrdiff_t>(count), [](const Event& e) {
+          if (e.kind != EventKind::impact) return true;
+          const auto counted = std::count_if(e.contacts.begin(), e.contacts.end(),
+                                             [](const Contact& c) { return c.counted && !c.held; });
+          return counted <= 1 && (e.contacts.size() > 1 || e.margins.smallest() >= TaskLimits::kSmallestMargin);
+        });
   }
 
   static std::ptrdiff_t impactsIn(const Motion& motion, std::size_t count) {
-    return std::count_if(motion.events.begin(), motion.events.begin() + static_cast<std::ptrdiff_t>(std::min(count, motion.events.size())),
+    return std::count_if(motion.events.begin(),
+                         motion.events.begin() + static_cast<std::ptrdiff_t>(std::min(count, motion.events.size())),
                          [](const Event& e) { return e.counts(); });
   }
 

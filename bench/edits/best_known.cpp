@@ -13,9 +13,13 @@ constexpr const char* kHeader = "seed,task,hidden_objective,objective,found_by";
 /// Other machines may round otherwise.
 constexpr double kSameTask = 1e-6;
 
+bool isSame(double hidden, double other) { return std::abs(hidden - other) <= kSameTask * other; }
+
 }  // namespace
 
-BestKnown::BestKnown(std::string file) : file_(std::move(file)) {
+BestKnown::BestKnown(std::string file) : file_(std::move(file)) { read(); }
+
+void BestKnown::read() {
   std::ifstream in(file_);
   std::string line;
   while (std::getline(in, line)) {
@@ -28,7 +32,10 @@ BestKnown::BestKnown(std::string file) : file_(std::move(file)) {
         5)
       throw std::runtime_error(file_ + ": found '" + line + "', expected " + kHeader);
     entry.found_by = found_by;
-    entries_[{seed, index}] = entry;
+    const auto known = entries_.find({seed, index});
+    if (known == entries_.end() ||
+        (isSame(entry.hidden, known->second.hidden) && entry.objective < known->second.objective))
+      entries_[{seed, index}] = entry;
   }
 }
 
@@ -36,8 +43,7 @@ const BestKnown::Entry* BestKnown::entryOf(const Task& task) const {
   const auto found = entries_.find({task.seed, task.index});
   if (found == entries_.end()) return nullptr;
   const Entry& entry = found->second;
-  const bool same = std::abs(entry.hidden - task.hidden_objective) <= kSameTask * task.hidden_objective;
-  return same ? &entry : nullptr;
+  return isSame(entry.hidden, task.hidden_objective) ? &entry : nullptr;
 }
 
 double BestKnown::of(const Task& task) const {
@@ -53,7 +59,8 @@ void BestKnown::offer(const Task& task, double objective, const std::string& fou
     entries_[{task.seed, task.index}] = {task.hidden_objective, objective, found_by};
 }
 
-void BestKnown::save() const {
+void BestKnown::save() {
+  read();
   std::FILE* out = std::fopen(file_.c_str(), "w");
   if (!out) throw std::runtime_error(file_ + ": cannot be written");
   std::fprintf(out, "%s\n", kHeader);

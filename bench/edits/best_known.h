@@ -19,7 +19,8 @@ class BestKnown {
   double of(const Task& task) const;
   /// Keeps `objective` if it is smaller than what is known.
   void offer(const Task& task, double objective, const std::string& found_by);
-  void save() const;
+  /// Writes the file, with what others have written there in the meantime where that is smaller.
+  void save();
 
  private:
   struct Entry {
@@ -27,6 +28,8 @@ class BestKnown {
     std::string found_by;
   };
   const Entry* entryOf(const Task& task) const;
+
+  void read();
 
   std::string file_;
   std::map<std::pair<std::uint64_t, int>, Entry> entries_;  ///< by seed and index

@@ -27,10 +27,12 @@ namespace carom::bench {
 namespace {
 
 constexpr const char* kUsage =
-    "edits_bench [--tasks N] [--seed S] [--only FAMILY] [--task INDEX] [--config NAME[,NAME...]] [--budget SECONDS]\n"
-    "            [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--families FILE]\n"
+    "edits_bench [--tasks N] [--every N] [--seed S] [--only FAMILY] [--task INDEX] [--config NAME[,NAME...]]\n"
+    "            [--budget SECONDS] [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--families "
+    "FILE]\n"
     "            [--best FILE] [--improve] [--save FOLDER] [--serve]\n"
     "  --tasks     how many (all), the first     --only      of one family: ball, box, hull, meeting, chain, ...\n"
+    "  --every     N: only every N-th\n"
     "  --task      one task alone               --config    of the configurations (all)\n"
     "  --budget    s, of each edit (5)          --threads   tasks at a time (1: times are right)\n"
     "  --list      says what tasks there are    --failures  lists what was not met, with status and message\n"
@@ -44,6 +46,7 @@ struct Settings {
   int tasks = kTasks, threads = 1;
   std::uint64_t seed = 1;
   std::optional<int> task;
+  int every = 1;
   std::string only, configurations, csv, summary, families, save, best = CAROM_EDITS_BEST_KNOWN;
   double budget = 5;
   bool list = false, failures = false, improve = false, serves = false;
@@ -51,12 +54,13 @@ struct Settings {
 
 Settings readSettings(int argc, char** argv) {
   Settings s;
-  std::map<std::string, bool*> flags = {{"--list", &s.list}, {"--failures", &s.failures}, {"--improve", &s.improve},
-                                        {"--serve", &s.serves}};
+  std::map<std::string, bool*> flags = {
+      {"--list", &s.list}, {"--failures", &s.failures}, {"--improve", &s.improve}, {"--serve", &s.serves}};
   std::map<std::string, std::function<void(const std::string&)>> values = {
       {"--tasks", [&](const std::string& v) { s.tasks = std::stoi(v); }},
       {"--seed", [&](const std::string& v) { s.seed = std::stoull(v); }},
       {"--task", [&](const std::string& v) { s.task = std::stoi(v); }},
+      {"--every", [&](const std::string& v) { s.every = std::max(1, std::stoi(v)); }},
       {"--only", [&](const std::string& v) { s.only = v; }},
       {"--config", [&](const std::string& v) { s.configurations = "," + v + ","; }},
       {"--budget", [&](const std::string& v) { s.budget = std::stod(v); }},
@@ -106,7 +110,7 @@ void forEach(int count, int threads, const char* what, const std::function<void(
 
 std::vector<Task> makeTasks(const Settings& s) {
   std::vector<int> indices;
-  for (int i = s.task.value_or(0); i < s.task.value_or(kTasks - 1) + 1; ++i)
+  for (int i = s.task.value_or(0); i < s.task.value_or(kTasks - 1) + 1; i += s.every)
     if (s.only.empty() || s.only == nameOf(wantedOf(i).family)) indices.push_back(i);
   if (static_cast<int>(indices.size()) > s.tasks) indices.resize(static_cast<std::size_t>(s.tasks));
   std::vector<Task> tasks(indices.size());

@@ -13,6 +13,9 @@
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {
+
+using namespace editing_detail;
+
 namespace {
 
 constexpr double kLongestThrow = 4;  // s
@@ -48,7 +51,8 @@ void holdAtImpact(Constraint& c, const Motion& motion, int event, bool planar, D
   } else if (kind < 0.85) {
     c.targets = {coordinates("velocity", s.velocity, {axis})};
   } else {
-    c.targets = {coordinates("position", s.position, {axis}), {"time", {motion.events[static_cast<std::size_t>(event)].time}}};
+    c.targets = {coordinates("position", s.position, {axis}),
+                 {"time", {motion.events[static_cast<std::size_t>(event)].time}}};
   }
 }
 
@@ -89,8 +93,7 @@ std::optional<Constraint> placeAtLastImpact(const Shot& shot, const Motion& moti
 
 std::optional<HiddenMotion> chain(const Wanted& wanted, Dice& dice) {
   std::vector<Leg> legs(static_cast<std::size_t>(wanted.balls + 1));
-  for (int rail = 0; rail < wanted.rails; ++rail)
-    ++legs[static_cast<std::size_t>(dice.integer(0, wanted.balls))].rails;
+  for (int rail = 0; rail < wanted.rails; ++rail) ++legs[static_cast<std::size_t>(dice.integer(0, wanted.balls))].rails;
   legs.front().cue = true;
   legs.back().strikes = false;
   const auto shot = drawShot(legs, dice);
@@ -135,7 +138,8 @@ std::optional<HiddenMotion> hitOnTable(const Wanted& wanted, Dice& dice) {
   legs.push_back({!by_red, dice.integer(0, 2)});
   const auto shot = drawShot(legs, dice);
   if (!shot) return std::nullopt;
-  return hitsIn({shot->scene, controlsOfShot(dice), {}, {}, 0, true}, shot->striker, shot->struck, 1, wanted.goal, dice);
+  return hitsIn({shot->scene, controlsOfShot(dice), {}, {}, 0, true}, shot->striker, shot->struck, 1, wanted.goal,
+                dice);
 }
 
 Body targetAt(const Vec3& place, const Vec3& velocity, double reach, Dice& dice) {
@@ -176,7 +180,8 @@ std::optional<HiddenMotion> hitInFlight(const Wanted& wanted, Dice& dice) {
   if (to - from < 0.1) return std::nullopt;
   const BodyState s = motion.stateAt("thrown", from + dice.in(0.4, 0.9) * (to - from));
   const Shape& shape = scene.bodies[static_cast<std::size_t>(bodyIndex(scene, "thrown"))].shape;
-  scene.bodies.insert(scene.bodies.begin(), targetAt(s.position, s.velocity, 0.6 * kindOf(shape).boundingRadius(shape), dice));
+  scene.bodies.insert(scene.bodies.begin(),
+                      targetAt(s.position, s.velocity, 0.6 * kindOf(shape).boundingRadius(shape), dice));
   return hitsIn({scene, controlsOfThrow(scene, dice), {}, {}, 0, false}, "thrown", "target", 1, wanted.goal, dice);
 }
 
@@ -240,6 +245,37 @@ std::optional<HiddenMotion> rack(const Wanted& wanted, Dice& dice) {
   return hidden;
 }
 
+// A target holds what the motion has there.
+void holdAsRead(const HiddenMotion& hidden, const Motion& motion, Constraint& c) {
+  const ConstraintSet set(hidden.scene, {c});
+  const RowValues rows = set.evaluate(motion);
+  for (std::size_t i = 0; i < set.rows().size(); ++i) {
+    const Row& row = set.rows()[i];
+    c.targets[static_cast<std::size_t>(row.target_index)].value[static_cast<std::size_t>(row.component)] =
+        rows.values[static_cast<Eigen::Index>(i)];
+  }
+}
+
+// A throw after up to three impacts, or at one: how fast it is, how high, or how hard it strikes.
+std::optional<HiddenMotion> speed(const Wanted& wanted, Dice& dice) {
+  HiddenMotion hidden{drawThrow(static_cast<Family>(dice.integer(0, 2)), dice), {}, {}, {}, 0, false};
+  const Motion motion = play(hidden.scene, kLongestThrow);
+  const std::size_t impacts = static_cast<std::size_t>(dice.integer(1, 3));
+  if (motion.events.size() < impacts + 1) return std::nullopt;
+  const double from = motion.events[impacts - 1].time, to = motion.events[impacts].time;
+  if (to - from < 0.1) return std::nullopt;
+  hidden.controls = controlsOfThrow(hidden.scene, dice);
+  const double t = from + dice.in(0.2, 0.8) * (to - from);
+  constexpr const char* kWords[] = {"speed", "kinetic_energy", "height", "impulse"};
+  const bool at_impact = wanted.goal == Goal::at_an_impact;
+  Constraint c{"thrown", at_impact ? nthImpact(static_cast<int>(impacts)) : When(t), {{kWords[wanted.kind % 4], {1}}}};
+  if (dice.chance(0.5)) c.targets.push_back(coordinates("position", Vec3::Ones(), {dice.integer(0, 1)}));
+  holdAsRead(hidden, motion, c);
+  hidden.constraints = {c};
+  hidden.duration = durationFor(hidden.constraints, at_impact ? from : t);
+  return hidden;
+}
+
 }  // namespace
 
 std::optional<HiddenMotion> drawHiddenMotion(const Wanted& wanted, Dice& dice) {
@@ -254,6 +290,8 @@ std::optional<HiddenMotion> drawHiddenMotion(const Wanted& wanted, Dice& dice) {
       return wished(wanted, dice);
     case Family::rack:
       return rack(wanted, dice);
+    case Family::speed:
+      return speed(wanted, dice);
     default:
       return std::nullopt;
   }

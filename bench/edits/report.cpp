@@ -74,8 +74,13 @@ void printList(const std::vector<Task>& tasks) {
       tasks, "impacts", familyOf, [](const Task& t) { return std::clamp(t.wanted.impacts, 1, kMostImpacts) - 1; },
       kMostImpacts, impactsHeading);
   printTable(
-      tasks, "sequence", familyOf, [](const Task& t) { return !std::isfinite(t.miss) ? 2 : t.wanted.other_sequence ? 1 : 0; }, 3,
-      [](int need) { return need == 2 ? "a row lacks" : need == 1 ? "another" : "the same"; });
+      tasks, "sequence", familyOf,
+      [](const Task& t) { return !std::isfinite(t.miss)    ? 2
+                                 : t.wanted.other_sequence ? 1
+                                                           : 0; }, 3,
+      [](int need) { return need == 2   ? "a row lacks"
+                            : need == 1 ? "another"
+                                        : "the same"; });
   std::map<std::string, int> kinds;
   int bounded = 0, weighted = 0, partial = 0, fewest = 1000, most = 0;
   for (const Task& task : tasks) {
@@ -92,8 +97,8 @@ void printList(const std::vector<Task>& tasks) {
 
 void printSummary(const std::vector<Task>& tasks, const std::vector<Run>& runs, const BestKnown& best) {
   std::printf("%-16s%-10s%6s |%6s%6s%6s%6s%6s |%8s%9s%9s%9s%6s |%7s%7s%8s%7s%7s\n", "configuration", "family", "tasks",
-              "met %", "same", "other", "lack", "infe.", "ms", "p95", "max", "cpu p95", "steps", "ratio", "p95", "worst",
-              ">1.01 %", ">2 %");
+              "met %", "same", "other", "lack", "infe.", "ms", "p95", "max", "cpu p95", "steps", "ratio", "p95",
+              "worst", ">1.01 %", ">2 %");
   for (const Run& run : runs) {
     for (const auto& [family, s] : summaries(tasks, run, best)) {
       std::printf("%-16s%-10s%6d |%6.1f%6.1f%6.1f%6.1f%6d |%8.2f%9.1f%9.1f%9.1f%6.0f |%7.3f%7.3f%8.3g%7.1f%7.1f\n",
@@ -146,18 +151,20 @@ void writeSummary(const std::string& file, const std::vector<Task>& tasks, const
                   const BestKnown& best, bool by_family) {
   const File out = openForWriting(file);
   std::fprintf(out.get(), "# %s\n", machineLine().c_str());
-  std::fprintf(out.get(),
-               "configuration,label,%stasks,met,same_sequence,other_sequence,lacking,infeasible,median_ms,p95_ms,max_ms,"
-               "median_cpu_ms,p95_cpu_ms,median_iterations,median_ratio,p95_ratio,worst_ratio,above_1,above_2\n",
-               by_family ? "family," : "");
+  std::fprintf(
+      out.get(),
+      "configuration,label,%stasks,met,same_sequence,other_sequence,lacking,infeasible,median_ms,p95_ms,max_ms,"
+      "median_cpu_ms,p95_cpu_ms,median_iterations,median_ratio,p95_ratio,worst_ratio,above_1,above_2\n",
+      by_family ? "family," : "");
   for (const Run& run : runs) {
     for (const auto& [family, s] : summaries(tasks, run, best)) {
       if (by_family == (family == kAll)) continue;
-      std::fprintf(out.get(), "%s,\"%s\",%s%s%d,%.1f,%.1f,%.1f,%.1f,%d,%.2f,%.1f,%.1f,%.2f,%.1f,%.0f,%.3f,%.3f,%.3g,%.1f,%.1f\n",
+      std::fprintf(out.get(),
+                   "%s,\"%s\",%s%s%d,%.1f,%.1f,%.1f,%.1f,%d,%.2f,%.1f,%.1f,%.2f,%.1f,%.0f,%.3f,%.3f,%.3g,%.1f,%.1f\n",
                    run.configuration->name, run.configuration->label, by_family ? family.c_str() : "",
-                   by_family ? "," : "", s.tasks, s.met, s.same, s.other, s.lacking, s.infeasible, s.median_ms, s.p95_ms,
-                   s.longest_ms, s.median_cpu_ms, s.p95_cpu_ms, s.median_iterations, s.median_ratio, s.p95_ratio,
-                   s.worst_ratio, s.above_1, s.above_2);
+                   by_family ? "," : "", s.tasks, s.met, s.same, s.other, s.lacking, s.infeasible, s.median_ms,
+                   s.p95_ms, s.longest_ms, s.median_cpu_ms, s.p95_cpu_ms, s.median_iterations, s.median_ratio,
+                   s.p95_ratio, s.worst_ratio, s.above_1, s.above_2);
     }
   }
 }

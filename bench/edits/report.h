@@ -16,14 +16,14 @@ struct Run {
   std::vector<Outcome> outcomes;
 };
 
-/// Figures of some tasks of one run. Times and iterations are of all these tasks; ratios (objective over the best known)
-/// of those met.
+/// Figures of some tasks of one run. Times and iterations are of all these tasks; ratios (objective over the best
+/// known) of those met.
 struct Summary {
   int tasks = 0;
-  double met = 0;               ///< %; NaN where there are no tasks, as all that follows
-  double same = 0, other = 0;   ///< %, of those that need the same impact sequence, and of those that need another
-  double lacking = 0;           ///< %, of those whose start lacks what is held
-  int infeasible = 0;           ///< called so although every task can be met
+  double met = 0;              ///< %; NaN where there are no tasks, as all that follows
+  double same = 0, other = 0;  ///< %, of those that need the same impact sequence, and of those that need another
+  double lacking = 0;          ///< %, of those whose start lacks what is held
+  int infeasible = 0;          ///< called so although every task can be met
   double median_ms = 0, p95_ms = 0, longest_ms = 0;
   double median_cpu_ms = 0, p95_cpu_ms = 0;
   double median_iterations = 0;
@@ -41,8 +41,8 @@ void printList(const std::vector<Task>& tasks);
 void printSummary(const std::vector<Task>& tasks, const std::vector<Run>& runs, const BestKnown& best);
 /// One line a failure: index, what the task is, status and message.
 void printFailures(const std::vector<Task>& tasks, const std::vector<Run>& runs);
-/// One line a task and configuration; one line a configuration, or one a family of each. Throw std::runtime_error where a
-/// file cannot be written.
+/// One line a task and configuration; one line a configuration, or one a family of each. Throw std::runtime_error where
+/// a file cannot be written.
 void writeOutcomes(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,
                    const BestKnown& best);
 void writeSummary(const std::string& file, const std::vector<Task>& tasks, const std::vector<Run>& runs,

@@ -2,6 +2,8 @@
 #include "bench/edits/serve.h"
 
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <istream>
 #include <limits>
 #include <memory>
@@ -11,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "adjoint/base/errors.h"
 #include "bench/edits/checks.h"
 #include "bench/edits/outcome.h"
 #include "editing/problem/jacobian.hpp"
@@ -36,6 +37,8 @@ std::string list(const Vector& values) {
   for (Eigen::Index i = 0; i < values.size(); ++i) out += (i > 0 ? "," : "") + text(values[i]);
   return "[" + out + "]";
 }
+
+constexpr const char* kNone = "{\"available\":false}";
 
 // One task that is asked about.
 class Served {
@@ -63,17 +66,11 @@ class Served {
   }
 
   std::string rows(const Eigen::VectorXd& y) const {
-    const std::string none = "{\"available\":false}";
-    Motion motion;
     const Eigen::VectorXd values = problem_.valuesOf(y);
-    try {
-      motion = simulateAt(problem_, values, problem_.duration);
-    } catch (const InputError&) {
-      return none;  // bodies overlap
-    }
+    const Motion motion = simulateAt(problem_, values, problem_.duration);
     const RowValues rows = problem_.times() > 0 ? problem_.constraints.evaluate(motion, problem_.timesOf(y))
                                                 : problem_.constraints.evaluate(motion);
-    if (!rows.available) return none;
+    if (!rows.available) return kNone;
     Eigen::MatrixXd J(rows.values.size(), numbers());
     J << jacobianByAdjoint(problem_, values, motion, rows), jacobianByTimes(problem_, motion, rows);
     J = J * problem_.rates(y).asDiagonal();
@@ -92,8 +89,8 @@ class Served {
     outcome.residual = std::numeric_limits<double>::infinity();
     try {
       judge(task_, contacts_, problem_.valuesOf(y), outcome);
-    } catch (const InputError&) {
-      outcome.met = false;  // bodies overlap
+    } catch (const std::exception&) {
+      outcome.met = false;  // bodies overlap, or spin too fast for their motion to be worked out
     }
     return outcome;
   }
@@ -111,6 +108,14 @@ class Served {
   EditProblem problem_;
 };
 
+std::string rowsOrNone(const Served& served, const Eigen::VectorXd& y) {
+  try {
+    return served.rows(y);
+  } catch (const std::exception&) {
+    return kNone;
+  }
+}
+
 std::string describe(const Outcome& o) {
   return std::string("{\"met\":") + (o.met ? "true" : "false") + ",\"objective\":" + text(o.objective) +
          ",\"residual\":" + text(o.residual) + "}";
@@ -127,7 +132,6 @@ Eigen::VectorXd readChanges(std::istream& in, int numbers) {
 
 void serve(std::uint64_t seed, std::istream& in, std::ostream& out, BestKnown& best) {
   std::unique_ptr<Served> served;
-  bool offered = false;
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
     std::string request, name;
@@ -138,19 +142,18 @@ void serve(std::uint64_t seed, std::istream& in, std::ostream& out, BestKnown& b
       served = std::make_unique<Served>(makeTask(seed, index));
       out << served->describe(best.of(served->task()));
     } else if (served && request == "rows") {
-      out << served->rows(readChanges(words, served->numbers()));
+      out << rowsOrNone(*served, readChanges(words, served->numbers()));
     } else if (served && request == "judge") {
       out << describe(served->judged(readChanges(words, served->numbers())));
     } else if (served && request == "offer" && words >> name) {
       const Outcome outcome = served->judged(readChanges(words, served->numbers()));
-      if (outcome.met) best.offer(served->task(), outcome.objective, name), offered = true;
+      if (outcome.met) best.offer(served->task(), outcome.objective, name), best.save();
       out << describe(outcome);
     } else {
       throw std::runtime_error("found '" + line + "', expected task INDEX, then rows, judge or offer");
     }
     out << std::endl;
   }
-  if (offered) best.save();
 }
 
 }  // namespace carom::bench

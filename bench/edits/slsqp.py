@@ -107,12 +107,13 @@ class Problem:
         return np.clip(found.x, self.lower, self.upper)
 
 
-def starts(problem, count, dice, hidden):
+def starts(problem, count, dice, hidden, known):
+    """Smaller than the smallest change that is known by now: `known()`."""
     yield np.clip(np.zeros(problem.numbers), problem.lower, problem.upper)
     if hidden:
         yield np.array(problem.facts["hidden_changes"])
     for i in range(1, count):
-        reach = 10.0 ** dice.uniform(-1.5, 0.7)
+        reach = min(10.0 ** dice.uniform(-1.5, 0.7), np.sqrt(2 * known()))
         y = dice.normal(size=problem.numbers)
         yield np.clip(reach * y / np.linalg.norm(y), problem.lower, problem.upper)
 
@@ -121,7 +122,7 @@ def solve(problem, count, seconds, dice, hidden):
     """Smallest change that is met, when each smaller one was found, and how many starts had their rows."""
     began = time.perf_counter()
     best, best_y, history, tried = np.inf, None, [], 0
-    for start in starts(problem, count, dice, hidden):
+    for start in starts(problem, count, dice, hidden, lambda: best):
         if time.perf_counter() - began > seconds:
             break
         if not problem.rows(start)["available"]:
@@ -151,12 +152,13 @@ def main():
     parser.add_argument("--starts", type=int, default=64)
     parser.add_argument("--seconds", type=float, default=5)
     parser.add_argument("--csv")
+    parser.add_argument("--history", help="one line a smaller change that was found")
     parser.add_argument("--offer", action="store_true")
     parser.add_argument("--hidden", action="store_true")
     options = parser.parse_args()
     warnings.filterwarnings("ignore", "Values in x were outside bounds")
     bench = Bench(options.program)
-    met, lines = 0, ["task,met,objective,best_known,first_s,seconds,descents,evaluations"]
+    met, found, lines = 0, ["task,seconds,objective"], ["task,met,objective,best_known,first_s,seconds,descents,evaluations"]
     for index in numbers_of(options.tasks):
         bench.evaluations = 0
         problem = Problem(bench, index)
@@ -166,15 +168,17 @@ def main():
             met += 1
             if options.offer:
                 bench.ask("offer slsqp", *y)
+        found += [f"{index},{at:.4f},{objective:.9g}" for at, objective in history]
         first = history[0][0] if history else float("nan")
         lines.append(f"{index},{int(y is not None)},{best:.9g},{problem.facts['best']:.9g},{first:.4f},{seconds:.4f},"
                      f"{tried},{bench.evaluations}")
         print(lines[-1], flush=True)
     bench.close()
     print(f"met {met} of {len(lines) - 1}")
-    if options.csv:
-        with open(options.csv, "w") as out:
-            out.write("\n".join(lines) + "\n")
+    for file, text in ((options.csv, lines), (options.history, found)):
+        if file:
+            with open(file, "w") as out:
+                out.write("\n".join(text) + "\n")
 
 
 if __name__ == "__main__":

@@ -11,14 +11,14 @@
 namespace carom::bench {
 namespace {
 
-constexpr double kRadius = 0.0286, kMass = 0.17;        // m, kg: a pool ball
+constexpr double kRadius = 0.0286, kMass = 0.17;          // m, kg: a pool ball
 constexpr double kHalfLength = 1.27, kHalfWidth = 0.635;  // m, between the rails
-constexpr double kLongestShot = 12;                     // s
-constexpr double kLongestLeg = 1.5;                     // s, after its last rail
-constexpr double kShortestLeg = 0.05;                   // s
-constexpr double kSlowest = 0.15;                       // m/s, at the end of a leg
-constexpr double kLargestCut = 0.9;                     // rad, between the velocity of a ball and the line of centres
-constexpr double kRoom = 1.1;                           // between centres of balls, in diameters
+constexpr double kLongestShot = 12;                       // s
+constexpr double kLongestLeg = 1.5;                       // s, after its last rail
+constexpr double kShortestLeg = 0.05;                     // s
+constexpr double kSlowest = 0.15;                         // m/s, at the end of a leg
+constexpr double kLargestCut = 0.9;                       // rad, between the velocity of a ball and the line of centres
+constexpr double kRoom = 1.1;                             // between centres of balls, in diameters
 
 Body ball(const std::string& name, const Vec3& place) {
   Body body;
@@ -89,7 +89,8 @@ Vec3 drawPlace(Dice& dice) {
 }
 
 bool isFree(const Scene& scene, const Vec3& place) {
-  const bool inside = std::abs(place.x()) < kHalfLength - kRoom * kRadius && std::abs(place.y()) < kHalfWidth - kRoom * kRadius;
+  const bool inside =
+      std::abs(place.x()) < kHalfLength - kRoom * kRadius && std::abs(place.y()) < kHalfWidth - kRoom * kRadius;
   return inside && std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) {
            return !b.fixed && (b.position - place).norm() < 2 * kRoom * kRadius;
          });
@@ -100,7 +101,9 @@ Motion play(const Scene& scene) {
   return simulate(scene, contacts, kLongestShot, {.impact_limit = 60, .asked = {}});
 }
 
-bool isRail(const Scene& scene, int body) { return scene.bodies[static_cast<std::size_t>(body)].name.starts_with("rail"); }
+bool isRail(const Scene& scene, int body) {
+  return scene.bodies[static_cast<std::size_t>(body)].name.starts_with("rail");
+}
 
 int partnerIn(const Event& e, int body) {
   for (const Contact& c : e.contacts)
@@ -229,7 +232,8 @@ Scene drawRack(int layers, Dice& dice) {
   scene.bodies.push_back(cue);
   for (int i = 0, count = 0; i < layers; ++i) {
     for (int j = 0; j <= i; ++j) {
-      const Vec3 place = pitch * Vec3(std::sqrt(0.75) * i, j - 0.5 * i, 0) + 0.01 * (pitch - 2 * kRadius) * dice.inCube(1);
+      const Vec3 place =
+          pitch * Vec3(std::sqrt(0.75) * i, j - 0.5 * i, 0) + 0.01 * (pitch - 2 * kRadius) * dice.inCube(1);
       const bool last = i == layers - 1 && j == i;
       scene.bodies.push_back(ball(last ? "corner" : "ball_" + std::to_string(++count), {place.x(), place.y(), 0}));
     }

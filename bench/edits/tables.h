@@ -27,15 +27,15 @@ struct Shot {
   double from = 0, to = 0;            ///< s, the flight of the mover after the last rail or ball, up to what comes next
 };
 
-/// A shot that does what the legs say; none where the draw did not allow it. Some tables lie in a plane without gravity,
-/// on others the balls slide or roll over a floor. Up to two balls more lie about.
+/// A shot that does what the legs say; none where the draw did not allow it. Some tables lie in a plane without
+/// gravity, on others the balls slide or roll over a floor. Up to two balls more lie about.
 std::optional<Shot> drawShot(const std::vector<Leg>& legs, Dice& dice);
 
 /// A triangle of as many layers of balls, loosely laid, and the cue ball on its way to it. The last ball is "corner".
 Scene drawRack(int layers, Dice& dice);
 
-/// Whether the impacts of the body that is named first in the first pair begin with these, in order. A pair is two names,
-/// of which a * at the end stands for anything.
+/// Whether the impacts of the body that is named first in the first pair begin with these, in order. A pair is two
+/// names, of which a * at the end stands for anything.
 bool beginsWith(const Motion& motion, const std::vector<std::string>& sequence);
 
 }  // namespace carom::bench

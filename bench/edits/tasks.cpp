@@ -150,8 +150,8 @@ Task makeTask(std::uint64_t seed, int index) {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     try {
       const bool near = index < kThrownTasks;
-      if (std::optional<Task> task = near ? Draw(seed, index, attempt, wanted).make()
-                                          : drawAnywhere(seed, index, attempt, wanted)) {
+      if (std::optional<Task> task =
+              near ? Draw(seed, index, attempt, wanted).make() : drawAnywhere(seed, index, attempt, wanted)) {
         task->attempts = attempt + 1;
         return *task;
       }

@@ -17,8 +17,9 @@ namespace carom::bench {
 
 /// What every task keeps to.
 struct TaskLimits {
-  /// Of throws with a start near by: the hidden throw differs from the start by this much: the norm of the changes of all numbers together, each in its
-  /// own natural scale (the person's weights left out). Those that need another impact sequence may lie further.
+  /// Of throws with a start near by: the hidden throw differs from the start by this much: the norm of the changes of
+  /// all numbers together, each in its own natural scale (the person's weights left out). Those that need another
+  /// impact sequence may lie further.
   static constexpr double kNearest = 0.05, kFarthestSame = 0.5, kFarthestOther = 0.8;
   static constexpr double kSmallestMargin = 1e-3;  ///< of grazing and of stick and slip, of both motions
   static constexpr double kSmallestMiss = 1e-2;    ///< largest scaled residual of every constraint at the start

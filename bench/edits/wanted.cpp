@@ -21,7 +21,8 @@ struct Block {
   int tasks;
 };
 constexpr Block kBlocks[] = {
-    {Family::chain, 96}, {Family::encounter, 48}, {Family::hit, 72}, {Family::wished, 60}, {Family::rack, 24},
+    {Family::chain, 96},  {Family::encounter, 48}, {Family::hit, 72},
+    {Family::wished, 60}, {Family::rack, 24},      {Family::speed, 30},
 };
 
 // The k-th of a family.
@@ -40,6 +41,9 @@ Wanted anywhere(Family family, int k) {
     case Family::wished:
       w.kind = k, w.goal = Goal::impact_comes;
       break;
+    case Family::speed:
+      w.kind = k, w.goal = k % 4 == 3 ? Goal::at_an_impact : Goal::at_a_time;
+      break;
     case Family::rack:
       w.balls = 2 + k % 3, w.goal = Goal::at_a_time;
       break;
@@ -52,7 +56,8 @@ Wanted anywhere(Family family, int k) {
 }  // namespace
 
 const char* nameOf(Family family) {
-  constexpr const char* kNames[] = {"ball", "box", "hull", "meeting", "chain", "encounter", "hit", "wished", "rack"};
+  constexpr const char* kNames[] = {"ball",      "box", "hull",   "meeting", "chain",
+                                    "encounter", "hit", "wished", "rack",    "speed"};
   return kNames[static_cast<int>(family)];
 }
 
@@ -68,7 +73,8 @@ Wanted wantedOf(int index) {
     if (k >= 0 && k < block.tasks) return anywhere(block.family, k);
     k -= block.tasks;
   }
-  throw std::out_of_range("found task " + std::to_string(index) + ", expected one of 0 to " + std::to_string(kTasks - 1));
+  throw std::out_of_range("found task " + std::to_string(index) + ", expected one of 0 to " +
+                          std::to_string(kTasks - 1));
 }
 
 }  // namespace carom::bench

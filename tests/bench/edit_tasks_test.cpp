@@ -153,8 +153,20 @@ TEST(BestKnownChange, IsTheHiddenOneUntilASmallerOneIsFound) {
     best.offer(task, 0.7 * hidden, "worse");
     best.save();
   }
-  const BestKnown again(file);
+  BestKnown again(file);
   EXPECT_NEAR(again.of(task), 0.5 * hidden, 1e-9 * hidden);
+  {
+    // two that keep to the same file at a time
+    BestKnown first(file), second(file);
+    first.offer(task, 0.4 * hidden, "first");
+    first.save();
+    second.offer(task, 0.45 * hidden, "second");
+    second.offer(tasks()[1], 0.5 * tasks()[1].hidden_objective, "second");
+    second.save();
+  }
+  again = BestKnown(file);
+  EXPECT_NEAR(again.of(task), 0.4 * hidden, 1e-9 * hidden);
+  EXPECT_NEAR(again.of(tasks()[1]), 0.5 * tasks()[1].hidden_objective, 1e-9 * tasks()[1].hidden_objective);
   // another task of that number, from a generator that has changed
   Task changed = task;
   changed.hidden_objective *= 1.5;

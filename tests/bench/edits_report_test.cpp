@@ -32,9 +32,10 @@ Outcome outcomeOf(bool met, EditStatus status, double objective, double millisec
 TEST(Summary, CountsWhatIsMetAndHowSmallTheChangesAre) {
   std::vector<Task> tasks = {taskOf(0, 1), taskOf(1, 1), taskOf(400, 1), taskOf(401, 1)};
   tasks[3].miss = std::numeric_limits<double>::infinity();
-  const carom::bench::Run run{nullptr,
-                {outcomeOf(true, EditStatus::solved, 1, 1), outcomeOf(true, EditStatus::solved, 1.5, 2),
-                 outcomeOf(true, EditStatus::not_converged, 3, 4), outcomeOf(false, EditStatus::infeasible, 0, 8)}};
+  const carom::bench::Run run{
+      nullptr,
+      {outcomeOf(true, EditStatus::solved, 1, 1), outcomeOf(true, EditStatus::solved, 1.5, 2),
+       outcomeOf(true, EditStatus::not_converged, 3, 4), outcomeOf(false, EditStatus::infeasible, 0, 8)}};
   const BestKnown best("");
   const Summary s = summarise(tasks, run, best);
   EXPECT_EQ(s.tasks, 4);
