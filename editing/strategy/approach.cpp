@@ -68,7 +68,7 @@ EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps) {
   for (int k = 0; k < max_steps && !point->rows.lacking.empty(); ++k) {
     const std::optional<ClosestApproach> nearest = nearestOf(*point, point->rows.lacking.front());
     if (!nearest || !(nearest->value() > 0)) break;
-    const std::vector<StateSeed> seeds = nearest->seeds(point->motion);
+    const std::vector<StateSeed> seeds = nearest->seeds();
     const Eigen::VectorXd row = problem.controls.gather(adjoint(point->motion, seeds), point->values)
                                     .cwiseProduct(problem.rates(point->changes).head(n));
     if (!(row.squaredNorm() > 0) || !row.allFinite()) break;
