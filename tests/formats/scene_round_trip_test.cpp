@@ -112,7 +112,7 @@ Numbers shown(Numbers numbers) {
 
 TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   const Document d = parseDocument(documentWithEverything(), "everything");
-  ASSERT_EQ(d.constraints.size(), 7u);
+  ASSERT_EQ(d.constraints.size(), 8u);
   const Constraint& hat = d.constraints[4];
   EXPECT_EQ(hat.at.span, (std::pair<double, double>(0.31, 1.9)));
   EXPECT_EQ(hat.at.impact, 0);
