@@ -112,8 +112,8 @@ Numbers shown(Numbers numbers) {
 
 TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   const Document d = parseDocument(documentWithEverything(), "everything");
-  ASSERT_EQ(d.constraints.size(), 9u);
-  const Target &distance = d.constraints[7].targets[0], &closest = d.constraints[8].targets[0];
+  ASSERT_EQ(d.constraints.size(), 12u);
+  const Target &distance = d.constraints[8].targets[0], &closest = d.constraints[9].targets[0];
   EXPECT_EQ(distance.quantity + " " + distance.to, "distance pill");
   EXPECT_EQ(shown(distance.value), Numbers{99});
   EXPECT_EQ(distance.min, Numbers{0.15});
@@ -121,6 +121,12 @@ TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   EXPECT_EQ(closest.quantity + " " + closest.to, "closest_approach can");
   EXPECT_EQ(closest.value, Numbers{0.065});
   EXPECT_EQ(closest.during, (std::pair<double, double>(0.45, 1.95)));
+  ASSERT_TRUE(d.constraints[10].hits);
+  EXPECT_EQ(d.constraints[10].hits->with, "pill");
+  EXPECT_EQ(d.constraints[10].hits->during, (std::pair<double, double>(0.55, 1.85)));
+  EXPECT_EQ(d.constraints[10].hits->after->with, "can");
+  EXPECT_EQ(d.constraints[10].hits->before->n, 3);
+  EXPECT_EQ(d.constraints[11].sequence, (std::vector<std::string>{"can pill", "...", "d?e pil*"}));
   const Constraint& hat = d.constraints[4];
   EXPECT_EQ(hat.at.span, (std::pair<double, double>(0.31, 1.9)));
   EXPECT_EQ(hat.at.impact, 0);
