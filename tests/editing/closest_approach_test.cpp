@@ -79,7 +79,8 @@ Scene anyPassing(std::uint64_t seed) {
 TEST(ClosestApproach, TwoBallsThatPass) {
   const Vec3 d(-1, 0.3, 0.1), v(2, 0.1, -0.4);
   const Motion motion =
-      play(ghosts(shaped("a", Sphere{0.05}, d, v, {}), shaped("b", Sphere{0.08}, {0, 0, 0}, {}, {})), 1);
+      play(ghosts(shaped("a", Sphere{0.05}, d, v, Vec3::Zero()),
+                  shaped("b", Sphere{0.08}, Vec3::Zero(), Vec3::Zero(), Vec3::Zero())), 1);
   const auto found = closestApproach(motion, 0, 1, 0, 1);
   ASSERT_TRUE(found);
   const double t = -d.dot(v) / v.squaredNorm();
@@ -97,7 +98,7 @@ TEST(ClosestApproach, TwoBallsThatPass) {
 TEST(ClosestApproach, ABoxThatTurnsOverAPlane) {
   Body floor;
   floor.name = "floor", floor.fixed = true, floor.shape = Plane{};
-  Body box = shaped("box", Box{{0.4, 0.1, 0.2}}, {0, 0, 1}, {}, {0, 2, 0});
+  Body box = shaped("box", Box{{0.4, 0.1, 0.2}}, {0, 0, 1}, Vec3::Zero(), {0, 2, 0});
   box.orientation = Quat(Eigen::AngleAxisd(0.1, Vec3::UnitY()));
   Scene scene;
   scene.gravity.setZero();
@@ -122,7 +123,7 @@ TEST(ClosestApproach, ABoxThatTurnsOverAPlane) {
 TEST(ClosestApproach, ARodPastAnEdge) {
   Body block;
   block.name = "block", block.fixed = true, block.shape = Box{{4, 2, 1}}, block.position = {0, -1, -0.5};
-  const Body rod = shaped("rod", Capsule{0.02, 0.6}, {0.3, 0.1, 0.5}, {0.1, 0, -2}, {});
+  const Body rod = shaped("rod", Capsule{0.02, 0.6}, {0.3, 0.1, 0.5}, {0.1, 0, -2}, Vec3::Zero());
   Body leaning = rod;
   const Vec3 along(0, 0.8, -0.6);
   leaning.orientation = Quat::FromTwoVectors(Vec3::UnitZ(), along);
