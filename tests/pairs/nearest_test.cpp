@@ -70,7 +70,8 @@ TEST(Nearest, AgreesWithAllFeaturesOfAllPieces) {
     const Solid solid_a(shape_a), solid_b(shape_b);
     const Placed A = placedOf(solid_a, a), B = placedOf(solid_b, b);
     if (!provenApart(A, B)) continue;
-    const Real expected = distanceOf(A, B).nearest.distance;
+    const Distance reference = distanceOf(A, B);
+    const Real expected = reference.nearest.distance;
     if (expected < 1e-6L) continue;
     OdeContacts contacts(scene);
     const auto geometry = contacts.geometry();
@@ -79,8 +80,10 @@ TEST(Nearest, AgreesWithAllFeaturesOfAllPieces) {
         pose_b{b.position, b.orientation.toRotationMatrix()};
     const adjoint_detail::Nearest found = distances.nearest(0, 1, pose_a, pose_b);
     const adjoint_detail::Nearest swapped = distances.nearest(1, 0, pose_b, pose_a);
-    EXPECT_TRUE(std::abs(static_cast<double>(found.gap - expected)) <= 1e-14)
-        << seed << ": " << found.gap << " is off by " << static_cast<double>(found.gap - expected);
+    // where parallel curves hide the nearest features from the enumeration, its two bounds differ
+    const bool exact = expected - reference.proven <= 1e-14L;
+    EXPECT_TRUE(found.gap - expected <= 1e-14L && reference.proven - found.gap <= 1e-14L) << seed << ": " << found.gap;
+    EXPECT_TRUE(exact || aligned) << seed;
     EXPECT_TRUE(std::abs(swapped.gap - found.gap) <= 1e-14) << seed;
     EXPECT_TRUE(found.apart() && swapped.apart()) << seed;
     if (!found.apart()) continue;
@@ -90,7 +93,7 @@ TEST(Nearest, AgreesWithAllFeaturesOfAllPieces) {
       const ContactJacobian K = geometry->jacobian(1, 0, swapped.features, pose_b, pose_a);
       EXPECT_TRUE((J.pose.row(0).head<6>() - K.pose.row(0).tail<6>()).norm() <= 1e-11) << seed;
     }
-    ++compared;
+    compared += exact;
     several += found.several;
   }
   EXPECT_GE(compared, 1000);
