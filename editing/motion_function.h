@@ -16,7 +16,7 @@ struct RowReading {
   double value = 0;  ///< SI
   /// Derivative of the value by the states that it is read from, a sum: at times up to the end of the motion, or at its
   /// events (a reading there moves along with the event). Empty where there is none; then `doubt` says why.
-  std::vector<StateSeed> seeds;
+  std::vector<StateSeed> seeds = {};
   /// How the weights of the seeds change with the states. Must not refer to the motion, which may be gone by then.
   SeedRates seed_rates = {};
   /// Whether second derivatives are known: by `seed_rates`, or as 0 where that is empty. Otherwise the curvature of this

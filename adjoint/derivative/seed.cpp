@@ -58,7 +58,8 @@ ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
 }
 
 bool startsArc(const Motion& motion, int body, const Instant& instant) {
-  return instant.follows && motion.events[static_cast<std::size_t>(instant.event)].find(body) != nullptr;
+  return instant.follows && instant.event >= 0 &&
+         motion.events[static_cast<std::size_t>(instant.event)].find(body) != nullptr;
 }
 
 double timeDerivative(const Motion& motion, const StateSeed& seed) {

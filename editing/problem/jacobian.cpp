@@ -35,6 +35,18 @@ const Scene& checkedScene(const Scene& scene) {
   return scene;
 }
 
+// Without gravity up is z; which way it would turn is not defined.
+void checkUp(const ControlSet& controls, const ConstraintSet& constraints) {
+  if (!controls.startScene().gravity.isZero(0)) return;
+  for (const BoundControl& bound : controls.controls()) {
+    if (bound.kind->owner != OwnerKind::scene) continue;
+    for (const Row& row : constraints.rows())
+      if (row.kind && row.kind->of_shape)
+        throw InputError("/constraints/" + std::to_string(row.constraint) + "/" + row.kind->word,
+                         "found a gravity of 0 that may vary, expected another one: up is against it");
+  }
+}
+
 std::vector<Asked> askedOf(const ControlSet& controls, const ConstraintSet& constraints) {
   const std::vector<bool> orientation = constraints.asksOrientation();
   std::vector<Asked> asked(orientation.size());
@@ -62,7 +74,9 @@ EditProblem::EditProblem(const Scene& scene, ContactSource& contact_source, doub
       change_weight(checkedChangeWeight(own.change_weight)),
       duration(checkedDuration(length)),
       horizon(constraints.horizon(duration)),
-      asked(askedOf(controls, constraints)) {}
+      asked(askedOf(controls, constraints)) {
+  checkUp(controls, constraints);
+}
 
 Eigen::VectorXd EditProblem::valuesOf(const Eigen::VectorXd& unknowns) const {
   return controls.valuesOf(unknowns.head(controls.size()));
@@ -152,12 +166,12 @@ void askControls(const ControlSet& controls, Reliability& reliability) {
   }
 }
 
-void doubt(const RowNote& note, Reliability& reliability) {
-  if (note.doubt.empty()) return;
+void doubt(const std::string& why, Reliability& reliability) {
+  if (why.empty()) return;
   reliability.smallest_margin = 0;
   if (!reliability.reliable) return;
   reliability.reliable = false;
-  reliability.message = note.doubt;
+  reliability.message = why;
 }
 
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
@@ -170,7 +184,7 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
     const SceneGradient gradient = adjoint(tape, rows.seeds[i], reliability ? &(*reliability)[i] : nullptr);
     J.row(i) = problem.controls.gather(gradient, values).transpose();
     if (reliability) askControls(problem.controls, (*reliability)[i]);
-    if (reliability) doubt(rows.notes[i], (*reliability)[i]);
+    if (reliability) doubt(rows.notes[i].doubt, (*reliability)[i]);
     if (!reliability || J.row(i).allFinite()) continue;
     (*reliability)[i].reliable = false;
     (*reliability)[i].message =

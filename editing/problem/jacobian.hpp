@@ -76,8 +76,8 @@ MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& val
 /// Tells the reliability of a row which coefficients of friction and which spins vary.
 void askControls(const ControlSet& controls, Reliability& reliability);
 
-/// Adds what a row says of its own derivative.
-void doubt(const RowNote& note, Reliability& reliability);
+/// Adds what a row says of its own derivative (RowNote::doubt); nothing where that is empty.
+void doubt(const std::string& why, Reliability& reliability);
 
 /// d(rows)/d(values) of a motion simulated at `values`: one reverse pass a row, whatever the number of controls.
 Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,

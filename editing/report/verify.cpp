@@ -52,17 +52,19 @@ double largest(const Eigen::VectorXd& values) {
 Reliability reliabilityOf(const EditProblem& problem, const Motion& motion, const RowValues& rows) {
   Reliability worst;
   DerivativeTape tape(motion);
-  for (std::size_t i = 0; i < rows.seeds.size(); ++i) {
-    if (rows.seeds[i].empty()) continue;
+  const auto take = [&](const std::vector<StateSeed>& seeds, const std::string& why) {
+    if (seeds.empty()) return;
     Reliability one;
-    adjoint(tape, rows.seeds[i], &one);
+    adjoint(tape, seeds, &one);
     askControls(problem.controls, one);
-    doubt(rows.notes[i], one);
+    doubt(why, one);
     worst.events = std::max(worst.events, one.events);
     worst.smallest_margin = std::min(worst.smallest_margin, one.smallest_margin);
     if (worst.reliable && !one.reliable) worst.message = one.message;
     worst.reliable = worst.reliable && one.reliable;
-  }
+  };
+  for (std::size_t i = 0; i < rows.seeds.size(); ++i) take(rows.seeds[i], rows.notes[i].doubt);
+  if (rows.objective) take(rows.objective->seeds, rows.objective->doubt);
   return worst;
 }
 

@@ -27,6 +27,11 @@ int main() {
                 solid.center.x(), solid.center.y(), solid.center.z(), kind.dimension_names(shape)[0].c_str(), rate.volume);
   }
 
+  const FarthestPoint foot = kindOf(shapes[2]).farthest(shapes[2], {0, 0.6, -0.8});  // on the rim of the cone's base
+  const Vec3 place = foot.point({0, 0.6, -0.8});
+  std::printf("cone     reaches %.2f m along (0 0.6 -0.8), at (%.1f %.1f %.1f)\n", foot.reach({0, 0.6, -0.8}), place.x(),
+              place.y(), place.z());
+
   Body wheel;
   wheel.name = "wheel", wheel.material = "rubber";
   wheel.shape = Cylinder{0.3, 0.1};

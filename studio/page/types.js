@@ -8,7 +8,8 @@
  *    min?: number | number[], max?: number | number[], weight?: number, notes?: string}} Control */
 /** @typedef {null | number | {min?: number, max?: number}} Target */
 /** @typedef {{body: string, at?: When, position?: Target[], orientation?: Quat, velocity?: Target[],
- *    angular_velocity?: Target[], time?: Target, point?: {body_point: Vec3, world: Target[]}, relative_to?: string,
+ *    angular_velocity?: Target[], speed?: Target, kinetic_energy?: Target, impulse?: Target, height?: Target,
+ *    time?: Target, point?: {body_point: Vec3, world: Target[]}, relative_to?: string,
  *    avoid?: unknown, inside?: unknown, notes?: string}} Constraint */
 
 /** @typedef {{control: number, name: string, component: string, opened: number, now: number, min: number | null,

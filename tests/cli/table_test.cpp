@@ -84,6 +84,10 @@ TEST(Units, AreThoseOfTheDocumentation) {
   EXPECT_EQ(unitOf("position.y of 'hat' at 1 s"), "m");
   EXPECT_EQ(unitOf("orientation.x of 'hat'"), "rad");
   EXPECT_EQ(unitOf("gravity.z"), "m/s^2");
+  EXPECT_EQ(unitOf("speed of 'hat' at 1 s"), "m/s");
+  EXPECT_EQ(unitOf("kinetic_energy of 'hat' at 1 s"), "J");
+  EXPECT_EQ(unitOf("impulse of 'hat' at its impact 1"), "N s");
+  EXPECT_EQ(unitOf("height of 'hat' at 1 s"), "m");
   EXPECT_EQ(unitOf("mass of 'hat'"), "kg");
   EXPECT_EQ(unitOf("inertia.x of 'hat'"), "kg m^2");
   EXPECT_EQ(unitOf("size.radius of 'ball'"), "m");

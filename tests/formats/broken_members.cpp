@@ -385,6 +385,12 @@ std::vector<BrokenDocument> brokenMembers() {
        "[0.8, 0, 0.6, null]",
        "/constraints/0/orientation/3",
        {"found null", "expected a number"}},
+      {"speedOfZero", "\"speed\": 3.25", "\"speed\": 0", "/constraints/7/speed", {"found 0", "expected a number > 0, or a range"}},
+      {"heightOfThree",
+       "\"height\": -0.375",
+       "\"height\": [0, 0, 1]",
+       "/constraints/7/height",
+       {"found [0, 0, 1]", "a number, or a range {\"min\", \"max\"}"}},
       {"pointWithoutWorld", ", \"world\": [null, 1, 2]", "", "/constraints/3/point", {"found no member \"world\""}},
   };
 }

@@ -112,8 +112,8 @@ Numbers shown(Numbers numbers) {
 
 TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   const Document d = parseDocument(documentWithEverything(), "everything");
-  ASSERT_EQ(d.constraints.size(), 9u);
-  const Target &distance = d.constraints[7].targets[0], &closest = d.constraints[8].targets[0];
+  ASSERT_EQ(d.constraints.size(), 10u);
+  const Target &distance = d.constraints[8].targets[0], &closest = d.constraints[9].targets[0];
   EXPECT_EQ(distance.quantity + " " + distance.to, "distance pill");
   EXPECT_EQ(shown(distance.value), Numbers{99});
   EXPECT_EQ(distance.min, Numbers{0.15});
@@ -142,6 +142,13 @@ TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   EXPECT_EQ(std::get<Box>(pill.regions[0].shape).size, Vec3(40.5, 30, 20));
   EXPECT_FALSE(pill.regions[0].during);
   EXPECT_FALSE(pill.regions[0].margin);
+  const Constraint& die = d.constraints[7];
+  ASSERT_EQ(die.targets.size(), 4u);
+  EXPECT_EQ(die.targets[0].value, std::vector<double>{3.25});
+  EXPECT_EQ(die.targets[1].max, std::vector<double>{41.5});
+  EXPECT_TRUE(die.targets[1].min.empty());
+  EXPECT_EQ(die.targets[2].min, std::vector<double>{1.125});
+  EXPECT_EQ(die.targets[3].value, std::vector<double>{-0.375});
   const Constraint& can = d.constraints[6];
   EXPECT_TRUE(can.targets.empty());
   ASSERT_EQ(can.regions.size(), 3u);

@@ -23,7 +23,7 @@ const std::map<std::string, std::vector<Layer>>& layers() {
         folder("impact"), folder("simulate"), folder("derivative"), folder("second_order")}},
       {"editing",
        {folder("detail"),
-        {"data", std::regex("(certificate|constraint|control|edit_options|edit_result|sequence_changes|"
+        {"data", std::regex("(certificate|constraint|control|edit_options|edit_result|motion_function|sequence_changes|"
                             "session_journal|wanted|why_not)\\.(h|cpp)")},
         folder("problem"),
         folder("solve"),

@@ -107,7 +107,8 @@ void expectTransposed(const Motion& motion, std::uint64_t seed) {
     of_scene.push_back(randomSeedOfScene(scene, b, Instant::at(random.in(0, motion.end)), random));
     if (const auto e = motion.findImpact(b, 1))
       of_scene.push_back(randomSeedOfScene(scene, b, Instant::after(*e), random));
-    of_scene.push_back(randomSeed(b, Instant::after(static_cast<int>(motion.events.size()) - 1), random));
+    if (!motion.events.empty())
+      of_scene.push_back(randomSeed(b, Instant::after(static_cast<int>(motion.events.size()) - 1), random));
   }
   for (const auto& [seeds, when] : {std::pair{&at_times, ", at times"}, std::pair{&at_impacts, ", at impacts"},
                                     std::pair{&of_scene, ", of the scene and after impacts"}}) {

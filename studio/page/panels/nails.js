@@ -41,7 +41,7 @@ export function showNails(store, commands) {
   /** @param {NailState} nail @param {string[]} standing its class and words */
   function components(nail, [kind, words]) {
     const { constraint } = nail, place = placeHeld(constraint);
-    const others = ['velocity', 'angular_velocity', 'time', 'avoid', 'inside'].filter((word) => word in constraint).map((word) => word.replaceAll('_', ' '));
+    const others = ['velocity', 'angular_velocity', 'speed', 'kinetic_energy', 'impulse', 'height', 'time', 'avoid', 'inside'].filter((word) => word in constraint).map((word) => word.replaceAll('_', ' '));
     const buttons = ['x', 'y', 'z'].map((name, i) => toggle(name, `${name} of the place`, place?.targets[i] != null, () => withComponent(nail, i), `${nail.id} ${name}`));
     const turn = toggle('turn', 'turn', !!constraint.orientation, () => withTurn(nail), `${nail.id} turn`);
     return el('div', { class: 'components' }, ...(constraint.at === undefined || constraint.relative_to ? [] : [...buttons, turn]), el('span', { class: 'dim cut grow' }, others.join(', ')), el('span', { class: `standing ${kind}`, title: words }, words));
