@@ -8,6 +8,8 @@
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/simulate/simulate.h"
+#include "adjoint/base/errors.h"
+#include "editing/edit.h"
 #include "editing/problem/rows/closest_approach.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
@@ -159,6 +161,34 @@ TEST(ClosestApproach, NothingIsMissedBetweenSamples) {
   }
   EXPECT_GT(apart, 300);
   EXPECT_GT(inside, 150);
+}
+
+TEST(ClosestApproach, AnEditKeepsItsDistances) {
+  Scene scene;
+  scene.gravity.setZero();
+  scene.bodies = {shaped("cue", Sphere{0.03}, {-1, 0.01, 0}, {2, 0, 0}, Vec3::Zero()),
+                  shaped("red", Box{{0.2, 0.1, 0.1}}, {0, 0.4, 0}, Vec3::Zero(), {0, 0, 1}),
+                  shaped("yellow", Capsule{0.02, 0.2}, {1, 0.5, 0}, Vec3::Zero(), {1, 0, 0})};
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 1);
+  edit.vary(velocity("cue"));
+  edit.nail("cue", 0).closestApproach("red", 0.21, std::pair{0.0, 0.9});
+  edit.nail("cue", 0.9).distance("yellow", within(0.25, 0.3));
+  const EditResult r = edit.solve();
+  ASSERT_TRUE(r.solved()) << r.message;
+  EXPECT_NEAR(closestApproach(r.motion, 0, 1, 0, 0.9)->value(), 0.21, 1e-9);
+  const double distance = readDistance(r.motion, 0, 2, Instant::at(0.9)).value();
+  EXPECT_TRUE(distance >= 0.25 - 1e-9 && distance <= 0.3 + 1e-9) << distance;
+  for (const char* to : {"", "cue", "nobody"}) {
+    Edit wrong(scene, contacts, 1);
+    wrong.vary(velocity("cue"));
+    wrong.nail("cue", 0.5).distance(to, 0.1);
+    EXPECT_THROW(wrong.solve(), InputError) << to;
+  }
+  Edit touching(scene, contacts, 1);
+  touching.vary(velocity("cue"));
+  touching.nail("cue", 0.5).distance("red", 0.0);
+  EXPECT_THROW(touching.solve(), InputError);
 }
 
 }  // namespace
