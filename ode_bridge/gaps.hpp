@@ -75,6 +75,9 @@ int branches(GapKind kind);
 /// cross product; other rows ignore it. |sign| picks between two places where rims come nearest: the first or the
 /// second along the edge (of a cone, its axis), or along d_1 x d_2 of two rims; where there is one place both give it.
 ///
+/// Signs 3 and 4 are 1 and 2 for sharp curves, one of them a rim, that are known to be apart: as a swept edge of radius 0,
+/// so that tangents may be parallel. The search for impacts has no use for them.
+///
 /// Where nothing is defined (parallel edges, points that coincide, rims in parallel planes) the gap is NaN. Of a rim
 /// that lies flat before a plane the gap is defined and the point is NaN.
 ContactPoint contactOf(GapKind kind, const WorldFeature& of_a, const WorldFeature& of_b, int sign);

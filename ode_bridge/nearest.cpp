@@ -27,6 +27,8 @@ constexpr double kRoundingOfGaps = 4e-16;
 // Shares of the sizes and distances, about the nearest points, within which features are tried: those of polytopes lie
 // there to rounding, those of what is round only roughly.
 constexpr double kAroundNearest[] = {1e-7, 1e-3, 1e100};
+// Nearest points of what is round are known to this share.
+constexpr double kLoose = 1e-7;
 // Places whose distances differ by less than this share of what they are worked out from are equally near.
 constexpr double kEqual = 1e-13;
 
@@ -44,17 +46,36 @@ class PiecePlaces {
       : a_(a), b_(b), points_(points), room_(32 * kRoundingOfGaps * scale), out_(out) {}
 
   void find() {
-    if (a_.halfSpace() || b_.halfSpace()) return beforePlane();
+    if (a_.halfSpace() || b_.halfSpace()) {
+      beforePlane();
+      out_.insert(out_.end(), own_.begin(), own_.end());
+      return;
+    }
     for (const double around : kAroundNearest) {
       const NearFeatures of_a = near(a_, points_.at_a, around), of_b = near(b_, points_.at_b, around);
       for (const FeatureName& f : of_a)
         for (const FeatureName& g : of_b) tryPair(f, g, false);
-      if (!found_ && around > 1) flatRims(of_a, of_b);
-      if (found_) return;
+      if (!isProven() && around > 1) flatRims(of_a, of_b);
+      if (isProven()) break;
     }
+    // those that separate less are not where the pieces are nearest
+    const double furthest = furthestApart();
+    std::erase_if(own_, [&](const NearPlace& p) { return !isProven() || p.separation < furthest - room_; });
+    out_.insert(out_.end(), own_.begin(), own_.end());
   }
 
  private:
+  double furthestApart() const {
+    double furthest = -kUnbounded;
+    for (const NearPlace& p : own_) furthest = std::max(furthest, p.separation);
+    return furthest;
+  }
+  // Two points of the pieces are no further from each other than a pair of features says.
+  bool isProven() const {
+    const double size = a_.piece->core_radius + b_.piece->core_radius + std::abs(points_.upper);
+    return !own_.empty() && furthestApart() >= points_.upper - kLoose * size;
+  }
+
   NearFeatures near(const PlacedPiece& p, const Vec3& at, double around) const {
     const Vec3 local = p.body->k.R.transpose() * (at - p.body->k.x);
     const double size = a_.piece->core_radius + b_.piece->core_radius + std::max(0.0, points_.upper);
@@ -79,7 +100,7 @@ class PiecePlaces {
     const FeatureName face{Family::face, 0};
     for (const bool marks : {false, true})
       for (const Family family : {Family::vertex, Family::rim}) {
-        if (found_ && marks) return;
+        if (!own_.empty() && marks) break;
         for (int i : p.featuresOf(family)) {
           if (family == Family::vertex && p.solid().feature(family, i).mark != marks) continue;
           if (plane_is_a) tryPair(face, {family, i}, marks);
@@ -99,9 +120,12 @@ class PiecePlaces {
     const WorldFeature wa = placeFeature(fa, {a_.body->k.x, a_.body->k.R}),
                        wb = placeFeature(fb, {b_.body->k.x, b_.body->k.R});
     const bool face = f.family == Family::face || g.family == Family::face;
-    for (int branch = 1; branch <= branches(kind); ++branch)
-      for (const int sign : {branch, -branch}) {
-        if (sign < 0 && face && !isOpen(a_, f) && !isOpen(b_, g)) continue;
+    const bool sharp_curves = branches(kind) == 2 && !isSwept(fa) && !isSwept(fb);
+    const bool one_sign = face ? !isOpen(a_, f) && !isOpen(b_, g) : sharp_curves;
+    for (int place = 1; place <= branches(kind); ++place)
+      for (const int side : {1, -1}) {
+        if (side < 0 && one_sign) continue;
+        const int sign = side * (sharp_curves ? place + 2 : place);
         const ContactPoint c = contactOf(kind, wa, wb, sign);
         if (!std::isfinite(c.gap) || !c.normal.allFinite() || !c.point.allFinite() || !(c.gap > 0)) continue;
         keep({static_cast<std::int16_t>(kind), f.index, g.index, static_cast<std::int16_t>(sign)}, c, mark, f, g);
@@ -114,8 +138,7 @@ class PiecePlaces {
     if (!(separation >= c.gap - room_)) return;
     if (!(c.gap >= points_.lower - room_) || !(c.gap <= points_.upper + room_)) return;
     if (!onFeature(a_, f, c) || !onFeature(b_, g, c)) return;
-    found_ = true;
-    out_.push_back({features, c, separation, mark});
+    own_.push_back({features, c, separation, mark});
   }
 
   // Whether a witness lies on a face or an edge itself, not on its continuation.
@@ -139,7 +162,7 @@ class PiecePlaces {
   PieceDistance points_;
   double room_;
   std::vector<NearPlace>& out_;
-  bool found_ = false;
+  std::vector<NearPlace> own_;  // of these pieces
 };
 
 struct NearPair {

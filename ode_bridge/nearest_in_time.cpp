@@ -28,6 +28,7 @@ constexpr int kMostSearchSteps = 1'000'000;
 // Balls further apart than this share of their size are followed as such; nearer ones are opened.
 constexpr double kFarApart = 0.25;
 constexpr int kMostRounds = 200;
+constexpr double kSameGap = 1e-13;
 
 struct Waiting {
   double time = 0;
@@ -164,10 +165,17 @@ class LeastDistance {
     return here;
   }
 
+  // Where the distances are the same but for rounding, the rate says which place is nearer to the bottom.
+  static bool isLower(const NearestInTime& p, const NearestInTime& q) {
+    const double difference = p.nearest.gap - q.nearest.gap;
+    if (std::abs(difference) > kSameGap * std::abs(q.nearest.gap)) return difference < 0;
+    return std::abs(p.rate) < std::abs(q.rate);
+  }
+
   // Between a place where the distance falls towards the other and one where it does not: where its rate is 0, by
   // regula falsi that halves the weight of an end that stays (Illinois).
   NearestInTime bottom(NearestInTime a, NearestInTime b) const {
-    NearestInTime best = a.nearest.gap < b.nearest.gap ? a : b;
+    NearestInTime best = isLower(a, b) ? a : b;
     double fa = a.rate, fb = b.rate;
     int stays = 0;
     for (int round = 0; round < kMostRounds && fb != 0; ++round) {
@@ -176,7 +184,7 @@ class LeastDistance {
       if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
       const NearestInTime here = at(t);
       if (!here.nearest.apart()) return here;
-      if (here.nearest.gap < best.nearest.gap || std::abs(here.rate) < std::abs(best.rate)) best = here;
+      if (isLower(here, best)) best = here;
       if ((here.rate < 0) == (a.rate < 0) && here.rate != 0) {
         a = here, fa = here.rate;
         if (stays == 1) fb *= 0.5;

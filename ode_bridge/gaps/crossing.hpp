@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdlib>
+
 #include "ode_bridge/gaps/rows.hpp"
 
 /// Two curves, rims or edges, at the points where they come nearest: w = p_1 - p_2 is across both tangents t_1 and t_2.
@@ -31,6 +33,11 @@ struct CurvePoint {
 ContactPoint sharpCrossing(const CurvePoint<double>& f, const CurvePoint<double>& g, int sign);
 template <class S>
 JacobianOf<S> sharpCrossingJacobian(const CurvePoint<S>& f, const CurvePoint<S>& g, int sign);
+
+/// Which of two places a sign picks: 1 or 2.
+inline int branchOf(int sign) { return (std::abs(sign) - 1) % 2 + 1; }
+/// Whether a sign is that of sharp curves taken to be apart.
+inline bool isApart(int sign) { return std::abs(sign) > 2; }
 
 /// phi = |w| - r_2, n = w/|w|, p = p_1: the second curve is swept by a ball.
 ContactPoint sweptCrossing(const CurvePoint<double>& f, const CurvePoint<double>& g);

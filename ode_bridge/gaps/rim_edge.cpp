@@ -78,7 +78,7 @@ struct Crossing {
 template <class S>
 Crossing<S> nearest(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
   const LineBeforeRim<S> line(f, g);
-  const double root = minimum(LineBeforeRim<double>(valueOf(f), valueOf(g)), std::abs(sign));
+  const double root = minimum(LineBeforeRim<double>(valueOf(f), valueOf(g)), branchOf(sign));
   S second;
   const S G = line.slope(root, second), s = followed(root, G, second);
   const V3<S> a = line.q_across + s * line.e_across;
@@ -90,14 +90,16 @@ Crossing<S> nearest(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
 ContactPoint rimEdge(const WorldFeature& f, const WorldFeature& g, int sign) {
   if (g.apex > 0) return rimTapered(f, g, sign);
   const Crossing<double> c = nearest<double>(f, g, sign);
-  return g.radius > 0 ? sweptCrossing(c.of_rim, c.of_edge) : sharpCrossing(c.of_rim, c.of_edge, sign);
+  const bool by_distance = g.radius > 0 || isApart(sign);
+  return by_distance ? sweptCrossing(c.of_rim, c.of_edge) : sharpCrossing(c.of_rim, c.of_edge, sign);
 }
 
 template <class S>
 JacobianOf<S> rimEdgeJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
   if (g.apex > 0) return rimTaperedJacobian<S>(f, g, sign);
   const Crossing<S> c = nearest<S>(f, g, sign);
-  return g.radius > 0 ? sweptCrossingJacobian(c.of_rim, c.of_edge) : sharpCrossingJacobian(c.of_rim, c.of_edge, sign);
+  const bool by_distance = g.radius > 0 || isApart(sign);
+  return by_distance ? sweptCrossingJacobian(c.of_rim, c.of_edge) : sharpCrossingJacobian(c.of_rim, c.of_edge, sign);
 }
 CAROM_GAP_JACOBIAN(rimEdgeJacobian);
 

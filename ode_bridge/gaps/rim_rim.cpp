@@ -101,7 +101,7 @@ double chosenTheta(const RimBeforeRim<double>& rims, int sign) {
   const Minima minima = minimaOf(rims);
   if (minima.count < 2) return minima.theta[0];
   const bool second_is_further = rims.place(minima.theta[1]).along > rims.place(minima.theta[0]).along;
-  return (std::abs(sign) == 2) == second_is_further ? minima.theta[1] : minima.theta[0];
+  return (branchOf(sign) == 2) == second_is_further ? minima.theta[1] : minima.theta[0];
 }
 
 template <class S>
@@ -127,13 +127,14 @@ RimCrossing<S> nearestOnRims(const FeatureOf<S>& f, const FeatureOf<S>& g, int s
 
 ContactPoint rimRim(const WorldFeature& f, const WorldFeature& g, int sign) {
   const RimCrossing<double> c = nearestOnRims<double>(f, g, sign);
-  return sharpCrossing(c.of_first, c.of_second, sign);
+  return isApart(sign) ? sweptCrossing(c.of_first, c.of_second) : sharpCrossing(c.of_first, c.of_second, sign);
 }
 
 template <class S>
 JacobianOf<S> rimRimJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
   const RimCrossing<S> c = nearestOnRims<S>(f, g, sign);
-  return sharpCrossingJacobian(c.of_first, c.of_second, sign);
+  return isApart(sign) ? sweptCrossingJacobian(c.of_first, c.of_second)
+                       : sharpCrossingJacobian(c.of_first, c.of_second, sign);
 }
 CAROM_GAP_JACOBIAN(rimRimJacobian);
 

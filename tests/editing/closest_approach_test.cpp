@@ -8,6 +8,8 @@
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/simulate/simulate.h"
+#include "adjoint/base/errors.h"
+#include "editing/edit.h"
 #include "editing/problem/rows/closest_approach.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
@@ -79,7 +81,8 @@ Scene anyPassing(std::uint64_t seed) {
 TEST(ClosestApproach, TwoBallsThatPass) {
   const Vec3 d(-1, 0.3, 0.1), v(2, 0.1, -0.4);
   const Motion motion =
-      play(ghosts(shaped("a", Sphere{0.05}, d, v, {}), shaped("b", Sphere{0.08}, {0, 0, 0}, {}, {})), 1);
+      play(ghosts(shaped("a", Sphere{0.05}, d, v, Vec3::Zero()),
+                  shaped("b", Sphere{0.08}, Vec3::Zero(), Vec3::Zero(), Vec3::Zero())), 1);
   const auto found = closestApproach(motion, 0, 1, 0, 1);
   ASSERT_TRUE(found);
   const double t = -d.dot(v) / v.squaredNorm();
@@ -97,7 +100,7 @@ TEST(ClosestApproach, TwoBallsThatPass) {
 TEST(ClosestApproach, ABoxThatTurnsOverAPlane) {
   Body floor;
   floor.name = "floor", floor.fixed = true, floor.shape = Plane{};
-  Body box = shaped("box", Box{{0.4, 0.1, 0.2}}, {0, 0, 1}, {}, {0, 2, 0});
+  Body box = shaped("box", Box{{0.4, 0.1, 0.2}}, {0, 0, 1}, Vec3::Zero(), {0, 2, 0});
   box.orientation = Quat(Eigen::AngleAxisd(0.1, Vec3::UnitY()));
   Scene scene;
   scene.gravity.setZero();
@@ -122,7 +125,7 @@ TEST(ClosestApproach, ABoxThatTurnsOverAPlane) {
 TEST(ClosestApproach, ARodPastAnEdge) {
   Body block;
   block.name = "block", block.fixed = true, block.shape = Box{{4, 2, 1}}, block.position = {0, -1, -0.5};
-  const Body rod = shaped("rod", Capsule{0.02, 0.6}, {0.3, 0.1, 0.5}, {0.1, 0, -2}, {});
+  const Body rod = shaped("rod", Capsule{0.02, 0.6}, {0.3, 0.1, 0.5}, {0.1, 0, -2}, Vec3::Zero());
   Body leaning = rod;
   const Vec3 along(0, 0.8, -0.6);
   leaning.orientation = Quat::FromTwoVectors(Vec3::UnitZ(), along);
@@ -158,6 +161,34 @@ TEST(ClosestApproach, NothingIsMissedBetweenSamples) {
   }
   EXPECT_GT(apart, 300);
   EXPECT_GT(inside, 150);
+}
+
+TEST(ClosestApproach, AnEditKeepsItsDistances) {
+  Scene scene;
+  scene.gravity.setZero();
+  scene.bodies = {shaped("cue", Sphere{0.03}, {-1, 0.01, 0}, {2, 0, 0}, Vec3::Zero()),
+                  shaped("red", Box{{0.2, 0.1, 0.1}}, {0, 0.4, 0}, Vec3::Zero(), {0, 0, 1}),
+                  shaped("yellow", Capsule{0.02, 0.2}, {1, 0.5, 0}, Vec3::Zero(), {1, 0, 0})};
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 1);
+  edit.vary(velocity("cue"));
+  edit.nail("cue", 0).closestApproach("red", 0.21, std::pair{0.0, 0.9});
+  edit.nail("cue", 0.9).distance("yellow", within(0.25, 0.3));
+  const EditResult r = edit.solve();
+  ASSERT_TRUE(r.solved()) << r.message;
+  EXPECT_NEAR(closestApproach(r.motion, 0, 1, 0, 0.9)->value(), 0.21, 1e-9);
+  const double distance = readDistance(r.motion, 0, 2, Instant::at(0.9)).value();
+  EXPECT_TRUE(distance >= 0.25 - 1e-9 && distance <= 0.3 + 1e-9) << distance;
+  for (const char* to : {"", "cue", "nobody"}) {
+    Edit wrong(scene, contacts, 1);
+    wrong.vary(velocity("cue"));
+    wrong.nail("cue", 0.5).distance(to, 0.1);
+    EXPECT_THROW(wrong.solve(), InputError) << to;
+  }
+  Edit touching(scene, contacts, 1);
+  touching.vary(velocity("cue"));
+  touching.nail("cue", 0.5).distance("red", 0.0);
+  EXPECT_THROW(touching.solve(), InputError);
 }
 
 }  // namespace

@@ -214,7 +214,8 @@ TEST(Hessian, OfDistancesAndClosestApproaches) {
     const Eigen::VectorXd at = someUnknowns(problem, 0.003);
     const EditPointPtr point = pointAt(problem, at, problem.horizon, false);
     ASSERT_TRUE(point && point->rows.available);
-    SCOPED_TRACE(std::string(kindOf(scene.bodies[0].shape).word) + " and " + kindOf(scene.bodies[1].shape).word);
+    SCOPED_TRACE("shapes " + std::to_string(scene.bodies[0].shape.index()) + " and " +
+                 std::to_string(scene.bodies[1].shape.index()));
     const auto closest = closestApproach(point->motion, 0, 1, 0.05, 0.6);
     if (!closest->nearest.apart()) {
       EXPECT_EQ(point->rows.values[2], 0);

@@ -9,7 +9,7 @@
 #include "adjoint/derivative/tangent.h"
 #include "adjoint/motion/body_distance.hpp"
 #include "adjoint/second_order/reading_direction.h"
-#include "editing/problem/rows/quantities.hpp"
+#include "editing/problem/rows/quantity_place.hpp"
 #include "editing/problem/rows/region_rows.hpp"
 
 /// How far the shapes of two bodies are from each other: at an instant, and where they come nearest over a span.

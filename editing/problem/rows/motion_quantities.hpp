@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editing/problem/rows/quantities.hpp"
+#include "editing/problem/rows/quantity_place.hpp"
 
 /// Quantities that depend on more than the state of a body at one instant: on its mass, its shape, on what comes after.
 /// Each with first and second derivatives; where the first is not defined, or one-sided, `doubt` says so.

@@ -6,22 +6,10 @@
 
 #include "adjoint/derivative/tangent.h"
 #include "editing/constraint.h"
-#include "editing/motion_function.h"
 #include "editing/problem/controls/natural_scales.hpp"
+#include "editing/problem/rows/quantity_place.hpp"
 
 namespace carom::editing_detail {
-
-/// Where and when a quantity is read.
-struct QuantityPlace {
-  const Motion& motion;
-  int body;
-  int relative_to;  ///< -1: the world
-  Instant at;
-  double time;   ///< s, of the instant
-  double scale;  ///< of the row, see Row::scale
-  int to = -1;   ///< the other body of a distance
-  double from = 0, until = 0;  ///< s, of a quantity of a span
-};
 
 /// One row of the table of quantities that a constraint can hold: what the editor asks of a kind. A quantity has up to
 /// three numbers, each one row of the problem: value - target = 0. A new kind adds a row to quantities.cpp.
