@@ -113,7 +113,7 @@ void VariationPass<S>::integrate() {
 
 template <class S>
 bool VariationPass<S>::isRegular(double times) const {
-  constexpr double kLeastDifference = 0.05, kLeastAcross = 0.03, kLeastCancelled = 0.05;
+  constexpr double kLeastDifference = 0.05, kLeastAcross = 0.08, kLeastCancelled = 0.05;
   const Vec3 delta = valuesOf(delta_), f = valuesOf(f_start_), M = valuesOf(s_.start);
   const double largest = delta.cwiseAbs().maxCoeff();
   const double terms = valuesOf(uneven_).cwiseAbs().dot(f.cwiseAbs2());
