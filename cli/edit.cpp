@@ -32,6 +32,7 @@ struct EditArguments {
   bool same_sequence = false, impacts = false;
   MotionArguments motion;
   int alternatives = 1, threads = 0;
+  std::string effort = "normal";
 };
 
 void printNumbers(Output& out, const std::vector<ChangedNumber>& changed) {
@@ -116,6 +117,10 @@ std::vector<std::string> saveSolutions(Output& out, const Document& document, co
   return files;
 }
 
+Effort effortOf(const std::string& word) {
+  return word == "fast" ? Effort::fast : word == "thorough" ? Effort::thorough : Effort::normal;
+}
+
 EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options) {
   Progress progress(out, "solving");
   const Interruption::Stoppable stoppable(out.interruption());
@@ -124,6 +129,7 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
   edit_options.time_budget_seconds = options.seconds;
   edit_options.alternatives = options.alternatives;
   edit_options.threads = options.threads;
+  edit_options.effort = effortOf(options.effort);
   edit_options.step_limit = options.motion.step_limit;
   edit_options.stop = stoppable.token();
   if (options.same_sequence) edit_options.sequence = SequencePolicy::stay;
@@ -185,7 +191,7 @@ Action declareEdit(CLI::App& app) {
   addScene(app, options->scene);
   addMotion(app, options->motion);
   addOutput(app, options->output, "Write the scene with its new values here; - for standard output", "OUT.json");
-  app.add_option("--iterations", options->iterations, "Give up after so many, 200 if not given")
+  app.add_option("--iterations", options->iterations, "Give up after so many, 1000 if not given")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   app.add_option("--seconds", options->seconds, "Give up after so long")->check(positiveNumber())->type_name("T");
@@ -194,6 +200,10 @@ Action declareEdit(CLI::App& app) {
   app.add_option("--alternatives", options->alternatives, "Look for so many different solutions, 1 if not given")
       ->check(CLI::Range(1, 100))
       ->type_name("K");
+  app.add_option("--effort", options->effort,
+                 "How long to look for a smaller change: fast, normal or thorough; normal if not given")
+      ->check(CLI::IsMember({"fast", "normal", "thorough"}))
+      ->type_name("E");
   app.add_option("--threads", options->threads, "Cores to search on, all if not given; the answer is the same")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

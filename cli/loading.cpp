@@ -145,6 +145,13 @@ Motion simulateStoppable(const Output& out, EditProblem& problem, const Eigen::V
 RowValues requireRows(const std::string& path, const EditProblem& problem, const Motion& motion) {
   RowValues rows = problem.constraints.evaluate(motion, refinedTimes(problem.constraints, motion));
   if (rows.available) return rows;
+  const std::vector<Constraint>& held = problem.constraints.constraints();
+  for (std::size_t i = 0; i < held.size(); ++i) {  // what has no number may be what is not there
+    const bool wishes = held[i].hits || !held[i].sequence.empty();
+    if (wishes && !rows.lacking.empty() && rows.lacking.front().constraint == static_cast<int>(i))
+      throw FormatError(path, "/constraints/" + std::to_string(i) + (held[i].hits ? "/hits" : "/sequence"),
+                        rows.lacking.front().sentence);
+  }
   int first = 0;
   while (first + 1 < problem.constraints.size() && !std::isnan(rows.values[first])) ++first;
   const Row& row = problem.constraints.rows()[static_cast<std::size_t>(first)];

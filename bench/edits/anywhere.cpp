@@ -98,14 +98,11 @@ class DrawAnywhere {
     if (static_cast<int>(problem.constraints.equations().size()) > task_.numbers) return false;
     const Motion motion = play(problem.controls.sceneAt(values), contacts), start = play(task_.start, contacts);
     const RowValues met = problem.constraints.evaluate(motion), missed = problem.constraints.evaluate(start);
-    if (!met.available || !(met.scaled.cwiseAbs().maxCoeff() <= 1e-10)) return false;
+    if (!met.available || !(largestMiss(met) <= 1e-10)) return false;
     if (!beginsWith(motion, task_.sequence)) return false;
-    const bool sequence_missed = !task_.sequence.empty() && !beginsWith(start, task_.sequence);
-    if (hidden.missed_at_start && missed.available && !sequence_missed) return false;
-    if (missed.available && !sequence_missed &&
-        !(smallestMiss(problem.constraints, missed) >= TaskLimits::kSmallestMiss))
-      return false;
-    task_.miss = missed.available ? missed.scaled.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
+    if (hidden.missed_at_start && missed.available) return false;
+    if (missed.available && !(smallestMiss(problem.constraints, missed) >= TaskLimits::kSmallestMiss)) return false;
+    task_.miss = missed.available ? largestMiss(missed) : std::numeric_limits<double>::infinity();
     const auto extent = problem.constraints.extentIn(motion);
     if (!isClear(motion, extent.events)) return false;
     task_.wanted.impacts = static_cast<int>(impactsIn(motion, extent.events));

@@ -56,6 +56,8 @@ double smallestMiss(const ConstraintSet& constraints, const RowValues& rows) {
   return misses.minCoeff();
 }
 
+double largestMiss(const RowValues& rows) { return rows.scaled.size() > 0 ? rows.scaled.cwiseAbs().maxCoeff() : 0; }
+
 double changeOf(const Variable& v, double value) {
   return v.logarithmic ? std::log(value / v.start) / v.scale : (value - v.start) / v.scale;
 }
@@ -67,6 +69,7 @@ bool isReachable(Task& task, const Eigen::VectorXd& hidden_values, ContactSource
   Eigen::VectorXd changes(hidden_values.size());
   for (Eigen::Index j = 0; j < changes.size(); ++j)
     changes[j] = changeOf(problem.controls.variables()[static_cast<std::size_t>(j)], hidden_values[j]);
+  if (at.rows.scaled.size() == 0) return true;  // impacts alone are held
   const Eigen::MatrixXd J = dimensionless(problem, changes, at.jacobian);
   const std::vector<int>& equations = problem.constraints.equations();
   if (!hasIndependentRows(J(equations, Eigen::all))) return false;

@@ -25,6 +25,9 @@ double durationFor(const std::vector<Constraint>& constraints, double last);
 /// Largest scaled residual of the constraint that is met best.
 double smallestMiss(const editing_detail::ConstraintSet& constraints, const editing_detail::RowValues& rows);
 
+/// Largest scaled residual of all rows; 0 where impacts alone are held.
+double largestMiss(const editing_detail::RowValues& rows);
+
 /// The dimensionless change of a number, weighted.
 double changeOf(const editing_detail::Variable& variable, double value);
 

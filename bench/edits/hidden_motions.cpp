@@ -32,13 +32,6 @@ Target coordinates(const std::string& quantity, const Vec3& v, const std::vector
   return target;
 }
 
-// The impact comes; nothing else is asked of it.
-Constraint comes(const std::string& body, const When& at, double duration) {
-  Target time{"time", {any}};
-  time.max = {duration};
-  return {body, at, {time}};
-}
-
 /// A number or two of a body just before an impact.
 void holdAtImpact(Constraint& c, const Motion& motion, int event, bool planar, Dice& dice) {
   const BodyState s = motion.stateBefore(event, bodyIndex(*motion.scene, c.body));
@@ -122,7 +115,8 @@ std::optional<HiddenMotion> hitsIn(HiddenMotion hidden, const std::string& body,
   hidden.duration = 1.2 * time + 0.05;
   Constraint c{body, nthImpact(n, other), {}};
   if (goal == Goal::impact_comes) {
-    c = comes(body, c.at, hidden.duration);
+    c = {body, 0, {}};
+    c.hits = Hit{other};
   } else {
     holdAtImpact(c, motion, *event, hidden.planar, dice);
   }
@@ -227,7 +221,9 @@ std::optional<HiddenMotion> wished(const Wanted& wanted, Dice& dice) {
   if (!shot) return std::nullopt;
   HiddenMotion hidden{shot->scene, controlsOfShot(dice), {}, shot->sequence, 0, true};
   hidden.duration = 1.2 * shot->struck_at + 0.05;
-  hidden.constraints = {comes("cue", nthImpact(1, shot->struck), hidden.duration)};
+  hidden.constraints = {{"", 0, {}}};
+  hidden.constraints[0].sequence = shot->sequence;
+  hidden.missed_at_start = true;
   return hidden;
 }
 
@@ -276,6 +272,29 @@ std::optional<HiddenMotion> speed(const Wanted& wanted, Dice& dice) {
   return hidden;
 }
 
+// Two flights, or a throw past a body that stands there: how far they are from each other at a time.
+std::optional<HiddenMotion> distance(const Wanted& wanted, Dice& dice) {
+  const bool both_fly = wanted.kind % 2 == 0;
+  HiddenMotion hidden{
+      drawThrow(both_fly ? Family::meeting : static_cast<Family>(dice.integer(0, 2)), dice), {}, {}, {}, 0, false};
+  if (!both_fly)
+    hidden.scene.bodies.insert(hidden.scene.bodies.begin(),
+                               targetAt(0.5 * dice.inCube(1) + Vec3(0.3, 0, 0.5), Vec3::UnitX(), 0, dice));
+  const Motion motion = play(hidden.scene, kLongestThrow);
+  const double t = dice.in(0.2, 0.9);
+  if (t > motion.end) return std::nullopt;
+  hidden.controls = controlsOfThrow(hidden.scene, dice);
+  Target far{"distance", {1}};
+  far.to = both_fly ? "other" : "target";
+  Constraint c{"thrown", t, {far}};
+  if (dice.chance(0.5)) c.targets.push_back(coordinates("position", Vec3::Ones(), {dice.integer(0, 2)}));
+  holdAsRead(hidden, motion, c);
+  if (!(c.targets[0].value[0] > 0.02)) return std::nullopt;
+  hidden.constraints = {c};
+  hidden.duration = t + 0.01;
+  return hidden;
+}
+
 }  // namespace
 
 std::optional<HiddenMotion> drawHiddenMotion(const Wanted& wanted, Dice& dice) {
@@ -292,6 +311,8 @@ std::optional<HiddenMotion> drawHiddenMotion(const Wanted& wanted, Dice& dice) {
       return rack(wanted, dice);
     case Family::speed:
       return speed(wanted, dice);
+    case Family::distance:
+      return distance(wanted, dice);
     default:
       return std::nullopt;
   }

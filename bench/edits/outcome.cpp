@@ -51,7 +51,7 @@ void judge(const Task& task, ContactSource& contacts, const Eigen::VectorXd& val
   outcome.residual = std::numeric_limits<double>::infinity();
   const Motion motion = simulate(problem.controls.sceneAt(values), contacts, task.duration);
   const RowValues rows = problem.constraints.evaluate(motion);
-  if (rows.available) outcome.residual = rows.scaled.cwiseAbs().maxCoeff();
+  if (rows.available) outcome.residual = largestMiss(rows);
   outcome.met =
       outcome.residual <= kLargestResidual && keepsBounds(problem, values) && beginsWith(motion, task.sequence);
 }

@@ -248,12 +248,17 @@ bool beginsWith(const Motion& motion, const std::vector<std::string>& sequence) 
     return std::pair(pair.substr(0, space), pair.substr(space + 1));
   };
   const int body = bodyIndex(*motion.scene, words(sequence[0]).first);
+  const auto matters = [&](const Body& partner) {
+    return !partner.fixed || std::any_of(sequence.begin(), sequence.end(), [&](const std::string& pair) {
+      return fits(partner.name, words(pair).second);
+    });
+  };
   std::size_t next = 0;
   for (const Event& e : motion.events) {
     if (next == sequence.size()) break;
     if (!e.find(body) || !e.counts()) continue;
     const int partner = partnerIn(e, body);
-    if (partner < 0) continue;
+    if (partner < 0 || !matters(motion.scene->bodies[static_cast<std::size_t>(partner)])) continue;
     if (!fits(motion.scene->bodies[static_cast<std::size_t>(partner)].name, words(sequence[next]).second)) return false;
     ++next;
   }

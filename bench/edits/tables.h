@@ -34,8 +34,8 @@ std::optional<Shot> drawShot(const std::vector<Leg>& legs, Dice& dice);
 /// A triangle of as many layers of balls, loosely laid, and the cue ball on its way to it. The last ball is "corner".
 Scene drawRack(int layers, Dice& dice);
 
-/// Whether the impacts of the body that is named first in the first pair begin with these, in order. A pair is two
-/// names, of which a * at the end stands for anything.
+/// Whether the impacts of the body that is named first in the first pair, with bodies that move or are named, begin
+/// with these, in order. A pair is two names, of which a * at the end stands for anything.
 bool beginsWith(const Motion& motion, const std::vector<std::string>& sequence);
 
 }  // namespace carom::bench

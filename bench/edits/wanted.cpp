@@ -21,8 +21,8 @@ struct Block {
   int tasks;
 };
 constexpr Block kBlocks[] = {
-    {Family::chain, 96},  {Family::encounter, 48}, {Family::hit, 72},
-    {Family::wished, 60}, {Family::rack, 24},      {Family::speed, 30},
+    {Family::chain, 96}, {Family::encounter, 48}, {Family::hit, 72},      {Family::wished, 60},
+    {Family::rack, 24},  {Family::speed, 30},     {Family::distance, 30},
 };
 
 // The k-th of a family.
@@ -43,6 +43,9 @@ Wanted anywhere(Family family, int k) {
       break;
     case Family::speed:
       w.kind = k, w.goal = k % 4 == 3 ? Goal::at_an_impact : Goal::at_a_time;
+      break;
+    case Family::distance:
+      w.kind = k, w.goal = Goal::at_a_time;
       break;
     case Family::rack:
       w.balls = 2 + k % 3, w.goal = Goal::at_a_time;

@@ -6,15 +6,16 @@ namespace carom::bench {
 /// What happens. The first four are throws whose start is near a hidden one and has everything that is held; the others
 /// start anywhere, and what they hold may not come at all there: balls on a table that strike one another and rails;
 /// two flights that miss each other; an impact with a body that is missed; a wished sequence of impacts; a rack of
-/// balls that is broken; throws of which a speed, an energy, a height or an impulse is held.
-enum class Family { ball, box, hull, meeting, chain, encounter, hit, wished, rack, speed };
+/// balls that is broken; throws of which a speed, an energy, a height or an impulse is held; two bodies
+/// that are as far from each other as is wanted.
+enum class Family { ball, box, hull, meeting, chain, encounter, hit, wished, rack, speed, distance };
 /// What is held: places or velocities at a time; at an impact, whose time is free or not; place and orientation; places
 /// at two times or of two bodies; nothing but that an impact comes.
 enum class Goal { at_a_time, at_an_impact, pose, two_nails, impact_comes };
 
-inline constexpr int kFamilies = 10, kThrownFamilies = 4, kGoals = 5, kThrownGoals = 4, kMostImpacts = 8;
+inline constexpr int kFamilies = 11, kThrownFamilies = 4, kGoals = 5, kThrownGoals = 4, kMostImpacts = 8;
 /// Throws with a start near by, then all others.
-inline constexpr int kThrownTasks = 300, kTasks = 630;
+inline constexpr int kThrownTasks = 300, kTasks = 660;
 const char* nameOf(Family family);
 const char* nameOf(Goal goal);
 

@@ -72,7 +72,8 @@ NailState EditSession::State::stateOf(const SessionNail& nail, const Motion& mot
   if (!rows.available) {
     state.available = state.met = false;
     state.time = state.error = state.scaled_error = std::numeric_limits<double>::quiet_NaN();
-    state.message = rows.lacking.empty() ? whyMissing(nail.constraint, motion) : rows.message;
+    const bool wishes = nail.constraint.hits || !nail.constraint.sequence.empty();
+    state.message = wishes ? rows.message : whyMissing(nail.constraint, motion);
     return state;
   }
   state.time = timeOf(set, rows, motion);

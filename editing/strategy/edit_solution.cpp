@@ -91,7 +91,8 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   for (int rounds = plan.first_rounds; across.solutions().empty() && rounds > 0 && across.round(); --rounds) {
   }
   if (across.solutions().empty()) return;
-  for (int rounds = plan.improving_rounds, idle = 0; rounds > 0 && idle < plan.idle_rounds; --rounds) {
+  const auto patience = [&] { return across.hasSmallChangeInside() ? (plan.idle_rounds + 1) / 2 : plan.idle_rounds; };
+  for (int rounds = plan.improving_rounds, idle = 0; rounds > 0 && idle < patience(); --rounds) {
     const double before = across.solutions().front()->objective;
     if (!across.round()) return;
     idle = across.solutions().front()->objective < kClearlyLess * before ? 0 : idle + 1;

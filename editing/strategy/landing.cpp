@@ -10,7 +10,11 @@ namespace carom::editing_detail {
 namespace {
 
 /// Rows this near, dimensionless: what the linear rows say of the smallest change is worth something.
-constexpr double kNearRows = 0.1;
+constexpr double kNearRows = 0.01;
+/// A landing is given up where the change that is in sight is so much larger than the one to beat.
+constexpr double kFarAbove = 1.2;
+/// Where no step makes the merit smaller, steps across borders may: so many where a solution is known already.
+constexpr int kLeapingSteps = 5;
 /// Shares of the way along the constraints that are tried.
 constexpr double kSharesAlong[] = {1, 0.3, 0.1};
 /// The way along the constraints that is left, as a share of the change, at which a landing ends.
@@ -85,19 +89,20 @@ double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes) {
 
 EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing) {
   EditPointPtr point = from, best = from;
+  const int leaping = std::isfinite(landing.below) ? kLeapingSteps : landing.max_steps;
   for (int k = 0; k < landing.max_steps; ++k) {
     search.differentiate(*point);
     if (!point->row_jacobian->allFinite()) break;
     const Eigen::VectorXd smallest = smallestChange(search, *point);
     if (!smallest.allFinite()) break;
-    if (point->violation < kNearRows && lengthOf(search.problem(), smallest) > landing.below) return nullptr;
+    if (point->violation < kNearRows && lengthOf(search.problem(), smallest) > kFarAbove * landing.below) return nullptr;
     const Eigen::VectorXd onto = smallestStep(search, *point);
     const Eigen::VectorXd along = smallest - point->changes - onto;
     if (search.reached(*point) && along.norm() <= kArrived * point->changes.norm()) break;
     const double penalty = kAboveMultipliers * largestMultiplier(search, *point, smallest);
     EditPointPtr next = stepAlong(search, *point, onto, along, penalty, landing.signature);
     if (!next && search.halt() == Halt::none && !search.reached(*point))
-      next = projectOntoConstraints(search, point, 1, landing.signature);
+      next = projectOntoConstraints(search, point, leaping, landing.signature);
     if (!next || next == point) break;
     point = std::move(next);
     if (isBetter(search, *point, *best)) best = point;

@@ -20,9 +20,14 @@ namespace {
 constexpr std::size_t kOfEachGroup = 2;
 /// So many of them for each landing, at most.
 constexpr std::size_t kForEachLanding = 4;
-constexpr int kLandingSteps = 30;
+constexpr int kLandingSteps = 30, kImprovingSteps = 15;
 constexpr int kMinimisingIterations = 40;
 constexpr int kApproachSteps = 8;
+/// Of the objective: a fifth of a natural scale; and the part of the landings that is done for less than that.
+constexpr double kSmallChange = 0.02;
+constexpr std::size_t kPart = 4;
+/// So many impacts leave few other ways.
+constexpr std::size_t kFewImpacts = 2;
 /// A step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 1.5;
 /// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
@@ -31,10 +36,12 @@ constexpr double kLeadsNowhere = 0.5;
 constexpr double kAtBorder = 0.05;
 /// Once there is a solution only points from which the change is expected to be smaller than this share of it count.
 constexpr double kClearlySmaller = 0.995;
+/// Rows are not linear: from a sample the change may become smaller than it looks, by this factor.
+constexpr double kMayShrink = 1.5;
 /// Solutions of one sequence whose changes differ by less than this share of them are the same.
 constexpr double kSameChange = 0.1;
 /// Samples double from one round without a solution to the next, so often.
-constexpr int kDoublings = 4;
+constexpr int kDoublings = 6;
 /// The reach of samples, natural scales; around a solution in lengths of its change.
 constexpr double kReach = 3, kReachOfChange = 1.2;
 
@@ -90,9 +97,23 @@ bool SequenceSearch::round(Seek seek) {
   return true;
 }
 
+bool SequenceSearch::hasSmallChangeInside() const {
+  if (solutions_.empty()) return false;
+  const EditPoint& best = *solutions_.front();
+  if (!(best.objective < kSmallChange && best.signature == start_->signature)) return false;
+  return search_.problem().constraints.extentIn(best.motion, best.rows.times).events <= kFewImpacts;
+}
+
+std::size_t SequenceSearch::landings() const {
+  return hasSmallChangeInside() ? (plan_.landings + kPart - 1) / kPart : plan_.landings;
+}
+
 // The cheaper a motion is, the more of them.
 int SequenceSearch::sampleCount() const {
+  if (hasSmallChangeInside()) return plan_.least_samples / 2;
   const double steps = static_cast<double>(std::max<std::size_t>(1, start_->motion.steps));
+  if (!solutions_.empty())
+    return static_cast<int>(std::clamp(plan_.sample_steps / steps, 2.0 * plan_.least_samples, 8.0 * plan_.least_samples));
   const double doubled = std::ldexp(plan_.sample_steps / steps, std::min(rounds_without_, kDoublings));
   const double least = std::ldexp(plan_.least_samples, std::min(rounds_without_, kDoublings));
   return static_cast<int>(std::clamp(doubled, std::min<double>(least, plan_.most_samples), 1.0 * plan_.most_samples));
@@ -158,13 +179,13 @@ std::vector<EditPointPtr> SequenceSearch::approachAll(std::vector<EditPointPtr> 
   };
   std::stable_sort(lacking.begin(), lacking.end(),
                    [&](const EditPointPtr& a, const EditPointPtr& b) { return share(a) < share(b); });
-  lacking.resize(std::min(lacking.size(), kForEachLanding * plan_.landings));
+  lacking.resize(std::min(lacking.size(), kForEachLanding * landings()));
   for (const EditPointPtr& point : lacking) ranked.emplace_back(0, point);
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
   });
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ranked.resize(std::min(ranked.size(), plan_.landings));
+  ranked.resize(std::min(ranked.size(), landings()));
   forAll(ranked.size(), [&](std::size_t i, ContactSource& contacts) {
     EditSearch branch = search_.branch({&contacts, nullptr, false, true}, true);
     ranked[i].second = approach(branch, ranked[i].second, kApproachSteps);
@@ -184,7 +205,7 @@ std::vector<EditPointPtr> SequenceSearch::nearestOfEachGroup(const std::vector<E
   std::map<std::string, std::vector<EditPointPtr>> groups;
   for (const EditPointPtr& point : points)
     if (isAllowed(*point)) groups[point->signature].push_back(point);
-  const std::size_t each = std::max(kOfEachGroup, plan_.landings / std::max<std::size_t>(1, groups.size()));
+  const std::size_t each = std::max(kOfEachGroup, landings() / std::max<std::size_t>(1, groups.size()));
   std::vector<EditPointPtr> nearest;
   for (auto& [signature, group] : groups) {
     std::stable_sort(group.begin(), group.end(), nearer);
@@ -192,7 +213,7 @@ std::vector<EditPointPtr> SequenceSearch::nearestOfEachGroup(const std::vector<E
     nearest.insert(nearest.end(), group.begin(), group.end());
   }
   std::stable_sort(nearest.begin(), nearest.end(), nearer);
-  nearest.resize(std::min(nearest.size(), kForEachLanding * plan_.landings));
+  nearest.resize(std::min(nearest.size(), kForEachLanding * landings()));
   return nearest;
 }
 
@@ -210,12 +231,12 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
     const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
     const double change = lengthOf(search_.problem(), smallestChange(search_, *point));
     score = change + kStepsAreUncertain * step.norm();
-    if (leads_nowhere || !std::isfinite(score) || change > to_beat) score = std::numeric_limits<double>::infinity();
+    if (leads_nowhere || !std::isfinite(score) || change > kMayShrink * to_beat) score = std::numeric_limits<double>::infinity();
   });
   std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
   for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ranked.resize(std::min(ranked.size(), plan_.landings));
+  ranked.resize(std::min(ranked.size(), landings()));
   std::vector<EditPointPtr> chosen;
   for (const auto& [score, point] : ranked) {
     ++tries_[point->signature];
@@ -225,7 +246,7 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
 }
 
 std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr>& candidates, Seek seek) {
-  const Landing landing{kLandingSteps, lengthToBeat(seek), nullptr};
+  const Landing landing{solutions_.empty() ? kLandingSteps : kImprovingSteps, lengthToBeat(seek), nullptr};
   std::vector<EditPointPtr> landed(candidates.size());
   std::vector<int> steps(candidates.size(), 0);
   forAll(candidates.size(), [&](std::size_t i, ContactSource& contacts) {

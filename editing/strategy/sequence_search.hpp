@@ -35,11 +35,15 @@ class SequenceSearch {
   const std::vector<EditPointPtr>& solutions() const { return solutions_; }
   /// Takes a solution in, unless it is one of those that are known already.
   void add(const EditPointPtr& solution);
+  /// Whether the best is a small change within the sequence of the start, of few impacts: seldom is another one
+  /// smaller, so rounds do a part of the work.
+  bool hasSmallChangeInside() const;
   /// The point that lacks least of the impacts that are waited for; null where none lacked any.
   const EditPointPtr& nearestLacking() const { return nearest_lacking_; }
 
  private:
   int sampleCount() const;
+  std::size_t landings() const;
   double reach() const;
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;

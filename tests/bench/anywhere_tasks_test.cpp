@@ -83,8 +83,7 @@ TEST(AnywhereTasks, AreMissedByTheirStart) {
     EXPECT_EQ(rows.available, std::isfinite(task.miss));
     if (!rows.available) {
       lacking.insert(task.wanted.family);
-    } else if (!task.sequence.empty()) {
-      EXPECT_FALSE(beginsWith(start, task.sequence));
+      EXPECT_TRUE(task.sequence.empty() || !beginsWith(start, task.sequence));
     } else {
       EXPECT_TRUE(task.miss >= TaskLimits::kSmallestMiss) << task.miss;
       EXPECT_NEAR(task.miss, rows.scaled.cwiseAbs().maxCoeff(), 1e-9 * task.miss);
@@ -98,19 +97,20 @@ TEST(AnywhereTasks, HoldWhatTheirFamilySays) {
   for (const Task& task : anywhereTasks()) {
     SCOPED_TRACE(named(task));
     ASSERT_FALSE(task.constraints.empty());
-    const When& at = task.constraints[0].at;
-    EXPECT_EQ(at.impact > 0, task.wanted.goal != Goal::at_a_time);
+    const Constraint& c = task.constraints[0];
+    EXPECT_EQ(c.at.impact > 0, task.wanted.goal == Goal::at_an_impact);
     if (task.wanted.family == Family::hit) {
-      EXPECT_FALSE(at.with.empty());
+      EXPECT_TRUE(c.hits.has_value() || !c.at.with.empty());
     }
+    EXPECT_EQ(c.hits.has_value() || !c.sequence.empty(), task.wanted.goal == Goal::impact_comes);
+    EXPECT_EQ(c.sequence, task.sequence);
     EXPECT_EQ(task.sequence.empty(), task.wanted.family != Family::wished);
     if (task.wanted.family == Family::speed) {
       constexpr const char* kWords[] = {"speed", "kinetic_energy", "height", "impulse"};
       EXPECT_EQ(task.constraints[0].targets[0].quantity, kWords[task.wanted.kind % 4]);
     }
-    if (task.wanted.goal == Goal::impact_comes) {
-      EXPECT_EQ(task.constraints[0].targets.size(), 1u);
-      EXPECT_EQ(task.constraints[0].targets[0].quantity, "time");
+    if (task.wanted.family == Family::distance) {
+      EXPECT_EQ(c.targets[0].quantity, "distance");
     }
   }
 }

@@ -118,7 +118,15 @@ TEST_P(MissingTarget, NamesTheConstraint) {
   EXPECT_NE(answer["error"]["message"].get<std::string>().find("expected one that comes: it has "), std::string::npos)
       << answer;
 }
-INSTANTIATE_TEST_SUITE_P(Commands, MissingTarget, testing::Values("gradient", "check", "edit", "validate"));
+INSTANTIATE_TEST_SUITE_P(Commands, MissingTarget, testing::Values("gradient", "check", "validate"));
+
+TEST(Errors, AnEditThatFindsNoWayToAnImpactSaysWhichIsMissing) {
+  json scene = exampleScene("book-on-shelf");
+  scene["constraints"][0]["at"] = {{"impact", 40}, {"with", "floor"}};
+  const json answer = runJson({"edit", writeTemporary("never-comes.json", scene.dump()), "--effort", "fast"}, 3);
+  EXPECT_EQ(answer["status"], "not_converged");
+  EXPECT_NE(answer["message"].get<std::string>().find("mpact 40 with 'floor'"), std::string::npos) << answer["message"];
+}
 
 TEST(Errors, GradientNeedsControlsAndConstraints) {
   const std::string path = writeTemporary("nothing-asked.json", twoBalls(1).dump());

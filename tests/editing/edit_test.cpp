@@ -228,22 +228,6 @@ TEST(Edit, ANailAfterTheEndIsABadStart) {
   EXPECT_TRUE(std::isnan(r.scaled_residual));
 }
 
-TEST(Edit, AnImpactThatDoesNotComeIsLookedFor) {
-  const Scene scene = floorAndWall();
-  OdeContacts contacts(scene);
-  Edit edit(scene, contacts, 0.6);
-  edit.vary(velocity("ball").within(-9, 9));
-  edit.nail("ball", nthImpact(3, "wall")).position({any, any, 1});
-  const EditResult r = edit.solve();
-  EXPECT_EQ(r.status, EditStatus::not_converged);
-  EXPECT_NE(r.message.find("mpact 3 with 'wall'"), std::string::npos) << r.message;
-  EditOptions options;
-  options.sequence = SequencePolicy::stay;
-  const EditResult stays = edit.solve(options);
-  EXPECT_EQ(stays.status, EditStatus::bad_start);
-  EXPECT_NE(stays.message.find("mpact 3 with 'wall'"), std::string::npos) << stays.message;
-}
-
 TEST(Edit, AStartOutsideItsBoundsIsMovedAndSaid) {
   const Scene scene = manyBounces();
   OdeContacts contacts(scene);

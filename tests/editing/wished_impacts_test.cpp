@@ -9,6 +9,7 @@
 #include "adjoint/base/errors.h"
 #include "editing/edit.h"
 #include "ode_bridge/ode_contacts.h"
+#include "tests/editing/scenes.h"
 
 namespace carom::tests {
 namespace {
@@ -139,7 +140,9 @@ TEST(WishedImpacts, WhateverLiesBetween) {
   t.edit.sequence({"cue yellow", "...", "cue red"});
   const EditResult r = t.edit.solve();
   ASSERT_TRUE(r.solved()) << r.message;
-  const std::vector<std::string> met = metByCue(r.motion);
+  std::vector<std::string> met = metByCue(r.motion);
+  std::erase_if(met, [](const std::string& name) { return name.starts_with("rail"); });  // nobody speaks of them
+  ASSERT_GE(met.size(), 2u);
   EXPECT_EQ(met[0], "yellow");
   EXPECT_NE(std::find(met.begin() + 1, met.end(), "red"), met.end());
 }
@@ -177,6 +180,22 @@ TEST(WishedImpacts, WhatCannotBeHitIsToldWithHowNearItCame) {
   const EditResult r = edit.solve();
   EXPECT_EQ(r.status, EditStatus::not_converged);
   EXPECT_NE(r.message.find("The nearest that 'cue' and 'yellow' came"), std::string::npos) << r.message;
+}
+
+TEST(WishedImpacts, AnImpactThatDoesNotComeIsLookedForUnlessTheSequenceStays) {
+  const Scene scene = testing_scenes::floorAndWall();
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 0.6);
+  edit.vary(velocity("ball").within(-9, 9));
+  edit.nail("ball", nthImpact(3, "wall")).position({any, any, 1});
+  const EditResult r = edit.solve();
+  EXPECT_EQ(r.status, EditStatus::not_converged);
+  EXPECT_NE(r.message.find("mpact 3 with 'wall'"), std::string::npos) << r.message;
+  EditOptions options;
+  options.sequence = SequencePolicy::stay;
+  const EditResult stays = edit.solve(options);
+  EXPECT_EQ(stays.status, EditStatus::bad_start);
+  EXPECT_NE(stays.message.find("mpact 3 with 'wall'"), std::string::npos) << stays.message;
 }
 
 void expectRefused(const Edit& edit, const std::string& place, const std::string& found) {

@@ -111,8 +111,8 @@ const std::string& documentWithEverything() {
       "impulse": { "min": 1.125, "max": 2.625 }, "height": -0.375 },
     { "body": "can", "at": 0.35, "distance": { "to": "pill", "min": 0.15, "max": 8.5 } },
     { "body": "pill", "closest_approach": { "to": "can", "value": 0.065, "during": [0.45, 1.95] } },
-    { "body": "can", "hits": "pill", "during": [0.55, 1.85], "after": { "body": "die", "impact": 2, "with": "can" },
-      "before": { "body": "pill", "impact": 3 }, "notes": "from a miss" },
+    { "body": "can", "hits": "pill", "during": [0.55, 1.85], "after": { "body": "die", "impact": 8, "with": "crate" },
+      "before": { "body": "pill", "impact": 7 }, "notes": "from a miss" },
     { "sequence": ["can pill", "...", "d?e pil*"] }
   ]
 })";

@@ -124,8 +124,8 @@ TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   ASSERT_TRUE(d.constraints[10].hits);
   EXPECT_EQ(d.constraints[10].hits->with, "pill");
   EXPECT_EQ(d.constraints[10].hits->during, (std::pair<double, double>(0.55, 1.85)));
-  EXPECT_EQ(d.constraints[10].hits->after->with, "can");
-  EXPECT_EQ(d.constraints[10].hits->before->n, 3);
+  EXPECT_EQ(d.constraints[10].hits->after->with, "crate");
+  EXPECT_EQ(d.constraints[10].hits->before->n, 7);
   EXPECT_EQ(d.constraints[11].sequence, (std::vector<std::string>{"can pill", "...", "d?e pil*"}));
   const Constraint& hat = d.constraints[4];
   EXPECT_EQ(hat.at.span, (std::pair<double, double>(0.31, 1.9)));

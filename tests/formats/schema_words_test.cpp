@@ -86,6 +86,7 @@ const std::vector<Told> kTold = {
     {"/definitions/range", "Ranges"},
     {"/definitions/constraint/properties/distance", "distance"},
     {"/definitions/constraint/properties/closest_approach", "closest_approach"},
+    {"/definitions/impact_of", "after and before"},
     {"/definitions/region", "Regions"},
 };
 

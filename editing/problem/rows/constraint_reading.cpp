@@ -201,6 +201,7 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
     if (!waitsForImpact(index) || awaited(motion, index)) continue;
     out.available = false;
     out.lacking.push_back(lacking(motion, index));
+    out.lacking.back().constraint = index;
     if (out.message.empty()) out.message = out.lacking.back().sentence;
   }
   int current = -1;

@@ -15,6 +15,7 @@ namespace carom::editing_detail {
 
 /// What a motion lacks of an impact that shall come: bodies that shall meet, and when they may.
 struct LackingImpact {
+  int constraint = -1;                     ///< index of the Constraint
   std::vector<std::pair<int, int>> pairs;  ///< bodies, one of these pairs
   double from = 0, to = 0;                 ///< s
   double share = 0;                        ///< of what was wished that came, in [0, 1)
