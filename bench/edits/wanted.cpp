@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/edits/wanted.h"
 
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -59,8 +60,9 @@ Wanted anywhere(Family family, int k) {
 }  // namespace
 
 const char* nameOf(Family family) {
-  constexpr const char* kNames[] = {"ball",      "box", "hull",   "meeting", "chain",
-                                    "encounter", "hit", "wished", "rack",    "speed"};
+  constexpr const char* kNames[] = {"ball", "box",    "hull", "meeting", "chain",   "encounter",
+                                    "hit",  "wished", "rack", "speed",   "distance"};
+  static_assert(std::size(kNames) == kFamilies);
   return kNames[static_cast<int>(family)];
 }
 
