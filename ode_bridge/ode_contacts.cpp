@@ -71,6 +71,7 @@ struct OdeContacts::State {
   Neighbours neighbours;
   NarrowPhase narrow_phase;
   std::shared_ptr<const FeatureGeometry> geometry;
+  std::vector<SolidSource> sources;  // of its solids
   std::vector<Quick> quick;     // of each body
   std::map<int, Arc> varied;    // moving bodies whose acceleration varies
   std::vector<char> in_series;  // whether its arcs have to be extended; known here, arcs are far away in memory
@@ -84,6 +85,7 @@ struct OdeContacts::State {
   std::vector<PlacedContact> placed;
   std::set<std::pair<std::string, std::string>> accepted;  // names of pairs that overlap in the scene it was made for
 
+  void takeSolids(const Scene& scene);
   void lookAtStart(const std::vector<Arc>& arcs, WorkCount* work);
   bool isAccepted(const Scene& scene, const StartOverlap& overlap) const;
   BallImpact quickImpact(int a, int b, double from, double until) const;
@@ -116,14 +118,11 @@ void OdeContacts::begin(const Scene& scene) {
 void OdeContacts::take(const Scene& scene) {
   validate(scene);
   const std::size_t n = scene.bodies.size();
-  std::vector<Solid> solids;
+  state_->takeSolids(scene);
+  const std::vector<Solid>& solids = state_->geometry->solids();
   std::vector<BodyModel> models;
-  solids.reserve(n);
   models.reserve(n);
-  for (const Body& body : scene.bodies) {
-    solids.push_back(solidOf(body));
-    models.push_back(modelOf(body));
-  }
+  for (const Body& body : scene.bodies) models.push_back(modelOf(body));
   std::vector<Arc> arcs;
   std::vector<BodyExtent> extents;
   arcs.reserve(n);
@@ -136,10 +135,21 @@ void OdeContacts::take(const Scene& scene) {
     if (solids[i].plane) state_->quick[i] = Quick::plane;
     if (models[i].moving) state_->quick[i] = solids[i].ball ? Quick::ball : Quick::moving;
   }
-  state_->geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
-  state_->narrow_phase.reset(state_->geometry->solids());
   state_->neighbours.begin(std::move(extents), scene.gravity, Neighbours::kFew, CollisionClasses(scene));
   state_->lookAtStart(arcs, work());
+}
+
+// Scenes that differ in causes alone, as those of an edit do, share the solids.
+void OdeContacts::State::takeSolids(const Scene& scene) {
+  const bool known = geometry && std::equal(sources.begin(), sources.end(), scene.bodies.begin(), scene.bodies.end(),
+                                            [](const SolidSource& s, const Body& b) { return s.isOf(b); });
+  if (known) return;
+  std::vector<Solid> solids;
+  solids.reserve(scene.bodies.size());
+  for (const Body& body : scene.bodies) solids.push_back(solidOf(body));
+  sources = std::vector<SolidSource>(scene.bodies.begin(), scene.bodies.end());
+  geometry = std::make_shared<const FeatureGeometry>(std::move(solids));
+  narrow_phase.reset(geometry->solids());
 }
 
 // Who overlaps, and who touches.

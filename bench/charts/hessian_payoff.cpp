@@ -117,7 +117,7 @@ class Trial {
           options.second_derivatives = source;
           EditSearch search(problem_, options);
           const EditPointPtr start = search.evaluateStart();
-          EditSearch smooth = search.branch({nullptr, start}, true);
+          EditSearch smooth = search.branch({{}, start}, true);
           EditProgram program(smooth, start->changes, problem_.constraints.equations(), nullptr);
           Patient patient(program);
           SolverOptions solver;

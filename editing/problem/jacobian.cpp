@@ -138,15 +138,15 @@ Motion simulateScene(const EditProblem& problem, const Scene& scene, double unti
   return simulate(scene, *problem.contacts, until, options);
 }
 
-Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, ContactSource* contacts,
-                  bool even_if_stopped) {
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, const Simulating& how) {
   SimulateOptions options;
   options.asked = problem.asked;
-  options.step_limit = problem.step_limit;
+  options.step_limit = std::min(problem.step_limit, how.step_limit);
   options.enough = problem.enough;
   options.least_duration = problem.least_duration;
-  if (!even_if_stopped) options.stop = problem.stop;
-  return simulate(problem.controls.sceneAt(values), contacts ? *contacts : *problem.contacts, until, options);
+  if (!how.even_if_stopped) options.stop = problem.stop;
+  ContactSource& contacts = how.contacts ? *how.contacts : *problem.contacts;
+  return simulate(problem.controls.sceneAt(values), contacts, until, options);
 }
 
 MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,

@@ -68,11 +68,14 @@ struct RowsAndJacobian {
 /// The motion of a scene of the problem, with everything that can be asked of it.
 Motion simulateScene(const EditProblem& problem, const Scene& scene, double until);
 
+/// How a motion is simulated.
+struct Simulating {
+  ContactSource* contacts = nullptr;  ///< null: that of the problem, which is for one thread at a time
+  bool even_if_stopped = false;       ///< to the end although a stop was requested
+  std::size_t step_limit = std::numeric_limits<std::size_t>::max();  ///< beside that of the problem
+};
 /// Simulates up to a time, with no more detail than the problem asks for.
-/// By another source than the problem's, if one is given: the problem's is for one thread at a time. A requested stop
-/// ends it early, unless it is to be simulated in any case.
-Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until,
-                  ContactSource* contacts = nullptr, bool even_if_stopped = false);
+Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, const Simulating& how = {});
 /// The same along the impact sequence of another motion of the problem, see adjoint/simulate/simulate_along.h.
 MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
                           ContactSource* contacts = nullptr);

@@ -252,7 +252,7 @@ WhyNot explain(const Scene& written, EditSearch& search, const EditSolution& sol
 
 void explainInto(EditResult& result, const Scene& written, EditSearch& search, const EditSolution& solution) {
   if (result.status != EditStatus::infeasible && result.status != EditStatus::not_converged) return;
-  if (!solution.point->rows.available) return;
+  if (!solution.point->rows.available || !search.differentiate(*solution.point)) return;
   result.why_not = explain(written, search, solution);
   if (!result.why_not.inside.empty()) result.status = EditStatus::infeasible;
   const WhyNot& why = result.why_not;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "adjoint/base/errors.h"
 #include "editing/solve/bounded_least_squares.hpp"
 
 namespace carom::editing_detail {
@@ -11,7 +12,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 LinearModel::LinearModel(const EditSearch& search, EditPoint& point) {
-  search.differentiate(point);
+  if (!search.differentiate(point)) throw NotComputable(point.not_computable);
   const EditProblem& problem = search.problem();
   J = *point.row_jacobian;
   const Index m = J.rows(), n = J.cols();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "adjoint/base/errors.h"
 #include "editing/session/session_solver.hpp"
 #include "editing/solve/dependence.hpp"
 
@@ -45,7 +46,7 @@ constexpr int kSteps = 8, kStepsAlong = 5, kStepsElsewhere = 6, kBatch = 3;
 }  // namespace
 
 StepProblem SessionSolver::stepProblem(EditPoint& point) const {
-  differentiate(problem_, point);
+  if (!differentiate(problem_, point)) throw NotComputable(point.not_computable);
   const Eigen::Index n = point.changes.size();
   StepProblem step;
   step.at = point.changes, step.lower = lower_, step.upper = upper_, step.costless = problem_.times();
@@ -102,7 +103,7 @@ void SessionSolver::learnEase(const EditPoint& at, const Step& step) {
 /// could be held.
 bool SessionSolver::holdAtKink(EditPoint& at, EditPoint& trial) {
   if (kinks_.size() >= kMostKinks || trial.signature == at.signature) return false;
-  differentiate(problem_, trial);
+  if (!differentiate(problem_, trial)) return false;
   if (const std::optional<Kink> kink = kinkBetween(problem_, at, trial)) {
     kinks_.push_back(*kink);
     return true;

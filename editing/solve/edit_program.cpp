@@ -86,7 +86,7 @@ bool EditProgram::constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g)
 bool EditProgram::jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) {
   const EditPointPtr point = at(x);
   if (!point) return false;
-  search_.differentiate(*point);
+  if (!search_.differentiate(*point)) return false;
   dg_dx.resize(constraints(), x.size());
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     dg_dx.row(static_cast<Eigen::Index>(k)) = point->row_jacobian->row(rows_[k]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/QR>
 
@@ -16,6 +17,9 @@ constexpr std::size_t kRecentPoints = 4;
 /// No number is followed further than this, in natural scales: where constraints stand against each other steps may
 /// lead to any speed and spin, and so to motions of any cost.
 constexpr double kFarthest = 1e3;
+/// Steps of the motion of a trial: so many, or so many times those of the start. Some trials bounce to and fro in a
+/// corner for a hundred times the work of all others.
+constexpr std::size_t kLeastSteps = 2000, kStepsOfStart = 20;
 
 }  // namespace
 
@@ -50,11 +54,11 @@ EditPointPtr pointAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
   point->changes = unknowns;
   point->values = problem.valuesOf(unknowns);
   if (maker.like) {
-    MotionAlong along = simulateAlong(problem, point->values, maker.like->motion, until, maker.contacts);
+    MotionAlong along = simulateAlong(problem, point->values, maker.like->motion, until, maker.how.contacts);
     if (!along.complete) return nullptr;
     point->motion = std::move(along.motion);
   } else {
-    point->motion = simulateAt(problem, point->values, until, maker.contacts, maker.even_if_stopped);
+    point->motion = simulateAt(problem, point->values, until, maker.how);
   }
   if (nearest_times && problem.times() > 0)
     point->changes.tail(problem.times()) = problem.unknownTimes(problem.constraints.nearestTimes(point->motion));
@@ -82,6 +86,7 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
 EditPointPtr EditSearch::evaluateStart() {
   EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
   consider(point);
+  step_limit_ = std::max(kLeastSteps, kStepsOfStart * point->motion.steps);
   if (!point->rows.available) return point;
   if (!problem_.enough)
     until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
@@ -92,7 +97,9 @@ EditPointPtr EditSearch::evaluateStart() {
 EditPointPtr EditSearch::make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const {
   const Eigen::Index n = problem_.controls.size();
   if (n > 0 && changes.head(n).cwiseAbs().maxCoeff() > kFarthest) return nullptr;
-  return trialAt(problem_, changes, until_, nearest_times, maker);
+  MotionMaker limited = maker;
+  limited.how.step_limit = std::min(maker.how.step_limit, step_limit_);
+  return trialAt(problem_, changes, until_, nearest_times, limited);
 }
 
 EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_times) {
@@ -108,6 +115,11 @@ EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_t
   return point;
 }
 
+void EditSearch::allowLongerMotions() {
+  constexpr std::size_t kMore = 2;
+  step_limit_ *= step_limit_ < std::numeric_limits<std::size_t>::max() / kMore ? kMore : 1;
+}
+
 EditSearch EditSearch::branch(const MotionMaker& maker, bool silent) const {
   EditSearch other(*this);
   other.maker_ = maker;
@@ -117,12 +129,17 @@ EditSearch EditSearch::branch(const MotionMaker& maker, bool silent) const {
   return other;
 }
 
-void differentiate(const EditProblem& problem, EditPoint& point) {
-  if (point.row_jacobian) return;
+bool differentiate(const EditProblem& problem, EditPoint& point) {
+  if (point.row_jacobian) return point.row_jacobian->allFinite();
   const Eigen::VectorXd rates = problem.rates(point.changes);
   const Eigen::Index n = problem.controls.size(), k = problem.times();
   Eigen::MatrixXd J(problem.constraints.size(), n + k);
-  J.leftCols(n) = jacobianByAdjoint(problem, point.values, point.motion, point.rows);
+  try {
+    J.leftCols(n) = jacobianByAdjoint(problem, point.values, point.motion, point.rows);
+  } catch (const NotComputable& why) {
+    point.not_computable = why.what();
+    J.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   J.rightCols(k) = jacobianByTimes(problem, point.motion, point.rows);
   J *= rates.asDiagonal();
   const std::vector<Row>& rows = problem.constraints.rows();
@@ -131,6 +148,7 @@ void differentiate(const EditProblem& problem, EditPoint& point) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(problem.validity.size(), n + k);
   H.leftCols(n) = problem.validity.jacobian(problem.controls, point.values) * rates.head(n).asDiagonal();
   point.validity_jacobian = std::move(H);
+  return point.row_jacobian->allFinite();
 }
 
 void differentiateObjective(const EditProblem& problem, EditPoint& point) {

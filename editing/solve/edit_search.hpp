@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,15 +29,15 @@ struct EditPoint {
   double objective = 0;      ///< what is minimised: EditProblem::objective
   std::optional<Eigen::VectorXd> objective_gradient;  ///< of an objective of one's own, without the change; on demand
   std::optional<Eigen::MatrixXd> row_jacobian, validity_jacobian;  ///< by all unknowns, dimensionless; on demand
+  std::string not_computable;  ///< why there are no derivatives of the rows; their Jacobian is not a number then
 };
 using EditPointPtr = std::shared_ptr<EditPoint>;
 
 /// How the motion of a point is made.
 struct MotionMaker {
-  ContactSource* contacts = nullptr;  ///< null: that of the problem
-  EditPointPtr like;                  ///< not null: its impact sequence is followed (adjoint/simulate/simulate_along.h)
-  bool even_if_stopped = false;       ///< simulated to the end although a stop was requested
-  bool keep_lacking = false;          ///< motions that lack impacts, which rows wait for, are points too
+  Simulating how;
+  EditPointPtr like = nullptr;  ///< not null: its impact sequence is followed (adjoint/simulate/simulate_along.h)
+  bool keep_lacking = false;    ///< motions that lack impacts, which rows wait for, are points too
 };
 
 /// Simulates up to a time and reads the rows. `nearest_times`: the free times of `unknowns` do not count, they are
@@ -49,8 +50,8 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
                      const MotionMaker& maker = {});
 /// Reads the rows of a point's motion again, when targets are other ones than before.
 void readRows(const EditProblem& problem, EditPoint& point);
-/// Fills in the point's derivatives.
-void differentiate(const EditProblem& problem, EditPoint& point);
+/// Fills in the point's derivatives. False where they cannot be computed: no step can be made from there.
+bool differentiate(const EditProblem& problem, EditPoint& point);
 /// Fills in that of an objective of one's own, by all unknowns.
 void differentiateObjective(const EditProblem& problem, EditPoint& point);
 
@@ -72,6 +73,8 @@ class EditSearch {
   EditPointPtr evaluate(const Eigen::VectorXd& changes, bool nearest_times = false);
   /// The same for any thread, with motions made in the way that is given; nothing is remembered.
   EditPointPtr make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const;
+  /// Motions of trials end after some multiple of the work that the start took: from now on after twice as much.
+  void allowLongerMotions();
   /// A search at the same problem that makes its motions in another way. It remembers its own points, counts on from
   /// here and has the same deadline. In a thread of its own it must be `silent`: then it does not ask the callback.
   EditSearch branch(const MotionMaker& maker, bool silent) const;
@@ -80,8 +83,8 @@ class EditSearch {
   /// Remembers a point if it is the best so far. Its motion must be a simulated one.
   void consider(const EditPointPtr& point);
 
-  /// Fills in the point's derivatives.
-  void differentiate(EditPoint& point) const { editing_detail::differentiate(problem_, point); }
+  /// Fills in the point's derivatives. False where they cannot be computed: no step can be made from there.
+  bool differentiate(EditPoint& point) const { return editing_detail::differentiate(problem_, point); }
 
   /// The best point so far: within the tolerance the smallest change, else the smallest violation. By value: what goes
   /// on from it finds better ones, and it must stay alive meanwhile.
@@ -105,6 +108,7 @@ class EditSearch {
   Budget budget_;
   Eigen::VectorXd lower_, upper_;
   double until_;  ///< simulated first; further where a row is not found by then
+  std::size_t step_limit_ = std::numeric_limits<std::size_t>::max();  ///< of the motion of a trial
   std::vector<EditPointPtr> recent_;
   EditPointPtr best_;
   MotionMaker maker_;

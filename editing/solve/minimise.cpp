@@ -40,17 +40,17 @@ EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const 
 
 EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
                             int max_iterations) {
-  EditSearch smooth = search.branch({nullptr, from}, false);
+  EditSearch smooth = search.branch({{}, from}, false);
   const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
   search.adopt(smooth);
-  const EditPointPtr real = search.make(end->changes, false, {nullptr, nullptr, true});
+  const EditPointPtr real = search.make(end->changes, false, {{nullptr, true}});
   if (real) search.consider(real);
   return real;
 }
 
 EditPointPtr lowerObjective(EditSearch& search, EditPointPtr point) {
   for (int round = 0; round < kLoweringRounds && search.goesOn(); ++round) {
-    search.differentiate(*point);
+    if (!search.differentiate(*point)) break;
     const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
     const double before = point->objective, enough = before - kLowers * (1 + std::abs(before));
     const auto takeIfLower = [&](const EditPointPtr& end) {
@@ -65,7 +65,7 @@ EditPointPtr lowerObjective(EditSearch& search, EditPointPtr point) {
 }
 
 EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {
-  search.differentiate(*point);
+  if (!search.differentiate(*point)) return point;
   const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
   return minimiseChange(search, point, split.independent, &point->signature,
                         std::min(max_iterations, search.iterationsLeft()));

@@ -160,8 +160,7 @@ EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int m
   int leaps = 0;
   double damping = 0;
   for (int k = 0; k < max_steps && point->violation > kExact; ++k) {
-    search.differentiate(*point);
-    if (!point->row_jacobian->allFinite()) break;
+    if (!search.differentiate(*point)) break;
     EditPointPtr full, next;
     if (damping <= kLeastDamping) next = descend(search, *point, smallestStep(search, *point), signature, full);
     // At the border of two impact sequences the violation may have a kink that no descent leaves.

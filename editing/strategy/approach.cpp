@@ -9,6 +9,7 @@
 #include "adjoint/derivative/adjoint.h"
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/closest_approach.hpp"
+#include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -57,7 +58,7 @@ double lackOf(const EditProblem& problem, const LackingImpact& lacking, const st
 
 double lackOf(const EditProblem& problem, const EditPoint& point) {
   double lack = 0;
-  for (const LackingImpact& lacking : point.rows.lacking) lack += lackOf(problem, lacking, nearestOf(point, lacking));
+  for (const LackingImpact& lacking : missingImpacts(problem, point)) lack += lackOf(problem, lacking, nearestOf(point, lacking));
   return lack;
 }
 
@@ -65,8 +66,10 @@ EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps) {
   const EditProblem& problem = search.problem();
   const Eigen::Index n = problem.controls.size();
   double lack = lackOf(problem, *point);
-  for (int k = 0; k < max_steps && !point->rows.lacking.empty(); ++k) {
-    const std::optional<ClosestApproach> nearest = nearestOf(*point, point->rows.lacking.front());
+  for (int k = 0; k < max_steps; ++k) {
+    const std::vector<LackingImpact> missing = missingImpacts(problem, *point);
+    if (missing.empty()) break;
+    const std::optional<ClosestApproach> nearest = nearestOf(*point, missing.front());
     if (!nearest || !(nearest->value() > 0)) break;
     const std::vector<StateSeed> seeds = nearest->seeds();
     const Eigen::VectorXd row = problem.controls.gather(adjoint(point->motion, seeds), point->values)

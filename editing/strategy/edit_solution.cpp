@@ -14,6 +14,11 @@
 #include "editing/strategy/row_choice.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#define TR(...) if (getenv("CAROM_TRACE")) { fprintf(stderr, "%7.1f ", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count()-t0trace); fprintf(stderr, __VA_ARGS__); fprintf(stderr, "\n"); }
+static double t0trace = 0;
 namespace carom::editing_detail {
 namespace {
 
@@ -68,8 +73,9 @@ EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const 
     return point && search.reached(*point) && point->signature == start->signature;
   };
   const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations / 2);
+  TR("followed it %d ok %d", search.iterations(), solves(followed));
   if (solves(followed)) return followed;
-  if (!search.goesOn()) return nullptr;
+  if (search.options().sequence == SequencePolicy::smallest || !search.goesOn()) return nullptr;
   const EditPointPtr inside = minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
   return solves(inside) ? inside : nullptr;
 }
@@ -89,12 +95,14 @@ bool mayBecomeAvailable(const EditSearch& search) {
 void searchAcross(const EditSearch& search, SequenceSearch& across) {
   const SearchPlan& plan = planOf(search.options().effort);
   for (int rounds = plan.first_rounds; across.solutions().empty() && rounds > 0 && across.round(); --rounds) {
+    TR("first round: sol %zu it %d", across.solutions().size(), search.iterations());
   }
   if (across.solutions().empty()) return;
   const auto patience = [&] { return across.hasSmallChangeInside() ? (plan.idle_rounds + 1) / 2 : plan.idle_rounds; };
   for (int rounds = plan.improving_rounds, idle = 0; rounds > 0 && idle < patience(); --rounds) {
     const double before = across.solutions().front()->objective;
     if (!across.round()) return;
+    TR("improving round: obj %g -> %g it %d", before, across.solutions().front()->objective, search.iterations());
     idle = across.solutions().front()->objective < kClearlyLess * before ? 0 : idle + 1;
   }
 }
@@ -110,6 +118,7 @@ std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch
 
 EditSolution findSolution(EditSearch& search) {
   EditSolution solution;
+  t0trace = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
   const EditPointPtr start = solution.start = solution.point = search.evaluateStart();
   if (!start->rows.available && search.options().stop.stop_requested()) {
     solution.status = EditStatus::cancelled;
@@ -131,13 +140,15 @@ EditSolution findSolution(EditSearch& search) {
     return solution;
   }
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
-  const RowChoice choice = start->rows.available ? chooseRows(search, start) : RowChoice{};
+  const bool from_start = start->rows.available && search.differentiate(*start);
+  const RowChoice choice = from_start ? chooseRows(search, start) : RowChoice{};
   const bool contradicts = !choice.contradiction.empty();  // in this impact sequence at least
   EditPointPtr inside;
-  if (start->rows.available && !contradicts) {
+  if (from_start && !contradicts) {
     solution.growth = growthOf(start->motion, search.problem(), start->rows);
     inside = solveInSequence(search, choice, start);
   }
+  TR("inside %d obj %g it %d sig %.150s", !!inside, inside ? inside->objective : -1., search.iterations(), start->signature.c_str());
   SequenceSearch across(search, start);
   if (inside) across.add(inside);
   if (may_leave) searchAcross(search, across);
@@ -145,7 +156,7 @@ EditSolution findSolution(EditSearch& search) {
   solution.point = polished(search, across.solutions().empty() ? search.best() : across.solutions().front());
   if (!search.reached(*solution.point)) {
     solution = unsolved(search, std::move(solution));
-    if (across.nearestLacking() && !solution.point->rows.available)
+    if (across.nearestLacking() && !across.nearestLacking()->rows.available && !solution.point->rows.available)
       solution.message += " " + across.nearestLacking()->rows.message + " " +
                           describeApproach(search.problem(), *across.nearestLacking());
     if (contradicts && search.halt() == Halt::none) solution.message = choice.contradiction + " " + solution.message;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "editing/solve/projection.hpp"
+#include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -65,7 +66,9 @@ EditPointPtr stepAlong(EditSearch& search, const EditPoint& point, const Eigen::
   for (const double share : kSharesAlong) {
     const EditPointPtr trial = search.evaluate(point.changes + onto + share * along);
     if (search.halt() != Halt::none) return nullptr;
-    if (trial && (!signature || trial->signature == *signature) && merit(*trial, penalty) < before) return trial;
+    if (!trial || (signature && trial->signature != *signature) || !(merit(*trial, penalty) < before)) continue;
+    // where nothing that varies has a part in a constraint, no small change brings it back, whatever the merit says
+    if (missingImpacts(search.problem(), *trial).empty()) return trial;
   }
   return nullptr;
 }
@@ -90,9 +93,9 @@ double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes) {
 EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing) {
   EditPointPtr point = from, best = from;
   const int leaping = std::isfinite(landing.below) ? kLeapingSteps : landing.max_steps;
-  for (int k = 0; k < landing.max_steps; ++k) {
-    search.differentiate(*point);
-    if (!point->row_jacobian->allFinite()) break;
+  const int last = search.iterations() + landing.max_steps;
+  while (search.iterations() < last) {
+    if (!search.differentiate(*point)) break;
     const Eigen::VectorXd smallest = smallestChange(search, *point);
     if (!smallest.allFinite()) break;
     if (point->violation < kNearRows && lengthOf(search.problem(), smallest) > kFarAbove * landing.below) return nullptr;
@@ -102,7 +105,7 @@ EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& l
     const double penalty = kAboveMultipliers * largestMultiplier(search, *point, smallest);
     EditPointPtr next = stepAlong(search, *point, onto, along, penalty, landing.signature);
     if (!next && search.halt() == Halt::none && !search.reached(*point))
-      next = projectOntoConstraints(search, point, leaping, landing.signature);
+      next = projectOntoConstraints(search, point, std::min(leaping, last - search.iterations()), landing.signature);
     if (!next || next == point) break;
     point = std::move(next);
     if (isBetter(search, *point, *best)) best = point;

@@ -28,10 +28,7 @@ EditPointPtr pointBeside(EditSearch& search, const EditPoint& start, int which) 
     const Eigen::VectorXd changes =
         (start.changes + length * direction).cwiseMax(search.lower()).cwiseMin(search.upper());
     EditPointPtr point = search.evaluate(changes);
-    if (point && point->signature == start.signature) {
-      search.differentiate(*point);
-      return point;
-    }
+    if (point && point->signature == start.signature && search.differentiate(*point)) return point;
   }
   return nullptr;
 }

@@ -11,8 +11,14 @@
 #include "editing/solve/projection.hpp"
 #include "editing/strategy/approach.hpp"
 #include "editing/strategy/landing.hpp"
+#include "editing/strategy/missing_impacts.hpp"
 #include "editing/strategy/samples.hpp"
 
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#define TR(...) if (getenv("CAROM_TRACE")) { double now = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); fprintf(stderr, "        +%7.1f ", now - t0trace); t0trace = now; fprintf(stderr, __VA_ARGS__); fprintf(stderr, "\n"); }
+static double t0trace = 0;
 namespace carom::editing_detail {
 namespace {
 
@@ -45,21 +51,21 @@ constexpr int kDoublings = 6;
 /// The reach of samples, natural scales; around a solution in lengths of its change.
 constexpr double kReach = 3, kReachOfChange = 1.2;
 
+/// Where nothing is known of the rows: everything around it.
+Surroundings anywhereAround(const EditPoint& point) {
+  const Eigen::Index n = point.changes.size();
+  return {point.changes, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
+}
+
 // Around a point that meets the constraints the step is one towards a smaller change: along the free directions, which
 // matters at the border of a sequence, or else back to the start.
 Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
-  search.differentiate(point);
+  if (!search.differentiate(point)) return anywhereAround(point);
   const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
   if (!search.reached(point)) return {point.changes, smallestStep(search, point), free};
   const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
   const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();
   return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
-}
-
-/// Where nothing is known of the rows: everything around it.
-Surroundings anywhereAround(const EditPoint& point) {
-  const Eigen::Index n = point.changes.size();
-  return {point.changes, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
 }
 
 }  // namespace
@@ -87,13 +93,18 @@ void SequenceSearch::forAll(std::size_t count, const Work& work) {
 bool SequenceSearch::round(Seek seek) {
   if (search_.problem().unknowns() == 0) return false;  // nowhere to go
   if (!search_.goesOn()) return false;
+  TR("start");
   const std::vector<EditPointPtr> points = sample();
+  { std::vector<int> st; for (auto& p : points) st.push_back(int(p->motion.steps)); std::sort(st.begin(), st.end()); if (!st.empty()) TR("samples %zu steps med %d p90 %d max %d start %d", points.size(), st[st.size()/2], st[st.size()*9/10], st.back(), int(start_->motion.steps)); }
   if (!reportBatch()) return false;
   const std::vector<EditPointPtr> landed = landAll(promising(points, seek), seek);
+  TR("landed %zu reached %ld", landed.size(), std::count_if(landed.begin(), landed.end(), [&](auto& p) { return search_.reached(*p); }));
   if (!reportBatch()) return false;
   minimise(landed, seek);
+  TR("minimised");
   ++round_;
   rounds_without_ = solutions_.empty() ? rounds_without_ + 1 : 0;
+  if (solutions_.empty()) search_.allowLongerMotions();
   return true;
 }
 
@@ -154,10 +165,10 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
   samples_ += count;
   std::vector<EditPointPtr> points(places.size());
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
-    points[i] = search_.make(places[i], true, {&contacts, nullptr, false, solutions_.empty()});
+    points[i] = search_.make(places[i], true, {{&contacts}, nullptr, solutions_.empty()});
   });
   std::erase(points, nullptr);
-  const auto lacks = [](const EditPointPtr& point) { return !point->rows.lacking.empty(); };
+  const auto lacks = [&](const EditPointPtr& point) { return !missingImpacts(search_.problem(), *point).empty(); };
   std::vector<EditPointPtr> lacking;
   std::copy_if(points.begin(), points.end(), std::back_inserter(lacking), lacks);
   std::erase_if(points, lacks);
@@ -187,14 +198,14 @@ std::vector<EditPointPtr> SequenceSearch::approachAll(std::vector<EditPointPtr> 
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   ranked.resize(std::min(ranked.size(), landings()));
   forAll(ranked.size(), [&](std::size_t i, ContactSource& contacts) {
-    EditSearch branch = search_.branch({&contacts, nullptr, false, true}, true);
+    EditSearch branch = search_.branch({{&contacts}, nullptr, true}, true);
     ranked[i].second = approach(branch, ranked[i].second, kApproachSteps);
     ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
   });
   std::vector<EditPointPtr> arrived;
   for (const auto& [lack, point] : ranked) {
-    if (point->rows.available) arrived.push_back(point);
-    if (!point->rows.lacking.empty() && lack < least_lack_) least_lack_ = lack, nearest_lacking_ = point;
+    if (lack == 0) arrived.push_back(point);
+    if (lack > 0 && lack < least_lack_) least_lack_ = lack, nearest_lacking_ = point;
   }
   return arrived;
 }
@@ -225,7 +236,10 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
   const double to_beat = lengthToBeat(seek);
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     auto& [score, point] = ranked[i];
-    search_.differentiate(*point);
+    if (!search_.differentiate(*point)) {
+      score = std::numeric_limits<double>::infinity();
+      return;
+    }
     const Eigen::VectorXd step = smallestStep(search_, *point);
     const double left = residualsAfter(search_, *point, step).norm();
     const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
@@ -250,7 +264,7 @@ std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr
   std::vector<EditPointPtr> landed(candidates.size());
   std::vector<int> steps(candidates.size(), 0);
   forAll(candidates.size(), [&](std::size_t i, ContactSource& contacts) {
-    EditSearch branch = search_.branch({&contacts, nullptr}, true);
+    EditSearch branch = search_.branch({{&contacts}}, true);
     landed[i] = land(branch, candidates[i], landing);
     steps[i] = branch.iterations() - search_.iterations();
   });
@@ -275,8 +289,7 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek
                    [](const EditPointPtr& a, const EditPointPtr& b) { return a->objective < b->objective; });
   arrived.resize(std::min(arrived.size(), plan_.minimised));
   for (const EditPointPtr& point : arrived) {
-    search_.differentiate(*point);
-    const bool hopeless = lengthOf(search_.problem(), smallestChange(search_, *point)) > lengthToBeat(seek);
+    const bool hopeless = !search_.differentiate(*point) || lengthOf(search_.problem(), smallestChange(search_, *point)) > lengthToBeat(seek);
     const EditPointPtr end =
         search_.halt() == Halt::none && !hopeless ? minimiseWithin(search_, point, kMinimisingIterations) : point;
     add(search_.reached(*end) ? end : point);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -156,6 +157,18 @@ struct Solid {
 
 /// The solid of a body, about its centre of mass when it moves.
 Solid solidOf(const Body& body);
+
+/// All that the solid of a body depends on.
+struct SolidSource {
+  Shape shape;
+  bool fixed = false;
+  std::optional<Vec3> center_of_mass;
+
+  explicit SolidSource(const Body& body)
+      : shape(body.shape), fixed(body.fixed), center_of_mass(body.center_of_mass) {}
+  /// Whether a body has the same solid, to the last bit.
+  bool isOf(const Body& body) const;
+};
 
 FeatureRates ratesOf(const Solid& solid, const Feature& feature);
 /// Rate of FeatureRates::point, which is the same for all features, as the dimensions change; features themselves
