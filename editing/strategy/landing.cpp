@@ -20,6 +20,8 @@ constexpr int kLeapingSteps = 5;
 constexpr double kSharesAlong[] = {1, 0.3, 0.1};
 /// The way along the constraints that is left, as a share of the change, at which a landing ends.
 constexpr double kArrived = 1e-3;
+/// A step after which more than this share of the residuals is left, or they are larger, went along bent rows.
+constexpr double kBent = 0.1;
 /// The penalty of the merit function, in multipliers.
 constexpr double kAboveMultipliers = 2;
 
@@ -59,16 +61,34 @@ double merit(const EditPoint& point, double penalty) {
   return point.objective + penalty * (point.rows.scaled.lpNorm<1>() - point.validity.cwiseMin(0).sum());
 }
 
+/// A trial brought nearer to the rows with the derivatives of the point that it comes from: the rows' curvature along the
+/// step, without which steps along bent rows have to be short (Maratos). Null where it cannot be simulated.
+EditPointPtr corrected(EditSearch& search, const EditPoint& point, const EditPoint& trial) {
+  EditPoint seen;
+  seen.changes = trial.changes, seen.rows = trial.rows, seen.validity = trial.validity;
+  seen.row_jacobian = point.row_jacobian, seen.validity_jacobian = point.validity_jacobian;
+  return search.evaluate(trial.changes + smallestStep(search, seen));
+}
+
 /// The first point along the steps with a smaller merit; null where there is none.
 EditPointPtr stepAlong(EditSearch& search, const EditPoint& point, const Eigen::VectorXd& onto,
                        const Eigen::VectorXd& along, double penalty, const std::string* signature) {
   const double before = merit(point, penalty);
+  const auto leads = [&](const EditPointPtr& trial) {
+    if (!trial || (signature && trial->signature != *signature) || !(merit(*trial, penalty) < before)) return false;
+    // where nothing that varies has a part in a constraint, no small change brings it back, whatever the merit says
+    return missingImpacts(search.problem(), *trial).empty();
+  };
   for (const double share : kSharesAlong) {
     const EditPointPtr trial = search.evaluate(point.changes + onto + share * along);
     if (search.halt() != Halt::none) return nullptr;
-    if (!trial || (signature && trial->signature != *signature) || !(merit(*trial, penalty) < before)) continue;
-    // where nothing that varies has a part in a constraint, no small change brings it back, whatever the merit says
-    if (missingImpacts(search.problem(), *trial).empty()) return trial;
+    const bool bent = trial && trial->signature == point.signature && trial->violation > kBent * point.violation &&
+                      !search.reached(*trial);
+    if (bent) {
+      EditPointPtr nearer = corrected(search, point, *trial);
+      if (nearer && nearer->violation < trial->violation && leads(nearer)) return nearer;
+    }
+    if (leads(trial)) return trial;
   }
   return nullptr;
 }

@@ -7,39 +7,37 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Of each body, whether a control has a part in its motion from the start on.
-std::vector<char> movedAtOnce(const ControlSet& controls) {
-  const std::vector<Body>& bodies = controls.startScene().bodies;
-  std::vector<char> moved(bodies.size(), 0);
-  for (const BoundControl& control : controls.controls()) {
-    const ControlOwner& owner = control.owner;
-    if (owner.body >= 0) {
-      moved[static_cast<std::size_t>(owner.body)] = 1;
-    } else if (owner.material >= 0) {
-      const std::string& name = controls.startScene().materials[static_cast<std::size_t>(owner.material)].name;
-      for (std::size_t b = 0; b < bodies.size(); ++b) moved[b] |= bodies[b].material == name;
-    } else {
-      moved.assign(bodies.size(), 1);
+/// What the controls have a part in: bodies from the start on, and those whose impacts they have a part in.
+struct Influence {
+  std::vector<char> moved, at_impacts;
+
+  explicit Influence(const ControlSet& controls) {
+    const Scene& scene = controls.startScene();
+    moved.assign(scene.bodies.size(), 0);
+    at_impacts = moved;
+    for (const BoundControl& control : controls.controls()) {
+      const ControlOwner& owner = control.owner;
+      if (owner.body >= 0) {
+        moved[static_cast<std::size_t>(owner.body)] = 1;
+      } else if (owner.material >= 0) {
+        const std::string& name = scene.materials[static_cast<std::size_t>(owner.material)].name;
+        for (std::size_t b = 0; b < moved.size(); ++b) at_impacts[b] |= scene.bodies[b].material == name;
+      } else {
+        moved.assign(moved.size(), 1);
+      }
     }
   }
-  return moved;
-}
 
-/// The same by a time, s: what they strike is moved too.
-std::vector<char> movedBy(const ControlSet& controls, const Motion& motion, double time) {
-  std::vector<char> moved = movedAtOnce(controls);
-  const std::vector<Body>& bodies = controls.startScene().bodies;
-  for (const Event& event : motion.events) {
-    if (event.time > time) break;
+  /// After an event what they have a part in has a part in what it struck.
+  void follow(const Event& event, const std::vector<Body>& bodies) {
     for (const Contact& contact : event.contacts) {
       const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
-      const char either = moved[a] | moved[b];
-      if (!bodies[a].immovable()) moved[a] |= either;
-      if (!bodies[b].immovable()) moved[b] |= either;
+      const bool struck = event.kind == EventKind::impact && contact.counted;
+      if (!(moved[a] || moved[b] || (struck && (at_impacts[a] || at_impacts[b])))) continue;
+      for (const std::size_t body : {a, b}) moved[body] |= !bodies[body].immovable();
     }
   }
-  return moved;
-}
+};
 
 /// Bodies of constraints with a row that is not met, in increasing order.
 std::vector<int> unmetBodies(const ConstraintSet& constraints, const Scene& scene, const EditPoint& point) {
@@ -63,7 +61,10 @@ std::vector<LackingImpact> missingImpacts(const EditProblem& problem, const Edit
   if (!point.rows.available || !point.rows.lacking.empty()) return point.rows.lacking;
   const Scene& scene = problem.controls.startScene();
   const double until = problem.constraints.extentIn(point.motion, point.rows.times).time;
-  const std::vector<char> moved = movedBy(problem.controls, point.motion, until);
+  Influence influence(problem.controls);
+  for (const Event& event : point.motion.events)
+    if (event.time <= until) influence.follow(event, scene.bodies);
+  const std::vector<char>& moved = influence.moved;
   std::vector<LackingImpact> missing;
   for (const int body : unmetBodies(problem.constraints, scene, point)) {
     if (moved[static_cast<std::size_t>(body)] || scene.bodies[static_cast<std::size_t>(body)].immovable()) continue;
