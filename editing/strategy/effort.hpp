@@ -13,7 +13,9 @@ struct SearchPlan {
   int first_rounds;      ///< until a first solution
   int improving_rounds;  ///< after it, for smaller changes
   int idle_rounds;       ///< so many in a row without a clearly smaller change end them
-  double sample_steps;   ///< of the samples of one round, in steps of simulations (SimulateOptions::step_limit)
+  /// Of the samples of one round, in steps of simulations (SimulateOptions::step_limit): until a first solution, twice
+  /// as much with each round, and after it.
+  double first_steps, improving_steps;
   int least_samples, most_samples;  ///< of one round; the more, the cheaper one of them is
   std::size_t landings;             ///< points of a round from which steps go onto the constraints
   std::size_t minimised;            ///< of those that arrive, the smallest, within their sequences

@@ -124,8 +124,8 @@ int SequenceSearch::sampleCount() const {
   if (hasSmallChangeInside()) return plan_.least_samples / 2;
   const double steps = static_cast<double>(std::max<std::size_t>(1, start_->motion.steps));
   if (!solutions_.empty())
-    return static_cast<int>(std::clamp(plan_.sample_steps / steps, 2.0 * plan_.least_samples, 8.0 * plan_.least_samples));
-  const double doubled = std::ldexp(plan_.sample_steps / steps, std::min(rounds_without_, kDoublings));
+    return static_cast<int>(std::clamp(plan_.improving_steps / steps, 1.0 * plan_.least_samples, 8.0 * plan_.least_samples));
+  const double doubled = std::ldexp(plan_.first_steps / steps, std::min(rounds_without_, kDoublings));
   const double least = std::ldexp(plan_.least_samples, std::min(rounds_without_, kDoublings));
   return static_cast<int>(std::clamp(doubled, std::min<double>(least, plan_.most_samples), 1.0 * plan_.most_samples));
 }
@@ -289,9 +289,11 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek
                    [](const EditPointPtr& a, const EditPointPtr& b) { return a->objective < b->objective; });
   arrived.resize(std::min(arrived.size(), plan_.minimised));
   for (const EditPointPtr& point : arrived) {
-    const bool hopeless = !search_.differentiate(*point) || lengthOf(search_.problem(), smallestChange(search_, *point)) > lengthToBeat(seek);
+    // the smallest changes of all the others are looked at only when someone asks for them
+    const bool worth = seek == Seek::others || solutions_.empty() ||
+                       point->objective < kClearlySmaller * solutions_.front()->objective;
     const EditPointPtr end =
-        search_.halt() == Halt::none && !hopeless ? minimiseWithin(search_, point, kMinimisingIterations) : point;
+        worth && search_.halt() == Halt::none ? minimiseWithin(search_, point, kMinimisingIterations) : point;
     add(search_.reached(*end) ? end : point);
   }
 }
