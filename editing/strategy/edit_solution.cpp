@@ -24,11 +24,33 @@ namespace {
 
 /// What counts as a smaller change, as a share of the objective.
 constexpr double kClearlyLess = 0.98;
+/// So often solutions are looked for, while none of those that were found is confirmed.
+constexpr int kTries = 3;
 
 /// A point once more brought as near to the constraints as rounding allows, within its own impact sequence.
 EditPointPtr polished(EditSearch& search, const EditPointPtr& point) {
   if (search.halt() != Halt::none) return point;
   return projectOntoConstraints(search, point, kOntoSteps, &point->signature);
+}
+
+/// Whether a point meets the constraints in a motion that is simulated to its end too. On the border of two impact
+/// sequences, to the last bit, one motion has an impact that the other lacks.
+bool isConfirmed(const EditSearch& search, const EditPoint& point) {
+  const EditProblem& problem = search.problem();
+  const Motion motion = simulateScene(problem, problem.controls.sceneAt(point.values), problem.duration);
+  const RowValues rows = problem.constraints.evaluate(motion, problem.timesOf(point.changes));
+  return rows.available && rows.scaled.lpNorm<Eigen::Infinity>() <= search.options().tolerance;
+}
+
+/// The smallest change that is confirmed; null where none is.
+EditPointPtr smallestConfirmed(EditSearch& search, SequenceSearch& across) {
+  while (!across.solutions().empty()) {
+    const EditPointPtr smallest = across.solutions().front();
+    const EditPointPtr point = polished(search, smallest);
+    if (search.reached(*point) && isConfirmed(search, *point)) return point;
+    across.drop(smallest);
+  }
+  return nullptr;
 }
 
 /// "position.x of 'hat' at 1.4 s by 0.02 and ..."
@@ -151,9 +173,13 @@ EditSolution findSolution(EditSearch& search) {
   TR("inside %d obj %g it %d sig %.150s", !!inside, inside ? inside->objective : -1., search.iterations(), start->signature.c_str());
   SequenceSearch across(search, start);
   if (inside) across.add(inside);
-  if (may_leave) searchAcross(search, across);
-
-  solution.point = polished(search, across.solutions().empty() ? search.best() : across.solutions().front());
+  EditPointPtr confirmed;
+  for (int tries = kTries; !confirmed && tries > 0; --tries) {
+    if (may_leave) searchAcross(search, across);
+    if (across.solutions().empty()) break;
+    confirmed = smallestConfirmed(search, across);
+  }
+  solution.point = confirmed ? confirmed : polished(search, search.best());
   if (!search.reached(*solution.point)) {
     solution = unsolved(search, std::move(solution));
     if (across.nearestLacking() && !across.nearestLacking()->rows.available && !solution.point->rows.available)

@@ -121,10 +121,9 @@ std::size_t SequenceSearch::landings() const {
 
 // The cheaper a motion is, the more of them.
 int SequenceSearch::sampleCount() const {
-  if (hasSmallChangeInside()) return plan_.least_samples / 2;
   const double steps = static_cast<double>(std::max<std::size_t>(1, start_->motion.steps));
   if (!solutions_.empty())
-    return static_cast<int>(std::clamp(plan_.improving_steps / steps, 1.0 * plan_.least_samples, 8.0 * plan_.least_samples));
+    return static_cast<int>(std::clamp(plan_.improving_steps / steps, 1.0 * plan_.least_samples, 1.0 * plan_.most_samples));
   const double doubled = std::ldexp(plan_.first_steps / steps, std::min(rounds_without_, kDoublings));
   const double least = std::ldexp(plan_.least_samples, std::min(rounds_without_, kDoublings));
   return static_cast<int>(std::clamp(doubled, std::min<double>(least, plan_.most_samples), 1.0 * plan_.most_samples));
@@ -297,6 +296,8 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek
     add(search_.reached(*end) ? end : point);
   }
 }
+
+void SequenceSearch::drop(const EditPointPtr& solution) { std::erase(solutions_, solution); }
 
 void SequenceSearch::add(const EditPointPtr& solution) {
   const auto known = std::find_if(solutions_.begin(), solutions_.end(),

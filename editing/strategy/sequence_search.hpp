@@ -35,6 +35,8 @@ class SequenceSearch {
   const std::vector<EditPointPtr>& solutions() const { return solutions_; }
   /// Takes a solution in, unless it is one of those that are known already.
   void add(const EditPointPtr& solution);
+  /// Takes one of the solutions out again.
+  void drop(const EditPointPtr& solution);
   /// Whether the best is a small change within the sequence of the start, of few impacts: seldom is another one
   /// smaller, so rounds do a part of the work.
   bool hasSmallChangeInside() const;
