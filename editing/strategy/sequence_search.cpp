@@ -48,6 +48,8 @@ constexpr double kMayShrink = 1.5;
 constexpr double kSameChange = 0.1;
 /// Samples double from one round without a solution to the next, so often.
 constexpr int kDoublings = 6;
+/// What a sample takes beside its motion, in steps of simulations.
+constexpr double kStepsOfSample = 10;
 /// The reach of samples, natural scales; around a solution in lengths of its change.
 constexpr double kReach = 3, kReachOfChange = 1.2;
 
@@ -121,7 +123,7 @@ std::size_t SequenceSearch::landings() const {
 
 // The cheaper a motion is, the more of them.
 int SequenceSearch::sampleCount() const {
-  const double steps = static_cast<double>(std::max<std::size_t>(1, start_->motion.steps));
+  const double steps = kStepsOfSample + static_cast<double>(start_->motion.steps);
   if (!solutions_.empty())
     return static_cast<int>(std::clamp(plan_.improving_steps / steps, 1.0 * plan_.least_samples, 1.0 * plan_.most_samples));
   const double doubled = std::ldexp(plan_.first_steps / steps, std::min(rounds_without_, kDoublings));
@@ -164,7 +166,7 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
   samples_ += count;
   std::vector<EditPointPtr> points(places.size());
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
-    points[i] = search_.make(places[i], true, {{&contacts}, nullptr, solutions_.empty()});
+    points[i] = search_.make(places[i], true, {{&contacts}, nullptr, true});
   });
   std::erase(points, nullptr);
   const auto lacks = [&](const EditPointPtr& point) { return !missingImpacts(search_.problem(), *point).empty(); };
@@ -189,13 +191,14 @@ std::vector<EditPointPtr> SequenceSearch::approachAll(std::vector<EditPointPtr> 
   };
   std::stable_sort(lacking.begin(), lacking.end(),
                    [&](const EditPointPtr& a, const EditPointPtr& b) { return share(a) < share(b); });
-  lacking.resize(std::min(lacking.size(), kForEachLanding * landings()));
+  const std::size_t followed = solutions_.empty() ? landings() : (landings() + 1) / 2;
+  lacking.resize(std::min(lacking.size(), kForEachLanding * followed));
   for (const EditPointPtr& point : lacking) ranked.emplace_back(0, point);
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
   });
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ranked.resize(std::min(ranked.size(), landings()));
+  ranked.resize(std::min(ranked.size(), followed));
   forAll(ranked.size(), [&](std::size_t i, ContactSource& contacts) {
     EditSearch branch = search_.branch({{&contacts}, nullptr, true}, true);
     ranked[i].second = approach(branch, ranked[i].second, kApproachSteps);
