@@ -12,6 +12,7 @@
 #include "editing/strategy/approach.hpp"
 #include "editing/strategy/impossible.hpp"
 #include "editing/strategy/row_choice.hpp"
+#include "editing/strategy/samples.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
 #include <chrono>
@@ -24,6 +25,9 @@ namespace {
 
 /// What counts as a smaller change, as a share of the objective.
 constexpr double kClearlyLess = 0.98;
+/// Points beside one on a border, and how far they are from it, as a share of the change.
+constexpr int kPointsBeside = 16;
+constexpr double kBeside = 1e-4;
 /// So often solutions are looked for, while none of those that were found is confirmed.
 constexpr int kTries = 3;
 
@@ -42,12 +46,27 @@ bool isConfirmed(const EditSearch& search, const EditPoint& point) {
   return rows.available && rows.scaled.lpNorm<Eigen::Infinity>() <= search.options().tolerance;
 }
 
+/// A confirmed point a little beside one that is not; null where there is none.
+EditPointPtr confirmedBeside(EditSearch& search, EditPoint& point) {
+  if (!search.differentiate(point)) return nullptr;
+  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
+  const EvenPoints directions(free.cols());
+  for (int k = 0; k < kPointsBeside && free.cols() > 0; ++k) {
+    const Eigen::VectorXd beside = point.changes + kBeside * point.changes.norm() * (free * directions.onSphere(k));
+    const EditPointPtr trial = search.evaluate(beside.cwiseMax(search.lower()).cwiseMin(search.upper()));
+    const EditPointPtr met = trial ? projectOntoConstraints(search, trial, kOntoSteps) : nullptr;
+    if (met && search.reached(*met) && isConfirmed(search, *met)) return met;
+  }
+  return nullptr;
+}
+
 /// The smallest change that is confirmed; null where none is.
 EditPointPtr smallestConfirmed(EditSearch& search, SequenceSearch& across) {
   while (!across.solutions().empty()) {
     const EditPointPtr smallest = across.solutions().front();
     const EditPointPtr point = polished(search, smallest);
     if (search.reached(*point) && isConfirmed(search, *point)) return point;
+    if (const EditPointPtr beside = confirmedBeside(search, *point)) return beside;
     across.drop(smallest);
   }
   return nullptr;
