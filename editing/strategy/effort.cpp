@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editing/strategy/effort.hpp"
+#include <cstdlib>
 
 namespace carom::editing_detail {
 namespace {
@@ -13,14 +14,15 @@ constexpr SearchPlan kFast{.first_rounds = 8,
                            .most_samples = 1024,
                            .landings = 8,
                            .minimised = 2};
-constexpr SearchPlan kNormal{.first_rounds = 10,
-                             .improving_rounds = 6,
-                             .idle_rounds = 2,
-                             .first_steps = 1e4,
-                             .improving_steps = 1.5e4,
-                             .least_samples = 48,
+static double envOr(const char* n, double d) { const char* e = getenv(n); return e ? atof(e) : d; }
+static SearchPlan kNormal{.first_rounds = 10,
+                             .improving_rounds = (int)envOr("IR", 6),
+                             .idle_rounds = (int)envOr("ID", 2),
+                             .first_steps = envOr("FS", 1e4),
+                             .improving_steps = envOr("IS", 1.5e4),
+                             .least_samples = (int)envOr("LS", 48),
                              .most_samples = 4096,
-                             .landings = 20,
+                             .landings = (size_t)envOr("LA", 20),
                              .minimised = 3};
 constexpr SearchPlan kThorough{.first_rounds = 16,
                                .improving_rounds = 12,

@@ -96,7 +96,7 @@ bool SequenceSearch::round(Seek seek) {
   if (search_.problem().unknowns() == 0) return false;  // nowhere to go
   if (!search_.goesOn()) return false;
   TR("start");
-  const std::vector<EditPointPtr> points = sample();
+  const std::vector<EditPointPtr> points = sample(seek);
   { std::vector<int> st; for (auto& p : points) st.push_back(int(p->motion.steps)); std::sort(st.begin(), st.end()); if (!st.empty()) TR("samples %zu steps med %d p90 %d max %d start %d", points.size(), st[st.size()/2], st[st.size()*9/10], st.back(), int(start_->motion.steps)); }
   if (!reportBatch()) return false;
   const std::vector<EditPointPtr> landed = landAll(promising(points, seek), seek);
@@ -104,6 +104,12 @@ bool SequenceSearch::round(Seek seek) {
   if (!reportBatch()) return false;
   minimise(landed, seek);
   TR("minimised");
+  if (getenv("CAROM_SIG")) {
+    std::map<std::string, int> c; for (auto& p : points) if (p->rows.available) c[p->signature]++;
+    std::map<std::string, int> l; for (auto& p : landed) l[p->signature]++;
+    const char* want = getenv("CAROM_SIG");
+    fprintf(stderr, "   groups %zu want-sampled %d want-landed %d ; tries %d; best sig %s\n", c.size(), c.count(want) ? c[want] : 0, l.count(want) ? l[want] : 0, tries_.count(want) ? tries_[want] : 0, solutions_.empty() ? "" : solutions_.front()->signature.c_str());
+  }
   ++round_;
   rounds_without_ = solutions_.empty() ? rounds_without_ + 1 : 0;
   if (solutions_.empty()) search_.allowLongerMotions();
@@ -155,7 +161,7 @@ bool SequenceSearch::reportBatch() {
   return search_.step(best->objective, best->violation);
 }
 
-std::vector<EditPointPtr> SequenceSearch::sample() {
+std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   std::vector<Surroundings> around;
   if (start_->rows.available) around.push_back(surroundingsOf(search_, *start_));
   if (nearest_lacking_ && solutions_.empty()) around.push_back(anywhereAround(*nearest_lacking_));
@@ -173,12 +179,44 @@ std::vector<EditPointPtr> SequenceSearch::sample() {
   std::vector<EditPointPtr> lacking;
   std::copy_if(points.begin(), points.end(), std::back_inserter(lacking), lacks);
   std::erase_if(points, lacks);
+  const double to_beat = lengthToBeat(seek);
+  std::erase_if(lacking, [&](const EditPointPtr& p) { return lengthOf(search_.problem(), p->changes) > to_beat; });
   if (round_ == 0 && lacks(start_)) lacking.push_back(start_);
   for (const EditPointPtr& point : approachAll(std::move(lacking))) points.push_back(point);
   if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
   if (search_.best() != start_) points.insert(points.begin(), search_.best());
+  for (const EditPointPtr& point : crossings(points)) points.push_back(point);
   for (const EditPointPtr& point : points) search_.consider(point);
   return points;
+}
+
+// Where the one row changes its sign between two points of a sequence, of each sequence between those that change least.
+// The arc on which a strongly bent row is met may be too short for steps to come onto it.
+std::vector<EditPointPtr> SequenceSearch::crossings(const std::vector<EditPointPtr>& points) {
+  if (search_.problem().constraints.size() != 1 || search_.problem().constraints.equations().size() != 1) return {};
+  std::map<std::string, std::pair<EditPointPtr, EditPointPtr>> smallest;  // below and above the target
+  for (const EditPointPtr& point : points) {
+    if (!point->rows.available) continue;
+    auto& [below, above] = smallest[point->signature];
+    EditPointPtr& slot = point->rows.scaled[0] < 0 ? below : above;
+    if (!slot || point->objective < slot->objective) slot = point;
+  }
+  std::vector<std::pair<double, Eigen::VectorXd>> places;
+  for (const auto& [signature, pair] : smallest) {
+    const auto& [below, above] = pair;
+    if (!below || !above) continue;
+    const double low = below->rows.scaled[0], high = above->rows.scaled[0];
+    const Eigen::VectorXd place = below->changes - low / (high - low) * (above->changes - below->changes);
+    places.emplace_back(lengthOf(search_.problem(), place), place);
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  places.resize(std::min(places.size(), landings()));
+  std::vector<EditPointPtr> found(places.size());
+  forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
+    found[i] = search_.make(places[i].second, true, {{&contacts}});
+  });
+  std::erase(found, nullptr);
+  return found;
 }
 
 // From the points that lack least, steps towards the impacts that they lack. Returns those that arrived.

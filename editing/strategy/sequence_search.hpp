@@ -49,7 +49,8 @@ class SequenceSearch {
   double reach() const;
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
-  std::vector<EditPointPtr> sample();
+  std::vector<EditPointPtr> sample(Seek seek);
+  std::vector<EditPointPtr> crossings(const std::vector<EditPointPtr>& points);
   std::vector<EditPointPtr> approachAll(std::vector<EditPointPtr> lacking);
   std::vector<EditPointPtr> nearestOfEachGroup(const std::vector<EditPointPtr>& points) const;
   std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points, Seek seek);
