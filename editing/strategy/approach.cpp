@@ -58,7 +58,8 @@ double lackOf(const EditProblem& problem, const LackingImpact& lacking, const st
 
 double lackOf(const EditProblem& problem, const EditPoint& point) {
   double lack = 0;
-  for (const LackingImpact& lacking : missingImpacts(problem, point)) lack += lackOf(problem, lacking, nearestOf(point, lacking));
+  for (const LackingImpact& lacking : missingImpacts(problem, point))
+    lack += lackOf(problem, lacking, nearestOf(point, lacking));
   return lack;
 }
 

@@ -8,8 +8,8 @@
 /// Towards impacts that a motion lacks. Internal to editing/.
 namespace carom::editing_detail {
 
-/// How much a point lacks of the impacts that it waits for: of each, the share of what was wished that did not come, and
-/// d / (d + L) of the least distance d at which the bodies that should meet next pass, of length L. 0: it lacks none.
+/// How much a point lacks of missingImpacts: of each, the share of what was wished that did not come, and d / (d + L) of
+/// the least distance d at which the bodies that should meet next pass, of length L. 0: it lacks none.
 double lackOf(const EditProblem& problem, const EditPoint& point);
 
 /// Steps that make the least distance smaller at which the bodies of the first such impact pass; each aims a little

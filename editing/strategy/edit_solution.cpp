@@ -15,11 +15,6 @@
 #include "editing/strategy/samples.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#define TR(...) if (getenv("CAROM_TRACE")) { fprintf(stderr, "%7.1f ", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count()-t0trace); fprintf(stderr, __VA_ARGS__); fprintf(stderr, "\n"); }
-static double t0trace = 0;
 namespace carom::editing_detail {
 namespace {
 
@@ -28,6 +23,8 @@ constexpr double kClearlyLess = 0.98;
 /// Points beside one on a border, and how far they are from it, as a share of the change.
 constexpr int kPointsBeside = 16;
 constexpr double kBeside = 1e-4;
+/// An objective from which on twice as many rounds without a smaller one are waited for: a third of a natural scale.
+constexpr double kLargeChange = 0.05;
 /// So often solutions are looked for, while none of those that were found is confirmed.
 constexpr int kTries = 3;
 
@@ -114,7 +111,6 @@ EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const 
     return point && search.reached(*point) && point->signature == start->signature;
   };
   const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations / 2);
-  TR("followed it %d ok %d", search.iterations(), solves(followed));
   if (solves(followed)) return followed;
   if (search.options().sequence == SequencePolicy::smallest || !search.goesOn()) return nullptr;
   const EditPointPtr inside = minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
@@ -136,14 +132,16 @@ bool mayBecomeAvailable(const EditSearch& search) {
 void searchAcross(const EditSearch& search, SequenceSearch& across) {
   const SearchPlan& plan = planOf(search.options().effort);
   for (int rounds = plan.first_rounds; across.solutions().empty() && rounds > 0 && across.round(); --rounds) {
-    TR("first round: sol %zu it %d", across.solutions().size(), search.iterations());
   }
   if (across.solutions().empty()) return;
-  const auto patience = [&] { return across.hasSmallChangeInside() ? (plan.idle_rounds + 1) / 2 : plan.idle_rounds; };
+  const auto patience = [&] {
+    if (across.hasSmallChangeInside()) return (plan.idle_rounds + 1) / 2;
+    const bool large = across.solutions().front()->objective > kLargeChange;
+    return large ? 2 * plan.idle_rounds : plan.idle_rounds;
+  };
   for (int rounds = plan.improving_rounds, idle = 0; rounds > 0 && idle < patience(); --rounds) {
     const double before = across.solutions().front()->objective;
     if (!across.round()) return;
-    TR("improving round: obj %g -> %g it %d", before, across.solutions().front()->objective, search.iterations());
     idle = across.solutions().front()->objective < kClearlyLess * before ? 0 : idle + 1;
   }
 }
@@ -151,7 +149,8 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
 /// Distinct solutions until there are as many as the options ask for, the smallest change first.
 std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch& across, const EditPointPtr& first) {
   across.add(first);
-  while (static_cast<int>(across.solutions().size()) < search.options().alternatives && across.round(SequenceSearch::Seek::others)) continue;
+  const auto enough = static_cast<std::size_t>(search.options().alternatives);
+  while (across.solutions().size() < enough && across.round(SequenceSearch::Seek::others)) continue;
   return across.solutions();
 }
 
@@ -159,7 +158,6 @@ std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch
 
 EditSolution findSolution(EditSearch& search) {
   EditSolution solution;
-  t0trace = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
   const EditPointPtr start = solution.start = solution.point = search.evaluateStart();
   if (!start->rows.available && search.options().stop.stop_requested()) {
     solution.status = EditStatus::cancelled;
@@ -189,7 +187,6 @@ EditSolution findSolution(EditSearch& search) {
     solution.growth = growthOf(start->motion, search.problem(), start->rows);
     inside = solveInSequence(search, choice, start);
   }
-  TR("inside %d obj %g it %d sig %.150s", !!inside, inside ? inside->objective : -1., search.iterations(), start->signature.c_str());
   SequenceSearch across(search, start);
   if (inside) across.add(inside);
   EditPointPtr confirmed;

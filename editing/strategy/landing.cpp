@@ -61,8 +61,8 @@ double merit(const EditPoint& point, double penalty) {
   return point.objective + penalty * (point.rows.scaled.lpNorm<1>() - point.validity.cwiseMin(0).sum());
 }
 
-/// A trial brought nearer to the rows with the derivatives of the point that it comes from: the rows' curvature along the
-/// step, without which steps along bent rows have to be short (Maratos). Null where it cannot be simulated.
+/// A trial brought nearer to the rows with the derivatives of the point that it comes from: the second-order correction
+/// without which steps along bent rows have to be short (Maratos). Null where it cannot be simulated.
 EditPointPtr corrected(EditSearch& search, const EditPoint& point, const EditPoint& trial) {
   EditPoint seen;
   seen.changes = trial.changes, seen.rows = trial.rows, seen.validity = trial.validity;
@@ -118,7 +118,8 @@ EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& l
     if (!search.differentiate(*point)) break;
     const Eigen::VectorXd smallest = smallestChange(search, *point);
     if (!smallest.allFinite()) break;
-    if (point->violation < kNearRows && lengthOf(search.problem(), smallest) > kFarAbove * landing.below) return nullptr;
+    const double in_sight = lengthOf(search.problem(), smallest);
+    if (point->violation < kNearRows && in_sight > kFarAbove * landing.below) return nullptr;
     const Eigen::VectorXd onto = smallestStep(search, *point);
     const Eigen::VectorXd along = smallest - point->changes - onto;
     if (search.reached(*point) && along.norm() <= kArrived * point->changes.norm()) break;

@@ -47,7 +47,8 @@ std::vector<int> unmetBodies(const ConstraintSet& constraints, const Scene& scen
     const int constraint = constraints.rows()[static_cast<std::size_t>(i)].constraint;
     if (constraint < 0) continue;  // of one's own
     const std::string& name = constraints.constraints()[static_cast<std::size_t>(constraint)].body;
-    const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
+    const auto found =
+        std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
     if (found != scene.bodies.end()) bodies.push_back(static_cast<int>(found - scene.bodies.begin()));
   }
   std::sort(bodies.begin(), bodies.end());

@@ -8,8 +8,8 @@
 /// Impacts that a motion lacks. Internal to editing/.
 namespace carom::editing_detail {
 
-/// The impacts that a point waits for and lacks. Where there are none, those without which nothing that varies has a part
-/// in a constraint that is not met: its body would have to be struck, by one of the bodies that the controls move.
+/// The impacts that a point waits for and lacks. Where there are none, those without which nothing that varies has a
+/// part in a constraint that is not met: its body would have to be struck, by one of the bodies that the controls move.
 std::vector<LackingImpact> missingImpacts(const EditProblem& problem, const EditPoint& point);
 
 }  // namespace carom::editing_detail

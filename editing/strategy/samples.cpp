@@ -31,8 +31,8 @@ Eigen::VectorXd within(Eigen::VectorXd x, const Eigen::VectorXd& centre, const E
   return x;
 }
 
-/// In the box of half width `half_width` around the centre, as far as the bounds let it; within bounds that leave no more
-/// room than that, the box of the bounds.
+/// In the box of half width `half_width` around the centre, as far as the bounds let it; within bounds that leave no
+/// more room than that, the box of the bounds.
 Eigen::VectorXd inBox(const EvenPoints& points, int k, const Eigen::VectorXd& centre, double half_width,
                       const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   const Eigen::VectorXd from = (centre.array() - half_width).matrix().cwiseMax(lower);

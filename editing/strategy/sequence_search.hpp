@@ -14,10 +14,11 @@
 namespace carom::editing_detail {
 
 /// A local discrete search, after Harada, Witkin and Baraff (1995), in rounds. Each simulates samples around the start
-/// and the best point on all cores, groups them by impact sequence, goes from the most promising of each group onto the
-/// constraints, whatever impacts that takes, and minimises the change within the sequences where that arrived. Once
-/// there is a solution, only smaller changes are looked for: sequences that are seen to hold none, as their rows are
-/// linear, are left.
+/// and the best point on all cores, leads some of those that lack an impact towards it, groups them by impact sequence
+/// and goes from the most promising of each group onto the constraints, whatever impacts that takes. Where the smallest
+/// of those that arrived changes less than the best so far, its change is minimised within its sequence. Once there is
+/// a solution, only smaller changes are looked for: sequences that are seen to hold none, as their rows are linear, are
+/// left.
 /// Everything is done, or taken over, in a fixed order: the answer is the same on any number of cores. Clock and
 /// callback are asked between batches.
 class SequenceSearch {
@@ -71,6 +72,15 @@ class SequenceSearch {
   int round_ = 0, rounds_without_ = 0;
   int samples_ = 0;  // taken so far, of the endless sequence of them
 };
+
+template <class Work>
+void SequenceSearch::forAll(std::size_t count, const Work& work) {
+  const int threads = pool_.isShareable() ? search_.options().threads : 1;
+  inParallel(threads, count, [&](std::size_t i) {
+    const ContactPool::Loan loan(pool_);
+    work(i, loan.source());
+  });
+}
 
 /// Whether two solutions differ in their impact sequence, or else clearly in their numbers.
 bool areDistinct(const EditPoint& a, const EditPoint& b);

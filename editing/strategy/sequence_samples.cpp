@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// The points of a round of SequenceSearch.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "editing/solve/dependence.hpp"
+#include "editing/solve/projection.hpp"
+#include "editing/strategy/approach.hpp"
+#include "editing/strategy/landing.hpp"
+#include "editing/strategy/missing_impacts.hpp"
+#include "editing/strategy/samples.hpp"
+#include "editing/strategy/sequence_search.hpp"
+
+namespace carom::editing_detail {
+namespace {
+
+/// Of points that lack impacts so many for each landing, at most, are looked at.
+constexpr std::size_t kLackingForEach = 4;
+constexpr int kApproachSteps = 8;
+/// A solution from which the change could still fall by this share, if it were not for the border of its sequence.
+constexpr double kAtBorder = 0.05;
+/// Samples double from one round without a solution to the next, so often.
+constexpr int kDoublings = 6;
+/// What a sample takes beside its motion, in steps of simulations.
+constexpr double kStepsOfSample = 10;
+/// Where hardly another way changes less, one sample of so many is done.
+constexpr int kPartOfSamples = 6;
+/// The reach of samples, natural scales; around a solution in lengths of its change.
+constexpr double kReach = 3, kReachOfChange = 1.2;
+
+/// Where nothing is known of the rows: everything around it.
+Surroundings anywhereAround(const EditPoint& point) {
+  const Eigen::Index n = point.changes.size();
+  return {point.changes, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
+}
+
+// Around a point that meets the constraints the step is one towards a smaller change: along the free directions, which
+// matters at the border of a sequence, or else back to the start.
+Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
+  if (!search.differentiate(point)) return anywhereAround(point);
+  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
+  if (!search.reached(point)) return {point.changes, smallestStep(search, point), free};
+  const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
+  const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();
+  return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
+}
+
+}  // namespace
+
+// The cheaper a motion is, the more of them.
+int SequenceSearch::sampleCount() const {
+  const double steps = kStepsOfSample + static_cast<double>(start_->motion.steps);
+  if (!solutions_.empty()) {
+    const int part = hasSmallChangeInside() ? kPartOfSamples : 1;
+    return std::clamp(static_cast<int>(plan_.improving_steps / steps), plan_.least_samples, plan_.most_samples) / part;
+  }
+  const double doubled = std::ldexp(plan_.first_steps / steps, std::min(rounds_without_, kDoublings));
+  const double least = std::ldexp(plan_.least_samples, std::min(rounds_without_, kDoublings));
+  return static_cast<int>(std::clamp(doubled, std::min<double>(least, plan_.most_samples), 1.0 * plan_.most_samples));
+}
+
+// What changes less than the best lies nearer to the start. While there is none, every other round reaches further.
+double SequenceSearch::reach() const {
+  if (solutions_.empty()) return std::ldexp(kReach, rounds_without_ / 2);
+  return std::min(kReach, kReachOfChange * lengthOf(search_.problem(), solutions_.front()->changes));
+}
+
+std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
+  std::vector<Surroundings> around;
+  if (start_->rows.available) around.push_back(surroundingsOf(search_, *start_));
+  if (nearest_lacking_ && solutions_.empty()) around.push_back(anywhereAround(*nearest_lacking_));
+  if (search_.best() != start_) around.push_back(surroundingsOf(search_, *search_.best()));
+  const int count = sampleCount();
+  const std::vector<Eigen::VectorXd> places =
+      samples(start_->changes, around, search_.lower(), search_.upper(), samples_, count, reach());
+  samples_ += count;
+  std::vector<EditPointPtr> points(places.size());
+  forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
+    points[i] = search_.make(places[i], true, {{&contacts}, nullptr, true});
+  });
+  std::erase(points, nullptr);
+  const auto lacks = [&](const EditPointPtr& point) { return !missingImpacts(search_.problem(), *point).empty(); };
+  std::vector<EditPointPtr> lacking;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(lacking), lacks);
+  std::erase_if(points, lacks);
+  const double to_beat = lengthToBeat(seek);
+  std::erase_if(lacking, [&](const EditPointPtr& p) { return lengthOf(search_.problem(), p->changes) > to_beat; });
+  if (round_ == 0 && lacks(start_)) lacking.push_back(start_);
+  for (const EditPointPtr& point : approachAll(std::move(lacking))) points.push_back(point);
+  if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
+  if (search_.best() != start_) points.insert(points.begin(), search_.best());
+  for (const EditPointPtr& point : crossings(points)) points.push_back(point);
+  for (const EditPointPtr& point : points) search_.consider(point);
+  return points;
+}
+
+// Where the one row changes its sign between two points of a sequence, of each sequence between those that change
+// least. The arc on which a strongly bent row is met may be too short for steps to come onto it.
+std::vector<EditPointPtr> SequenceSearch::crossings(const std::vector<EditPointPtr>& points) {
+  if (search_.problem().constraints.size() != 1 || search_.problem().constraints.equations().size() != 1) return {};
+  std::map<std::string, std::pair<EditPointPtr, EditPointPtr>> smallest;  // below and above the target
+  for (const EditPointPtr& point : points) {
+    if (!point->rows.available) continue;
+    auto& [below, above] = smallest[point->signature];
+    EditPointPtr& slot = point->rows.scaled[0] < 0 ? below : above;
+    if (!slot || point->objective < slot->objective) slot = point;
+  }
+  std::vector<std::pair<double, Eigen::VectorXd>> places;
+  for (const auto& [signature, pair] : smallest) {
+    const auto& [below, above] = pair;
+    if (!below || !above) continue;
+    const double low = below->rows.scaled[0], high = above->rows.scaled[0];
+    const Eigen::VectorXd place = below->changes - low / (high - low) * (above->changes - below->changes);
+    places.emplace_back(lengthOf(search_.problem(), place), place);
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  places.resize(std::min(places.size(), landings()));
+  std::vector<EditPointPtr> found(places.size());
+  forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
+    found[i] = search_.make(places[i].second, true, {{&contacts}});
+  });
+  std::erase(found, nullptr);
+  return found;
+}
+
+// From the points that lack least, steps towards the impacts that they lack. Returns those that arrived.
+std::vector<EditPointPtr> SequenceSearch::approachAll(std::vector<EditPointPtr> lacking) {
+  std::vector<std::pair<double, EditPointPtr>> ranked;
+  const auto share = [](const EditPointPtr& point) {
+    double sum = 0;
+    for (const LackingImpact& impact : point->rows.lacking) sum += 1 - impact.share;
+    return sum;
+  };
+  const auto more = [&](const EditPointPtr& a, const EditPointPtr& b) { return share(a) < share(b); };
+  std::stable_sort(lacking.begin(), lacking.end(), more);
+  const std::size_t followed = solutions_.empty() ? landings() : (landings() + 1) / 2;
+  lacking.resize(std::min(lacking.size(), kLackingForEach * followed));
+  for (const EditPointPtr& point : lacking) ranked.emplace_back(0, point);
+  forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
+    ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
+  });
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  ranked.resize(std::min(ranked.size(), followed));
+  forAll(ranked.size(), [&](std::size_t i, ContactSource& contacts) {
+    EditSearch branch = search_.branch({{&contacts}, nullptr, true}, true);
+    ranked[i].second = approach(branch, ranked[i].second, kApproachSteps);
+    ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
+  });
+  std::vector<EditPointPtr> arrived;
+  for (const auto& [lack, point] : ranked) {
+    if (lack == 0) arrived.push_back(point);
+    if (lack > 0 && lack < least_lack_) least_lack_ = lack, nearest_lacking_ = point;
+  }
+  return arrived;
+}
+
+}  // namespace carom::editing_detail
