@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <tuple>
 
 #include "adjoint/base/errors.h"
@@ -14,12 +15,21 @@ namespace {
 
 /// Pairs that may meet next of which the nearest is looked for, at most.
 constexpr std::size_t kMostPairs = 16;
+/// Between the two features of a contact, in words.
+constexpr std::string_view kOn = " on ";
 
 /// A pattern with * (any text) and ? (any letter).
 bool matches(const char* pattern, const char* text) {
   if (*pattern == 0) return *text == 0;
   if (*pattern == '*') return matches(pattern + 1, text) || (*text != 0 && matches(pattern, text + 1));
   return *text != 0 && (*pattern == '?' || *pattern == *text) && matches(pattern + 1, text + 1);
+}
+
+// The features of a contact as the lists of impacts have them, "face -z on face +z", seen from either of its bodies.
+std::string featuresOf(const Motion& motion, const Contact& contact, bool from_b) {
+  const std::string text = motion.geometry->describe(contact.a, contact.b, contact.features);
+  const std::size_t on = text.find(kOn);
+  return from_b ? text.substr(on + kOn.size()) + std::string(kOn) + text.substr(0, on) : text;
 }
 
 std::vector<bool> bodiesLike(const Scene& scene, const std::string& pattern) {
@@ -109,12 +119,23 @@ LackingImpact BoundHit::lacking(const Motion& motion) const {
 BoundSequence::Entry BoundSequence::parse(const Scene& scene, const std::string& text, const std::string& where) {
   Entry entry{text, text == "...", {}, {}};
   if (entry.anything) return entry;
-  // names may have spaces: the first that leaves bodies on both sides
-  for (std::size_t space = text.find(' '); space != std::string::npos; space = text.find(' ', space + 1)) {
-    entry.a = bodiesLike(scene, text.substr(0, space)), entry.b = bodiesLike(scene, text.substr(space + 1));
-    if (any_of(entry.a) && any_of(entry.b)) return entry;
+  // names may have spaces and parentheses: the first space that leaves bodies on both sides, at best without features
+  const auto findBodies = [&](const std::string& names) {
+    for (std::size_t space = names.find(' '); space != std::string::npos; space = names.find(' ', space + 1)) {
+      entry.a = bodiesLike(scene, names.substr(0, space)), entry.b = bodiesLike(scene, names.substr(space + 1));
+      if (any_of(entry.a) && any_of(entry.b)) return true;
+    }
+    return false;
+  };
+  if (findBodies(text)) return entry;
+  const std::size_t open = text.rfind(" (");
+  if (open != std::string::npos && text.back() == ')' && findBodies(text.substr(0, open))) {
+    entry.features = text.substr(open + 2, text.size() - open - 3);
+    if (entry.features.find(kOn) != std::string::npos) return entry;
+    throw InputError(where, "found the features '" + entry.features + "', expected two such as 'face -z on *'");
   }
-  throw InputError(where, "found '" + text + "', expected names or patterns of two bodies with a space between, or ...");
+  throw InputError(where, "found '" + text + "', expected names or patterns of two bodies with a space between, " +
+                              "features that meet behind them in parentheses, or ...");
 }
 
 BoundSequence::BoundSequence(const Scene& scene, const std::vector<std::string>& impacts, const std::string& where)
@@ -147,10 +168,15 @@ bool BoundSequence::isAbout(const Motion& motion, const Event& event) const {
   });
 }
 
-bool BoundSequence::fits(const Event& event, const Entry& entry) {
+bool BoundSequence::fits(const Motion& motion, const Event& event, const Entry& entry) {
   return std::any_of(event.contacts.begin(), event.contacts.end(), [&](const Contact& c) {
     const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
-    return c.counted && !c.held && ((entry.a[a] && entry.b[b]) || (entry.a[b] && entry.b[a]));
+    const auto meet = [&](std::size_t first, std::size_t second) {
+      return entry.a[first] && entry.b[second] &&
+             (entry.features.empty() ||
+              matches(entry.features.c_str(), featuresOf(motion, c, first != a).c_str()));
+    };
+    return c.counted && !c.held && (meet(a, b) || meet(b, a));
   });
 }
 
@@ -170,7 +196,7 @@ BoundSequence::Match BoundSequence::match(const Motion& motion) const {
     for (std::size_t place = 0; place < entries_.size(); ++place) {
       if (!next[place]) continue;
       if (entries_[place].anything) reach(after, place);
-      if (!entries_[place].anything && fits(event, entries_[place])) {
+      if (!entries_[place].anything && fits(motion, event, entries_[place])) {
         reach(after, place + 1);
         if (place + 1 > best.entries) best.entries = place + 1, best.last = static_cast<int>(e), best.against = -1;
       }

@@ -54,7 +54,8 @@ class BoundHit {
 /// A wished sequence of impacts whose patterns are sets of bodies.
 class BoundSequence {
  public:
-  /// Throws InputError that begins with `where`: what matches no body, a text that is not two names.
+  /// Throws InputError that begins with `where`: what matches no body, a text that is not two names and, in parentheses,
+  /// features that meet.
   BoundSequence(const Scene& scene, const std::vector<std::string>& impacts, const std::string& where);
 
   /// The event with which it is complete.
@@ -68,6 +69,7 @@ class BoundSequence {
     std::string text;
     bool anything = false;  ///< "..."
     std::vector<bool> a, b;  ///< bodies that match
+    std::string features = {};  ///< pattern of what meets, "face -z on *", seen from a; empty: anything
   };
   struct Match {
     std::size_t entries = 0;  ///< that came, as far as it goes
@@ -77,7 +79,7 @@ class BoundSequence {
   };
   static Entry parse(const Scene& scene, const std::string& text, const std::string& where);
   bool isAbout(const Motion& motion, const Event& event) const;
-  static bool fits(const Event& event, const Entry& entry);
+  static bool fits(const Motion& motion, const Event& event, const Entry& entry);
   Match match(const Motion& motion) const;
 
   std::vector<Entry> entries_;
