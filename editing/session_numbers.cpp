@@ -39,8 +39,8 @@ void addNumbers(const Scene& scene, const BoundControl& bound, int control, cons
     number.name = describe(bound.control) + (components.size() > 1 ? ", " + number.component : "");
     number.value = values[slot];
     number.control = control;
-    // a change of a number that is weighed by its logarithm is much where it is as large as the number
-    number.scale = !bound.kind->logarithmic ? scales[slot] : number.value != 0 ? std::abs(number.value) : 1;
+    // of a number that is weighed by its logarithm, to first order
+    number.scale = scales[slot] * (!bound.kind->logarithmic ? 1 : number.value != 0 ? std::abs(number.value) : 1);
     const auto place = std::find(varying.begin(), varying.end(), static_cast<int>(k));
     number.varies = place != varying.end();
     if (number.varies) {

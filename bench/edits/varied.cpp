@@ -50,8 +50,8 @@ void bound(const Scene& scene, Control& control, Dice& dice) {
   const ControlSet set(scene, {control});
   for (const Variable& v : set.variables()) {
     const double down = dice.in(0.15, 1), up = dice.in(0.15, 1);
-    const double low = v.logarithmic ? v.before * std::exp(-down) : v.before - down * v.scale;
-    const double high = v.logarithmic ? v.before * std::exp(up) : v.before + up * v.scale;
+    const double low = v.logarithmic ? v.before * std::exp(-down * v.scale) : v.before - down * v.scale;
+    const double high = v.logarithmic ? v.before * std::exp(up * v.scale) : v.before + up * v.scale;
     control.min.push_back(std::max(low, v.lower));
     control.max.push_back(std::min(high, v.upper));
   }

@@ -174,6 +174,33 @@ TEST(ControlSet, ScalesFollowTheEquations) {
   EXPECT_NEAR(set.variables()[9].scale, g, 1e-15);
 }
 
+// docs/editing.md, "What a change costs": a natural scale is 25 % of a speed of which 7 % are just noticed, and as much of
+// the others. An elasticity is noticed by a tenth of it, and no finer below 1/8; the others follow from what they do to
+// speeds.
+TEST(ControlSet, WhatBodiesAreMadeOfIsWeighedByWhatIsNoticed) {
+  Scene scene = thrownBox();
+  const auto scalesOf = [&](const Control& control) {
+    const ControlSet set(scene, {control});
+    return set.variables()[0].scale;
+  };
+  for (double elasticity : {0.0, 0.1, 0.125, 0.5, 1.0}) {
+    scene.materials[0].elasticity = elasticity;
+    const double noticed = 0.1 * std::max(elasticity, 0.125);
+    EXPECT_NEAR(scalesOf(carom::elasticity("felt")), 0.25 / 0.07 * noticed, 1e-15) << elasticity;
+  }
+  // v_t loses mu (1 + e) v_n; at 45 degrees and e = 1/2 a quarter of v_t
+  EXPECT_NEAR(scalesOf(friction("felt")) * (1 + 0.5), 0.25, 1e-15);
+  // the rim of a uniform ball gains 5/7 (1 + b) v_t
+  EXPECT_NEAR(scalesOf(tangentialElasticity("felt")) * 5 / 7, 0.25, 1e-15);
+  // d log(v) / d log(m) = -1/2 for what is hit by a body as heavy
+  EXPECT_NEAR(scalesOf(mass("box")) / 2, 0.25, 1e-15);
+  EXPECT_NEAR(scalesOf(inertia("box")) / 2, 0.25, 1e-15);
+  EXPECT_NEAR(scalesOf(mass("box").weighted(4)), 0.125, 1e-15);
+  const ControlSet set(scene, {mass("box")});
+  const double mass_of_box = set.startValues()[0];
+  EXPECT_NEAR(set.valuesOf(Eigen::VectorXd::Ones(1))[0], mass_of_box * std::exp(0.5), 1e-14 * mass_of_box);
+}
+
 TEST(NaturalScales, WithoutGravity) {
   Scene scene = thrownBox();
   scene.gravity.setZero();

@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
+#include "editing/problem/controls/natural_scales.hpp"
 #include "tests/editing/session_scenes.h"
 
 namespace carom {
 namespace {
 
+using namespace editing_detail;
 using namespace testing_scenes;
 using namespace testing_sessions;
 
@@ -105,7 +107,7 @@ TEST(SessionContents, NumbersSayWhatMayBeDoneWithThem) {
   EXPECT_EQ(numbers[3].name, "mass of 'box'");
   EXPECT_EQ(numbers[3].control, 1);
   EXPECT_EQ(numbers[3].min, 0);
-  EXPECT_TRUE(std::abs(numbers[3].scale - numbers[3].value) <= 1e-15);
+  EXPECT_TRUE(std::abs(numbers[3].scale - kMassScale * numbers[3].value) <= 1e-15);
   EXPECT_EQ(numbers[4].component, "w");
   EXPECT_EQ(numbers[7].control, 2);
 }

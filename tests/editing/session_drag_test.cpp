@@ -51,7 +51,8 @@ TEST(SessionDrag, FollowsTheTargetFrameByFrame) {
 TEST(SessionDrag, EndsWhereAnEditWouldEnd) {
   BoxSession s;
   s.session.grab("box", 0.6);
-  const Vec3 target = s.session.grabbedPlace() + Vec3(0.05, 0.03, 0.02);
+  // well within the impact sequence: where the smallest change lies at its end, an edit that must stay may not get there
+  const Vec3 target = s.session.grabbedPlace() + Vec3(0.05, 0.03, 0.01);
   for (int k = 1; k <= 10; ++k)
     s.session.dragTo(s.session.grabbedPlace() + (target - s.session.grabbedPlace()) * k / 10);
   const SessionUpdate u = s.session.release();

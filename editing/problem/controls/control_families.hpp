@@ -20,8 +20,6 @@ inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 inline std::vector<std::string> xyzComponents(const Scene&, const ControlOwner&) { return {"x", "y", "z"}; }
 inline std::vector<std::string> oneComponent(const Scene&, const ControlOwner&) { return {"value"}; }
 inline Eigen::VectorXd oneNumber(double value) { return Eigen::VectorXd::Constant(1, value); }
-inline Eigen::VectorXd oneScale(const Scene&, const ControlOwner&) { return oneNumber(1); }
-inline Eigen::VectorXd xyzScale(const Scene&, const ControlOwner&) { return Vec3::Ones(); }
 
 /// Functions of a kind whose numbers are a field of the scene: kField(scene, owner) refers to it in a scene, kRate to
 /// its place in a derivative by the scene.

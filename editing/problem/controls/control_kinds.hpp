@@ -23,7 +23,7 @@ struct ControlOwner {
 struct ControlKind {
   const char* word;  ///< in the scene document
   OwnerKind owner;
-  bool logarithmic = false;  ///< changes are weighed as log(value / start); otherwise as (value - start) / scale
+  bool logarithmic = false;  ///< changes are weighed as log(value / start) / scale; otherwise as (value - start) / scale
   /// Physical bounds.
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
   bool strictly_positive = false;
@@ -38,7 +38,7 @@ struct ControlKind {
   /// Derivative by the values (at `values`) from the derivative by the fields of the scene; and its adjoint.
   Eigen::VectorXd (*gather)(const SceneGradient&, const ControlOwner&, const Eigen::VectorXd& values);
   void (*scatter)(const Eigen::VectorXd& rates, const ControlOwner&, const Eigen::VectorXd& values, SceneTangent&);
-  /// Natural scale of a change; not used by logarithmic kinds.
+  /// Natural scale of a change; of a logarithmic kind, of its logarithm.
   Eigen::VectorXd (*scale)(const Scene& start, const ControlOwner&);
   /// How `gather` of one and the same derivative changes as the values change at `rates`; null where it does not.
   Eigen::VectorXd (*gather_rate)(const SceneGradient&, const ControlOwner&, const Eigen::VectorXd& values,

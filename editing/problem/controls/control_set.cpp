@@ -83,7 +83,7 @@ void ControlSet::addVariables(int index) {
     v.before = before[slot], v.start = bound.start[slot];
     v.lower = bounds.lower, v.upper = bounds.upper;
     v.logarithmic = kind.logarithmic;
-    v.scale = (kind.logarithmic ? 1 : scale[slot]) / bound.control.weight;
+    v.scale = scale[slot] / bound.control.weight;
     const std::string name = "The " + describe(bound.control) + (count > 1 ? ", " + v.component + "," : "");
     if (v.start != v.before) {
       start_moved_ = true;

@@ -20,7 +20,7 @@ struct Variable {
   double before = 0;      ///< as written by the person
   double start = 0;       ///< the same, moved into the bounds
   double lower = 0, upper = 0;
-  double scale = 1;  ///< natural scale divided by the person's weight (linear), or 1 / weight (logarithmic)
+  double scale = 1;  ///< natural scale, of the logarithm where changes are logarithmic, divided by the person's weight
   bool logarithmic = false;
 };
 

@@ -9,6 +9,7 @@
 #include "editing/problem/controls/control_families.hpp"
 
 #include "adjoint/scene/body_model.h"
+#include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -21,6 +22,7 @@ void prepareMass(Scene& scene, const ControlOwner& o) {
 }
 constexpr auto kMass = [](auto& scene, const ControlOwner& o) -> auto& { return scene.bodies[o.body].mass; };
 using Mass = FieldNumbers<kMass>;
+Eigen::VectorXd scaleMass(const Scene&, const ControlOwner&) { return oneNumber(kMassScale); }
 
 void prepareInertia(Scene& scene, const ControlOwner& o) {
   Body& body = scene.bodies[o.body];
@@ -36,6 +38,7 @@ constexpr auto kMoments = [](auto& scene, const ControlOwner& o) -> auto& {
 };
 constexpr auto kMomentRates = [](auto& scene, const ControlOwner& o) -> auto& { return scene.bodies[o.body].inertia; };
 using Moments = FieldNumbers<kMoments, kMomentRates>;
+Eigen::VectorXd scaleInertia(const Scene&, const ControlOwner&) { return Vec3::Constant(kInertiaScale); }
 
 std::vector<std::string> sizeComponents(const Scene& scene, const ControlOwner& o) {
   const Shape& shape = scene.bodies[o.body].shape;
@@ -66,7 +69,7 @@ const ControlKind kMassControl{
     .set = Mass::set,
     .gather = Mass::gather,
     .scatter = Mass::scatter,
-    .scale = oneScale,
+    .scale = scaleMass,
 };
 
 const ControlKind kInertiaControl{
@@ -81,7 +84,7 @@ const ControlKind kInertiaControl{
     .set = Moments::set,
     .gather = Moments::gather,
     .scatter = Moments::scatter,
-    .scale = xyzScale,
+    .scale = scaleInertia,
     .asks_inertia = true,
     .keeps_triangle = true,
 };

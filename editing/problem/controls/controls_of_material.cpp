@@ -2,6 +2,7 @@
 // Controls of a material: elasticity in [0, 1], friction >= 0, tangential elasticity in [-1, 1].
 
 #include "editing/problem/controls/control_families.hpp"
+#include "editing/problem/controls/natural_scales.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -19,6 +20,14 @@ using Elasticity = FieldNumbers<kElasticity>;
 using Friction = FieldNumbers<kFriction>;
 using TangentialElasticity = FieldNumbers<kTangentialElasticity>;
 
+Eigen::VectorXd scaleElasticity(const Scene& start, const ControlOwner& o) {
+  return oneNumber(elasticityScale(start.materials[o.material].elasticity));
+}
+Eigen::VectorXd scaleFriction(const Scene&, const ControlOwner&) { return oneNumber(kFrictionScale); }
+Eigen::VectorXd scaleTangentialElasticity(const Scene&, const ControlOwner&) {
+  return oneNumber(kTangentialElasticityScale);
+}
+
 }  // namespace
 
 const ControlKind kElasticityControl{
@@ -31,7 +40,7 @@ const ControlKind kElasticityControl{
     .set = Elasticity::set,
     .gather = Elasticity::gather,
     .scatter = Elasticity::scatter,
-    .scale = oneScale,
+    .scale = scaleElasticity,
 };
 
 const ControlKind kFrictionControl{
@@ -43,7 +52,7 @@ const ControlKind kFrictionControl{
     .set = Friction::set,
     .gather = Friction::gather,
     .scatter = Friction::scatter,
-    .scale = oneScale,
+    .scale = scaleFriction,
     .is_friction = true,
 };
 
@@ -57,7 +66,7 @@ const ControlKind kTangentialElasticityControl{
     .set = TangentialElasticity::set,
     .gather = TangentialElasticity::gather,
     .scatter = TangentialElasticity::scatter,
-    .scale = oneScale,
+    .scale = scaleTangentialElasticity,
 };
 
 }  // namespace carom::editing_detail

@@ -31,6 +31,7 @@ Eigen::VectorXd bodyScale(const Scene& start, const ControlOwner& o) {
   return Vec3::Constant(naturalScales(start, o.body).*kScale);
 }
 
+Eigen::VectorXd scaleOrientation(const Scene&, const ControlOwner&) { return Vec3::Ones(); }  // a radian
 Eigen::VectorXd getOrientation(const Scene&, const ControlOwner&) { return Eigen::VectorXd::Zero(3); }
 void setOrientation(const Eigen::VectorXd& values, const Scene& start, const ControlOwner& o, Scene& scene) {
   const Quat& written = start.bodies[o.body].orientation;
@@ -72,7 +73,7 @@ const ControlKind kOrientationControl{
     .set = setOrientation,
     .gather = gatherOrientation,
     .scatter = scatterOrientation,
-    .scale = xyzScale,
+    .scale = scaleOrientation,
     .gather_rate = gatherRateOrientation,
     .is_turn = true,
 };

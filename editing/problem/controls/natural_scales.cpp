@@ -9,6 +9,12 @@ namespace {
 
 constexpr double kStandardGravity = 9.81;
 
+/// A natural scale of velocity is this part of the speed at which bodies meet: four natural velocities.
+constexpr double kPartOfSpeed = 0.25;
+/// The parts of a speed and of an elasticity by which a change of them is just noticed, and the least elasticity with
+/// which the latter was measured.
+constexpr double kNoticedSpeed = 0.07, kNoticedElasticity = 0.1, kLeastElasticity = 0.125;
+
 double boundingDiameter(const Body& body) { return 2 * kindOf(body.shape).boundingRadius(body.shape); }
 
 double lengthOf(const Scene& scene, int body) {
@@ -44,6 +50,10 @@ NaturalScales naturalScales(const Scene& scene, int body) {
 double gravityScale(const Scene& scene) {
   const double g = scene.gravity.norm();
   return g > 0 ? g : kStandardGravity;
+}
+
+double elasticityScale(double elasticity) {
+  return kPartOfSpeed / kNoticedSpeed * kNoticedElasticity * std::max(elasticity, kLeastElasticity);
 }
 
 }  // namespace carom::editing_detail

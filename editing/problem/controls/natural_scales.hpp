@@ -21,4 +21,12 @@ NaturalScales naturalScales(const Scene& scene, int body);
 /// |g|, or 9.81 m/s^2 without gravity.
 double gravityScale(const Scene& scene);
 
+/// Natural scales of what bodies are made of, so that equal costs are about equally noticed: each is the change that is
+/// seen as well as a natural scale of velocity (docs/editing.md derives them and names the sources).
+double elasticityScale(double elasticity);  ///< of an elasticity that starts at this value
+inline constexpr double kFrictionScale = 1.0 / 6;
+inline constexpr double kTangentialElasticityScale = 0.35;
+inline constexpr double kMassScale = 0.5;     ///< of log(mass)
+inline constexpr double kInertiaScale = 0.5;  ///< of log(moment)
+
 }  // namespace carom::editing_detail
