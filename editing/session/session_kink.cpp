@@ -5,7 +5,7 @@
 
 #include <Eigen/SVD>
 
-#include "editing/report/event_margins.hpp"
+#include "editing/problem/margins/event_margins.hpp"
 
 namespace carom::editing_detail {
 namespace {

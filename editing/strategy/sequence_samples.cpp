@@ -10,6 +10,7 @@
 #include "editing/strategy/approach.hpp"
 #include "editing/strategy/landing.hpp"
 #include "editing/strategy/missing_impacts.hpp"
+#include "editing/strategy/neighbours.hpp"
 #include "editing/strategy/samples.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
@@ -19,6 +20,8 @@ namespace {
 /// Of points that lack impacts so many for each landing, at most, are looked at.
 constexpr std::size_t kLackingForEach = 4;
 constexpr int kApproachSteps = 8;
+/// Points beyond whose borders one round looks.
+constexpr std::size_t kCrossedInRound = 2;
 /// A solution from which the change could still fall by this share, if it were not for the border of its sequence.
 constexpr double kAtBorder = 0.05;
 /// Samples double from one round without a solution to the next, so often.
@@ -91,8 +94,34 @@ std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   for (const EditPointPtr& point : approachAll(std::move(lacking))) points.push_back(point);
   if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
   if (search_.best() != start_) points.insert(points.begin(), search_.best());
+  for (const EditPointPtr& point : neighbours(seek)) points.push_back(point);
   for (const EditPointPtr& point : crossings(points)) points.push_back(point);
   for (const EditPointPtr& point : points) search_.consider(point);
+  return points;
+}
+
+// Beyond the borders of the sequences of the start and of the smallest solutions, of each of them once.
+std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
+  std::vector<EditPointPtr> around;
+  const auto take = [&](const EditPointPtr& point) {
+    if (around.size() >= kCrossedInRound || std::find(crossed_.begin(), crossed_.end(), point) != crossed_.end()) return;
+    around.push_back(point), crossed_.push_back(point);
+  };
+  if (start_->rows.available && missingImpacts(search_.problem(), *start_).empty()) take(start_);
+  for (const EditPointPtr& solution : solutions_) take(solution);
+  std::vector<std::vector<Eigen::VectorXd>> beyond(around.size());
+  forAll(around.size(), [&](std::size_t i, ContactSource&) {
+    if (search_.differentiate(*around[i])) beyond[i] = beyondBorders(search_, *around[i], lengthToBeat(seek));
+  });
+  std::vector<Eigen::VectorXd> places;
+  for (const auto& list : beyond)
+    places.insert(places.end(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(std::min(list.size(), landings())));
+  std::vector<EditPointPtr> points(places.size());
+  forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
+    points[i] = search_.make(places[i], true, {{&contacts}});
+  });
+  std::erase(points, nullptr);
+  std::erase_if(points, [&](const EditPointPtr& p) { return !missingImpacts(search_.problem(), *p).empty(); });
   return points;
 }
 

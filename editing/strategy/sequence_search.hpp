@@ -14,8 +14,8 @@
 namespace carom::editing_detail {
 
 /// A local discrete search, after Harada, Witkin and Baraff (1995), in rounds. Each simulates samples around the start
-/// and the best point on all cores, leads some of those that lack an impact towards it, groups them by impact sequence
-/// and goes from the most promising of each group onto the constraints, whatever impacts that takes. Where the smallest
+/// and the best point on all cores, and points beyond the borders of their sequences, leads some of those that lack an
+/// impact towards it, groups them by impact sequence and goes from the most promising of each group onto the constraints, whatever impacts that takes. Where the smallest
 /// of those that arrived changes less than the best so far, its change is minimised within its sequence. Once there is
 /// a solution, only smaller changes are looked for: sequences that are seen to hold none, as their rows are linear, are
 /// left.
@@ -51,6 +51,7 @@ class SequenceSearch {
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
   std::vector<EditPointPtr> sample(Seek seek);
+  std::vector<EditPointPtr> neighbours(Seek seek);
   std::vector<EditPointPtr> crossings(const std::vector<EditPointPtr>& points);
   std::vector<EditPointPtr> approachAll(std::vector<EditPointPtr> lacking);
   std::vector<EditPointPtr> nearestOfEachGroup(const std::vector<EditPointPtr>& points) const;
@@ -67,6 +68,7 @@ class SequenceSearch {
   EditPointPtr start_;
   std::map<std::string, int> tries_;  // landings from a sequence so far
   std::vector<EditPointPtr> solutions_;
+  std::vector<EditPointPtr> crossed_;  // points beyond whose borders was looked
   EditPointPtr nearest_lacking_;
   double least_lack_ = std::numeric_limits<double>::infinity();
   int round_ = 0, rounds_without_ = 0;

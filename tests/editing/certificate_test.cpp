@@ -10,7 +10,7 @@
 #include <set>
 
 #include "editing/edit.h"
-#include "editing/report/event_margins.hpp"
+#include "editing/problem/margins/event_margins.hpp"
 #include "editing/report/motion_checks.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"

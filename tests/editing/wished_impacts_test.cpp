@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
@@ -198,6 +199,49 @@ TEST(WishedImpacts, AnImpactThatDoesNotComeIsLookedForUnlessTheSequenceStays) {
   EXPECT_NE(stays.message.find("mpact 3 with 'wall'"), std::string::npos) << stays.message;
 }
 
+/// A tumbling box above a floor.
+struct Tumble {
+  Scene scene;
+  OdeContacts contacts;
+  Edit edit;
+  explicit Tumble(bool reversed = false) : scene(sceneOf(reversed)), contacts(scene), edit(scene, contacts, 1) {
+    edit.vary(velocity("box"), angularVelocity("box"));
+  }
+  static Scene sceneOf(bool reversed) {
+    Scene scene = testing_scenes::thrownBox();
+    if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
+    return scene;
+  }
+};
+
+/// Of the first impact, "vertex +x-y-z on face", seen from the box.
+std::string featuresOfFirst(const Motion& motion) {
+  const Contact& c = motion.events.front().contacts.front();
+  const std::string text = motion.geometry->describe(c.a, c.b, c.features);
+  const std::size_t on = text.find(" on ");
+  if (c.a == bodyIndex(*motion.scene, "box")) return text;
+  return text.substr(on + 4) + " on " + text.substr(0, on);
+}
+
+TEST(WishedImpacts, FeaturesThatMeet) {
+  for (const bool reversed : {false, true}) {
+    const Tumble start(reversed);
+    const std::string was = featuresOfFirst(simulate(start.scene, start.contacts, 1));
+    Tumble same(reversed);
+    same.edit.sequence({"box floor (" + was + ")"});
+    const EditResult unchanged = same.edit.solve();
+    EXPECT_EQ(unchanged.status, EditStatus::solved) << unchanged.message;
+    EXPECT_EQ(unchanged.iterations, 0);
+    for (const std::string wish : {"vertex +x-y-z", "vertex -x+y+z"}) {
+      Tumble other(reversed);
+      other.edit.sequence({"floor box (* on " + wish + ")"});
+      const EditResult r = other.edit.solve();
+      ASSERT_TRUE(r.solved()) << wish << ": " << r.message;
+      EXPECT_TRUE(featuresOfFirst(r.motion).starts_with(wish + " on ")) << featuresOfFirst(r.motion);
+    }
+  }
+}
+
 void expectRefused(const Edit& edit, const std::string& place, const std::string& found) {
   try {
     edit.solve();
@@ -224,6 +268,8 @@ TEST(WishedImpacts, BadOnesAreRefused) {
   with([](Edit& e) { e.sequence({"cue red", "cue"}); }, "/constraints/0/sequence/1", "'cue'");
   with([](Edit& e) { e.sequence({"cue bl*"}); }, "/constraints/0/sequence/0", "two bodies");
   with([](Edit& e) { e.sequence({"..."}); }, "/constraints/0/sequence", "found no impact");
+  with([](Edit& e) { e.sequence({"cue red (ball)"}); }, "/constraints/0/sequence/0", "the features 'ball'");
+  with([](Edit& e) { e.sequence({"cue blue (ball on *)"}); }, "/constraints/0/sequence/0", "two bodies");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/report/event_margins.hpp"
+#include "editing/problem/margins/event_margins.hpp"
 
 #include <cmath>
 #include <limits>
@@ -10,7 +10,7 @@
 #include "adjoint/motion/body_geometry.h"
 #include "adjoint/numeric/elementary.hpp"
 #include "editing/detail/messages.hpp"
-#include "editing/report/event_bars.hpp"
+#include "editing/problem/margins/event_bars.hpp"
 
 namespace carom::editing_detail {
 

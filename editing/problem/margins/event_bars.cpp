@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/report/event_bars.hpp"
+#include "editing/problem/margins/event_bars.hpp"
 
 #include "adjoint/derivative/adjoint.h"
 #include "adjoint/motion/guard.hpp"

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "editing/problem/jacobian.hpp"
+#include "editing/problem/margins/event_margins.hpp"
+
+/// Internal to editing/.
+namespace carom::editing_detail {
+
+/// The margins of a motion of the problem, by the changes of its controls: of the first `most_events` impacts, as far as
+/// they count for the constraints, and to the instants at which these read them. `tape` is of a motion simulated at the
+/// unknowns, `rows` what the constraints read from it.
+std::vector<EventMargin> sequenceBorders(const EditProblem& problem, const Eigen::VectorXd& unknowns,
+                                         DerivativeTape& tape, const RowValues& rows, std::size_t most_events);
+
+}  // namespace carom::editing_detail
