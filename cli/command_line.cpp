@@ -97,7 +97,7 @@ class HelpFormatter : public CLI::Formatter {
 void addSettings(CLI::App& app, Settings& settings) {
   app.add_flag("--json", settings.json, "Print one JSON document, numbers to full precision")
       ->group(kCommonOptions);
-  app.add_option("--digits", settings.digits, "Significant digits of numbers in text, 6 if not given")
+  app.add_option("--digits", settings.digits, "Significant digits of numbers in text, if not given 6, in answers of edit 3")
       ->check(CLI::Range(1, 17))
       ->type_name("N")
       ->group(kCommonOptions);

@@ -2,6 +2,8 @@
 // carom edit: solves the edit of a document.
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -35,21 +37,36 @@ struct EditArguments {
   std::string effort = "normal";
 };
 
+/// Whole percents, as shares are compared by eye.
+std::string percent(double share) {
+  const long whole = std::lround(100 * share);
+  return whole == 0 && share > 0 ? "<1 %" : std::to_string(whole) + " %";
+}
+
 void printNumbers(Output& out, const std::vector<ChangedNumber>& changed) {
-  Table table({"control", ">before", "", ">after", ">change", "unit"});
+  Table table({"control", ">before", "", ">after", ">change", "unit", ">share"});
   for (const ChangedNumber& number : changed)
-    table.row({number.name, out.number(number.before), "->", out.number(number.after),
-               out.number(number.after - number.before), unitOf(number.name)});
+    table.row({number.name, out.roundedBeside(number.before, number.after), "->",
+               out.roundedBeside(number.after, number.before), out.rounded(number.after - number.before),
+               unitOf(number.name), percent(number.share)});
   if (!table.empty()) table.print(out);
+}
+
+/// A value on its target reads as the target does, which is as it was written.
+std::string valueBesideTarget(const Output& out, const HeldNumber& number) {
+  const bool on_target =
+      number.lower == number.upper && std::abs(number.error) <= 1e-6 * std::max(1e-3, std::abs(number.target));
+  return on_target ? out.number(number.target) : out.roundedBeside(number.value, number.target);
 }
 
 void printResiduals(Output& out, const EditResult& result) {
   Table table({"held", ">value", ">target", ">error", "unit"});
   for (const HeldNumber& number : result.residuals)
-    table.row({number.name, out.number(number.value), describeWanted(out, number.target, number.lower, number.upper),
-               out.number(number.error), unitOf(number.name)});
+    table.row({number.name, valueBesideTarget(out, number),
+               describeWanted(out, number.target, number.lower, number.upper), out.rounded(number.error),
+               unitOf(number.name)});
   if (!table.empty()) table.print(out);
-  for (const MetTime& met : result.times) out.text() << "  " << met.name << ": at " << out.number(met.time) << " s\n";
+  for (const MetTime& met : result.times) out.text() << "  " << met.name << ": at " << out.rounded(met.time) << " s\n";
 }
 
 void printCertificate(Output& out, const Certificate& certificate) {
@@ -69,22 +86,33 @@ void printResult(Output& out, const EditResult& result, bool all_impacts) {
   printResiduals(out, result);
   out.text() << '\n'
              << counted(result.iterations, "iteration") << ", " << Output::brief(result.milliseconds)
-             << " ms, largest error " << out.number(result.residual) << '\n';
+             << " ms\n";
   printSequences(out, result.sequence_before, result.sequence_after, all_impacts);
   printCertificate(out, result.certificate);
   if (!result.why_not.sentences.empty()) out.text() << "  why not:\n";
-  for (const std::string& sentence : result.why_not.sentences) out.text() << "    " << sentence << '\n';
+  for (const std::string& sentence : result.why_not.sentences)
+    if (result.message.find(sentence) == std::string::npos) out.text() << "    " << sentence << '\n';
   if (result.solved()) out.text() << out.styled(Look::good, nameOf(result.status)) << ": " << result.message << '\n';
+}
+
+/// What other impacts a solution has up to the last constraint.
+void printChanges(Output& out, const std::vector<SequenceChange>& changes) {
+  constexpr int kMost = 10;
+  int count = 0;
+  for (const SequenceChange& change : changes)
+    if (change.matters && ++count <= kMost) out.text() << "  " << change.sentence << '\n';
+  if (count > kMost) out.text() << "  " << counted(count - kMost, "more difference") << '\n';
 }
 
 void printAlternatives(Output& out, const EditResult& result) {
   for (std::size_t i = 0; i < result.alternatives.size(); ++i) {
     const EditAlternative& other = result.alternatives[i];
-    out.text() << "\nSolution " << i + 2 << ": change " << out.number(other.objective)
-               << " (solution 1: " << out.number(result.objective) << "), largest error " << out.number(other.residual)
-               << '\n';
+    out.text() << "\nSolution " << i + 2 << ": change " << out.roundedBeside(other.objective, result.objective)
+               << " (solution 1: " << out.roundedBeside(result.objective, other.objective) << "), largest error "
+               << out.rounded(other.residual) << '\n';
+    if (other.much_dearer) out.text() << "  Much dearer: it costs more than " << kMuchDearer << " times as much.\n";
     printNumbers(out, other.changed);
-    for (const SequenceChange& change : other.sequence_changes) out.text() << "  " << change.sentence << '\n';
+    printChanges(out, other.sequence_changes);
   }
 }
 
@@ -98,7 +126,7 @@ std::string fileOfSolution(const std::string& output, std::size_t number) {
 
 /// Of an edit that was stopped, the best so far is worth a file, if it is other than the start.
 bool isWorthWriting(const EditResult& result) {
-  return result.solved() || (result.status == EditStatus::cancelled && result.objective > 0);
+  return result.met || (result.status == EditStatus::cancelled && result.objective > 0);
 }
 
 /// Writes the solutions; the files that were written.
@@ -178,7 +206,8 @@ Exit edit(const EditArguments& options, Output& out) {
   } else {
     printResult(out, result, options.impacts);
     printAlternatives(out, result);
-    for (const std::string& file : files) sayWritten(out, file);
+    if (result.solved())
+      for (const std::string& file : files) sayWritten(out, file);
   }
   const bool stopped = out.interruption().signal() != 0;
   if (!result.solved()) out.fail(describeFailure(result, options.output, !files.empty()));
@@ -214,15 +243,16 @@ Action declareEdit(CLI::App& app) {
 
 const Command kEditCommand{
     "edit", "Find the smallest change of the controls that meets the constraints",
-    "Prints every control before and after, every constrained number with its error, and the impacts\n"
-    "before and after, of more than 50 only where they part, if not --impacts. The result is simulated\n"
-    "afresh: its errors are those of the edited scene.\n"
+    "Prints every control before and after with its share of what the change costs, every constrained\n"
+    "number with its error, and the impacts before and after, of more than 50 only where they part, if not\n"
+    "--impacts. Numbers have three digits, or as many as it takes to tell before from after; --json has\n"
+    "all. The result is simulated afresh: its errors are those of the edited scene.\n"
     "OUT.json is written only when all constraints are met, whole or not at all; the input stays as it\n"
-    "is unless -o names it. Ctrl-C ends the search: the best so far is printed and written, and the\n"
-    "command ends with 130. With --alternatives the others go to OUT-2.json, OUT-3.json, ...: each has\n"
-    "other impacts, or else clearly other numbers; the smallest change comes first, but a solution with\n"
-    "the scene's own impacts is always the first one. Ends with 3 and a sentence where the constraints\n"
-    "cannot be met.\n"
+    "is unless -o names it. Ctrl-C ends the search: the best so far, verified, is printed and written,\n"
+    "its status is cancelled, and the command ends with 130; a second Ctrl-C ends it at once. With\n"
+    "--alternatives the others go to OUT-2.json, OUT-3.json, ...: each has other impacts, or else clearly\n"
+    "other numbers; the smallest change comes first, and what costs more than ten times as much comes\n"
+    "last and is marked. Ends with 3 and a sentence where the constraints cannot be met.\n"
     "\n"
     "Examples:\n"
     "  carom edit scene.json\n"

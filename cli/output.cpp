@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/output.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -15,6 +16,16 @@ std::string Output::numberOf(int digits, double value) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, "%.*g", digits, value == 0 ? 0.0 : value);
   return buffer;
+}
+
+std::string Output::roundedBeside(double value, double other) const {
+  constexpr double kNoDifference = 1e-6;
+  std::string text = rounded(value);
+  if (std::abs(value - other) <= kNoDifference * std::max(std::abs(value), std::abs(other))) return text;
+  for (int digits = kFewDigits; text == rounded(other) && digits < 17; ++digits) {
+    if (numberOf(digits, value) != numberOf(digits, other)) return numberOf(digits, value);
+  }
+  return text;
 }
 
 std::string Output::vector(const Vec3& value) const {

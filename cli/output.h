@@ -16,7 +16,7 @@ namespace carom::cli {
 /// Options that every command has.
 struct Settings {
   bool json = false, quiet = false;
-  int digits = 6;
+  std::optional<int> digits;  ///< not given: what suits the number
 };
 
 /// What a command says. Standard output gets either text for people, or with --json one document, or with `-o -` the
@@ -44,9 +44,14 @@ class Output {
   std::string styled(Look look, const std::string& text) const { return colours() ? coloured(look, text) : text; }
 
   /// For people, with as many digits as they asked for; "-" where there is no number.
-  std::string number(double value) const { return numberOf(settings_.digits, value); }
+  std::string number(double value) const { return numberOf(settings_.digits.value_or(kDigits), value); }
+  /// Of answers that are read, not used: three digits, or as many as were asked for.
+  std::string rounded(double value) const { return numberOf(settings_.digits.value_or(kFewDigits), value); }
+  /// The same, with as many digits as it takes to tell it from another number that stands beside it, unless they differ by
+  /// less than anyone would call a difference.
+  std::string roundedBeside(double value, double other) const;
   /// The same with three digits, where more mean nothing.
-  static std::string brief(double value) { return numberOf(3, value); }
+  static std::string brief(double value) { return numberOf(kFewDigits, value); }
   /// With all digits.
   static std::string full(double value) { return numberOf(17, value); }
   /// "1, 0, 0"
@@ -62,6 +67,7 @@ class Output {
   void finish();
 
  private:
+  static constexpr int kDigits = 6, kFewDigits = 3;
   static std::string numberOf(int digits, double value);
 
   Settings settings_;

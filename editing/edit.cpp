@@ -114,7 +114,11 @@ EditResult Edit::solved(const EditOptions& options) const {
     solution.point = lowerObjective(search, solution.point);
   EditResult result = verify(scene_, search, solution);
   if (options.explain) explainInto(result, scene_, search, solution);
-  if (result.solved() && search.halt() != Halt::cancelled) result.alternatives = alternativesTo(scene_, search, solution);
+  // what stands against each other is said there, or else here
+  if (result.why_not.sentences.empty() && !solution.contradiction.empty())
+    result.message = solution.contradiction + " " + result.message;
+  if (result.solved() && !search.isCancelled()) result.alternatives = alternativesTo(scene_, search, solution);
+  if (search.isCancelled()) endAsCancelled("its answer was completed", result);
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   return result;
 }

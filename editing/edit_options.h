@@ -51,7 +51,8 @@ struct EditOptions {
   bool certify = true;   ///< fill in EditResult::certificate
   /// Of each motion, see SimulateOptions::step_limit: a point whose motion ends before its constraints is not taken.
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();
-  /// Once a stop is requested, from any thread, the edit ends with EditStatus::cancelled and the best that it has.
+  /// Once a stop is requested, from any thread, the edit ends with EditStatus::cancelled and the best that it has,
+  /// simulated afresh: EditResult::met says whether it meets the constraints.
   std::stop_token stop;
   bool explain = true;   ///< fill in EditResult::why_not where the edit is infeasible or does not converge
   std::function<bool(const EditProgress&)> progress;  ///< false cancels; must not solve an edit itself

@@ -19,7 +19,7 @@ enum class EditStatus {
   infeasible,               ///< the constraints cannot all be met, or no way was found from anywhere that was tried
   not_converged,            ///< the limit of iterations, or no progress
   out_of_time,              ///< the time budget was used up
-  cancelled,  ///< by the progress callback, or a stop was requested
+  cancelled,  ///< by the progress callback, or a stop was requested: the best so far, see EditResult::met
   bad_start,  ///< a constraint that the start's motion does not have: after its end, an impact not there
 };
 /// The word of the answers: "solved", "infeasible", ...
@@ -32,6 +32,9 @@ struct ChangedNumber {
   std::string component;  ///< "x"
   double before = 0;      ///< SI, at the start
   double after = 0;       ///< SI, in the result
+  /// Of what all changes cost: (w z)^2 over the sum of them, 0 where nothing changed. With Edit::minimise too, whatever
+  /// the change weighs beside the function.
+  double share = 0;
 };
 
 /// One number that was held, in the verified motion.
@@ -56,21 +59,26 @@ struct MetTime {
   double time = 0;     ///< s, when it is met
 };
 
+/// An alternative that costs more than this many times the result is much dearer.
+inline constexpr double kMuchDearer = 10;
+
 /// Another solution of an edit, simulated afresh like the result itself.
 struct EditAlternative {
   Scene scene;                                   ///< with its new values
   std::vector<ChangedNumber> changed;            ///< what differs from the start
-  double objective = 0;                          ///< 1/2 sum (w_i z_i)^2
+  double objective = 0;                          ///< 1/2 sum (w_i z_i)^2, or what Edit::minimise says
+  bool much_dearer = false;                      ///< its changes cost more than kMuchDearer times those of the result
   double residual = 0;                           ///< largest |error|, SI
   double scaled_residual = 0;                    ///< the same, dimensionless
   std::vector<std::string> sequence;             ///< one line an impact
-  std::vector<SequenceChange> sequence_changes;  ///< from the start's
+  std::vector<SequenceChange> sequence_changes;  ///< from the start's, as in EditResult
 };
 
 /// What came of an edit.
 struct EditResult {
   EditStatus status = EditStatus::not_converged;  ///< how it ended
   std::string message;  ///< what happened, in sentences
+  bool met = false;     ///< verified: all constraints are met in `motion`, in a cancelled edit too
   Scene scene;          ///< with its new values: the best that was found, whatever the status
   Motion motion;        ///< of that scene, simulated afresh
   std::vector<ChangedNumber> changed;  ///< all numbers that were free to change
@@ -84,9 +92,11 @@ struct EditResult {
   std::vector<std::string> sequence_before;  ///< of the start, one line an impact
   std::vector<std::string> sequence_after;   ///< of the result, one line an impact
   bool signature_changed = false;  ///< impacts that can matter to the constraints (up to the last one) are others
-  std::vector<SequenceChange> sequence_changes;  ///< which of them came, went, or moved to another feature
+  /// How the impacts differ from those of the start, from begin to end of both motions; those of signature_changed
+  /// are marked (SequenceChange::matters).
+  std::vector<SequenceChange> sequence_changes;
   /// Solutions besides this one, where EditOptions::alternatives asks for several: each of another impact sequence, or
-  /// else clearly of other numbers; the smallest change first.
+  /// else clearly of other numbers; the smallest objective first, but what is much dearer last.
   std::vector<EditAlternative> alternatives;
   Reliability reliability;  ///< of the derivatives at the result, worst row
   /// How much further the held numbers move with a small change of the start's states than in a free flight as long,
@@ -95,7 +105,7 @@ struct EditResult {
   Certificate certificate;  ///< of that motion
   WhyNot why_not;           ///< where the edit is infeasible or did not converge
 
-  /// Verified, whatever the sequence.
+  /// Verified, whatever the sequence, and not cancelled: it ended by itself.
   bool solved() const { return status == EditStatus::solved || status == EditStatus::solved_sequence_changed; }
 };
 

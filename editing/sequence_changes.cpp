@@ -27,9 +27,13 @@ constexpr int kOtherMode = 1;
 constexpr int kOtherFeatures = 2;
 constexpr int kAlone = 2;
 
+/// Lists whose alignment would take a larger table than this are compared place by place.
+constexpr std::size_t kLargestTable = 4'000'000;
+
 /// The impacts of one motion that count, as indices, by the bodies that meet.
 struct Sequence {
   const Motion& motion;
+  std::size_t held;  ///< so many events can matter to constraints
   std::map<Bodies, std::vector<int>> of;
 };
 
@@ -42,8 +46,8 @@ Bodies bodiesOf(const Event& event) {
   return bodies;
 }
 
-Sequence sequenceOf(const Motion& motion, std::size_t count) {
-  Sequence sequence{motion, {}};
+Sequence sequenceOf(const Motion& motion, std::size_t count, std::size_t held) {
+  Sequence sequence{motion, held, {}};
   for (std::size_t e = 0; e < std::min(count, motion.events.size()); ++e) {
     if (motion.events[e].counts()) sequence.of[bodiesOf(motion.events[e])].push_back(static_cast<int>(e));
   }
@@ -64,6 +68,12 @@ using Matches = std::vector<std::pair<int, int>>;
 /// The cheapest alignment of two lists, by dynamic programming over their beginnings.
 Matches align(const Sequence& before, const std::vector<int>& a, const Sequence& after, const std::vector<int>& b) {
   const std::size_t n = a.size(), m = b.size();
+  Matches matches;
+  if ((n + 1) * (m + 1) > kLargestTable) {
+    for (std::size_t i = 0; i < std::max(n, m); ++i)
+      matches.push_back({i < n ? static_cast<int>(i) : -1, i < m ? static_cast<int>(i) : -1});
+    return matches;
+  }
   std::vector<std::vector<int>> cost(n + 1, std::vector<int>(m + 1, 0));
   const auto together = [&](std::size_t i, std::size_t j) {
     return cost[i - 1][j - 1] + differenceOf(eventOf(before.motion, a[i - 1]), eventOf(after.motion, b[j - 1]));
@@ -77,7 +87,6 @@ Matches align(const Sequence& before, const std::vector<int>& a, const Sequence&
       cost[i][j] = std::min({together(i, j), cost[i - 1][j] + kAlone, cost[i][j - 1] + kAlone});
     }
   }
-  Matches matches;
   for (std::size_t i = n, j = m; i > 0 || j > 0;) {
     // where several alignments cost the same, later impacts come and go rather than earlier ones
     if (i > 0 && cost[i][j] == cost[i - 1][j] + kAlone) {
@@ -114,17 +123,27 @@ std::string featuresOf(const Motion& motion, int index) {
 
 std::string timeOf(const Motion& motion, int index) { return brief(eventOf(motion, index).time) + " s"; }
 
+bool isHeld(const Sequence& sequence, int index) { return static_cast<std::size_t>(index) < sequence.held; }
+
 /// Of one pair of matched impacts; nothing where they are alike.
 void compare(const Sequence& before, int e, const Sequence& after, int f, const std::string& impact,
              std::vector<SequenceChange>& changes) {
   const Event &a = eventOf(before.motion, e), &b = eventOf(after.motion, f);
+  const bool was_held = isHeld(before, e), is_held = isHeld(after, f);
+  if (was_held != is_held) {
+    const std::string side = is_held ? "before" : "after";
+    changes.push_back({Kind::passed, e, f, true,
+                       "The " + impact + ", which was at " + briefBeside(a.time, b.time) + " s, now comes " + side +
+                           " the last constraint, at " + briefBeside(b.time, a.time) + " s."});
+  }
+  const bool matters = was_held || is_held;
   if (!sameFeatures(a, b)) {
     changes.push_back(
-        {Kind::moved, e, f,
+        {Kind::moved, e, f, matters,
          "The " + impact + " moved from " + featuresOf(before.motion, e) + " to " + featuresOf(after.motion, f) + "."});
   } else if (branchOf(a.mode) != branchOf(b.mode)) {
-    changes.push_back(
-        {Kind::mode, e, f, "The " + impact + " changed from " + nameOf(a.mode) + " to " + nameOf(b.mode) + "."});
+    changes.push_back({Kind::mode, e, f, matters,
+                       "The " + impact + " changed from " + nameOf(a.mode) + " to " + nameOf(b.mode) + "."});
   }
 }
 
@@ -141,10 +160,12 @@ void compareBodies(const Sequence& before, const Sequence& after, const Bodies& 
     if (j < 0) {
       const int e = a[static_cast<std::size_t>(i)];
       changes.push_back(
-          {Kind::went, e, -1, "The " + impact + ", which was at " + timeOf(before.motion, e) + ", no longer happens."});
+          {Kind::went, e, -1, isHeld(before, e),
+           "The " + impact + ", which was at " + timeOf(before.motion, e) + ", no longer happens."});
     } else if (i < 0) {
       const int f = b[static_cast<std::size_t>(j)];
-      changes.push_back({Kind::came, -1, f, "The " + impact + ", at " + timeOf(after.motion, f) + ", came anew."});
+      changes.push_back({Kind::came, -1, f, isHeld(after, f),
+                         "The " + impact + ", at " + timeOf(after.motion, f) + ", came anew."});
     } else {
       compare(before, a[static_cast<std::size_t>(i)], after, b[static_cast<std::size_t>(j)], impact, changes);
     }
@@ -167,7 +188,7 @@ std::optional<SequenceChange> otherOrder(const Motion& before, std::size_t count
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     const Bodies was = bodiesOf(eventOf(before, a[i])), is = bodiesOf(eventOf(after, b[i]));
     if (was == is) continue;
-    return SequenceChange{Kind::order, a[i], b[i],
+    return SequenceChange{Kind::order, a[i], b[i], true,
                           "The impacts come in another order: that of " + namesOf(after, is) + " is the " +
                               ordinal(static_cast<int>(i) + 1) + " one, where that of " + namesOf(before, was) + " was."};
   }
@@ -185,40 +206,73 @@ SequenceChange otherContact(const Motion& before, std::size_t count_before, cons
   while (i < std::min(a.size(), b.size()) && alike(eventOf(before, a[i]), eventOf(after, b[i]))) ++i;
   const int was = i < a.size() ? a[i] : -1, is = i < b.size() ? b[i] : -1;
   if (was < 0 && is < 0)
-    return {Kind::contact, was, is, "What lasts in contact has changed: it begins or ends between other impacts."};
+    return {Kind::contact, was, is, true, "What lasts in contact has changed: it begins or ends between other impacts."};
   std::string what = "What lasts in contact has changed: ";
-  if (is < 0) return {Kind::contact, was, is, what + before.describeEvent(was) + " no longer comes."};
+  if (is < 0) return {Kind::contact, was, is, true, what + before.describeEvent(was) + " no longer comes."};
   what += after.describeEvent(is);
-  if (was < 0) return {Kind::contact, was, is, what + " comes anew."};
-  return {Kind::contact, was, is, what + ", where it was " + before.describeEvent(was) + "."};
+  if (was < 0) return {Kind::contact, was, is, true, what + " comes anew."};
+  return {Kind::contact, was, is, true, what + ", where it was " + before.describeEvent(was) + "."};
 }
 
-}  // namespace
-
-const char* nameOf(SequenceChange::Kind kind) {
-  return nameIn({"went", "came", "moved", "mode", "order", "contact"}, kind);
-}
-
-std::vector<SequenceChange> sequenceChanges(const Motion& before, std::size_t count_before, const Motion& after,
-                                            std::size_t count_after) {
-  std::vector<SequenceChange> changes;
-  if (before.signature(count_before) == after.signature(count_after)) return changes;
-  const Sequence a = sequenceOf(before, count_before), b = sequenceOf(after, count_after);
+std::vector<SequenceChange> changesByBodies(const Sequence& before, const Sequence& after) {
   std::map<Bodies, int> all;
-  for (const Sequence* s : {&a, &b}) {
+  for (const Sequence* s : {&before, &after}) {
     for (const auto& [bodies, events] : s->of) all[bodies];
   }
-  for (const auto& [bodies, unused] : all) compareBodies(a, b, bodies, changes);
-  if (changes.empty()) {
-    const auto order = otherOrder(before, count_before, after, count_after);
-    changes.push_back(order ? *order : otherContact(before, count_before, after, count_after));
-  }
+  std::vector<SequenceChange> changes;
+  for (const auto& [bodies, unused] : all) compareBodies(before, after, bodies, changes);
+  return changes;
+}
+
+SequenceChange otherOrderOrContact(const Motion& before, std::size_t count_before, const Motion& after,
+                                   std::size_t count_after) {
+  const auto order = otherOrder(before, count_before, after, count_after);
+  return order ? *order : otherContact(before, count_before, after, count_after);
+}
+
+void sortByTime(const Motion& before, const Motion& after, std::vector<SequenceChange>& changes) {
   const auto timeAt = [&](const SequenceChange& c) {
     if (c.before < 0 && c.after < 0) return kInfinity;
     return c.before >= 0 ? eventOf(before, c.before).time : eventOf(after, c.after).time;
   };
   std::stable_sort(changes.begin(), changes.end(),
                    [&](const SequenceChange& x, const SequenceChange& y) { return timeAt(x) < timeAt(y); });
+}
+
+}  // namespace
+
+const char* nameOf(SequenceChange::Kind kind) {
+  return nameIn({"went", "came", "moved", "mode", "order", "contact", "passed"}, kind);
+}
+
+std::vector<SequenceChange> sequenceChanges(const Motion& before, std::size_t count_before, const Motion& after,
+                                            std::size_t count_after) {
+  std::vector<SequenceChange> changes;
+  if (before.signature(count_before) == after.signature(count_after)) return changes;
+  changes = changesByBodies(sequenceOf(before, count_before, count_before), sequenceOf(after, count_after, count_after));
+  if (changes.empty()) changes.push_back(otherOrderOrContact(before, count_before, after, count_after));
+  sortByTime(before, after, changes);
+  return changes;
+}
+
+std::vector<SequenceChange> wholeSequenceChanges(const Motion& before, std::size_t held_before, const Motion& after,
+                                                 std::size_t held_after) {
+  const std::size_t all_before = before.events.size(), all_after = after.events.size();
+  const bool same_held = before.signature(held_before) == after.signature(held_after);
+  std::vector<SequenceChange> changes;
+  if (same_held && before.signature(all_before) == after.signature(all_after)) return changes;
+  changes = changesByBodies(sequenceOf(before, all_before, held_before), sequenceOf(after, all_after, held_after));
+  if (same_held) {
+    // the same number of impacts of each bodies is held in both: none has passed, and what differs comes later
+    for (SequenceChange& change : changes) change.matters = false;
+    if (changes.empty()) {
+      changes.push_back(otherOrderOrContact(before, all_before, after, all_after));
+      changes.back().matters = false;
+    }
+  } else if (std::none_of(changes.begin(), changes.end(), [](const SequenceChange& c) { return c.matters; })) {
+    changes.push_back(otherOrderOrContact(before, held_before, after, held_after));
+  }
+  sortByTime(before, after, changes);
   return changes;
 }
 

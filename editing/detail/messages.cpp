@@ -18,6 +18,16 @@ std::string brief(double value) {
   return buffer;
 }
 
+std::string briefBeside(double value, double other) {
+  char text[32], beside[32];
+  for (int digits = 3; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    std::snprintf(beside, sizeof beside, "%.*g", digits, other);
+    if (std::string(text) != beside || value == other) break;
+  }
+  return text;
+}
+
 std::string sentence(std::string clause) {
   if (!clause.empty()) clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
   return clause + ".";

@@ -13,6 +13,8 @@ namespace carom::editing_detail {
 std::string number(double value);
 /// Three significant digits, for sentences that people read while they work: "0.45", "1.2e-07".
 std::string brief(double value);
+/// Three significant digits, or as many as tell the number from another one that is named beside it.
+std::string briefBeside(double value, double other);
 /// A clause as a sentence: with a capital and a full stop.
 std::string sentence(std::string clause);
 /// "a, b and c".

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editing/report/alternatives.hpp"
 
+#include <algorithm>
+
 #include "editing/report/verify.hpp"
 #include "editing/strategy/sequence_search.hpp"
 
@@ -11,16 +13,21 @@ std::vector<EditAlternative> alternativesTo(const Scene& written, const EditSear
   std::vector<EditAlternative> alternatives;
   for (const EditPointPtr& point : solution.others) {
     if (static_cast<int>(alternatives.size()) + 1 >= search.options().alternatives) break;
+    if (search.isCancelled()) break;
     if (!areDistinct(*point, *solution.point)) continue;
     EditSolution other = solution;
     other.point = point;
     other.others.clear();
     EditResult result = verify(written, search, other);
     if (!result.solved()) continue;
-    alternatives.push_back({std::move(result.scene), std::move(result.changed), result.objective, result.residual,
-                            result.scaled_residual, std::move(result.sequence_after),
+    const double least = search.problem().change(solution.point->changes);
+    const bool dearer = search.problem().change(point->changes) > kMuchDearer * least;
+    alternatives.push_back({std::move(result.scene), std::move(result.changed), result.objective, dearer,
+                            result.residual, result.scaled_residual, std::move(result.sequence_after),
                             std::move(result.sequence_changes)});
   }
+  std::stable_partition(alternatives.begin(), alternatives.end(),
+                        [](const EditAlternative& other) { return !other.much_dearer; });
   return alternatives;
 }
 

@@ -22,7 +22,7 @@ void predictSignature(const EditProblem& problem, const Eigen::VectorXd& unknown
   certificate.signature_step = -nearest->value / nearest->gradient.squaredNorm() * nearest->gradient;
   std::string text = nearest->what;
   text[0] = 'T';
-  certificate.signature_event = text + " at a change of " + number(certificate.signature_radius) + ".";
+  certificate.signature_event = text + " at a change of " + brief(certificate.signature_radius) + ".";
 }
 
 }  // namespace

@@ -12,11 +12,14 @@
 namespace carom::editing_detail {
 namespace {
 
-std::vector<ChangedNumber> changesOf(const ControlSet& controls, const Eigen::VectorXd& values) {
+std::vector<ChangedNumber> changesOf(const ControlSet& controls, const EditPoint& point) {
+  const Eigen::VectorXd costs = point.changes.head(controls.size()).cwiseAbs2();
+  const double all = costs.sum();
   std::vector<ChangedNumber> changed;
   for (int i = 0; i < controls.size(); ++i) {
     const Variable& v = controls.variables()[i];
-    changed.push_back({v.control, controls.describeVariable(i), v.component, v.before, values[i]});
+    changed.push_back({v.control, controls.describeVariable(i), v.component, v.before, point.values[i],
+                       all > 0 ? costs[i] / all : 0});
   }
   return changed;
 }
@@ -68,28 +71,31 @@ Reliability reliabilityOf(const EditProblem& problem, const Motion& motion, cons
   return worst;
 }
 
-/// How the impacts that count differ from those of the scene as written. The start of the search is that, unless its
-/// bounds moved it.
-std::vector<SequenceChange> sequenceChangesOf(const Scene& written, const EditProblem& problem,
-                                              const EditSolution& solution) {
-  const EditPoint &start = *solution.start, &end = *solution.point;
-  const auto counted = [&](const Motion& motion, const Eigen::VectorXd& times) {
-    return problem.constraints.extentIn(motion, times).events;
-  };
-  const std::size_t after = counted(end.motion, end.rows.times);
-  if (!problem.controls.startMoved())
-    return sequenceChanges(start.motion, counted(start.motion, start.rows.times), end.motion, after);
-  const Motion motion = simulateScene(problem, written, problem.horizon);
-  return sequenceChanges(motion, counted(motion, {}), end.motion, after);
+/// The first few of those that matter, in sentences.
+std::string sentencesOf(const std::vector<SequenceChange>& changes) {
+  constexpr int kMost = 4;
+  std::string text;
+  int count = 0;
+  for (const SequenceChange& change : changes)
+    if (change.matters && ++count <= kMost) text += " " + change.sentence;
+  if (count > kMost) text += " (" + std::to_string(count - kMost) + " more differences.)";
+  return text;
 }
 
-/// The first few of them, in sentences.
-std::string sentencesOf(const std::vector<SequenceChange>& changes) {
-  constexpr std::size_t kMost = 4;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, changes.size()); ++i) text += " " + changes[i].sentence;
-  if (changes.size() > kMost) text += " (" + std::to_string(changes.size() - kMost) + " more differences.)";
-  return text;
+/// The impacts of the result beside those of the scene as written; `motion` is of that. The start of the search is that
+/// scene too, unless its bounds moved it.
+void compareImpacts(const EditProblem& problem, const EditSolution& solution, const Motion& motion,
+                    EditResult& result) {
+  const auto held = [&](const Motion& m, const Eigen::VectorXd& times) {
+    return problem.constraints.extentIn(m, times).events;
+  };
+  const Eigen::VectorXd times = problem.controls.startMoved() ? Eigen::VectorXd() : solution.start->rows.times;
+  result.sequence_changes =
+      wholeSequenceChanges(motion, held(motion, times), result.motion, held(result.motion, solution.point->rows.times));
+  result.signature_changed = std::any_of(result.sequence_changes.begin(), result.sequence_changes.end(),
+                                         [](const SequenceChange& c) { return c.matters; });
+  result.sequence_before = motion.describeEvents();
+  result.sequence_after = result.motion.describeEvents();
 }
 
 /// Fills in everything that is read from the motion of result.scene.
@@ -99,7 +105,6 @@ void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditRe
   result.times = metTimes(problem.constraints, rows);
   result.residual = largest(rows.residuals);
   result.scaled_residual = largest(rows.scaled);
-  result.sequence_after = result.motion.describeEvents();
   result.reliability = reliabilityOf(problem, result.motion, rows);
 }
 
@@ -116,8 +121,8 @@ Certificate certificateOf(const EditProblem& problem, const EditPoint& point, bo
 std::string roundingSentence(double growth, double tolerance) {
   const double rounding = growth * std::numeric_limits<double>::epsilon();
   if (!(rounding > tolerance)) return "";
-  return " Small changes grow " + number(growth) + "-fold up to the constraints, so that rounding alone moves them by " +
-         number(rounding) + " of the natural scales.";
+  return " Small changes grow " + brief(growth) + "-fold up to the constraints, so that rounding alone moves them by " +
+         brief(rounding) + " of the natural scales.";
 }
 
 void conclude(const EditOptions& options, const EditSolution& solution, bool as_it_was, EditResult& result) {
@@ -128,12 +133,13 @@ void conclude(const EditOptions& options, const EditSolution& solution, bool as_
   if (!(result.scaled_residual <= options.tolerance)) {
     result.status = EditStatus::not_converged;
     result.message = "The solution was not confirmed by simulating it afresh: it misses by " +
-                     number(result.scaled_residual) + " of the natural scales.";
+                     brief(result.scaled_residual) + " of the natural scales.";
     return;
   }
+  result.met = true;
   const bool unchanged = as_it_was && result.iterations == 0;
   result.message = unchanged ? "The start meets all constraints already."
-                             : "All constraints are met, the largest error is " + number(result.residual) + ".";
+                             : "All constraints are met, the largest error is " + brief(result.residual) + ".";
   if (result.signature_changed) {
     result.status = EditStatus::solved_sequence_changed;
     result.message += " The impacts on the way are others than before." + sentencesOf(result.sequence_changes);
@@ -143,6 +149,12 @@ void conclude(const EditOptions& options, const EditSolution& solution, bool as_
 
 }  // namespace
 
+void endAsCancelled(const std::string& meanwhile, EditResult& result) {
+  if (!result.solved()) return;
+  result.status = EditStatus::cancelled;
+  result.message += " It was cancelled while " + meanwhile + ".";
+}
+
 EditResult verify(const Scene& written, const EditSearch& search, const EditSolution& solution) {
   const EditProblem& problem = search.problem();
   const EditPoint& point = *solution.point;
@@ -150,25 +162,24 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   const bool as_it_was = problem.change(point.changes) == 0;
   const bool untouched = as_it_was && !problem.controls.startMoved();
   result.scene = untouched ? written : problem.controls.sceneAt(point.values);
-  result.changed = changesOf(problem.controls, point.values);
+  result.changed = changesOf(problem.controls, point);
   result.objective = point.objective;
   result.iterations = search.iterations();
-  result.sequence_changes = sequenceChangesOf(written, problem, solution);
-  result.signature_changed = !result.sequence_changes.empty();
-
   result.motion = simulateScene(problem, result.scene, problem.duration);
-  result.sequence_before = untouched ? result.motion.describeEvents()
-                                     : simulateScene(problem, written, problem.duration).describeEvents();
+  if (untouched) {
+    compareImpacts(problem, solution, result.motion, result);
+  } else {
+    compareImpacts(problem, solution, simulateScene(problem, written, problem.duration), result);
+  }
   readMotion(problem, problem.timesOf(point.changes), result);
-  if (search.options().certify && search.halt() != Halt::cancelled) {
+  if (search.options().certify && !search.isCancelled()) {
     Certificate& certificate = result.certificate = certificateOf(problem, point, untouched, result.motion);
     certificate.residual = result.residual;
     certificate.scaled_residual = result.scaled_residual;
     certificate.reliability = result.reliability;
   }
   conclude(search.options(), solution, as_it_was, result);
-  if (result.solved() && search.halt() == Halt::cancelled)
-    result.message += " It was cancelled while it looked for a smaller change.";
+  if (search.halt() == Halt::cancelled) endAsCancelled("it looked for a smaller change", result);
   result.growth = solution.growth;
   if (!result.solved()) result.message += roundingSentence(result.growth, search.options().tolerance);
   for (const std::string& note : problem.controls.notes()) result.message += " " + note;

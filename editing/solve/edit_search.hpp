@@ -99,6 +99,8 @@ class EditSearch {
   int iterations() const { return budget_.done(); }
   int iterationsLeft() const { return budget_.left(); }
   Halt halt() const { return budget_.halt(); }
+  /// The callback ended it, or a stop has been requested, whether or not that has ended anything yet.
+  bool isCancelled() const { return halt() == Halt::cancelled || options_.stop.stop_requested(); }
   bool goesOn() const { return halt() == Halt::none && iterationsLeft() > 0; }
   double secondsLeft() const { return budget_.secondsLeft(); }
 

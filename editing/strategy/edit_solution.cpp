@@ -69,14 +69,19 @@ EditPointPtr smallestConfirmed(EditSearch& search, SequenceSearch& across) {
   return nullptr;
 }
 
-/// "position.x of 'hat' at 1.4 s by 0.02 and ..."
+/// "position.x of 'hat' at 1.4 s by 0.02, and 2 others": the worst, as all are in EditResult::residuals.
 std::string unmetRows(const EditSearch& search, const EditPoint& point) {
-  std::vector<std::string> unmet;
+  const auto size = [&](int i) { return std::abs(point.rows.scaled[i]); };
+  int worst = -1, others = -1;
   for (int i = 0; i < search.problem().constraints.size(); ++i) {
-    if (std::abs(point.rows.scaled[i]) <= search.options().tolerance) continue;
-    unmet.push_back(search.problem().constraints.describeRow(i) + " by " + number(point.rows.residuals[i]));
+    if (size(i) <= search.options().tolerance) continue;
+    ++others;
+    if (worst < 0 || size(i) > size(worst)) worst = i;
   }
-  return listOf(unmet);
+  if (worst < 0) return "";
+  const std::string text =
+      search.problem().constraints.describeRow(worst) + " by " + brief(point.rows.residuals[worst]);
+  return others > 0 ? text + ", and " + std::to_string(others) + (others > 1 ? " others" : " other") : text;
 }
 
 EditSolution unsolved(EditSearch& search, EditSolution solution) {
@@ -146,12 +151,21 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   }
 }
 
-/// Distinct solutions until there are as many as the options ask for, the smallest change first.
-std::vector<EditPointPtr> moreSolutions(const EditSearch& search, SequenceSearch& across, const EditPointPtr& first) {
-  across.add(first);
+/// Distinct solutions until there are as many as the options ask for, the smallest change first. One that turns out smaller
+/// than the solution takes its place, where any impacts will do.
+void takeMoreSolutions(EditSearch& search, SequenceSearch& across, EditSolution& solution) {
+  across.add(solution.point);
   const auto enough = static_cast<std::size_t>(search.options().alternatives);
   while (across.solutions().size() < enough && across.round(SequenceSearch::Seek::others)) continue;
-  return across.solutions();
+  solution.others = across.solutions();
+  if (search.options().sequence != SequencePolicy::smallest) return;
+  for (const EditPointPtr& other : solution.others) {
+    if (!(other->objective < solution.point->objective)) return;
+    const EditPointPtr point = polished(search, other);
+    if (!search.reached(*point) || !isConfirmed(search, *point)) continue;
+    solution.point = point;
+    return;
+  }
 }
 
 }  // namespace
@@ -201,11 +215,11 @@ EditSolution findSolution(EditSearch& search) {
     if (across.nearestLacking() && !across.nearestLacking()->rows.available && !solution.point->rows.available)
       solution.message += " " + across.nearestLacking()->rows.message + " " +
                           describeApproach(search.problem(), *across.nearestLacking());
-    if (contradicts && search.halt() == Halt::none) solution.message = choice.contradiction + " " + solution.message;
+    if (search.halt() == Halt::none) solution.contradiction = choice.contradiction;
     return solution;
   }
   solution.status = EditStatus::solved;
-  if (may_leave && search.options().alternatives > 1) solution.others = moreSolutions(search, across, solution.point);
+  if (may_leave && search.options().alternatives > 1) takeMoreSolutions(search, across, solution);
   return solution;
 }
 

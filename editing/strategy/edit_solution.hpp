@@ -17,6 +17,7 @@ struct EditSolution {
   double growth = 0;                 ///< of the start's motion, see growthOf; 0: not measured
   EditStatus status = EditStatus::not_converged;
   std::string message;  ///< why, when it is not solved
+  std::string contradiction;  ///< which constraints stand against each other in the start's impacts; may be empty
 };
 
 EditSolution findSolution(EditSearch& search);

@@ -81,7 +81,7 @@ std::string readTooEarly(const EditSearch& search, const EditPoint& start) {
     const When& at = problem.constraints.constraints()[static_cast<std::size_t>(row.constraint)].at;
     if (at.span || at.impact > 0 || !(at.time <= *first)) continue;
     return "In this impact sequence no control can influence " + problem.constraints.describeRow(i) + " (off by " +
-           number(start.rows.residuals[i]) +
+           brief(start.rows.residuals[i]) +
            "), and in no other: what varies acts in impacts alone, and none comes before.";
   }
   return "";

@@ -35,7 +35,7 @@ EditPointPtr pointBeside(EditSearch& search, const EditPoint& start, int which) 
 
 std::string offBy(const EditSearch& search, const EditPoint& point, int row) {
   const ConstraintSet& constraints = search.problem().constraints;
-  return constraints.describeRow(row) + " (off by " + number(point.rows.residuals[row]) + ")";
+  return constraints.describeRow(row) + " (off by " + brief(point.rows.residuals[row]) + ")";
 }
 
 /// With the number that it shall have, where it is one that can be read: two nails of one thing are told apart by it.

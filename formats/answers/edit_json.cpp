@@ -13,7 +13,7 @@ using Layout = JsonWriter::Layout;
 void writeChanged(JsonWriter& out, const std::vector<ChangedNumber>& changed) {
   out.objects("changed", changed, Layout::line, [&](const ChangedNumber& number) {
     out.members("control", number.control, "component", number.component, "name", number.name);
-    out.members("before", number.before, "after", number.after);
+    out.members("before", number.before, "after", number.after, "share", number.share);
   });
 }
 
@@ -79,7 +79,7 @@ void writeSequenceChanges(JsonWriter& out, const std::vector<SequenceChange>& ch
   const auto event = [](int index) { return index < 0 ? std::nullopt : std::optional(index); };
   out.objects("sequence_changes", changes, Layout::line, [&](const SequenceChange& change) {
     out.members("kind", nameOf(change.kind), "before", event(change.before), "after", event(change.after));
-    out.members("sentence", change.sentence);
+    out.members("matters", change.matters, "sentence", change.sentence);
   });
 }
 
@@ -90,7 +90,7 @@ std::string editJson(const EditResult& result, const std::vector<std::string>& o
   const auto next_output = [&] { return solution < outputs.size() ? textOrNone(outputs[solution++]) : std::nullopt; };
   JsonWriter out;
   out.beginObject();
-  out.members("status", nameOf(result.status), "message", result.message);
+  out.members("status", nameOf(result.status), "message", result.message, "met", result.met);
   writeChanged(out, result.changed);
   writeResiduals(out, result.residuals);
   writeTimes(out, result.times);
@@ -104,7 +104,8 @@ std::string editJson(const EditResult& result, const std::vector<std::string>& o
   writeWhyNot(out, result.why_not);
   out.members("output", next_output());
   out.objects("alternatives", result.alternatives, Layout::block, [&](const EditAlternative& other) {
-    out.members("objective", other.objective, "residual", other.residual, "scaled_residual", other.scaled_residual);
+    out.members("objective", other.objective, "much_dearer", other.much_dearer);
+    out.members("residual", other.residual, "scaled_residual", other.scaled_residual);
     writeChanged(out, other.changed);
     out.members("sequence", other.sequence);
     writeSequenceChanges(out, other.sequence_changes);

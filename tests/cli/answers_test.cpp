@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "adjoint/simulate/simulate.h"
 #include "editing/problem/jacobian.hpp"
@@ -165,10 +166,14 @@ TEST_P(OnScene, EditMeetsEveryConstraintAndWritesTheScene) {
   EXPECT_EQ(readText(path()), before);
   EXPECT_EQ(membersOf(answer),
             (Names{"alternatives",    "certificate",      "changed",           "growth",   "iterations",
-                   "message",         "milliseconds",     "objective",         "output",   "reliable",
-                   "residual",        "residuals",        "scaled_residual",   "sequence_after",
-                   "sequence_before", "sequence_changes", "signature_changed", "status",   "times",
-                   "why_not"}));
+                   "message",         "met",              "milliseconds",      "objective", "output",
+                   "reliable",        "residual",         "residuals",         "scaled_residual",
+                   "sequence_after",  "sequence_before",  "sequence_changes",  "signature_changed",
+                   "status",          "times",            "why_not"}));
+  EXPECT_TRUE(answer["met"].get<bool>());
+  double shares = 0;
+  for (const json& changed : answer["changed"]) shares += changed["share"].get<double>();
+  EXPECT_TRUE(std::abs(shares - (answer["objective"] == 0 ? 0 : 1)) <= 1e-12) << shares;
   EXPECT_TRUE(answer["why_not"].is_null());
   EXPECT_TRUE(answer["certificate"]["deepest_penetration"].get<double>() <= 1e-9) << answer["certificate"];
   EXPECT_EQ(answer["output"], edited);
@@ -232,6 +237,28 @@ TEST_P(OnScene, ValidateAcceptsAndInfoExplains) {
 TEST_P(OnScene, TextForPeopleComesWithoutJson) {
   for (const char* command : {"simulate", "gradient", "check", "validate", "info"})
     expectTextForPeople(command, path());
+}
+
+// Three digits, and nothing twice; what people wrote is shown as they wrote it.
+TEST(Digits, OfAnEditArePlentyWithThree) {
+  const std::vector<std::string> words{"edit", scenePath("ball-over-wall")};
+  const CommandRun run = runCommand(words);
+  const json answer = runJson(words);
+  const auto count = [&](const std::string& text) {
+    int found = 0;
+    for (std::size_t at = run.out.find(text); at != std::string::npos; at = run.out.find(text, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("largest error"), 1) << run.out;
+  EXPECT_EQ(count("share"), 1);
+  for (const json& changed : answer["changed"]) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.3g", changed["after"].get<double>() - changed["before"].get<double>());
+    EXPECT_NE(run.out.find(text), std::string::npos) << text << '\n' << run.out;
+  }
+  const std::regex longer("[1-9][0-9]*[.][0-9]{4,}|0[.]0*[1-9][0-9]{3,}");
+  EXPECT_FALSE(std::regex_search(run.out, longer)) << run.out;
+  EXPECT_TRUE(std::regex_search(runCommand({words[0], words[1], "--digits", "17"}).out, longer));
 }
 
 TEST(Digits, ShowEverythingAtSeventeen) {

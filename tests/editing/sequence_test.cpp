@@ -168,7 +168,7 @@ TEST(Alternatives, AreDistinctAndRanked) {
   ASSERT_GE(r.alternatives.size(), 1u);
   EXPECT_LE(r.alternatives.size(), 2u);
   std::vector<const Scene*> scenes = {&r.scene};
-  double least = 0;
+  double least = r.objective;
   for (const EditAlternative& other : r.alternatives) {
     EXPECT_TRUE(other.scaled_residual <= 1e-9) << other.scaled_residual;
     EXPECT_GE(other.objective, least);

@@ -57,7 +57,7 @@ class MarginReader {
     EventMargin m = start(Way::order, event);
     m.value = second.time - first.time;
     m.gradient = timeGradient(next) - timeGradient(event);
-    m.what = name(event, 0) + " and " + name(next, 0) + " change places";
+    m.what = name(event, 0, second.time) + " and " + name(next, 0, first.time) + " change places";
     margins_.push_back(std::move(m));
   }
 
@@ -70,8 +70,8 @@ class MarginReader {
     if (instant.end) {
       m.what = name(event, 0) + " comes after the end of the motion";
     } else {
-      m.what = name(event, 0) + (m.value >= 0 ? " comes after " : " comes before ") + number(instant.time) +
-               " s, when it is read";
+      m.what = name(event, 0, instant.time) + (m.value >= 0 ? " comes after " : " comes before ") +
+               briefBeside(instant.time, e.time) + " s, when it is read";
     }
     margins_.push_back(std::move(m));
   }
@@ -79,10 +79,11 @@ class MarginReader {
  private:
   const Event& eventAt(int event) const { return motion_.events[static_cast<std::size_t>(event)]; }
   const std::string& bodyName(int body) const { return motion_.scene->bodies[static_cast<std::size_t>(body)].name; }
-  std::string name(int event, int contact) const {
+  /// With its time, which is told from another one that is named beside it.
+  std::string name(int event, int contact, double beside = kInfinity) const {
     const Contact& c = eventAt(event).contacts[static_cast<std::size_t>(contact)];
-    return "the impact of '" + bodyName(c.a) + "' with '" + bodyName(c.b) + "' at " + number(eventAt(event).time) +
-           " s";
+    return "the impact of '" + bodyName(c.a) + "' with '" + bodyName(c.b) + "' at " +
+           briefBeside(eventAt(event).time, beside) + " s";
   }
 
   static EventMargin start(Way way, int event) {
