@@ -21,7 +21,7 @@ namespace {
 /// What counts as a smaller change, as a share of the objective.
 constexpr double kClearlyLess = 0.98;
 /// Points beside one on a border, and how far they are from it, as a share of the change.
-constexpr int kPointsBeside = 16;
+constexpr int kDirectionsBeside = 16;
 constexpr double kBeside = 1e-4;
 /// An objective from which on twice as many rounds without a smaller one are waited for: a third of a natural scale.
 constexpr double kLargeChange = 0.05;
@@ -48,7 +48,7 @@ EditPointPtr confirmedBeside(EditSearch& search, EditPoint& point) {
   if (!search.differentiate(point)) return nullptr;
   const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
   const EvenPoints directions(free.cols());
-  for (int k = 0; k < kPointsBeside && free.cols() > 0; ++k) {
+  for (int k = 0; k < kDirectionsBeside && free.cols() > 0; ++k) {
     const Eigen::VectorXd beside = point.changes + kBeside * point.changes.norm() * (free * directions.onSphere(k));
     const EditPointPtr trial = search.evaluate(beside.cwiseMax(search.lower()).cwiseMin(search.upper()));
     const EditPointPtr met = trial ? projectOntoConstraints(search, trial, kOntoSteps) : nullptr;
