@@ -19,6 +19,8 @@ constexpr std::size_t kMostEvents = 16;
 constexpr double kBeyond = 0.05, kLeastBeyond = 1e-4;
 /// A direction that crosses a border by less than this share of its gradient does not cross it.
 constexpr double kAlong = 1e-3;
+/// Borders that are farther away, in natural scales, are not looked at.
+constexpr double kFarthest = 3;
 
 }  // namespace
 
@@ -32,22 +34,22 @@ std::vector<Eigen::VectorXd> beyondBorders(const EditSearch& search, const EditP
   const double beyond = std::max(kLeastBeyond, kBeyond * lengthOf(problem, smallest));
   DerivativeTape tape(point.motion);
   std::vector<std::pair<double, Eigen::VectorXd>> places;
+  const auto add = [&](const Eigen::VectorXd& to) {
+    Eigen::VectorXd place = to.cwiseMax(search.lower()).cwiseMin(search.upper());
+    const double length = lengthOf(problem, place);
+    if (length < below) places.emplace_back(length, std::move(place));
+  };
   for (const EventMargin& border : sequenceBorders(problem, point.changes, tape, point.rows, kMostEvents)) {
     const double slope = border.gradient.norm();
     if (!(slope > 0) || !std::isfinite(slope) || !std::isfinite(border.value)) continue;
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(point.changes.size());
-    gradient.head(n) = border.gradient / slope;
-    const Eigen::VectorXd across = free * (free.transpose() * gradient);
-    const double rate = across.squaredNorm();  // of the border's distance along `across`
-    if (!(rate > kAlong * kAlong)) continue;
-    // where the smallest change is, seen from the border: on this side of it, or beyond
-    const double side = border.value < 0 ? -1 : 1;
-    const double before = side * (border.value / slope + gradient.dot(smallest - point.changes));
-    const double way = std::max(0.0, before + beyond) / rate;
-    const Eigen::VectorXd place =
-        (smallest - side * way * across).cwiseMax(search.lower()).cwiseMin(search.upper());
-    const double length = lengthOf(problem, place);
-    if (length < below) places.emplace_back(length, place);
+    Eigen::VectorXd normal = Eigen::VectorXd::Zero(point.changes.size());
+    normal.head(n) = (border.value < 0 ? -1 : 1) / slope * border.gradient;
+    const double distance = std::abs(border.value) / slope;
+    if (distance < kFarthest) add(point.changes - (distance + beyond) * normal);
+    const Eigen::VectorXd across = free * (free.transpose() * normal);
+    const double rate = across.squaredNorm();  // of the distance from the border along `across`
+    const double before = distance + normal.dot(smallest - point.changes);  // of the smallest change
+    if (rate > kAlong * kAlong) add(smallest - std::max(0.0, before + beyond) / rate * across);
   }
   std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Eigen::VectorXd> list;
