@@ -22,7 +22,15 @@ struct LevelGlideTurn {
   using Weights = std::array<double, kTerms>;
 
  private:
-  void addSegment(const Vec3& wh, const Vec3& bh2, const Vec3& d, double h, double now, const Weights& weights);
+  // The turn over a segment, the integrals of it and of it times the share of the segment, and that of its transpose
+  // times d, weighted.
+  struct Segment {
+    Mat3 turn, K0, K1;
+    Vec3 bent;
+  };
+  static Segment segment(const Vec3& wh, const Vec3& bh2, const Vec3& d, const Weights& weights);
+  static Segment planarSegment(const Vec3& wh, const Vec3& bh2, const Vec3& d, const Weights& weights);
+  void add(const Segment& s, double h, double now);
 };
 
 /// Shares of a level glide: of y log y and its integral, which is 0 at x = 0, with all their digits where x is small.
