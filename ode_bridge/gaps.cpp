@@ -87,13 +87,18 @@ void fold(const JacobianOf<S>& J, int column, const Turned<S>& f, Eigen::Ref<Eig
   const auto JP = J.template middleCols<3>(column), JD = J.template middleCols<3>(column + 3);
   by_pose.template leftCols<3>() = JP;
   by_pose.template rightCols<3>() = -JP * skew(f.arm) - JD * skew(f.direction);
-  by_size = JP * f.point_rates + J.col(column + 6) * f.radius_rates + J.col(column + 7) * f.rim_rates;
-  if (f.apex_rates.size() > 0) by_size += J.col(column + 8) * f.apex_rates;
+  by_size.resize(7, f.point_rates.cols());
+  for (Eigen::Index c = 0; c < by_size.cols(); ++c) {  // most shapes have one dimension or three, a plane has none
+    by_size.col(c) = JP * V3<S>(f.point_rates.col(c)) + J.col(column + 6) * S(f.radius_rates[c]) +
+                     J.col(column + 7) * S(f.rim_rates[c]);
+    if (f.apex_rates.size() > 0) by_size.col(c) += J.col(column + 8) * S(f.apex_rates[c]);
+  }
 }
 
 Turned<double> turnedFeature(const Solid& solid, const Feature& f, const Pose& pose) {
   FeatureRates rates = ratesOf(solid, f);
-  return {pose.R * f.point,        pose.R * f.direction, pose.R * rates.point,
+  for (Eigen::Index c = 0; c < rates.point.cols(); ++c) rates.point.col(c) = pose.R * Vec3(rates.point.col(c));
+  return {pose.R * f.point,        pose.R * f.direction, std::move(rates.point),
           std::move(rates.radius), std::move(rates.rim), std::move(rates.apex)};
 }
 

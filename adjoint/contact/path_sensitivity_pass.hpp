@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "adjoint/contact/ball_sensitivity.hpp"
 #include "adjoint/contact/glide_turn_rates.hpp"
 #include "adjoint/contact/path_sensitivity.hpp"
 #include "adjoint/contact/turn_integrals.hpp"
@@ -190,6 +191,9 @@ class SensitivityColumns {
 
 template <class S>
 PathSensitivity<S> pathSensitivity(PathForm form, const PathInputs<S>& in, const S& elapsed, bool orientation) {
+  if constexpr (std::is_same_v<S, double>) {
+    if (const auto closed = ballSensitivity(form, in, elapsed, orientation)) return *closed;
+  }
   PathSensitivity<S> sensitivity;
   if (form == PathForm::rest) {
     sensitivity.J.setZero();

@@ -6,6 +6,7 @@
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/derivative/seed.hpp"
+#include "adjoint/derivative/single_impact.hpp"
 #include "adjoint/derivative/waiting_bars.hpp"
 
 namespace carom {
@@ -45,25 +46,38 @@ class ReversePass {
       return motion_.world_lines[b].arcs[static_cast<std::size_t>(place.arc)].rateAt(place.time, place.state);
     };
     if (seed.at.event >= 0 && bars_.readAtEvent(seed.at, seed.body, bar, seed.time, rate)) return;
-    throughArc(seed.body, place.arc, place.time, tape_.arcUntil(seed.body, place.arc, place.time), bar);
+    throughArc(seed.body, place.arc, place.time, bar,
+               [&]() -> ArcSensitivity { return tape_.arcUntil(seed.body, place.arc, place.time); });
   }
 
-  // From time t on arc k back to the start of the arc, which is an event or the start of the motion.
-  void throughArc(int body, int k, double t, const ArcSensitivity& S, const StateDerivative& bar) {
+  // From time t on arc k back to the start of the arc, which is an event or the start of the motion. Where nothing
+  // depends on how the body has turned in flight, its sensitivity is not asked for.
+  template <class Sensitivity>
+  void throughArc(int body, int k, double t, const StateDerivative& bar, const Sensitivity& sensitivity) {
     const auto b = static_cast<std::size_t>(body);
     const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
     if (reliability_) reliability_->passArc(motion_, body, k);
-    bars_.arriveAt(body, k, arcPullback(arc, t, S, bar, bars_.scene, bars_.model[b]));
+    static const ArcSensitivity kUnturned;
+    const bool turns = arc.path() || !isZero(bar.theta);
+    const StateDerivative start = turns ? arcPullback(arc, t, sensitivity(), bar, bars_.scene, bars_.model[b])
+                                        : arcPullback(arc, t, kUnturned, bar, bars_.scene, bars_.model[b]);
+    bars_.arriveAt(body, k, start);
   }
 
   void throughEvent(int index, const Bars::AtEvent& at) {
     const Event& event = motion_.events[static_cast<std::size_t>(index)];
-    const std::vector<StateDerivative> before =
-        tape_.event(index).pullback(at.after, at.before, at.time, bars_.scene, bars_.model);
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const Participant& p = event.participants[i];
-      if (before[i].isZero()) continue;
-      throughArc(p.body, p.arc, event.time, tape_.arc(p.body, p.arc), before[i]);
+    const auto onward = [&](const auto& before) {
+      for (std::size_t i = 0; i < event.participants.size(); ++i) {
+        const Participant& p = event.participants[i];
+        if (before[i].isZero()) continue;
+        throughArc(p.body, p.arc, event.time, before[i],
+                   [&]() -> const ArcSensitivity& { return tape_.arc(p.body, p.arc); });
+      }
+    };
+    if (const SingleImpact* single = tape_.singleImpact(index)) {
+      onward(single->pullback(at.after, at.before, at.time, bars_.scene, bars_.model));
+    } else {
+      onward(tape_.event(index).pullback(at.after, at.before, at.time, bars_.scene, bars_.model));
     }
   }
 

@@ -9,6 +9,7 @@
 #include "adjoint/contact/contact_path.hpp"
 #include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
+#include "adjoint/derivative/single_impact.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 #include "adjoint/motion/time_argument.hpp"
@@ -85,6 +86,19 @@ ArcSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
   if (found != until_.end()) return found->second;
   if (until_.size() == kRemembered) until_.clear();
   return until_[{body, k, t}] = sensitivity(motion_, body, k, t);
+}
+
+const SingleImpact* DerivativeTape::singleImpact(int event) {
+  const std::size_t e = checkedIndex("DerivativeTape::singleImpact", "event", event, motion_.events.size());
+  if (!SingleImpact::is(motion_.events[e])) return nullptr;
+  if (single_impacts_.empty()) {
+    single_impacts_.resize(motion_.events.size());
+    for (std::size_t b = 0; b < arcs_.size(); ++b)
+      materials_.push_back(materialIndexOf(*motion_.scene, static_cast<int>(b)));
+  }
+  auto& slot = single_impacts_[e];
+  if (!slot) slot = std::make_unique<SingleImpact>(motion_, motion_.events[e], materials_);
+  return slot.get();
 }
 
 const EventLinearization& DerivativeTape::event(int event) {

@@ -13,6 +13,7 @@ namespace carom {
 
 namespace adjoint_detail {
 class EventLinearization;
+class SingleImpact;
 struct PathLinearization;
 }
 
@@ -100,12 +101,16 @@ class DerivativeTape {
   ArcSensitivity arcUntil(int body, int k, double t);
   /// Linearisation of an event.
   const adjoint_detail::EventLinearization& event(int event);
+  /// The same of an impact of one contact in fixed sizes, for reverse passes; null for any other event.
+  const adjoint_detail::SingleImpact* singleImpact(int event);
 
  private:
   const Motion& motion_;
   std::vector<std::vector<std::unique_ptr<ArcSensitivity>>> arcs_;
   std::map<std::tuple<int, int, double>, ArcSensitivity> until_;  // by body, arc and time
   std::vector<std::unique_ptr<adjoint_detail::EventLinearization>> events_;
+  std::vector<std::unique_ptr<adjoint_detail::SingleImpact>> single_impacts_;
+  std::vector<int> materials_;  // of the bodies; -1 for none
 };
 
 }  // namespace carom

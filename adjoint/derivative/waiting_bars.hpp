@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-#include <map>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "adjoint/derivative/derivative_tape.h"
@@ -22,7 +22,11 @@ class WaitingBars {
   };
 
   explicit WaitingBars(const Motion& motion)
-      : scene(*motion.scene), start(motion.world_lines.size()), model(motion.world_lines.size()), motion_(motion) {}
+      : scene(*motion.scene),
+        start(motion.world_lines.size()),
+        model(motion.world_lines.size()),
+        motion_(motion),
+        slot_of_(motion.events.size(), -1) {}
 
   SceneDerivativeOf<S> scene;
   // a body each: of the start, and of the mass properties
@@ -59,11 +63,13 @@ class WaitingBars {
   template <class Through>
   void eachEvent(const Through& through) {
     while (!pending_.empty()) {
-      const auto latest = pending_.begin();
-      const int event = latest->first;
-      const AtEvent bars = std::move(latest->second);
-      pending_.erase(latest);
-      through(event, bars);
+      std::ranges::pop_heap(pending_);
+      const int event = pending_.back(), slot = slot_of_[static_cast<std::size_t>(event)];
+      pending_.pop_back();
+      AtEvent bars = std::move(slots_[static_cast<std::size_t>(slot)]);
+      through(event, std::as_const(bars));
+      slots_[static_cast<std::size_t>(slot)] = std::move(bars);
+      free_.push_back(slot);
     }
   }
 
@@ -73,14 +79,29 @@ class WaitingBars {
     return static_cast<std::size_t>(&p - eventOf(event).participants.data());
   }
   AtEvent& atEvent(int event) {
-    AtEvent& at = pending_[event];
-    at.after.resize(eventOf(event).participants.size());
-    at.before.resize(eventOf(event).participants.size());
+    int& slot = slot_of_[static_cast<std::size_t>(event)];
+    if (slot >= 0) return slots_[static_cast<std::size_t>(slot)];
+    if (free_.empty()) {
+      slot = static_cast<int>(slots_.size());
+      slots_.emplace_back();
+    } else {
+      slot = free_.back();
+      free_.pop_back();
+    }
+    pending_.push_back(event);
+    std::ranges::push_heap(pending_);
+    AtEvent& at = slots_[static_cast<std::size_t>(slot)];
+    at.after.assign(eventOf(event).participants.size(), {});
+    at.before.assign(eventOf(event).participants.size(), {});
+    at.time = 0;
     return at;
   }
 
   const Motion& motion_;
-  std::map<int, AtEvent, std::greater<>> pending_;
+  std::vector<int> pending_;     // a heap of events, the latest first
+  std::vector<int> slot_of_;     // of each event; -1: nothing has arrived
+  std::vector<AtEvent> slots_;   // which keep their memory for events to come
+  std::vector<int> free_;        // slots whose event is through
 };
 
 }  // namespace carom::adjoint_detail

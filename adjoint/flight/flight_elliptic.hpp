@@ -27,6 +27,8 @@ class EllipticRotation {
   Vec3 directionAt(double t) const;
   /// Of M from the real axis to its nearest pole in complex time, s.
   double poleDistance() const { return complement_.completeK() / std::abs(p_); }
+  /// A time about which the squares of M are even, s: that of u = 0.
+  double evenTime() const { return -e_ / p_; }
   /// Time after which M is the same and R has turned about L, s.
   double period() const { return 4 * modulus_.completeK() / std::abs(p_); }
 

@@ -34,7 +34,27 @@ template <int N>
 struct Variations {
   std::array<Triple<N>, kOrder + 1> dM;
   std::array<Columns<N>, kOrder + 1> along;  // M.eta
+  std::size_t order = kOrder;                // further terms make no difference
+
+  // Squares of the terms of an order in units of `size`, the largest.
+  double share(std::size_t k, const Columns<N>& size, double momentum) const {
+    Columns<N> square = (along[k] / momentum).square();
+    for (std::size_t i = 0; i < 3; ++i) square += dM[k][i].square();
+    return (square / size.square()).maxCoeff();
+  }
 };
+
+// Of dM(0), or of what dJ moves.
+template <int N>
+Columns<N> sizeOf(double momentum, double largest_D) {
+  Columns<N> size = Columns<N>::Constant(momentum * largest_D);
+  size[0] = size[1] = 1;
+  return size;
+}
+
+// A stretch much shorter than the segment needs few terms: three in a row that are nothing end the series.
+constexpr double kNothing = 1e-19;
+constexpr std::size_t kLeastOrder = 5;
 
 struct MomentumSeries {
   std::array<std::array<double, 3>, kOrder> M, w;
@@ -91,8 +111,12 @@ struct MomentumSquares {
 };
 
 template <int N>
-Variations<N> variations(const MomentumSeries& s, const Vec3& D, const Vec3& u1, const Vec3& u2) {
+Variations<N> variations(const MomentumSeries& s, const Vec3& D, const Vec3& u1, const Vec3& u2, double momentum,
+                         double h) {
   Variations<N> v;
+  const Columns<N> size = sizeOf<N>(momentum, D.maxCoeff());
+  double power = 1;  // h^k
+  int nothing = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     v.dM[0][i].setZero();
     v.dM[0][i][0] = u1[static_cast<Eigen::Index>(i)];
@@ -117,21 +141,24 @@ Variations<N> variations(const MomentumSeries& s, const Vec3& D, const Vec3& u1,
     const Triple<N> torque = squares.torque(dA);
     v.dM[k + 1] = {f * (d32 * p23 + torque[0]), f * (d13 * p31 + torque[1]), f * (d21 * p12 + torque[2])};
     v.along[k + 1] = f * (wd + squares.energy(dA));
+    power *= h;
+    if (k + 1 < kLeastOrder) continue;
+    nothing = std::sqrt(v.share(k + 1, size, momentum)) * power < kNothing ? nothing + 1 : 0;
+    if (nothing == 3) {
+      v.order = k + 1;
+      break;
+    }
   }
   return v;
 }
 
-// Step within which the last terms of the variations are 4e-15 of their size, the neglected ones below 1e-15 (that of
-// dM(0), or of what dJ moves).
+// Step within which the last terms of the variations are 4e-15 of their size, the neglected ones below 1e-15.
 template <int N>
 double variationStep(const Variations<N>& v, double momentum, double largest_D) {
-  Columns<N> size = Columns<N>::Constant(momentum * largest_D);
-  size[0] = size[1] = 1;
+  const Columns<N> size = sizeOf<N>(momentum, largest_D);
   double log_step = 700;
   for (std::size_t k : {kOrder, kOrder - 1}) {
-    Columns<N> square = (v.along[k] / momentum).square();
-    for (std::size_t i = 0; i < 3; ++i) square += v.dM[k][i].square();
-    const double share = (square / size.square()).maxCoeff();
+    const double share = v.share(k, size, momentum);
     if (share > 0) log_step = std::min(log_step, (-0.5 * elementary::log(share) - 33.2) / static_cast<double>(k));
   }
   return elementary::exp(log_step);
@@ -145,10 +172,11 @@ constexpr double kSmallTurn = 0.05;
 template <int N>
 Eigen::Matrix<double, 3, N> smallTurn(const MomentumSeries& s, const Variations<N>& v, const Vec3& D, double h) {
   constexpr std::size_t kTerms = 12;
+  const std::size_t terms = std::min(kTerms, v.order);
   std::array<Triple<N>, kTerms + 1> eta;
   for (Columns<N>& e : eta[0]) e.setZero();
   const InverseInertiaRates<N> dA(D);
-  for (std::size_t k = 0; k < kTerms; ++k) {
+  for (std::size_t k = 0; k < terms; ++k) {
     Triple<N> sum = dA.times(s.M[k]);
     for (std::size_t i = 0; i < 3; ++i) sum[i] += D[static_cast<Eigen::Index>(i)] * v.dM[k][i];
     for (std::size_t j = 0; j <= k; ++j) {
@@ -162,8 +190,8 @@ Eigen::Matrix<double, 3, N> smallTurn(const MomentumSeries& s, const Variations<
   }
   Eigen::Matrix<double, 3, N> out;
   for (std::size_t i = 0; i < 3; ++i) {
-    Columns<N> sum = eta[kTerms][i];
-    for (std::size_t k = kTerms; k-- > 0;) sum = sum * h + eta[k][i];
+    Columns<N> sum = eta[terms][i];
+    for (std::size_t k = terms; k-- > 0;) sum = sum * h + eta[k][i];
     out.row(static_cast<Eigen::Index>(i)) = sum.matrix().transpose();
   }
   return out;
@@ -173,9 +201,9 @@ Eigen::Matrix<double, 3, N> smallTurn(const MomentumSeries& s, const Variations<
 template <int N>
 Eigen::Matrix<double, 3, N> largeTurn(const Variations<N>& v, double h, const Vec3& M, const Vec3& lambda1,
                                       const Vec3& lambda2) {
-  Triple<N> dM = v.dM[kOrder];
-  Columns<N> along = v.along[kOrder];
-  for (std::size_t k = kOrder; k-- > 0;) {
+  Triple<N> dM = v.dM[v.order];
+  Columns<N> along = v.along[v.order];
+  for (std::size_t k = v.order; k-- > 0;) {
     for (std::size_t i = 0; i < 3; ++i) dM[i] = dM[i] * h + v.dM[k][i];
     along = along * h + v.along[k];
   }
@@ -209,8 +237,8 @@ RotationSensitivity TriaxialRotation::segmentSensitivity(const Segment& segment,
     s.w[k] = {D_[0] * s.M[k][0], D_[1] * s.M[k][1], D_[2] * s.M[k][2]};
   }
   const Vec3 axis = M0 / l, u1 = axis.unitOrthogonal(), u2 = axis.cross(u1);
-  const Variations<N> v = variations<N>(s, D_, u1, u2);
-  h = std::min(h, variationStep(v, l, D_.maxCoeff()));
+  const Variations<N> v = variations<N>(s, D_, u1, u2, l, h);
+  if (v.order == kOrder) h = std::min(h, variationStep(v, l, D_.maxCoeff()));
   const Mat3 Rh = orientationIn(segment, h).toRotationMatrix(), R_h0 = Rh.transpose() * R0;
   const Vec3 Mh = Rh.transpose() * L_, wh = D_.cwiseProduct(Mh);
   const Eigen::Matrix<double, 3, N> eta =

@@ -36,11 +36,11 @@ Vec3 TriaxialRotation::bodyMomentumAt(double elapsed) const {
   return L_.norm() * Vec3(u[0], u[1], u[2]);
 }
 
-// In pieces of the distance of the nearest pole of M in complex time the rule leaves 1e-20. Segments are a seventh of
-// it, and two of them one piece.
+// In pieces of 5/4 of the distance of the nearest pole of M in complex time the rule leaves 1e-17. Segments are a seventh
+// of it, and two of them one piece.
 Vec3 TriaxialRotation::squaresOver(double elapsed, const Vec3& start) const {
   Vec3 sum = Vec3::Zero();
-  const double distance = closed_form_ ? closed_form_->poleDistance() : elapsed;
+  const double distance = closed_form_ ? 1.25 * closed_form_->poleDistance() : elapsed;
   const double pieces = std::ceil(elapsed / distance), half = 0.5 * elapsed / pieces;
   const auto add = [&](double t, double weight) {
     const Vec3 M = bodyMomentumAt(t);
@@ -53,16 +53,17 @@ Vec3 TriaxialRotation::squaresOver(double elapsed, const Vec3& start) const {
   return sum;
 }
 
-// Equal steps suit what is periodic: n of them to the distance of the pole leave exp(-2 pi n).
+// Equal steps suit what is periodic: n of them to the distance of the pole leave exp(-2 pi n). From where the squares are
+// even, half of them are the others again.
 Vec3 TriaxialRotation::squaresOfPeriod(double period, const Vec3& start) const {
   constexpr double kSteps = 7;
-  const double count = std::ceil(kSteps * period / closed_form_->poleDistance());
+  const double half = std::ceil(0.5 * kSteps * period / closed_form_->poleDistance());
   Vec3 sum = Vec3::Zero();
-  for (double i = 0; i < count; ++i) {
-    const Vec3 M = L_.norm() * closed_form_->directionAt(period * i / count);
-    sum += (M - start).cwiseProduct(M + start);
+  for (double i = 0; i <= half; ++i) {
+    const Vec3 M = L_.norm() * closed_form_->directionAt(closed_form_->evenTime() + 0.5 * period * i / half);
+    sum += (i == 0 || i == half ? 0.5 : 1) * (M - start).cwiseProduct(M + start);
   }
-  return sum * (period / count);
+  return sum * (period / half);
 }
 
 std::optional<RotationStretch<double>> TriaxialRotation::stretchOver(double elapsed, double times) const {
