@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "ode_bridge/depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ode_bridge/gjk.hpp"
+
+// The separation of two convex pieces along n is a linear function of their poses as long as the same points face each
+// other, and as a function of n the largest one is at a normal of the difference of the two pieces: of a face of one of
+// them, or where an edge of one crosses one of the other. All of them are tried, since nearest points, of which there are
+// none, cannot tell the few that count.
+
+namespace carom::ode_bridge_detail {
+
+namespace {
+
+// Cores that are nearer than this share of their sizes are taken to overlap: nearest points no longer say which way.
+constexpr double kNoLongerApart = 1e-9;
+
+bool isThick(const Piece& piece) { return piece.core != Piece::Core::point && piece.core != Piece::Core::segment; }
+
+class DepthSearch {
+ public:
+  DepthSearch(const PlacedPiece& a, const PlacedPiece& b, double scale) : a_(a), b_(b), scale_(scale) {}
+
+  Depth run() {
+    for (const PlacedPiece* of : {&b_, &a_})
+      for (int f : of->featuresOf(Family::face)) face(*of, of == &b_ ? a_ : b_, f);
+    for (const Family f : kFamilies)
+      for (const Family g : kFamilies)
+        if (f != Family::face && g != Family::face && hasKind(f, g)) crossings(f, g);
+    Depth depth;
+    depth.separation = best_;
+    std::erase_if(found_, [&](const NearPlace& p) { return p.at.gap < best_ - kSameDepth * scale_; });
+    // what stands for a rim that lies flat comes last
+    std::stable_sort(found_.begin(), found_.end(), [](const NearPlace& p, const NearPlace& q) {
+      return p.mark != q.mark ? q.mark : p.at.gap > q.at.gap;
+    });
+    if (!found_.empty()) depth.witness = witnessOf(found_.front());
+    depth.places = std::move(found_);
+    return depth;
+  }
+
+ private:
+  static constexpr double kRoundingOfDepth = 4e-16;
+  // Places whose separations differ by less than this share of the sizes are equal.
+  static constexpr double kSameDepth = 1e-13;
+
+  double room() const { return 64 * kRoundingOfDepth * scale_; }
+  Pose poseOf(const PlacedPiece& p) const { return {p.body->k.x, p.body->k.R}; }
+  WorldFeature placed(const PlacedPiece& p, Family family, int i) const {
+    return placeFeature(p.solid().feature(family, i), poseOf(p));
+  }
+
+  // Keeps a pair of features at whose gap the pieces lie on both sides of its normal's plane.
+  void offer(const FeaturePair& features, const ContactPoint& c, bool mark = false, double handicap = 0) {
+    if (!std::isfinite(c.gap) || !c.normal.allFinite() || !c.point.allFinite()) return;
+    if (!(c.gap > best_ + handicap - kSameDepth * scale_)) return;
+    const double separation = separationAlong(a_, b_, c.normal);
+    if (!(separation >= c.gap - room() - handicap)) return;
+    best_ = std::max(best_, c.gap);
+    found_.push_back({features, c, separation, mark});
+  }
+
+  void face(const PlacedPiece& of, const PlacedPiece& other, int f) {
+    const bool open = of.solid().faces[static_cast<std::size_t>(f)].open;
+    for (int sign = 1; sign >= (open ? -1 : 1); sign -= 2) {
+      const std::size_t before = found_.size();
+      for (const bool marks : {false, true}) {
+        if (found_.size() > before) break;  // marks stand in for what has no point of its own
+        for (const Family family : {Family::vertex, Family::rim})
+          for (int i : other.featuresOf(family)) {
+            if (family == Family::vertex && other.solid().feature(family, i).mark != marks) continue;
+            const bool first = &other == &a_;
+            const GapKind kind = first ? gapKind(family, Family::face) : gapKind(Family::face, family);
+            const int fa = first ? i : f, fb = first ? f : i;
+            offer({static_cast<std::int16_t>(kind), fa, fb, static_cast<std::int16_t>(sign)},
+                  contactOf(kind, placed(a_, familyOfFirst(kind), fa), placed(b_, familyOfSecond(kind), fb), sign),
+                  marks);
+          }
+      }
+    }
+  }
+
+  void crossings(Family f, Family g) {
+    const GapKind kind = gapKind(f, g);
+    for (int i : a_.featuresOf(f)) {
+      const Feature& fa = a_.solid().feature(f, i);
+      const WorldFeature wa = placed(a_, f, i);
+      for (int j : b_.featuresOf(g)) {
+        const Feature& fb = b_.solid().feature(g, j);
+        // sharp vertices have no normal of their own
+        if ((f == Family::vertex || g == Family::vertex) && !isSwept(fa) && !isSwept(fb)) continue;
+        if (fa.mark || fb.mark) continue;
+        const WorldFeature wb = placed(b_, g, j);
+        double handicap = 0;
+        if (f == Family::edge && g == Family::edge) {
+          const double sine = wa.direction.cross(wb.direction).norm();
+          if (!(sine > 1e-12)) continue;
+          handicap = kRoundingOfDepth * scale_ / sine;
+        }
+        for (int branch = 1; branch <= branches(kind); ++branch)
+          for (const int sign : {branch, -branch})
+            offer({static_cast<std::int16_t>(kind), i, j, static_cast<std::int16_t>(sign)},
+                  contactOf(kind, wa, wb, sign), false, handicap);
+      }
+    }
+  }
+
+  // The normal turns with a face, or with an edge that meets what is round; across two edges it stays so.
+  Witness witnessOf(const NearPlace& place) const {
+    const auto kind = static_cast<GapKind>(place.features.kind);
+    const Family f = familyOfFirst(kind), g = familyOfSecond(kind);
+    const auto fixes = [](Family family) { return family == Family::face || family == Family::edge; };
+    Witness w;
+    w.n = place.at.normal;
+    w.separation = place.separation;
+    w.distance = place.at.gap;
+    w.features = place.features;
+    if (f == Family::edge && g == Family::edge) {
+      const Feature &fa = a_.solid().feature(f, place.features.a), &fb = b_.solid().feature(g, place.features.b);
+      w.frame = fa.apex > 0 || fb.apex > 0 ? Witness::Frame::tapered : Witness::Frame::crossed;
+      w.edge_a = a_.body->k.R * fa.direction, w.edge_b = b_.body->k.R * fb.direction;
+    } else if (fixes(g)) {
+      w.frame = Witness::Frame::body_b;
+    } else if (fixes(f)) {
+      w.frame = Witness::Frame::body_a;
+    }
+    return w;
+  }
+
+  PlacedPiece a_, b_;
+  double scale_, best_ = -std::numeric_limits<double>::infinity();
+  std::vector<NearPlace> found_;
+};
+
+}  // namespace
+
+std::optional<Depth> depthOf(const PlacedPiece& a, const PlacedPiece& b) {
+  const Vec3 between = a.body->world(a.piece->center) - b.body->world(b.piece->center);
+  const CoreDistance points = coreDistance(a, b, between.isZero(0) ? Vec3::UnitZ() : between);
+  const double size = a.piece->core_radius + b.piece->core_radius;
+  if (!points.overlap && points.upper > kNoLongerApart * size) return std::nullopt;
+  // balls and capsules whose middles meet: every direction across is as good
+  if (!isThick(*a.piece) && !isThick(*b.piece)) return Depth{-a.piece->radius - b.piece->radius, {}, std::nullopt};
+  Depth depth = DepthSearch(a, b, size + a.piece->radius + b.piece->radius + between.norm()).run();
+  if (depth.places.empty()) depth.separation = -a.piece->radius - b.piece->radius;
+  return depth;
+}
+
+}  // namespace carom::ode_bridge_detail
