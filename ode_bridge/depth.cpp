@@ -2,6 +2,7 @@
 #include "ode_bridge/depth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -23,11 +24,17 @@ bool isThick(const Piece& piece) { return piece.core != Piece::Core::point && pi
 
 class DepthSearch {
  public:
-  DepthSearch(const PlacedPiece& a, const PlacedPiece& b, double scale) : a_(a), b_(b), scale_(scale) {}
+  DepthSearch(const PlacedPiece& a, const PlacedPiece& b, double scale) : a_(a), b_(b), scale_(scale) {
+    for (const Family family : kFamilies) {
+      const auto f = static_cast<std::size_t>(family);
+      for (int i : a.featuresOf(family)) placed_a_[f].push_back(placedIn(a, family, i));
+      for (int i : b.featuresOf(family)) placed_b_[f].push_back(placedIn(b, family, i));
+    }
+  }
 
   Depth run() {
-    for (const PlacedPiece* of : {&b_, &a_})
-      for (int f : of->featuresOf(Family::face)) face(*of, of == &b_ ? a_ : b_, f);
+    for (const bool first : {false, true})
+      for (const Candidate& f : of(first, Family::face)) face(first, f);
     for (const Family f : kFamilies)
       for (const Family g : kFamilies)
         if (f != Family::face && g != Family::face && hasKind(f, g)) crossings(f, g);
@@ -50,8 +57,19 @@ class DepthSearch {
 
   double room() const { return 64 * kRoundingOfDepth * scale_; }
   Pose poseOf(const PlacedPiece& p) const { return {p.body->k.x, p.body->k.R}; }
-  WorldFeature placed(const PlacedPiece& p, Family family, int i) const {
-    return placeFeature(p.solid().feature(family, i), poseOf(p));
+  // A feature of a piece with its place in the world.
+  struct Candidate {
+    int index;
+    const Feature* feature;
+    WorldFeature world;
+  };
+  using Candidates = std::vector<Candidate>;
+  Candidate placedIn(const PlacedPiece& p, Family family, int i) const {
+    const Feature& f = p.solid().feature(family, i);
+    return {i, &f, placeFeature(f, poseOf(p))};
+  }
+  const Candidates& of(bool first, Family family) const {
+    return (first ? placed_a_ : placed_b_)[static_cast<std::size_t>(family)];
   }
 
   // Keeps a pair of features at whose gap the pieces lie on both sides of its normal's plane.
@@ -64,21 +82,20 @@ class DepthSearch {
     found_.push_back({features, c, separation, mark});
   }
 
-  void face(const PlacedPiece& of, const PlacedPiece& other, int f) {
-    const bool open = of.solid().faces[static_cast<std::size_t>(f)].open;
+  // Of the first body or of the second.
+  void face(bool first, const Candidate& f) {
+    const bool open = (first ? a_ : b_).solid().faces[static_cast<std::size_t>(f.index)].open;
     for (int sign = 1; sign >= (open ? -1 : 1); sign -= 2) {
       const std::size_t before = found_.size();
       for (const bool marks : {false, true}) {
         if (found_.size() > before) break;  // marks stand in for what has no point of its own
         for (const Family family : {Family::vertex, Family::rim})
-          for (int i : other.featuresOf(family)) {
-            if (family == Family::vertex && other.solid().feature(family, i).mark != marks) continue;
-            const bool first = &other == &a_;
-            const GapKind kind = first ? gapKind(family, Family::face) : gapKind(Family::face, family);
-            const int fa = first ? i : f, fb = first ? f : i;
-            offer({static_cast<std::int16_t>(kind), fa, fb, static_cast<std::int16_t>(sign)},
-                  contactOf(kind, placed(a_, familyOfFirst(kind), fa), placed(b_, familyOfSecond(kind), fb), sign),
-                  marks);
+          for (const Candidate& g : of(!first, family)) {
+            if (family == Family::vertex && g.feature->mark != marks) continue;
+            const GapKind kind = first ? gapKind(Family::face, family) : gapKind(family, Family::face);
+            const Candidate &one = first ? f : g, &two = first ? g : f;
+            offer({static_cast<std::int16_t>(kind), one.index, two.index, static_cast<std::int16_t>(sign)},
+                  contactOf(kind, one.world, two.world, sign), marks);
           }
       }
     }
@@ -86,27 +103,23 @@ class DepthSearch {
 
   void crossings(Family f, Family g) {
     const GapKind kind = gapKind(f, g);
-    for (int i : a_.featuresOf(f)) {
-      const Feature& fa = a_.solid().feature(f, i);
-      const WorldFeature wa = placed(a_, f, i);
-      for (int j : b_.featuresOf(g)) {
-        const Feature& fb = b_.solid().feature(g, j);
+    const bool edges = f == Family::edge && g == Family::edge, vertex = f == Family::vertex || g == Family::vertex;
+    for (const Candidate& one : of(true, f))
+      for (const Candidate& two : of(false, g)) {
         // sharp vertices have no normal of their own
-        if ((f == Family::vertex || g == Family::vertex) && !isSwept(fa) && !isSwept(fb)) continue;
-        if (fa.mark || fb.mark) continue;
-        const WorldFeature wb = placed(b_, g, j);
+        if (vertex && !isSwept(*one.feature) && !isSwept(*two.feature)) continue;
+        if (one.feature->mark || two.feature->mark) continue;
         double handicap = 0;
-        if (f == Family::edge && g == Family::edge) {
-          const double sine = wa.direction.cross(wb.direction).norm();
+        if (edges) {
+          const double sine = one.world.direction.cross(two.world.direction).norm();
           if (!(sine > 1e-12)) continue;
           handicap = kRoundingOfDepth * scale_ / sine;
         }
         for (int branch = 1; branch <= branches(kind); ++branch)
           for (const int sign : {branch, -branch})
-            offer({static_cast<std::int16_t>(kind), i, j, static_cast<std::int16_t>(sign)},
-                  contactOf(kind, wa, wb, sign), false, handicap);
+            offer({static_cast<std::int16_t>(kind), one.index, two.index, static_cast<std::int16_t>(sign)},
+                  contactOf(kind, one.world, two.world, sign), false, handicap);
       }
-    }
   }
 
   // The normal turns with a face, or with an edge that meets what is round; across two edges it stays so.
@@ -132,6 +145,7 @@ class DepthSearch {
   }
 
   PlacedPiece a_, b_;
+  std::array<Candidates, 4> placed_a_, placed_b_;  // by Family
   double scale_, best_ = -std::numeric_limits<double>::infinity();
   std::vector<NearPlace> found_;
 };

@@ -171,9 +171,10 @@ class LeastDistance {
   }
 
   // Where the distances are the same but for rounding, the rate says which place is nearer to the bottom.
-  static bool isLower(const NearestInTime& p, const NearestInTime& q) {
+  bool isLower(const NearestInTime& p, const NearestInTime& q) const {
     const double difference = p.nearest.gap - q.nearest.gap;
-    if (std::abs(difference) > kSameGap * std::abs(q.nearest.gap)) return difference < 0;
+    const double size = hasDepth() ? solid_a_.bound() + solid_b_.bound() : 0;  // separations cancel where they are 0
+    if (std::abs(difference) > kSameGap * (std::abs(q.nearest.gap) + size)) return difference < 0;
     return std::abs(p.rate) < std::abs(q.rate);
   }
 
@@ -190,7 +191,7 @@ class LeastDistance {
       if (hasDepth() && a.nearest.apart() && b.nearest.apart() && a.nearest.features != b.nearest.features)
         if (const auto crossing = crossingOf(a, b)) {
           if (crossing->other) return *crossing;
-          t = crossing->time;
+          if (round % 8 != 7) t = crossing->time;  // where a third pair rules
         }
       const NearestInTime here = at(t);
       if (!here.nearest.apart()) return here;
@@ -236,6 +237,7 @@ class LeastDistance {
         stays = -1;
       }
     }
+    if (std::abs(difference(s)) < std::abs(difference(t))) t = s;
     NearestInTime here = at(t);
     const Placed pa(solid_a_, arc_a_, t), pb(solid_b_, arc_b_, t);
     const ContactPoint of_f = contactAt(pa, pb, f), of_g = contactAt(pa, pb, g);

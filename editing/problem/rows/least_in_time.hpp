@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adjoint/base/errors.h"
@@ -24,7 +26,7 @@ template <class Read>
 class LeastInTime {
  public:
   LeastInTime(Read read, double bend, double slack, double from, double to)
-      : read_(std::move(read)), bend_(bend), slack_(slack), from_(from), to_(to) {}
+      : read_(std::move(read)), bend_(bend), slack_(slack), same_(kSame * slack), from_(from), to_(to) {}
 
   ValueInTime find() {
     ValueInTime first = read_(from_), last = first;
@@ -46,10 +48,11 @@ class LeastInTime {
     ValueInTime a, b;
   };
   static constexpr int kHalvingsOfSlack = 5'000, kMostHalvings = 500'000, kMostRounds = 200;
-  static constexpr double kSame = 1e-14;
+  /// What of the slack is rounding.
+  static constexpr double kSame = 1e-4;
 
   void keep(const ValueInTime& here) {
-    if (here.value < best_.value) best_ = here;
+    if (!std::isfinite(best_.value) || isLower(here, best_)) best_ = here;
   }
 
   void search(const ValueInTime& first, const ValueInTime& last) {
@@ -65,8 +68,7 @@ class LeastInTime {
                             " steps to see how near a body comes to the border of a region: it turns too fast");
       if (halvings % kHalvingsOfSlack == 0) slack_ *= 2;
       const ValueInTime between = read_(middle);
-      if (between.value < best_.value) keep(wayDown(between));
-      keep(between);
+      if (between.value < best_.value - same_) keep(wayDown(between));
       spans.push_back({span.a, between});
       spans.push_back({between, span.b});
       if (span.a.value < span.b.value) std::swap(spans[spans.size() - 1], spans[spans.size() - 2]);
@@ -94,9 +96,9 @@ class LeastInTime {
   }
 
   // Where values are the same but for rounding, the rate says which place is nearer to the bottom.
-  static bool isLower(const ValueInTime& p, const ValueInTime& q) {
+  bool isLower(const ValueInTime& p, const ValueInTime& q) const {
     const double difference = p.value - q.value;
-    if (std::abs(difference) > kSame * (std::abs(p.value) + std::abs(q.value))) return difference < 0;
+    if (std::abs(difference) > same_) return difference < 0;
     return std::abs(p.rate) < std::abs(q.rate);
   }
 
@@ -126,7 +128,7 @@ class LeastInTime {
   }
 
   Read read_;
-  double bend_, slack_, from_, to_;
+  double bend_, slack_, same_, from_, to_;
   ValueInTime best_;
 };
 
