@@ -170,11 +170,13 @@ class LeastDistance {
     return here;
   }
 
+  // Separations cancel where they are 0.
+  double sizes() const { return hasDepth() ? solid_a_.bound() + solid_b_.bound() : 0; }
+
   // Where the distances are the same but for rounding, the rate says which place is nearer to the bottom.
   bool isLower(const NearestInTime& p, const NearestInTime& q) const {
     const double difference = p.nearest.gap - q.nearest.gap;
-    const double size = hasDepth() ? solid_a_.bound() + solid_b_.bound() : 0;  // separations cancel where they are 0
-    if (std::abs(difference) > kSameGap * (std::abs(q.nearest.gap) + size)) return difference < 0;
+    if (std::abs(difference) > kSameGap * (std::abs(q.nearest.gap) + sizes())) return difference < 0;
     return std::abs(p.rate) < std::abs(q.rate);
   }
 
@@ -186,17 +188,21 @@ class LeastDistance {
     int stays = 0;
     for (int round = 0; round < kMostRounds && fb != 0; ++round) {
       double t = a.time - fa * (b.time - a.time) / (fb - fa);
-      if (round % 8 == 7 || !std::isfinite(t)) t = a.time + 0.5 * (b.time - a.time);
+      if (round % 8 == 7 || !std::isfinite(t) || fa * fb > 0) t = a.time + 0.5 * (b.time - a.time);
       if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
-      if (hasDepth() && a.nearest.apart() && b.nearest.apart() && a.nearest.features != b.nearest.features)
-        if (const auto crossing = crossingOf(a, b)) {
-          if (crossing->other) return *crossing;
-          if (round % 8 != 7) t = crossing->time;  // where a third pair rules
-        }
+      if (hasDepth() && a.nearest.features != b.nearest.features) {
+        // the rate may jump from one pair of features to another
+        const auto crossing = round % 2 == 0 ? crossingOf(a, b) : std::nullopt;
+        if (crossing && crossing->other && crossing->nearest.gap <= a.nearest.gap) return *crossing;
+        t = a.time + 0.5 * (b.time - a.time);
+        if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
+      }
       const NearestInTime here = at(t);
       if (!here.nearest.apart()) return here;
       if (isLower(here, best)) best = here;
-      if ((here.rate < 0) == (a.rate < 0) && here.rate != 0) {
+      // beyond a hill that is as high there is a valley before it
+      if ((here.rate < 0) == (a.rate < 0) && here.rate != 0 &&
+          here.nearest.gap <= a.nearest.gap + kSameGap * (std::abs(a.nearest.gap) + sizes())) {
         a = here, fa = here.rate;
         if (stays == 1) fb *= 0.5;
         stays = 1;
@@ -206,6 +212,8 @@ class LeastDistance {
         stays = -1;
       }
     }
+    // a jump that no crossing of two explains
+    if (hasDepth() && a.nearest.features != b.nearest.features) best.nearest.several = true;
     return best;
   }
 
@@ -213,6 +221,7 @@ class LeastDistance {
   // the larger of both. Without `other` where a third one rules at that time.
   std::optional<NearestInTime> crossingOf(const NearestInTime& a, const NearestInTime& b) const {
     const FeaturePair &f = a.nearest.features, &g = b.nearest.features;
+    if (!a.nearest.apart() || !b.nearest.apart()) return std::nullopt;
     const auto difference = [&](double t) {
       const Placed pa(solid_a_, arc_a_, t), pb(solid_b_, arc_b_, t);
       return contactAt(pa, pb, f).gap - contactAt(pa, pb, g).gap;

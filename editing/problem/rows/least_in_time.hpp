@@ -110,11 +110,12 @@ class LeastInTime {
     int stays = 0;
     for (int round = 0; round < kMostRounds && fb != 0; ++round) {
       double t = a.time - fa * (b.time - a.time) / (fb - fa);
-      if (round % 8 == 7 || !std::isfinite(t)) t = a.time + 0.5 * (b.time - a.time);
+      if (round % 8 == 7 || !std::isfinite(t) || fa * fb > 0) t = a.time + 0.5 * (b.time - a.time);
       if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
       const ValueInTime here = read_(t);
       if (isLower(here, best)) best = here;
-      if ((here.rate < 0) == (a.rate < 0) && here.rate != 0) {
+      // beyond a hill that is as high there is a valley before it
+      if ((here.rate < 0) == (a.rate < 0) && here.rate != 0 && here.value <= a.value + same_) {
         a = here, fa = here.rate;
         if (stays == 1) fb *= 0.5;
         stays = 1;
