@@ -62,11 +62,27 @@ class DepthSearch {
     int index;
     const Feature* feature;
     WorldFeature world;
+    bool between_faces = false;  // an edge of a polytope
+    Vec3 left = Vec3::Zero(), right = Vec3::Zero();  // their normals, world
+    // Whether a direction across the edge may point out of it there.
+    bool mayFace(const Vec3& n) const {
+      constexpr double kRoom = 1e-9;
+      const Vec3 turn = left.cross(right);
+      return !between_faces || (left.cross(n).dot(turn) >= -kRoom && n.cross(right).dot(turn) >= -kRoom);
+    }
   };
   using Candidates = std::vector<Candidate>;
   Candidate placedIn(const PlacedPiece& p, Family family, int i) const {
     const Feature& f = p.solid().feature(family, i);
-    return {i, &f, placeFeature(f, poseOf(p))};
+    Candidate c{i, &f, placeFeature(f, poseOf(p))};
+    if (family != Family::edge || p.piece->core != Piece::Core::polytope) return c;
+    const Solid& solid = p.solid();
+    const SolidEdge& edge = solid.edges[static_cast<std::size_t>(i)];
+    if (edge.left < 0 || edge.right < 0) return c;
+    c.between_faces = true;
+    c.left = p.body->k.R * solid.faces[static_cast<std::size_t>(edge.left)].direction;
+    c.right = p.body->k.R * solid.faces[static_cast<std::size_t>(edge.right)].direction;
+    return c;
   }
   const Candidates& of(bool first, Family family) const {
     return (first ? placed_a_ : placed_b_)[static_cast<std::size_t>(family)];
@@ -110,15 +126,22 @@ class DepthSearch {
         if (vertex && !isSwept(*one.feature) && !isSwept(*two.feature)) continue;
         if (one.feature->mark || two.feature->mark) continue;
         double handicap = 0;
+        Vec3 across = Vec3::Zero();
         if (edges) {
-          const double sine = one.world.direction.cross(two.world.direction).norm();
+          across = one.world.direction.cross(two.world.direction);
+          const double sine = across.norm();
           if (!(sine > 1e-12)) continue;
+          across /= sine;
           handicap = kRoundingOfDepth * scale_ / sine;
         }
+        const bool sharp = one.between_faces && two.between_faces;
+        const bool may_face[] = {!sharp || (one.mayFace(-across) && two.mayFace(across)),
+                              !sharp || (one.mayFace(across) && two.mayFace(-across))};
         for (int branch = 1; branch <= branches(kind); ++branch)
           for (const int sign : {branch, -branch})
-            offer({static_cast<std::int16_t>(kind), one.index, two.index, static_cast<std::int16_t>(sign)},
-                  contactOf(kind, one.world, two.world, sign), false, handicap);
+            if (may_face[sign > 0 ? 0 : 1])
+              offer({static_cast<std::int16_t>(kind), one.index, two.index, static_cast<std::int16_t>(sign)},
+                    contactOf(kind, one.world, two.world, sign), false, handicap);
       }
   }
 

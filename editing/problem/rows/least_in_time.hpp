@@ -52,7 +52,7 @@ class LeastInTime {
   static constexpr double kSame = 1e-4;
 
   void keep(const ValueInTime& here) {
-    if (!std::isfinite(best_.value) || isLower(here, best_)) best_ = here;
+    if (here.value < best_.value - same_) best_ = here;
   }
 
   void search(const ValueInTime& first, const ValueInTime& last) {
