@@ -190,7 +190,8 @@ class NearPairs {
     if (na.piece >= 0 && nb.piece >= 0) {
       const PlacedPiece p{&a_, &a_.solid->pieces[static_cast<std::size_t>(na.piece)]},
           q{&b_, &b_.solid->pieces[static_cast<std::size_t>(nb.piece)]};
-      NearPair& pair = pairs_.emplace_back(p, q, pieceDistance(p, q), std::nullopt);
+      pairs_.push_back({p, q, pieceDistance(p, q), std::nullopt});
+      NearPair& pair = pairs_.back();
       if (overlap_ == WhereOverlapping::depth && (pair.depth = depthOf(p, q)))
         pair.distance.lower = pair.distance.upper = pair.depth->separation;
       upper_ = std::min(upper_, pair.distance.upper);
