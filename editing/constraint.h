@@ -54,18 +54,24 @@ struct Target {
 };
 
 /// A part of space that the body stays out of, or within, over a span of time: at every moment of it, not only at some.
-/// What is kept there is a ball about the body's centre of mass, of radius `margin`.
 struct Region {
   /// Stays out of it, or within it.
   enum class Side { avoid, inside };
+  /// What of the body is kept there.
+  enum class Keep {
+    ball,  ///< a ball about its centre of mass
+    shape  ///< its shape, however it turns
+  };
   Side side = Side::avoid;                     ///< which of the two
   std::variant<Sphere, Box> shape = Sphere{};  ///< of the region
   Vec3 position = Vec3::Zero();         ///< of the centre of the region, m, world
   Quat orientation = Quat::Identity();  ///< its axes to world, unit
   /// s, first and last; without it the whole motion.
   std::optional<std::pair<double, double>> during = std::nullopt;
-  /// m; without it the radius of a ball that holds the whole body.
+  /// m; of a ball its radius, without it that of one that holds the whole body. Of a shape how far it stays from the
+  /// border of the region, without it 0.
   std::optional<double> margin = std::nullopt;
+  Keep keep = Keep::ball;  ///< the ball or the shape
 };
 
 /// The n-th impact of a body (1 = first), counting only those with `with` when it is not empty.

@@ -105,6 +105,10 @@ class FeatureGeometry final : public ContactGeometry,
   adjoint_detail::Nearest nearest(int a, int b, const Pose& A, const Pose& B) const override;
   std::optional<adjoint_detail::NearestInTime> nearestInTime(int a, int b, const Arc& arc_a, const Arc& arc_b,
                                                              double from, double to, double under) const override;
+  adjoint_detail::Nearest separation(int a, int b, const Pose& A, const Pose& B) const override;
+  std::optional<adjoint_detail::NearestInTime> leastSeparation(int a, int b, const Arc& arc_a, const Arc& arc_b,
+                                                               double from, double to, double under) const override;
+  std::shared_ptr<const ContactGeometry> ofTwo(const Body& first, const Body& second) const override;
 
   const Solid& solid(int body) const { return solids_[static_cast<std::size_t>(body)]; }
   const std::vector<Solid>& solids() const { return solids_; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adjoint/base/arguments.hpp"
+#include "ode_bridge/depth.hpp"
 #include "ode_bridge/gjk.hpp"
 #include "ode_bridge/near_features.hpp"
 #include "ode_bridge/overlap.hpp"
@@ -31,13 +32,6 @@ constexpr double kAroundNearest[] = {1e-7, 1e-3, 1e100};
 constexpr double kLoose = 1e-7;
 // Places whose distances differ by less than this share of what they are worked out from are equally near.
 constexpr double kEqual = 1e-13;
-
-struct NearPlace {
-  FeaturePair features;
-  ContactPoint at;
-  double separation = 0;  // along the normal
-  bool mark = false;      // stands for a rim that lies flat
-};
 
 class PiecePlaces {
  public:
@@ -127,7 +121,8 @@ class PiecePlaces {
         if (side < 0 && one_sign) continue;
         const int sign = side * (sharp_curves ? place + 2 : place);
         const ContactPoint c = contactOf(kind, wa, wb, sign);
-        if (!std::isfinite(c.gap) || !c.normal.allFinite() || !c.point.allFinite() || !(c.gap > 0)) continue;
+        if (!std::isfinite(c.gap) || !c.normal.allFinite() || !c.point.allFinite()) continue;
+        if (!(c.gap > -a_.piece->radius - b_.piece->radius)) continue;
         keep({static_cast<std::int16_t>(kind), f.index, g.index, static_cast<std::int16_t>(sign)}, c, mark, f, g);
       }
   }
@@ -168,12 +163,15 @@ class PiecePlaces {
 struct NearPair {
   PlacedPiece a, b;
   PieceDistance distance;
+  std::optional<Depth> depth;  // where the cores overlap
 };
 
 // The pieces that may hold the nearest points.
 class NearPairs {
  public:
-  NearPairs(const Placed& a, const Placed& b) : a_(a), b_(b) { visit(0, 0); }
+  NearPairs(const Placed& a, const Placed& b, WhereOverlapping overlap) : a_(a), b_(b), overlap_(overlap) {
+    visit(0, 0);
+  }
 
   double upper() const { return upper_; }
   std::vector<NearPair> within(double room) {
@@ -192,8 +190,11 @@ class NearPairs {
     if (na.piece >= 0 && nb.piece >= 0) {
       const PlacedPiece p{&a_, &a_.solid->pieces[static_cast<std::size_t>(na.piece)]},
           q{&b_, &b_.solid->pieces[static_cast<std::size_t>(nb.piece)]};
-      pairs_.push_back({p, q, pieceDistance(p, q)});
-      upper_ = std::min(upper_, pairs_.back().distance.upper);
+      pairs_.push_back({p, q, pieceDistance(p, q), std::nullopt});
+      NearPair& pair = pairs_.back();
+      if (overlap_ == WhereOverlapping::depth && (pair.depth = depthOf(p, q)))
+        pair.distance.lower = pair.distance.upper = pair.depth->separation;
+      upper_ = std::min(upper_, pair.distance.upper);
       return;
     }
     const bool first = nb.piece >= 0 || (na.piece < 0 && na.radius >= nb.radius);
@@ -209,6 +210,7 @@ class NearPairs {
   }
 
   const Placed &a_, &b_;
+  WhereOverlapping overlap_;
   double upper_ = kUnbounded;
   std::vector<NearPair> pairs_;
 };
@@ -242,18 +244,24 @@ PieceDistance pieceDistance(const PlacedPiece& a, const PlacedPiece& b) {
   return d;
 }
 
-Nearest nearestOf(const Placed& a, const Placed& b) {
-  NearPairs pairs(a, b);
+Nearest nearestOf(const Placed& a, const Placed& b, WhereOverlapping overlap) {
+  NearPairs pairs(a, b, overlap);
   const double scale = scaleOfPair(a, b, pairs.upper()), touch = 4 * touchTolerance(a, b);
   Nearest out;
-  if (!(pairs.upper() > touch) ||
-      ((a.solid->closed_mesh || b.solid->closed_mesh) && overlapOf(a, b, touchTolerance(a, b)))) {
+  if (overlap == WhereOverlapping::nothing &&
+      (!(pairs.upper() > touch) ||
+       ((a.solid->closed_mesh || b.solid->closed_mesh) && overlapOf(a, b, touchTolerance(a, b))))) {
     out.gap = 0;
     return out;
   }
   std::vector<NearPlace> places;
-  for (const NearPair& pair : pairs.within(kEqual * scale))
-    PiecePlaces(pair.a, pair.b, pair.distance, scale, places).find();
+  for (NearPair& pair : pairs.within(kEqual * scale)) {
+    if (pair.depth) {
+      places.insert(places.end(), pair.depth->places.begin(), pair.depth->places.end());
+    } else {
+      PiecePlaces(pair.a, pair.b, pair.distance, scale, places).find();
+    }
+  }
   const auto best = std::min_element(places.begin(), places.end(), [](const NearPlace& p, const NearPlace& q) {
     return p.mark != q.mark ? q.mark : p.at.gap < q.at.gap;
   });
@@ -291,6 +299,19 @@ std::optional<adjoint_detail::NearestInTime> FeatureGeometry::nearestInTime(int 
   for (int body : {a, b}) adjoint_detail::checkedIndex("nearestInTime", "body", body, solids_.size());
   for (double t : {from, to}) adjoint_detail::checkedNumber("nearestInTime", "the time", t);
   return nearestInTimeOf(solid(a), solid(b), arc_a, arc_b, from, to, under);
+}
+
+adjoint_detail::Nearest FeatureGeometry::separation(int a, int b, const Pose& A, const Pose& B) const {
+  for (int body : {a, b}) adjoint_detail::checkedIndex("separation", "body", body, solids_.size());
+  return nearestOf(Placed(solid(a), A.x, A.R), Placed(solid(b), B.x, B.R), WhereOverlapping::depth);
+}
+
+std::optional<adjoint_detail::NearestInTime> FeatureGeometry::leastSeparation(int a, int b, const Arc& arc_a,
+                                                                              const Arc& arc_b, double from, double to,
+                                                                              double under) const {
+  for (int body : {a, b}) adjoint_detail::checkedIndex("leastSeparation", "body", body, solids_.size());
+  for (double t : {from, to}) adjoint_detail::checkedNumber("leastSeparation", "the time", t);
+  return nearestInTimeOf(solid(a), solid(b), arc_a, arc_b, from, to, under, WhereOverlapping::depth);
 }
 
 }  // namespace carom

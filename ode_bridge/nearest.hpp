@@ -15,14 +15,30 @@ struct PieceDistance {
 };
 PieceDistance pieceDistance(const PlacedPiece& a, const PlacedPiece& b);
 
+/// What is asked of bodies that overlap.
+enum class WhereOverlapping {
+  nothing,  ///< their distance is 0
+  depth     ///< their separation is below 0, see adjoint_detail::BodyDistance::separation
+};
+
 /// Of all pieces of two bodies.
-adjoint_detail::Nearest nearestOf(const Placed& a, const Placed& b);
+adjoint_detail::Nearest nearestOf(const Placed& a, const Placed& b,
+                                  WhereOverlapping overlap = WhereOverlapping::nothing);
+
+/// A pair of features whose gap may be the distance of two pieces.
+struct NearPlace {
+  FeaturePair features;
+  ContactPoint at;
+  double separation = 0;  ///< of the pieces along its normal, m
+  bool mark = false;      ///< stands for a rim that lies flat
+};
 
 /// Rate of the gap of the features of two bodies in motion, m/s.
 double gapRateOf(const Placed& a, const Placed& b, const FeaturePair& features);
 
 /// See adjoint_detail::BodyDistance.
-std::optional<adjoint_detail::NearestInTime> nearestInTimeOf(const Solid& a, const Solid& b, const Arc& arc_a,
-                                                             const Arc& arc_b, double from, double to, double under);
+std::optional<adjoint_detail::NearestInTime> nearestInTimeOf(
+    const Solid& a, const Solid& b, const Arc& arc_a, const Arc& arc_b, double from, double to, double under,
+    WhereOverlapping overlap = WhereOverlapping::nothing);
 
 }  // namespace carom::ode_bridge_detail

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "ode_bridge/depth.hpp"
 #include "ode_bridge/nearest.hpp"
 #include "ode_bridge/touching.hpp"
 
@@ -43,8 +44,8 @@ struct Waiting {
 class LeastDistance {
  public:
   LeastDistance(const Solid& a, const Solid& b, const Arc& arc_a, const Arc& arc_b, double from, double to,
-                double under)
-      : solid_a_(a), solid_b_(b), arc_a_(arc_a), arc_b_(arc_b), from_(from), to_(to), level_(under) {}
+                double under, WhereOverlapping overlap)
+      : solid_a_(a), solid_b_(b), arc_a_(arc_a), arc_b_(arc_b), from_(from), to_(to), level_(under), overlap_(overlap) {}
 
   std::optional<NearestInTime> find() {
     consider(at(from_));
@@ -58,7 +59,8 @@ class LeastDistance {
   }
 
  private:
-  bool touches() const { return best_ && !best_->nearest.apart(); }
+  bool hasDepth() const { return overlap_ == WhereOverlapping::depth; }
+  bool touches() const { return best_ && !hasDepth() && !best_->nearest.apart(); }
 
   // Of the present level.
   double slack() const {
@@ -70,7 +72,7 @@ class LeastDistance {
 
   NearestInTime at(double t) const {
     const Placed a(solid_a_, arc_a_, t), b(solid_b_, arc_b_, t);
-    NearestInTime here{t, nearestOf(a, b)};
+    NearestInTime here{t, nearestOf(a, b, overlap_)};
     if (!std::isfinite(here.nearest.gap)) throw NotComputable("their distance is beyond the range of doubles");
     if (here.nearest.apart()) here.rate = gapRateOf(a, b, here.nearest.features);
     return here;
@@ -109,13 +111,16 @@ class LeastDistance {
     (a.solid->plane ? nb : na).radius += level;
     const PlacedNode pa{&a, &na}, pb{&b, &nb};
     const double apart = separationOf(pa, pb), left = to_ - now.time;
-    if (apart > kFarApart * size) return later(now, safeStep(pa, pb, apart, left));
+    if (apart > std::max(0.0, kFarApart * size)) return later(now, safeStep(pa, pb, apart, left));
     if (!leaves) return open(now, na, nb);
-    Piece piece_a = a.solid->pieces[static_cast<std::size_t>(na.piece)];
-    Piece piece_b = b.solid->pieces[static_cast<std::size_t>(nb.piece)];
+    const Piece &as_is_a = a.solid->pieces[static_cast<std::size_t>(na.piece)],
+                &as_is_b = b.solid->pieces[static_cast<std::size_t>(nb.piece)];
+    Piece piece_a = as_is_a, piece_b = as_is_b;
     (a.solid->plane ? piece_b : piece_a).radius += level;
     const PlacedPiece p{&a, &piece_a}, q{&b, &piece_b};
-    const Witness witness = findWitness(p, q);
+    const auto depth = hasDepth() ? depthOf({&a, &as_is_a}, {&b, &as_is_b}) : std::nullopt;
+    Witness witness = depth && depth->witness ? *depth->witness : findWitness(p, q);
+    if (depth) witness.separation = separationAlong(p, q, witness.n);
     if (witness.separation < -slack()) {
       const double before = level_;
       consider(wayDown(at(now.time)));
@@ -165,10 +170,13 @@ class LeastDistance {
     return here;
   }
 
+  // Separations cancel where they are 0.
+  double sizes() const { return hasDepth() ? solid_a_.bound() + solid_b_.bound() : 0; }
+
   // Where the distances are the same but for rounding, the rate says which place is nearer to the bottom.
-  static bool isLower(const NearestInTime& p, const NearestInTime& q) {
+  bool isLower(const NearestInTime& p, const NearestInTime& q) const {
     const double difference = p.nearest.gap - q.nearest.gap;
-    if (std::abs(difference) > kSameGap * std::abs(q.nearest.gap)) return difference < 0;
+    if (std::abs(difference) > kSameGap * (std::abs(q.nearest.gap) + sizes())) return difference < 0;
     return std::abs(p.rate) < std::abs(q.rate);
   }
 
@@ -180,12 +188,21 @@ class LeastDistance {
     int stays = 0;
     for (int round = 0; round < kMostRounds && fb != 0; ++round) {
       double t = a.time - fa * (b.time - a.time) / (fb - fa);
-      if (round % 8 == 7 || !std::isfinite(t)) t = a.time + 0.5 * (b.time - a.time);
+      if (round % 8 == 7 || !std::isfinite(t) || fa * fb > 0) t = a.time + 0.5 * (b.time - a.time);
       if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
+      if (hasDepth() && a.nearest.features != b.nearest.features) {
+        // the rate may jump from one pair of features to another
+        const auto crossing = round % 2 == 0 ? crossingOf(a, b) : std::nullopt;
+        if (crossing && crossing->other && crossing->nearest.gap <= a.nearest.gap) return *crossing;
+        t = a.time + 0.5 * (b.time - a.time);
+        if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
+      }
       const NearestInTime here = at(t);
       if (!here.nearest.apart()) return here;
       if (isLower(here, best)) best = here;
-      if ((here.rate < 0) == (a.rate < 0) && here.rate != 0) {
+      // beyond a hill that is as high there is a valley before it
+      if ((here.rate < 0) == (a.rate < 0) && here.rate != 0 &&
+          here.nearest.gap <= a.nearest.gap + kSameGap * (std::abs(a.nearest.gap) + sizes())) {
         a = here, fa = here.rate;
         if (stays == 1) fb *= 0.5;
         stays = 1;
@@ -195,12 +212,61 @@ class LeastDistance {
         stays = -1;
       }
     }
+    // a jump that no crossing of two explains
+    if (hasDepth() && a.nearest.features != b.nearest.features) best.nearest.several = true;
     return best;
+  }
+
+  // Where two pairs of features overtake each other between a and b, that of a falling and that of b rising: the least of
+  // the larger of both. Without `other` where a third one rules at that time.
+  std::optional<NearestInTime> crossingOf(const NearestInTime& a, const NearestInTime& b) const {
+    const FeaturePair &f = a.nearest.features, &g = b.nearest.features;
+    if (!a.nearest.apart() || !b.nearest.apart()) return std::nullopt;
+    const auto difference = [&](double t) {
+      const Placed pa(solid_a_, arc_a_, t), pb(solid_b_, arc_b_, t);
+      return contactAt(pa, pb, f).gap - contactAt(pa, pb, g).gap;
+    };
+    double s = a.time, t = b.time, ds = difference(s), dt = difference(t);
+    if (!(ds >= 0 && dt <= 0 && ds > dt)) return std::nullopt;
+    int stays = 0;
+    for (int round = 0; round < kMostRounds; ++round) {
+      double u = s + ds * (t - s) / (ds - dt);
+      if (round % 8 == 7 || !std::isfinite(u)) u = s + 0.5 * (t - s);
+      if (!((u > s && u < t) || (u < s && u > t))) break;
+      const double du = difference(u);
+      if (!std::isfinite(du)) return std::nullopt;
+      if (du > 0) {
+        s = u, ds = du;
+        if (stays == 1) dt *= 0.5;
+        stays = 1;
+      } else {
+        t = u, dt = du;
+        if (du == 0) break;
+        if (stays == -1) ds *= 0.5;
+        stays = -1;
+      }
+    }
+    if (std::abs(difference(s)) < std::abs(difference(t))) t = s;
+    NearestInTime here = at(t);
+    const Placed pa(solid_a_, arc_a_, t), pb(solid_b_, arc_b_, t);
+    const ContactPoint of_f = contactAt(pa, pb, f), of_g = contactAt(pa, pb, g);
+    const double rate_f = gapRateOf(pa, pb, f), rate_g = gapRateOf(pa, pb, g), way = a.time < b.time ? 1 : -1;
+    const double scale = std::abs(here.nearest.gap) + solid_a_.bound() + solid_b_.bound() + pa.k.x.norm();
+    const bool rules = std::abs(of_f.gap - here.nearest.gap) <= kSameGap * scale &&
+                       std::abs(of_g.gap - here.nearest.gap) <= kSameGap * scale;
+    if (!rules || !(way * rate_f < 0) || !(way * rate_g > 0)) return here;
+    here.nearest.features = f, here.nearest.normal = of_f.normal, here.nearest.several = false;
+    here.rate = rate_f;
+    here.other = here.nearest;
+    here.other->features = g, here.other->normal = of_g.normal;
+    here.other_rate = rate_g;
+    return here;
   }
 
   const Solid &solid_a_, &solid_b_;
   const Arc &arc_a_, &arc_b_;
   double from_, to_, level_, loose_ = 1;
+  WhereOverlapping overlap_;
   int steps_ = 0;
   std::optional<NearestInTime> best_;
   std::priority_queue<Waiting> queue_;
@@ -209,8 +275,8 @@ class LeastDistance {
 }  // namespace
 
 std::optional<NearestInTime> nearestInTimeOf(const Solid& a, const Solid& b, const Arc& arc_a, const Arc& arc_b,
-                                             double from, double to, double under) {
-  return LeastDistance(a, b, arc_a, arc_b, from, to, under).find();
+                                             double from, double to, double under, WhereOverlapping overlap) {
+  return LeastDistance(a, b, arc_a, arc_b, from, to, under, overlap).find();
 }
 
 }  // namespace carom::ode_bridge_detail

@@ -42,10 +42,7 @@ std::string worstOf(const ConstraintSet& set, const RowValues& rows) {
 double timeOf(const ConstraintSet& set, const RowValues& rows, const Motion& motion) {
   const Constraint& nail = set.constraints()[0];
   if (nail.hits || !nail.sequence.empty()) return set.extentIn(motion).time;
-  if (nail.targets.empty()) {
-    const auto clearance = set.clearance(motion, 0);
-    return clearance ? clearance->time : 0;
-  }
+  if (nail.targets.empty()) return set.timeOfClearance(motion, 0).value_or(0);
   if (nail.at.span) return rows.times[0];
   if (nail.at.impact == 0) return nail.at.time;
   const Scene& scene = *motion.scene;

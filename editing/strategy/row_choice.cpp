@@ -10,7 +10,7 @@
 namespace carom::editing_detail {
 namespace {
 
-constexpr int kPointsBeside = 2;
+constexpr int kPointsTried = 2;
 constexpr double kStepBeside = 1e-3;  // of the natural scales
 /// A dependent row this far (dimensionless) from what the others make it is a contradiction, not rounding.
 constexpr double kContradiction = 1e-7;
@@ -78,7 +78,7 @@ RowChoice chooseRows(EditSearch& search, const EditPointPtr& start) {
   if (split.zero.empty() && split.dependent.empty()) return choice;
 
   Eigen::MatrixXd all = J;
-  for (int k = 0; k < kPointsBeside; ++k) {
+  for (int k = 0; k < kPointsTried; ++k) {
     const EditPointPtr point = pointBeside(search, *start, k);
     if (!point) continue;
     const Eigen::MatrixXd& beside = *point->row_jacobian;

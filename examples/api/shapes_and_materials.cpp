@@ -4,6 +4,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/scene/body_model.h"
+#include "adjoint/scene/farthest_from.h"
 #include "adjoint/scene/surface.h"
 #include "ode_bridge/convex_hull.h"
 
@@ -31,6 +32,8 @@ int main() {
   const Vec3 place = foot.point({0, 0.6, -0.8});
   std::printf("cone     reaches %.2f m along (0 0.6 -0.8), at (%.1f %.1f %.1f)\n", foot.reach({0, 0.6, -0.8}), place.x(),
               place.y(), place.z());
+  const FarthestFrom far = farthestFrom(shapes[2], {0, 0, 0.4});  // from its apex
+  std::printf("cone     reaches %.2f m away from its apex\n", far.distance);
 
   Body wheel;
   wheel.name = "wheel", wheel.material = "rubber";

@@ -118,6 +118,7 @@ Region readRegion(const Json& value, Region::Side side, double duration, const s
   if (value.contains("position")) region.position = readVector(value["position"]);
   if (value.contains("orientation")) region.orientation = readQuaternion(value["orientation"], where + "/orientation");
   if (value.contains("during")) region.during = readSpan(value["during"], duration, where + "/during");
+  if (value.contains("keep") && value["keep"] == "shape") region.keep = Region::Keep::shape;
   if (value.contains("margin")) region.margin = value["margin"].get<double>();
   return region;
 }

@@ -87,6 +87,7 @@ void writeRegion(JsonWriter& out, const Region& region) {
   std::visit([&](const auto& shape) { beginShape(out, shape); }, region.shape);
   writePlace(out, region.position, region.orientation);
   if (region.during) writeSpan(out, "during", *region.during);
+  if (region.keep == Region::Keep::shape) out.members("keep", "shape");
   if (region.margin) out.members("margin", *region.margin);
   out.endObject();
 }

@@ -100,6 +100,7 @@ void expectSameRegion(const Region& a, const Region& b) {
   expectSameNumbers(a.orientation.coeffs(), b.orientation.coeffs(), "orientation of a region");
   EXPECT_EQ(a.during, b.during);
   EXPECT_EQ(a.margin, b.margin);
+  EXPECT_EQ(a.keep, b.keep);
 }
 
 }  // namespace

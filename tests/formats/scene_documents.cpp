@@ -105,7 +105,7 @@ const std::string& documentWithEverything() {
     { "body": "can",
       "inside": [
         { "sphere": { "radius": 12.5 }, "position": [-9, 1, 5.5] },
-        { "box": { "size": [20.5, 21, 22] }, "orientation": [0.96, 0.28, 0, 0], "margin": 0 } ],
+        { "box": { "size": [20.5, 21, 22] }, "orientation": [0.96, 0.28, 0, 0], "keep": "shape", "margin": 0 } ],
       "avoid": { "sphere": { "radius": 0.26 }, "position": [-9, 3, -0.1], "during": [0.2, 1.7], "margin": 0.05 } },
     { "body": "die", "at": { "impact": 4 }, "speed": 3.25, "kinetic_energy": { "max": 41.5 },
       "impulse": { "min": 1.125, "max": 2.625 }, "height": -0.375 },

@@ -162,9 +162,11 @@ TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   EXPECT_EQ(std::get<Sphere>(can.regions[0].shape).radius, 12.5);
   EXPECT_EQ(can.regions[1].orientation.w(), 0.96);
   EXPECT_EQ(can.regions[1].margin, 0);
+  EXPECT_EQ(can.regions[1].keep, Region::Keep::shape);
   EXPECT_EQ(can.regions[2].side, Region::Side::avoid);
   EXPECT_EQ(can.regions[2].during, (std::pair<double, double>(0.2, 1.7)));
   EXPECT_EQ(can.regions[2].margin, 0.05);
+  EXPECT_EQ(can.regions[2].keep, Region::Keep::ball);
   EXPECT_EQ(can.regions[2].position, Vec3(-9, 3, -0.1));
 }
 
@@ -197,6 +199,7 @@ TEST(SceneRoundTrip, randomConstraintsAreExact) {
       if (chance()) region.orientation = Quat(0.6, 0, -0.8, 0);
       if (chance()) region.during = {from, to};
       if (chance()) region.margin = unit(random);
+      if (chance()) region.keep = Region::Keep::shape;
       c.regions.push_back(region);
     }
     d.constraints = {c};

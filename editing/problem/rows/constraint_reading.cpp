@@ -106,6 +106,10 @@ RowReading ConstraintSet::readOverSpan(const Motion& motion, int i) const {
 
 Eigen::VectorXd ConstraintSet::timeRate(DerivativeTape& tape, int i, std::span<const ReadingDirection> controls) const {
   const Row& row = rows_[i];
+  if (row.region >= 0 && regionOf(i).region.keep == Region::Keep::shape) {
+    const auto of_shape = clearanceOfShape(tape.motion(), i);
+    return of_shape->time_rate ? of_shape->time_rate(tape, controls) : Eigen::VectorXd();
+  }
   if (row.region >= 0) return clearanceTimeRate(*clearance(tape.motion(), i), tape, controls);
   if (!row.overSpan()) return {};
   const Bound& bound = bound_[row.constraint];
@@ -145,10 +149,27 @@ void ConstraintSet::putReading(int i, RowReading reading, RowValues& out) const 
   out.notes[i] = {std::move(reading.doubt), reading.second_order, std::move(reading.seed_rates)};
 }
 
+const BoundRegion& ConstraintSet::regionOf(int i) const {
+  return bound_[rows_[i].constraint].regions[rows_[i].region];
+}
+
 std::optional<Clearance> ConstraintSet::clearance(const Motion& motion, int i) const {
   const Row& row = rows_[i];
-  const Bound& bound = bound_[row.constraint];
-  return leastClearance(motion, bound.body, bound.regions[row.region], row.component);
+  return leastClearance(motion, bound_[row.constraint].body, regionOf(i), row.component);
+}
+
+std::optional<ShapeClearance> ConstraintSet::clearanceOfShape(const Motion& motion, int i) const {
+  const Row& row = rows_[i];
+  return shapeClearance(motion, bound_[row.constraint].body, regionOf(i), row.component);
+}
+
+std::optional<double> ConstraintSet::timeOfClearance(const Motion& motion, int i) const {
+  if (regionOf(i).region.keep == Region::Keep::shape) {
+    const auto of_shape = clearanceOfShape(motion, i);
+    return of_shape ? std::optional(of_shape->time) : std::nullopt;
+  }
+  const auto of_ball = clearance(motion, i);
+  return of_ball ? std::optional(of_ball->time) : std::nullopt;
 }
 
 std::vector<StateSeed> ConstraintSet::seedRates(const Motion& motion, const Eigen::VectorXd& times, int i,
@@ -177,9 +198,10 @@ std::vector<StateSeed> ConstraintSet::seedRates(const Motion& motion, const Eige
 
 void ConstraintSet::readRegion(const Motion& motion, int i, RowValues& out) const {
   const Row& row = rows_[i];
-  const Bound& bound = bound_[row.constraint];
-  const BoundRegion& region = bound.regions[row.region];
-  if (const std::optional<Clearance> clearance = this->clearance(motion, i)) {
+  const BoundRegion& region = regionOf(i);
+  if (region.region.keep == Region::Keep::shape) {
+    if (auto of_shape = clearanceOfShape(motion, i)) return putReading(i, std::move(of_shape->reading), out);
+  } else if (const std::optional<Clearance> clearance = this->clearance(motion, i)) {
     out.values[i] = clearance->value;
     out.seeds[i] = {clearance->seed};
     return;

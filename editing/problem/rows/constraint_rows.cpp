@@ -130,7 +130,8 @@ void ConstraintSet::addRegionRows(const Scene& scene, int index, int region_inde
   }
   BoundRegion of_body{region, 0, duration, 0};
   if (region.during) std::tie(of_body.from, of_body.to) = *region.during;
-  of_body.margin = region.margin ? *region.margin : boundingRadiusAboutCenter(body);
+  const bool ball = region.keep == Region::Keep::ball;
+  of_body.margin = region.margin.value_or(ball ? boundingRadiusAboutCenter(body) : 0);
   bound.regions.push_back(std::move(of_body));
   for (int c = 0; c < rowsOf(region); ++c) {
     Row row;
@@ -149,6 +150,8 @@ std::vector<bool> ConstraintSet::asksOrientation() const {
     for (const QuantityKind* kind : bound.kinds) {
       if (kind->turns) asks[static_cast<std::size_t>(bound.body)] = true;
     }
+    for (const BoundRegion& region : bound.regions)
+      if (region.region.keep == Region::Keep::shape) asks[static_cast<std::size_t>(bound.body)] = true;
     for (const int other : bound.to)
       if (other >= 0) asks[static_cast<std::size_t>(other)] = true;
     if (bound.relative_to >= 0) asks[static_cast<std::size_t>(bound.relative_to)] = true;

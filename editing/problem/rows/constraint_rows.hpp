@@ -14,6 +14,7 @@
 #include "editing/problem/rows/bound_function.hpp"
 #include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
+#include "editing/problem/rows/shape_clearance.hpp"
 #include "editing/problem/rows/wished_impacts.hpp"
 #include "editing/wanted.h"
 
@@ -109,8 +110,11 @@ class ConstraintSet {
   /// `times` as for evaluate.
   std::vector<StateSeed> seedRates(const Motion& motion, const Eigen::VectorXd& times, int row,
                                    std::span<const BodyStateRate> rates) const;
-  /// What the row of a region reads.
+  /// What the row of a region reads where a ball is kept, and where the shape is.
   std::optional<Clearance> clearance(const Motion& motion, int row) const;
+  std::optional<ShapeClearance> clearanceOfShape(const Motion& motion, int row) const;
+  /// When a row of a region is least, s; nothing where the motion ends before its span does.
+  std::optional<double> timeOfClearance(const Motion& motion, int row) const;
   /// How the time at which a row over a span reads the motion moves with the controls; empty where it stays, or moves
   /// with an event.
   Eigen::VectorXd timeRate(DerivativeTape& tape, int row, std::span<const ReadingDirection> controls) const;
@@ -185,6 +189,7 @@ class ConstraintSet {
   RowReading readOverSpan(const Motion& motion, int row) const;
   void putReading(int row, RowReading reading, RowValues& out) const;
   void readRegion(const Motion& motion, int row, RowValues& out) const;
+  const BoundRegion& regionOf(int row) const;
   void readObjective(const Motion& motion, RowValues& out) const;
   double missAt(const Motion& motion, int constraint, double time) const;
 

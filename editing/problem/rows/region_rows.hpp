@@ -17,7 +17,7 @@ namespace carom::editing_detail {
 struct BoundRegion {
   Region region;
   double from = 0, to = 0;  ///< s
-  double margin = 0;        ///< m
+  double margin = 0;        ///< m, see Region::margin
 };
 
 /// Rows of a region: one for each face of a box that is not to be left, else one.
