@@ -16,7 +16,7 @@ namespace carom {
 enum class EditStatus {
   solved,                   ///< verified, in the impact sequence of the start
   solved_sequence_changed,  ///< verified, but other impacts than before happen on the way
-  infeasible,               ///< the constraints cannot all be met, or no way was found from anywhere that was tried
+  infeasible,               ///< it is proven that no motion meets the constraints
   not_converged,            ///< the limit of iterations, or no progress
   out_of_time,              ///< the time budget was used up
   cancelled,  ///< by the progress callback, or a stop was requested: the best so far, see EditResult::met

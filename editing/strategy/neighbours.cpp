@@ -13,8 +13,6 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Borders cost a reverse pass each, and an impact has several of them.
-constexpr std::size_t kMostEvents = 16;
 /// How far beyond a border, in lengths of the change, and the least of it in natural scales.
 constexpr double kBeyond = 0.05, kLeastBeyond = 1e-4;
 /// A direction that crosses a border by less than this share of its gradient does not cross it.
@@ -39,7 +37,7 @@ std::vector<Eigen::VectorXd> beyondBorders(const EditSearch& search, const EditP
     const double length = lengthOf(problem, place);
     if (length < below) places.emplace_back(length, std::move(place));
   };
-  for (const EventMargin& border : sequenceBorders(problem, point.changes, tape, point.rows, kMostEvents)) {
+  for (const EventMargin& border : sequenceBorders(problem, point.changes, tape, point.rows, kBordersUpTo)) {
     const double slope = border.gradient.norm();
     if (!(slope > 0) || !std::isfinite(slope) || !std::isfinite(border.value)) continue;
     Eigen::VectorXd normal = Eigen::VectorXd::Zero(point.changes.size());

@@ -7,6 +7,7 @@
 
 #include "editing/solve/minimise.hpp"
 #include "editing/solve/projection.hpp"
+#include "editing/strategy/border_minimum.hpp"
 #include "editing/strategy/landing.hpp"
 
 namespace carom::editing_detail {
@@ -17,7 +18,7 @@ constexpr std::size_t kOfEachGroup = 2;
 /// So many of them for each landing, at most.
 constexpr std::size_t kForEachLanding = 4;
 constexpr int kLandingSteps = 30, kImprovingSteps = 15;
-constexpr int kMinimisingIterations = 40;
+constexpr int kMinimisingIterations = 40, kBorderSteps = 8;
 /// Of the objective: a fifth of a natural scale; and the part of the landings that is done for less than that.
 constexpr double kSmallChange = 0.02;
 constexpr std::size_t kPart = 4;
@@ -173,9 +174,14 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek
     // the smallest changes of all the others are looked at only when someone asks for them
     const bool worth = seek == Seek::others || solutions_.empty() ||
                        point->objective < kClearlySmaller * solutions_.front()->objective;
-    const EditPointPtr end =
-        worth && search_.halt() == Halt::none ? minimiseWithin(search_, point, kMinimisingIterations) : point;
-    add(search_.reached(*end) ? end : point);
+    if (!worth || search_.halt() != Halt::none) {
+      add(point);
+      continue;
+    }
+    const EditPointPtr within = minimiseWithin(search_, point, kMinimisingIterations);
+    const EditPointPtr end = search_.reached(*within) ? within : point;
+    const bool is_best = solutions_.empty() || end->objective < solutions_.front()->objective;
+    add(is_best ? minimiseAlongBorder(search_, end, kBorderSteps) : end);
   }
 }
 

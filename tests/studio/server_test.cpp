@@ -189,7 +189,7 @@ TEST(Server, APageThatDoesNotReadIsClosed) {
   RawClient page = server.page();
   waitFor(page, "state");
   bool open = true;
-  for (int id = 2; open && id < 200'000; ++id)
+  for (int id = 2; open && id < 2'000'000; ++id)
     open = page.sendFrame("{\"type\": \"stop\", \"id\": " + std::to_string(id) + "}");
   EXPECT_FALSE(open);
   EXPECT_EQ(statusOf(server.get("/")), 200);

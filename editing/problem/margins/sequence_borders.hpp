@@ -10,6 +10,9 @@
 /// Internal to editing/.
 namespace carom::editing_detail {
 
+/// Borders cost a reverse pass each, and an impact has several of them: a search looks at those of so many impacts.
+inline constexpr std::size_t kBordersUpTo = 16;
+
 /// The margins of a motion of the problem, by the changes of its controls: of the first `most_events` impacts, as far as
 /// they count for the constraints, and to the instants at which these read them. `tape` is of a motion simulated at the
 /// unknowns, `rows` what the constraints read from it.

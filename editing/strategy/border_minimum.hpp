@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "editing/solve/edit_search.hpp"
+
+/// Internal to editing/.
+namespace carom::editing_detail {
+
+/// Whether a point that meets the constraints could change clearly less if it were not for the border of its impact
+/// sequence: as the rows are linear around it.
+bool isAtBorder(const EditSearch& search, EditPoint& point);
+
+/// From a point that meets the constraints, along the borders of its impact sequence, towards the smallest change within
+/// them. Each step goes to the minimum of |z|^2 / 2 subject to the rows and the borders as they are linear around the
+/// point, shortened until the sequence stays and the change falls. Returns the last point, or the first where none is
+/// smaller.
+EditPointPtr minimiseAlongBorder(EditSearch& search, EditPointPtr point, int max_steps);
+
+}  // namespace carom::editing_detail
