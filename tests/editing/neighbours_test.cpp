@@ -21,7 +21,7 @@ namespace {
 constexpr double kAnyLength = std::numeric_limits<double>::infinity();
 
 /// A box that tumbles over a floor, and where it shall be after two impacts or so.
-struct Tumble {
+struct TumblingBox {
   Scene scene;
   OdeContacts contacts;
   EditOptions options;
@@ -29,7 +29,7 @@ struct Tumble {
   EditSearch search;
   EditPointPtr start;
 
-  explicit Tumble(bool reversed)
+  explicit TumblingBox(bool reversed)
       : scene(sceneOf(reversed)),
         contacts(scene),
         problem(scene, contacts, 1, {velocity("box"), angularVelocity("box")}, constraints()),
@@ -48,7 +48,7 @@ struct Tumble {
 };
 
 TEST(Neighbours, HaveOtherImpacts) {
-  Tumble t(false);
+  TumblingBox t(false);
   ASSERT_TRUE(t.search.differentiate(*t.start));
   const std::string before = t.start->signature;
   const std::vector<Eigen::VectorXd> places = beyondBorders(t.search, *t.start, kAnyLength);
@@ -69,7 +69,7 @@ TEST(Neighbours, HaveOtherImpacts) {
 }
 
 TEST(Neighbours, KeepBelowALength) {
-  Tumble t(false);
+  TumblingBox t(false);
   ASSERT_TRUE(t.search.differentiate(*t.start));
   const std::vector<Eigen::VectorXd> all = beyondBorders(t.search, *t.start, kAnyLength);
   ASSERT_FALSE(all.empty());
@@ -80,7 +80,7 @@ TEST(Neighbours, KeepBelowALength) {
 }
 
 TEST(Neighbours, AreTheSameWithBodiesInReverseOrder) {
-  Tumble a(false), b(true);
+  TumblingBox a(false), b(true);
   ASSERT_TRUE(a.search.differentiate(*a.start) && b.search.differentiate(*b.start));
   const std::vector<Eigen::VectorXd> one = beyondBorders(a.search, *a.start, kAnyLength),
                                      other = beyondBorders(b.search, *b.start, kAnyLength);

@@ -11,6 +11,8 @@
 #include "tests/editing/scenes.h"
 
 namespace carom::test {
+using namespace testing_scenes;
+
 namespace {
 
 /// The height of SciML's ball after 15 s, in closed form, bounce by bounce; 0 once bounces are lower than 1e-12 m.

@@ -225,7 +225,7 @@ std::string featuresOfFirst(const Motion& motion) {
 
 TEST(WishedImpacts, FeaturesThatMeet) {
   for (const bool reversed : {false, true}) {
-    const Tumble start(reversed);
+    Tumble start(reversed);
     const std::string was = featuresOfFirst(simulate(start.scene, start.contacts, 1));
     Tumble same(reversed);
     same.edit.sequence({"box floor (" + was + ")"});
