@@ -9,6 +9,7 @@ namespace {
 
 // Rates of a vector, and of a number, by the inputs of a path that a ball has: velocity, angular momentum, gravity and
 // normal, then friction, mass, moment of inertia and radius.
+using Sensitivity = Eigen::Matrix<double, 12, 27>;
 using Rates = Eigen::Matrix<double, 3, 16>;
 using RatesOfNumber = Eigen::Matrix<double, 1, 16>;
 enum Input { kVelocity = 0, kMomentum = 3, kGravity = 6, kNormal = 9, kFriction = 12, kMass, kInertia, kReach };
@@ -38,9 +39,9 @@ struct Ends {
   Vec3 spin;  // w itself
 };
 
-PathSensitivity<double> assembled(const Ball& ball, const Ends& end, const Mat3& E, const Rates& theta) {
-  PathSensitivity<double> out;
-  auto& J = out.J;
+Sensitivity assembled(const Ball& ball, const Ends& end, const Mat3& E, const Rates& theta) {
+  Sensitivity out;
+  auto& J = out;
   J.setZero();
   J.topLeftCorner<3, 3>().setIdentity();
   J.block<3, 3>(3, 3) = E;
@@ -56,7 +57,7 @@ PathSensitivity<double> assembled(const Ball& ball, const Ends& end, const Mat3&
   return out;
 }
 
-PathSensitivity<double> rolling(const Ball& ball, double t, bool orientation) {
+Sensitivity rolling(const Ball& ball, double t, bool orientation) {
   const PathInputs<double>& in = ball.in;
   const Vec3 &n = ball.n, v0 = alongFace(n, in.v), a = alongFace(n, in.gravity) / (1 + ball.k);
   const Rates dv0 = ball.along(in.v, kVelocity);
@@ -85,7 +86,7 @@ PathSensitivity<double> rolling(const Ball& ball, double t, bool orientation) {
   return assembled(ball, end, turn.E, turn.E * (turn.M0 * (rolled(v0, dv0) + dpivot) + turn.M1 * rolled(a, da)));
 }
 
-PathSensitivity<double> sliding(const Ball& ball, const GlidePath<double>& path, double elapsed, bool orientation) {
+Sensitivity sliding(const Ball& ball, const GlidePath<double>& path, double elapsed, bool orientation) {
   const PathInputs<double>& in = ball.in;
   const Vec3 &n = ball.n, &s0 = path.slip().start(), &lever = path.lever(), &w0 = path.startSpin();
   const double c = path.slip().friction(), T = *path.end(), t = std::min(elapsed, T), x = t / T, y = 1 - x;
@@ -132,8 +133,8 @@ PathSensitivity<double> sliding(const Ball& ball, const GlidePath<double>& path,
 
 }  // namespace
 
-std::optional<PathSensitivity<double>> ballSensitivity(PathForm form, const PathInputs<double>& in, double elapsed,
-                                                       bool orientation) {
+std::optional<Eigen::Matrix<double, 12, 27>> ballSensitivity(PathForm form, const PathInputs<double>& in,
+                                                             double elapsed, bool orientation) {
   if (form == PathForm::roll_ball) return rolling({in}, elapsed, orientation);
   if (form != PathForm::glide_ball) return std::nullopt;
   const GlidePath<double> path = GlidePath<double>::ball(in);

@@ -3,13 +3,13 @@
 
 #include <optional>
 
-#include "adjoint/contact/path_sensitivity.hpp"
+#include "adjoint/contact/contact_path.hpp"
 
 namespace carom::adjoint_detail {
 
-/// pathSensitivity in closed form: of a ball that rolls, and of one that slides on a level face, whose slip goes along a
+/// The matrix of pathSensitivity in closed form: of a ball that rolls, and of one that slides on a level face, whose slip goes along a
 /// line (11.18 of docs/equations.md). Nothing for any other path.
-std::optional<PathSensitivity<double>> ballSensitivity(PathForm form, const PathInputs<double>& in, double elapsed,
-                                                       bool orientation);
+std::optional<Eigen::Matrix<double, 12, 27>> ballSensitivity(PathForm form, const PathInputs<double>& in,
+                                                             double elapsed, bool orientation);
 
 }  // namespace carom::adjoint_detail

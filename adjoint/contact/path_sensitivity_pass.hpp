@@ -192,7 +192,7 @@ class SensitivityColumns {
 template <class S>
 PathSensitivity<S> pathSensitivity(PathForm form, const PathInputs<S>& in, const S& elapsed, bool orientation) {
   if constexpr (std::is_same_v<S, double>) {
-    if (const auto closed = ballSensitivity(form, in, elapsed, orientation)) return *closed;
+    if (const auto closed = ballSensitivity(form, in, elapsed, orientation)) return {*closed};
   }
   PathSensitivity<S> sensitivity;
   if (form == PathForm::rest) {

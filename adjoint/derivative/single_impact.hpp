@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/motion/motion.h"
 #include "adjoint/impact/law.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 
