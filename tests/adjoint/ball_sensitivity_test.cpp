@@ -2,6 +2,7 @@
 // Closed forms of how a ball that rolls or slides on a level face varies, beside the formulae of any path, which dual
 // numbers differentiate. tests/reference holds both to the equations of motion in 50 digits.
 
+#include "adjoint/contact/path_sensitivity.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +48,7 @@ void check(PathForm form, const PathInputs<double>& in, double t, const std::str
   for (const bool orientation : {false, true}) {
     const auto closed = ballSensitivity(form, in, t, orientation);
     ASSERT_TRUE(closed.has_value()) << name;
-    Eigen::Matrix<double, 12, 27> expected = general(form, in, t, orientation), found = closed->J;
+    Eigen::Matrix<double, 12, 27> expected = general(form, in, t, orientation), found = *closed;
     for (auto* J : {&found, &expected})  // a normal turns, and keeps its length
       J->middleCols<3>(15) = (J->middleCols<3>(15) * skew(in.normal)).eval();
     for (int column = 0; column < 27; ++column)
