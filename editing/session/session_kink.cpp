@@ -5,7 +5,7 @@
 
 #include <Eigen/SVD>
 
-#include "editing/problem/margins/event_margins.hpp"
+#include "editing/problem/margins/sequence_borders.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -18,8 +18,6 @@ constexpr double kOneRank = 0.3;
 constexpr double kOnTheWay = 1.3;
 /// Share of the way to a border that may be taken.
 constexpr double kBefore = 0.9;
-/// Borders cost a pass each for several of them at every impact.
-constexpr std::size_t kMostEvents = 16;
 
 }  // namespace
 
@@ -42,7 +40,7 @@ std::optional<Kink> kinkBetween(const EditProblem& problem, const EditPoint& a, 
 
 std::vector<Kink> jumpsBetween(const EditProblem& problem, const EditPoint& a, const EditPoint& b) {
   const std::size_t events = problem.constraints.extentIn(a.motion, a.rows.times).events;
-  if (events == 0 || events > kMostEvents) return {};
+  if (events == 0 || events > kBordersUpTo) return {};
   const Eigen::VectorXd rates = problem.rates(a.changes), way = b.changes - a.changes;
   const Eigen::Index n = problem.controls.size();
   const auto byChanges = [&](const SceneGradient& gradient) {

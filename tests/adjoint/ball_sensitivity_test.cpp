@@ -2,13 +2,13 @@
 // Closed forms of how a ball that rolls or slides on a level face varies, beside the formulae of any path, which dual
 // numbers differentiate. tests/reference holds both to the equations of motion in 50 digits.
 
-#include "adjoint/contact/path_sensitivity.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "adjoint/contact/ball_sensitivity.hpp"
 #include "adjoint/contact/level_glide_turn.hpp"
+#include "adjoint/contact/path_sensitivity.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scaled.h"
 #include "tests/support/scenes.h"
