@@ -21,7 +21,14 @@ constexpr double kExact = 1e-14;
 constexpr double kLeavesRange = 1e-12;
 
 /// Damping of steps, against rows of unit length: it grows until a step succeeds, and falls from one to the next.
-constexpr double kLeastDamping = 1e-5, kMostDamping = 20, kMoreDamping = 10, kLessDamping = 100;
+constexpr double kLeastDamping = 1e-5, kMostDamping = 20, kLessDamping = 100;
+
+/// Lengths and dampings that are tried.
+struct Trials {
+  double shortest, shorter;  ///< shares of the step, and from one to the next
+  double more_damping;
+};
+constexpr Trials kFull{0.01, 0.5, 10}, kCoarse{0.05, 0.25, 50};
 
 struct System {
   Eigen::MatrixXd J;
@@ -128,47 +135,59 @@ Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, d
 
 namespace {
 
-/// The first point along a step with a smaller violation; null where there is none. `full` is the one at its end.
-EditPointPtr descend(EditSearch& search, const EditPoint& from, const Eigen::VectorXd& step,
-                     const std::string* signature, EditPointPtr& full) {
-  for (double length = 1; length > 0.01 && search.halt() == Halt::none; length /= 2) {
-    EditPointPtr trial = search.evaluate(from.changes + length * step);
-    if (!trial || (signature && trial->signature != *signature)) continue;
-    if (length == 1) full = trial;
-    if (trial->violation < from.violation) return trial;
-  }
-  return nullptr;
-}
+/// The steps from one point.
+struct Descent {
+  EditSearch& search;
+  const EditPoint& from;
+  const std::string* signature;
+  const Trials& trials;
 
-/// A damped step with a smaller violation, the least damping first; null where there is none.
-EditPointPtr descendDamped(EditSearch& search, const EditPoint& from, const std::string* signature, double& damping) {
-  for (damping = std::max(damping / kLessDamping, kLeastDamping);
-       damping <= kMostDamping && search.halt() == Halt::none; damping *= kMoreDamping) {
-    EditPointPtr trial = search.evaluate(from.changes + smallestStep(search, from, damping));
-    if (!trial || (signature && trial->signature != *signature)) continue;
-    if (trial->violation < from.violation) return trial;
+  EditPointPtr tryStep(const Eigen::VectorXd& step) const {
+    EditPointPtr trial = search.evaluate(from.changes + step);
+    return trial && (!signature || trial->signature == *signature) ? trial : nullptr;
   }
-  damping = 0;
-  return nullptr;
-}
+
+  /// The first point along a step with a smaller violation; null where there is none. `full` is the one at its end.
+  EditPointPtr along(const Eigen::VectorXd& step, EditPointPtr& full) const {
+    for (double length = 1; length > trials.shortest && search.halt() == Halt::none; length *= trials.shorter) {
+      EditPointPtr trial = tryStep(length * step);
+      if (!trial) continue;
+      if (length == 1) full = trial;
+      if (trial->violation < from.violation) return trial;
+    }
+    return nullptr;
+  }
+
+  /// A damped step with a smaller violation, the least damping first; null where there is none.
+  EditPointPtr damped(double& damping) const {
+    for (damping = std::max(damping / kLessDamping, kLeastDamping);
+         damping <= kMostDamping && search.halt() == Halt::none; damping *= trials.more_damping) {
+      EditPointPtr trial = tryStep(smallestStep(search, from, damping));
+      if (trial && trial->violation < from.violation) return trial;
+    }
+    damping = 0;
+    return nullptr;
+  }
+};
 
 }  // namespace
 
 EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int max_steps,
-                                    const std::string* signature) {
+                                    const std::string* signature, Care care) {
   EditPointPtr point = std::move(from), nearest = point;
   int leaps = 0;
   double damping = 0;
   for (int k = 0; k < max_steps && point->violation > kExact; ++k) {
     if (!search.differentiate(*point)) break;
+    const Descent descent{search, *point, signature, care == Care::full ? kFull : kCoarse};
     EditPointPtr full, next;
-    if (damping <= kLeastDamping) next = descend(search, *point, smallestStep(search, *point), signature, full);
+    if (damping <= kLeastDamping) next = descent.along(smallestStep(search, *point), full);
     // At the border of two impact sequences the violation may have a kink that no descent leaves.
     const bool may_leap = !signature && full && leaps < kProjectionLeaps && full->signature != point->signature;
     if (!next && may_leap) next = full, ++leaps;
     // Where even a short way along the undamped step is too far, the rows are nearly dependent.
     const bool nearly_met = point->violation <= search.options().tolerance;
-    if (!next && !nearly_met) next = descendDamped(search, *point, signature, damping);
+    if (!next && !nearly_met) next = descent.damped(damping);
     if (!next) break;
     point = std::move(next);
     if (point->violation < nearest->violation) nearest = point;

@@ -11,6 +11,7 @@
 #include "editing/solve/projection.hpp"
 #include "editing/strategy/approach.hpp"
 #include "editing/strategy/impossible.hpp"
+#include "editing/strategy/landing.hpp"
 #include "editing/strategy/row_choice.hpp"
 #include "editing/strategy/samples.hpp"
 #include "editing/strategy/sequence_search.hpp"
@@ -23,8 +24,12 @@ constexpr double kClearlyLess = 0.98;
 /// Points beside one on a border, and how far they are from it, as a share of the change.
 constexpr int kDirectionsBeside = 16;
 constexpr double kBeside = 1e-4;
-/// An objective from which on twice as many rounds without a smaller one are waited for: a third of a natural scale.
+/// Iterations of the solver along the sequence of the start: where it leads anywhere, it is there by then.
+constexpr int kFollowingIterations = 20, kInsideIterations = 40;
+/// An objective, a third of a natural scale, from which on the solver looks within the sequence of the start once more.
 constexpr double kLargeChange = 0.05;
+/// Events of a solution from which on its neighbours are many.
+constexpr int kManyImpacts = 4;
 /// So often solutions are looked for, while none of those that were found is confirmed.
 constexpr int kTries = 3;
 
@@ -111,15 +116,28 @@ EditSolution unsolved(EditSearch& search, EditSolution solution) {
 /// no edges: trials may leave the sequence on the way, and where they end outside of it they show where to look.
 EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start) {
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
+  const bool any = search.options().sequence == SequencePolicy::smallest;
   const int iterations = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
   const auto solves = [&](const EditPointPtr& point) {
     return point && search.reached(*point) && point->signature == start->signature;
   };
-  const EditPointPtr followed = followSequence(search, choice.from, choice.rows, iterations / 2);
+  const int following = any ? std::min(kFollowingIterations, iterations / 2) : iterations / 2;
+  const EditPointPtr followed = followSequence(search, choice.from, choice.rows, following);
   if (solves(followed)) return followed;
-  if (search.options().sequence == SequencePolicy::smallest || !search.goesOn()) return nullptr;
-  const EditPointPtr inside = minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
+  if (!search.goesOn()) return nullptr;
+  const EditPointPtr inside = any ? land(search, choice.from, {.signature = &start->signature})
+                                  : minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
   return solves(inside) ? inside : nullptr;
+}
+
+/// The solver's own way within the sequence of the start, which takes long and seldom leads to a smaller change: where
+/// only large ones are known.
+void solveInSequenceAgain(EditSearch& search, const RowChoice& choice, const EditPointPtr& start,
+                          SequenceSearch& across) {
+  if (!(across.solutions().front()->objective > kLargeChange) || !search.goesOn()) return;
+  const int iterations = std::min(kInsideIterations, search.iterationsLeft());
+  const EditPointPtr inside = minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
+  if (search.reached(*inside) && inside->signature == start->signature) across.add(inside);
 }
 
 /// Whether rows that the motion of the start lacks may be there in others: not those of times after its duration.
@@ -141,8 +159,8 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   if (across.solutions().empty()) return;
   const auto patience = [&] {
     if (across.hasSmallChangeInside()) return (plan.idle_rounds + 1) / 2;
-    const bool large = across.solutions().front()->objective > kLargeChange;
-    return large ? 2 * plan.idle_rounds : plan.idle_rounds;
+    const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
+    return many ? plan.idle_rounds_of_many : plan.idle_rounds;
   };
   for (int rounds = plan.improving_rounds, idle = 0; rounds > 0 && idle < patience(); --rounds) {
     const double before = across.solutions().front()->objective;
@@ -207,6 +225,9 @@ EditSolution findSolution(EditSearch& search) {
   for (int tries = kTries; !confirmed && tries > 0; --tries) {
     if (may_leave) searchAcross(search, across);
     if (across.solutions().empty()) break;
+    const bool unsolved_inside = from_start && !contradicts && !inside;
+    if (may_leave && unsolved_inside && tries == kTries) solveInSequenceAgain(search, choice, start, across);
+    across.polishBest();
     confirmed = smallestConfirmed(search, across);
   }
   solution.point = confirmed ? confirmed : polished(search, search.best());

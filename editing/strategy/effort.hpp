@@ -12,7 +12,9 @@ namespace carom::editing_detail {
 struct SearchPlan {
   int first_rounds;      ///< until a first solution
   int improving_rounds;  ///< after it, for smaller changes
-  int idle_rounds;       ///< so many in a row without a clearly smaller change end them
+  /// So many in a row without a clearly smaller change end them: where the impacts are those of the start or few, and
+  /// where they are many others.
+  int idle_rounds, idle_rounds_of_many;
   /// Of the samples of one round, in steps of simulations (SimulateOptions::step_limit): until a first solution, twice
   /// as much with each round, and after it.
   double first_steps, improving_steps;

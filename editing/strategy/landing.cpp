@@ -5,21 +5,16 @@
 #include <cmath>
 
 #include "editing/solve/projection.hpp"
+#include "editing/solve/reduced_hessian.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-/// Rows this near, dimensionless: what the linear rows say of the smallest change is worth something.
-constexpr double kNearRows = 0.01;
-/// A landing is given up where the change that is in sight is so much larger than the one to beat.
-constexpr double kFarAbove = 1.2;
 /// Where no step makes the merit smaller, steps across borders may: so many where a solution is known already.
 constexpr int kLeapingSteps = 5;
 /// Shares of the way along the constraints that are tried.
 constexpr double kSharesAlong[] = {1, 0.3, 0.1};
-/// The way along the constraints that is left, as a share of the change, at which a landing ends.
-constexpr double kArrived = 1e-3;
 /// A step after which more than this share of the residuals is left, or they are larger, went along bent rows.
 constexpr double kBent = 0.1;
 /// The penalty of the merit function, in multipliers.
@@ -80,7 +75,8 @@ EditPointPtr stepAlong(EditSearch& search, const EditPoint& point, const Eigen::
     return missingImpacts(search.problem(), *trial).empty();
   };
   for (const double share : kSharesAlong) {
-    const EditPointPtr trial = search.evaluate(point.changes + onto + share * along);
+    const Eigen::VectorXd to = point.changes + onto + share * along;
+    const EditPointPtr trial = search.evaluate(to.cwiseMax(search.lower()).cwiseMin(search.upper()));
     if (search.halt() != Halt::none) return nullptr;
     const bool bent = trial && trial->signature == point.signature && trial->violation > kBent * point.violation &&
                       !search.reached(*trial);
@@ -112,21 +108,28 @@ double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes) {
 
 EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing) {
   EditPointPtr point = from, best = from;
-  const int leaping = std::isfinite(landing.below) ? kLeapingSteps : landing.max_steps;
+  const bool one_of_many = std::isfinite(landing.below);
+  const int leaping = one_of_many ? kLeapingSteps : landing.max_steps;
+  const Care care = one_of_many ? Care::coarse : Care::full;
   const int last = search.iterations() + landing.max_steps;
+  double penalty = 0;  // never falls: one that did could let steps go round in circles
+  ReducedHessian hessian;
   while (search.iterations() < last) {
     if (!search.differentiate(*point)) break;
     const Eigen::VectorXd smallest = smallestChange(search, *point);
     if (!smallest.allFinite()) break;
-    const double in_sight = lengthOf(search.problem(), smallest);
-    if (point->violation < kNearRows && in_sight > kFarAbove * landing.below) return nullptr;
     const Eigen::VectorXd onto = smallestStep(search, *point);
-    const Eigen::VectorXd along = smallest - point->changes - onto;
-    if (search.reached(*point) && along.norm() <= kArrived * point->changes.norm()) break;
-    const double penalty = kAboveMultipliers * largestMultiplier(search, *point, smallest);
+    // a step onto the constraints makes the change smaller by no more than its own length
+    if (lengthOf(search.problem(), smallest) > landing.below + onto.norm()) return nullptr;
+    const Eigen::VectorXd plain = smallest - point->changes - onto;
+    if (search.reached(*point) && plain.norm() <= landing.arrived * point->changes.norm()) break;
+    const Eigen::VectorXd along = hessian.stepAlong(point->changes, *point->row_jacobian, plain);
+    penalty = std::max(penalty, kAboveMultipliers * largestMultiplier(search, *point, smallest));
     EditPointPtr next = stepAlong(search, *point, onto, along, penalty, landing.signature);
-    if (!next && search.halt() == Halt::none && !search.reached(*point))
-      next = projectOntoConstraints(search, point, std::min(leaping, last - search.iterations()), landing.signature);
+    if (!next && search.halt() == Halt::none && !search.reached(*point)) {
+      const int steps = std::min(leaping, last - search.iterations());
+      next = projectOntoConstraints(search, point, steps, landing.signature, care);
+    }
     if (!next || next == point) break;
     point = std::move(next);
     if (isBetter(search, *point, *best)) best = point;

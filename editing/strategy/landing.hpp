@@ -17,9 +17,11 @@ double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes);
 /// What a landing keeps to.
 struct Landing {
   int max_steps = 30;
-  /// Given up where no smaller change than this is in sight: the edit knows one of this length.
+  /// Given up where no smaller change than this is in sight: the edit knows one of this length. Steps are looked for
+  /// less hard then.
   double below = std::numeric_limits<double>::infinity();
   const std::string* signature = nullptr;  ///< not null: points of other impact sequences are refused
+  double arrived = 1e-3;  ///< the way along the constraints that is left, as a share of the change, at which it ends
 };
 
 /// Steps onto the constraints and along them towards the smallest change, whatever impacts that takes. Each is

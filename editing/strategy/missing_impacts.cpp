@@ -56,23 +56,58 @@ std::vector<int> unmetBodies(const ConstraintSet& constraints, const Scene& scen
   return bodies;
 }
 
+/// What the controls have a part in up to a time.
+std::vector<char> movedUntil(const EditProblem& problem, const Motion& motion, double until) {
+  Influence influence(problem.controls);
+  for (const Event& event : motion.events)
+    if (event.time <= until) influence.follow(event, problem.controls.startScene().bodies);
+  return influence.moved;
+}
+
+/// Of one of these bodies with one that the controls have a part in.
+LackingImpact withMoved(const std::vector<int>& bodies, const std::vector<char>& moved, double until) {
+  LackingImpact impact;
+  impact.to = until;
+  for (const int body : bodies)
+    for (std::size_t b = 0; b < moved.size(); ++b)
+      if (moved[b]) impact.pairs.emplace_back(body, static_cast<int>(b));
+  return impact;
+}
+
+/// Before an impact of bodies that the controls have no part in, one of them has to be struck by one that they have a
+/// part in.
+std::vector<LackingImpact> withWhatComesBefore(const EditProblem& problem, const EditPoint& point) {
+  const std::vector<Body>& bodies = problem.controls.startScene().bodies;
+  std::vector<LackingImpact> missing;
+  for (const LackingImpact& lacking : point.rows.lacking) {
+    const std::vector<char> moved = movedUntil(problem, point.motion, lacking.to);
+    const auto isMoved = [&](int body) { return moved[static_cast<std::size_t>(body)] != 0; };
+    std::vector<int> still;
+    for (const auto& [a, b] : lacking.pairs)
+      for (const int body : {a, b})
+        if (!bodies[static_cast<std::size_t>(body)].immovable()) still.push_back(body);
+    std::sort(still.begin(), still.end());
+    still.erase(std::unique(still.begin(), still.end()), still.end());
+    if (std::none_of(still.begin(), still.end(), isMoved)) {
+      LackingImpact before = withMoved(still, moved, lacking.to);
+      if (!before.pairs.empty()) missing.push_back(std::move(before));
+    }
+    missing.push_back(lacking);
+  }
+  return missing;
+}
+
 }  // namespace
 
 std::vector<LackingImpact> missingImpacts(const EditProblem& problem, const EditPoint& point) {
-  if (!point.rows.available || !point.rows.lacking.empty()) return point.rows.lacking;
+  if (!point.rows.available || !point.rows.lacking.empty()) return withWhatComesBefore(problem, point);
   const Scene& scene = problem.controls.startScene();
   const double until = problem.constraints.extentIn(point.motion, point.rows.times).time;
-  Influence influence(problem.controls);
-  for (const Event& event : point.motion.events)
-    if (event.time <= until) influence.follow(event, scene.bodies);
-  const std::vector<char>& moved = influence.moved;
+  const std::vector<char> moved = movedUntil(problem, point.motion, until);
   std::vector<LackingImpact> missing;
   for (const int body : unmetBodies(problem.constraints, scene, point)) {
     if (moved[static_cast<std::size_t>(body)] || scene.bodies[static_cast<std::size_t>(body)].immovable()) continue;
-    LackingImpact impact;
-    impact.to = until;
-    for (std::size_t b = 0; b < moved.size(); ++b)
-      if (moved[b]) impact.pairs.emplace_back(body, static_cast<int>(b));
+    LackingImpact impact = withMoved({body}, moved, until);
     if (!impact.pairs.empty()) missing.push_back(std::move(impact));
   }
   return missing;

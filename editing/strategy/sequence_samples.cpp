@@ -157,9 +157,9 @@ std::vector<EditPointPtr> SequenceSearch::crossings(const std::vector<EditPointP
 // From the points that lack least, steps towards the impacts that they lack. Returns those that arrived.
 std::vector<EditPointPtr> SequenceSearch::approachAll(std::vector<EditPointPtr> lacking) {
   std::vector<std::pair<double, EditPointPtr>> ranked;
-  const auto share = [](const EditPointPtr& point) {
+  const auto share = [&](const EditPointPtr& point) {
     double sum = 0;
-    for (const LackingImpact& impact : point->rows.lacking) sum += 1 - impact.share;
+    for (const LackingImpact& impact : missingImpacts(search_.problem(), *point)) sum += 1 - impact.share;
     return sum;
   };
   const auto more = [&](const EditPointPtr& a, const EditPointPtr& b) { return share(a) < share(b); };

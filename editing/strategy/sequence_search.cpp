@@ -18,20 +18,24 @@ constexpr std::size_t kOfEachGroup = 2;
 /// So many of them for each landing, at most.
 constexpr std::size_t kForEachLanding = 4;
 constexpr int kLandingSteps = 30, kImprovingSteps = 15;
-constexpr int kMinimisingIterations = 40, kBorderSteps = 8;
+constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderSteps = 8;
+/// The way along the constraints that is left where a change is as small as it gets, as a share of it.
+constexpr double kStationary = 1e-6, kNearlyStationary = 1e-5;
 /// Of the objective: a fifth of a natural scale; and the part of the landings that is done for less than that.
 constexpr double kSmallChange = 0.02;
 constexpr std::size_t kPart = 4;
 /// So many impacts leave few other ways.
-constexpr std::size_t kFewImpacts = 2;
+constexpr int kFewImpacts = 2;
 /// A step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 1.5;
 /// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
 constexpr double kLeadsNowhere = 0.5;
 /// Once there is a solution only points from which the change is expected to be smaller than this share of it count.
 constexpr double kClearlySmaller = 0.995;
-/// Rows are not linear: from a sample the change may become smaller than it looks, by this factor.
-constexpr double kMayShrink = 1.5;
+/// From a sequence that was tried so often, no more than so many landings a round go where a solution is known.
+constexpr int kTriedOften = 4, kOfTriedOften = 4;
+/// So many landings at a time: what they find is what the next have to beat.
+constexpr std::size_t kWave = 8;
 /// Solutions of one sequence whose changes differ by less than this share of them are the same.
 constexpr double kSameChange = 0.1;
 
@@ -63,10 +67,7 @@ bool SequenceSearch::round(Seek seek) {
 }
 
 bool SequenceSearch::hasSmallChangeInside() const {
-  if (solutions_.empty()) return false;
-  const EditPoint& best = *solutions_.front();
-  if (!(best.objective < kSmallChange && best.signature == start_->signature)) return false;
-  return search_.problem().constraints.extentIn(best.motion, best.rows.times).events <= kFewImpacts;
+  return isBestInside() && solutions_.front()->objective < kSmallChange && impactsOfBest() <= kFewImpacts;
 }
 
 std::size_t SequenceSearch::landings() const {
@@ -126,34 +127,48 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
     const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
     const double change = lengthOf(search_.problem(), smallestChange(search_, *point));
     score = change + kStepsAreUncertain * step.norm();
-    if (leads_nowhere || !std::isfinite(score) || change > kMayShrink * to_beat)
+    if (leads_nowhere || !std::isfinite(score) || change > to_beat + step.norm())  // as landings are given up
       score = std::numeric_limits<double>::infinity();
   });
   std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
   for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ranked.resize(std::min(ranked.size(), landings()));
   std::vector<EditPointPtr> chosen;
+  std::map<std::string, int> of_sequence;
   for (const auto& [score, point] : ranked) {
-    ++tries_[point->signature];
+    if (chosen.size() == landings()) break;
+    const bool tried_often = std::isfinite(to_beat) && tries_[point->signature] >= kTriedOften;
+    if (tried_often && of_sequence[point->signature] >= kOfTriedOften) continue;
+    ++tries_[point->signature], ++of_sequence[point->signature];
     chosen.push_back(point);
   }
   return chosen;
 }
 
 std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr>& candidates, Seek seek) {
-  const Landing landing{solutions_.empty() ? kLandingSteps : kImprovingSteps, lengthToBeat(seek), nullptr};
-  std::vector<EditPointPtr> landed(candidates.size());
-  std::vector<int> steps(candidates.size(), 0);
-  forAll(candidates.size(), [&](std::size_t i, ContactSource& contacts) {
-    EditSearch branch = search_.branch({{&contacts}}, true);
-    landed[i] = land(branch, candidates[i], landing);
-    steps[i] = branch.iterations() - search_.iterations();
-  });
-  std::erase(landed, nullptr);
-  for (const EditPointPtr& point : landed)
-    if (isAllowed(*point)) search_.consider(point);
-  if (!steps.empty()) search_.count(*std::max_element(steps.begin(), steps.end()));
+  Landing landing{.max_steps = solutions_.empty() ? kLandingSteps : kImprovingSteps, .below = lengthToBeat(seek)};
+  std::vector<EditPointPtr> landed;
+  int longest = 0;
+  for (std::size_t first = 0; first < candidates.size(); first += kWave) {
+    std::vector<EditPointPtr> wave(std::min(kWave, candidates.size() - first));
+    std::vector<int> steps(wave.size(), 0);
+    forAll(wave.size(), [&](std::size_t i, ContactSource& contacts) {
+      EditSearch branch = search_.branch({{&contacts}}, true);
+      wave[i] = land(branch, candidates[first + i], landing);
+      steps[i] = branch.iterations() - search_.iterations();
+    });
+    longest = std::max(longest, *std::max_element(steps.begin(), steps.end()));
+    for (const EditPointPtr& point : wave) {
+      if (!point) continue;
+      landed.push_back(point);
+      if (!isAllowed(*point)) continue;
+      search_.consider(point);
+      if (seek == Seek::others || !search_.reached(*point)) continue;
+      landing.max_steps = kImprovingSteps;
+      landing.below = std::min(landing.below, kClearlySmaller * lengthOf(search_.problem(), point->changes));
+    }
+  }
+  search_.count(longest);
   return landed;
 }
 
@@ -178,11 +193,39 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek
       add(point);
       continue;
     }
-    const EditPointPtr within = minimiseWithin(search_, point, kMinimisingIterations);
-    const EditPointPtr end = search_.reached(*within) ? within : point;
+    const EditPointPtr end = smallerWithin(point);
     const bool is_best = solutions_.empty() || end->objective < solutions_.front()->objective;
     add(is_best ? minimiseAlongBorder(search_, end, kBorderSteps) : end);
   }
+}
+
+// To the end of the way that landings go, or else, with an objective of one's own, that of the solver.
+EditPointPtr SequenceSearch::smallerWithin(const EditPointPtr& point) {
+  const bool own = search_.problem().constraints.objective() != nullptr;
+  const EditPointPtr end = own ? minimiseWithin(search_, point, kMinimisingIterations)
+                               : land(search_, point, {.max_steps = kLandingSteps, .signature = &point->signature});
+  return search_.reached(*end) && end->objective < point->objective ? end : point;
+}
+
+void SequenceSearch::polishBest() {
+  if (solutions_.empty() || search_.halt() != Halt::none || search_.problem().constraints.objective()) return;
+  const EditPointPtr best = solutions_.front();
+  const Landing landing{.max_steps = kLandingSteps, .signature = &best->signature, .arrived = kStationary};
+  EditPointPtr end = land(search_, best, landing);
+  const bool stationary = search_.differentiate(*end) && (smallestChange(search_, *end) - end->changes).norm() <=
+                                                             kNearlyStationary * end->changes.norm();
+  if (!stationary) end = minimiseWithin(search_, end, kPolishingIterations);
+  if (search_.reached(*end) && end->objective < best->objective) add(end);
+}
+
+bool SequenceSearch::isBestInside() const {
+  return !solutions_.empty() && solutions_.front()->signature == start_->signature;
+}
+
+int SequenceSearch::impactsOfBest() const {
+  if (solutions_.empty()) return 0;
+  const EditPoint& best = *solutions_.front();
+  return static_cast<int>(search_.problem().constraints.extentIn(best.motion, best.rows.times).events);
 }
 
 void SequenceSearch::drop(const EditPointPtr& solution) { std::erase(solutions_, solution); }

@@ -15,10 +15,10 @@ namespace carom::editing_detail {
 
 /// A local discrete search, after Harada, Witkin and Baraff (1995), in rounds. Each simulates samples around the start
 /// and the best point on all cores, and points beyond the borders of their sequences, leads some of those that lack an
-/// impact towards it, groups them by impact sequence and goes from the most promising of each group onto the constraints, whatever impacts that takes. Where the smallest
-/// of those that arrived changes less than the best so far, its change is minimised within its sequence. Once there is
-/// a solution, only smaller changes are looked for: sequences that are seen to hold none, as their rows are linear, are
-/// left.
+/// impact towards it, groups them by impact sequence and goes from the most promising of each group onto the
+/// constraints, whatever impacts that takes. Where the smallest of those that arrived changes less than the best so
+/// far, its change is minimised within its sequence. Once there is a solution, only smaller changes are looked for:
+/// sequences that are seen to hold none, as their rows are linear, are left.
 /// Everything is done, or taken over, in a fixed order: the answer is the same on any number of cores. Clock and
 /// callback are asked between batches.
 class SequenceSearch {
@@ -38,9 +38,15 @@ class SequenceSearch {
   void add(const EditPointPtr& solution);
   /// Takes one of the solutions out again.
   void drop(const EditPointPtr& solution);
+  /// Brings the best to where its change is as small as it gets within its sequence.
+  void polishBest();
   /// Whether the best is a small change within the sequence of the start, of few impacts: seldom is another one
   /// smaller, so rounds do a part of the work.
   bool hasSmallChangeInside() const;
+  /// Whether the best keeps the sequence of the start.
+  bool isBestInside() const;
+  /// Of the best, up to the last that a constraint holds; 0 without one.
+  int impactsOfBest() const;
   /// The point that lacks least of the impacts that are waited for; null where none lacked any.
   const EditPointPtr& nearestLacking() const { return nearest_lacking_; }
 
@@ -58,6 +64,7 @@ class SequenceSearch {
   std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points, Seek seek);
   std::vector<EditPointPtr> landAll(const std::vector<EditPointPtr>& candidates, Seek seek);
   void minimise(const std::vector<EditPointPtr>& landed, Seek seek);
+  EditPointPtr smallerWithin(const EditPointPtr& point);
   bool reportBatch();
   template <class Work>
   void forAll(std::size_t count, const Work& work);
