@@ -102,8 +102,9 @@ struct Constraint {
   /// The body hits another one. Such a constraint holds nothing else, and its `at` does not count.
   std::optional<Hit> hits = std::nullopt;
   /// Not empty: impacts in the order in which they come, "cue red", names or patterns with * and ?; "..." stands for any
-  /// number of others. Features that meet may follow, "die table (face -z on *)", as Motion::describeEvent has them. They are those of the bodies that are named first, with bodies that are named or move, from the
-  /// first one on; what comes after the last one is free. Such a constraint holds nothing else.
+  /// number of others. Features that meet may follow, "die table (face -z on *)", as Motion::describeEvent has them.
+  /// They are those of the bodies that are named first, with bodies that are named or move, from the first one on; what
+  /// comes after the last one is free. Such a constraint holds nothing else.
   std::vector<std::string> sequence = {};
   std::string notes = {};            ///< for people; kept in documents
 };

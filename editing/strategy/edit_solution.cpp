@@ -175,6 +175,7 @@ void takeMoreSolutions(EditSearch& search, SequenceSearch& across, EditSolution&
   across.add(solution.point);
   const auto enough = static_cast<std::size_t>(search.options().alternatives);
   while (across.solutions().size() < enough && across.round(SequenceSearch::Seek::others)) continue;
+  across.polish(enough);
   solution.others = across.solutions();
   if (search.options().sequence != SequencePolicy::smallest) return;
   for (const EditPointPtr& other : solution.others) {
@@ -227,7 +228,7 @@ EditSolution findSolution(EditSearch& search) {
     if (across.solutions().empty()) break;
     const bool unsolved_inside = from_start && !contradicts && !inside;
     if (may_leave && unsolved_inside && tries == kTries) solveInSequenceAgain(search, choice, start, across);
-    across.polishBest();
+    across.polish(1);
     confirmed = smallestConfirmed(search, across);
   }
   solution.point = confirmed ? confirmed : polished(search, search.best());

@@ -20,7 +20,7 @@ constexpr std::size_t kForEachLanding = 4;
 constexpr int kLandingSteps = 30, kImprovingSteps = 15;
 constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderSteps = 8;
 /// The way along the constraints that is left where a change is as small as it gets, as a share of it.
-constexpr double kStationary = 1e-6, kNearlyStationary = 1e-5;
+constexpr double kStationary = 1e-9, kNearlyStationary = 1e-8;
 /// Of the objective: a fifth of a natural scale; and the part of the landings that is done for less than that.
 constexpr double kSmallChange = 0.02;
 constexpr std::size_t kPart = 4;
@@ -74,9 +74,14 @@ std::size_t SequenceSearch::landings() const {
   return hasSmallChangeInside() ? (plan_.landings + kPart - 1) / kPart : plan_.landings;
 }
 
+std::size_t SequenceSearch::wanted() const {
+  return static_cast<std::size_t>(std::max(1, search_.options().alternatives));
+}
+
+// Of as many solutions as are wanted the largest.
 double SequenceSearch::lengthToBeat(Seek seek) const {
-  if (seek == Seek::others || solutions_.empty()) return std::numeric_limits<double>::infinity();
-  return kClearlySmaller * lengthOf(search_.problem(), solutions_.front()->changes);
+  if (seek == Seek::others || solutions_.size() < wanted()) return std::numeric_limits<double>::infinity();
+  return kClearlySmaller * lengthOf(search_.problem(), solutions_[wanted() - 1]->changes);
 }
 
 // With a solution in the sequence of the start, others count only where they are allowed to.
@@ -163,7 +168,7 @@ std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr
       landed.push_back(point);
       if (!isAllowed(*point)) continue;
       search_.consider(point);
-      if (seek == Seek::others || !search_.reached(*point)) continue;
+      if (seek == Seek::others || wanted() > 1 || !search_.reached(*point)) continue;
       landing.max_steps = kImprovingSteps;
       landing.below = std::min(landing.below, kClearlySmaller * lengthOf(search_.problem(), point->changes));
     }
@@ -207,15 +212,21 @@ EditPointPtr SequenceSearch::smallerWithin(const EditPointPtr& point) {
   return search_.reached(*end) && end->objective < point->objective ? end : point;
 }
 
-void SequenceSearch::polishBest() {
-  if (solutions_.empty() || search_.halt() != Halt::none || search_.problem().constraints.objective()) return;
-  const EditPointPtr best = solutions_.front();
-  const Landing landing{.max_steps = kLandingSteps, .signature = &best->signature, .arrived = kStationary};
-  EditPointPtr end = land(search_, best, landing);
-  const bool stationary = search_.differentiate(*end) && (smallestChange(search_, *end) - end->changes).norm() <=
-                                                             kNearlyStationary * end->changes.norm();
-  if (!stationary) end = minimiseWithin(search_, end, kPolishingIterations);
-  if (search_.reached(*end) && end->objective < best->objective) add(end);
+void SequenceSearch::polish(std::size_t count) {
+  if (search_.problem().constraints.objective()) return;
+  const std::vector<EditPointPtr> smallest(solutions_.begin(),
+                                           solutions_.begin() + static_cast<std::ptrdiff_t>(std::min(count, solutions_.size())));
+  for (const EditPointPtr& solution : smallest) {
+    if (search_.halt() != Halt::none) return;
+    const Landing landing{.max_steps = kLandingSteps, .signature = &solution->signature, .arrived = kStationary};
+    EditPointPtr end = land(search_, solution, landing);
+    const bool stationary = search_.differentiate(*end) && (smallestChange(search_, *end) - end->changes).norm() <=
+                                                               kNearlyStationary * end->changes.norm();
+    if (!stationary) end = minimiseWithin(search_, end, kPolishingIterations);
+    // of the best, that has been done already
+    if (!stationary && solution != smallest.front()) end = minimiseAlongBorder(search_, end, kBorderSteps);
+    if (search_.reached(*end) && end->objective < solution->objective) add(end);
+  }
 }
 
 bool SequenceSearch::isBestInside() const {

@@ -38,8 +38,8 @@ class SequenceSearch {
   void add(const EditPointPtr& solution);
   /// Takes one of the solutions out again.
   void drop(const EditPointPtr& solution);
-  /// Brings the best to where its change is as small as it gets within its sequence.
-  void polishBest();
+  /// Brings so many of the smallest to where their changes are as small as they get within their sequences.
+  void polish(std::size_t count);
   /// Whether the best is a small change within the sequence of the start, of few impacts: seldom is another one
   /// smaller, so rounds do a part of the work.
   bool hasSmallChangeInside() const;
@@ -54,6 +54,7 @@ class SequenceSearch {
   int sampleCount() const;
   std::size_t landings() const;
   double reach() const;
+  std::size_t wanted() const;
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
   std::vector<EditPointPtr> sample(Seek seek);

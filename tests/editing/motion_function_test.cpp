@@ -68,6 +68,7 @@ void expectSameChanges(const EditResult& a, const EditResult& b, double toleranc
 
 std::vector<Control> boxControls() { return {velocity("box"), angularVelocity("box"), elasticity("felt")}; }
 
+// The smallest change lies within its impact sequence, not on a border, where it is found to 1e-4 alone.
 TEST(MotionFunction, RowIsTheBuiltInOne) {
   const Scene scene = thrownBox();
   OdeContacts contacts(scene);
@@ -75,7 +76,7 @@ TEST(MotionFunction, RowIsTheBuiltInOne) {
   Edit built_in(scene, contacts, 0.8), own(scene, contacts, 0.8), secant(scene, contacts, 0.8);
   for (Edit* edit : {&built_in, &own, &secant}) {
     for (const Control& control : boxControls()) edit->vary(control);
-    edit->nail("box", 0.7).position({0.9, any, any});
+    edit->nail("box", 0.7).position({1.1, any, any});
   }
   built_in.nail("box", 0.6).speed(2.2);
   own.require(speedAt("box", 0.6, scale, true), 2.2);

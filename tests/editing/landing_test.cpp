@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Steps onto the constraints and along them, where rows bend.
+
+#include "editing/strategy/landing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "editing/solve/reduced_hessian.hpp"
+#include "editing/strategy/missing_impacts.hpp"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/editing/scenes.h"
+
+namespace carom {
+
+using namespace editing_detail;
+
+namespace {
+
+TEST(ReducedHessian, LearnsCurvaturesThatPlainStepsDivergeFrom) {
+  Eigen::Matrix3d turn;  // orthonormal
+  turn << 2, -1, 2, 2, 2, -1, -1, 2, 2;
+  turn /= 3;
+  const Eigen::Matrix3d W = turn * Eigen::Vector3d(1, 4, 0.5).asDiagonal() * turn.transpose();
+  const Eigen::MatrixXd no_rows(0, 3);
+  ReducedHessian hessian;
+  Eigen::VectorXd z = Eigen::Vector3d(0.3, -0.2, 0.5), plain = z;
+  for (int k = 0; k < 30; ++k) {
+    z += hessian.stepAlong(z, no_rows, -W * z);
+    plain -= W * plain;
+  }
+  EXPECT_TRUE(z.norm() <= 1e-12) << z.transpose();
+  EXPECT_GT(plain.norm(), 1e10);
+}
+
+TEST(ReducedHessian, KeepsToTheRows) {
+  const Eigen::MatrixXd rows = Eigen::RowVector3d(1, -2, 0.5);
+  const Eigen::Matrix3d W = Eigen::Vector3d(3, 2, 6).asDiagonal();
+  const Eigen::Vector3d normal = rows.transpose().normalized();
+  const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+  ReducedHessian hessian;
+  Eigen::VectorXd z = along * Eigen::Vector3d(1, 1, 1);
+  for (int k = 0; k < 30; ++k) {
+    const Eigen::VectorXd step = hessian.stepAlong(z, rows, -along * W * z);
+    ASSERT_TRUE((rows * step).norm() <= 1e-13);
+    z += step;
+  }
+  EXPECT_TRUE(z.norm() <= 1e-10) << z.transpose();
+}
+
+/// Balls on a table without friction.
+Scene table(const Vec3& velocity_of_cue, bool reversed) {
+  using testing_scenes::ball, testing_scenes::fixedPlane;
+  constexpr double kRadius = 0.0286;
+  Scene scene;
+  scene.gravity.setZero();
+  scene.materials = {testing_scenes::material("resin", 0.99, 0)};
+  scene.bodies = {fixedPlane("east", "resin", {-1, 0, 0}, -1.27),
+                  fixedPlane("west", "resin", {1, 0, 0}, -1.27),
+                  fixedPlane("north", "resin", {0, -1, 0}, -0.635),
+                  fixedPlane("south", "resin", {0, 1, 0}, -0.635),
+                  ball("cue", "resin", kRadius, {0.66, 0.3973, 0}, velocity_of_cue),
+                  ball("red", "resin", kRadius, {-0.2181, -0.0775, 0}, Vec3::Zero()),
+                  ball("yellow", "resin", kRadius, {-0.9, 0.4, 0}, Vec3::Zero())};
+  if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
+  return scene;
+}
+
+/// The velocity of the cue ball may vary.
+struct Shot {
+  Scene scene;
+  OdeContacts contacts;
+  EditOptions options;
+  EditProblem problem;
+  EditSearch search;
+
+  Shot(const Vec3& velocity_of_cue, const Constraint& constraint, bool reversed)
+      : scene(table(velocity_of_cue, reversed)),
+        contacts(scene),
+        problem(scene, contacts, 2, {velocity("cue")}, {constraint}),
+        search(problem, options) {}
+
+  int indexOf(const std::string& name) const {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (scene.bodies[i].name == name) return static_cast<int>(i);
+    return -1;
+  }
+};
+
+// The time of a nearly central hit bends strongly with the direction of the throw, though its derivative by it is small:
+// steps as for straight rows go to and fro for thirty steps.
+TEST(Landing, ArrivesAlongABentRow) {
+  for (const bool reversed : {false, true}) {
+    Shot t({-0.9285, -0.5132, 0}, {"cue", nthImpact(1, "red"), {{"time", {0.5968}}}}, reversed);
+    const EditPointPtr start = t.search.evaluateStart();
+    ASSERT_TRUE(start->rows.available);
+    EditSearch branch = t.search.branch({}, true);
+    Landing landing;
+    landing.max_steps = 15;
+    const EditPointPtr end = land(branch, start, landing);
+    ASSERT_TRUE(branch.reached(*end)) << end->violation;
+    ASSERT_TRUE(branch.differentiate(*end));
+    const double left = (smallestChange(branch, *end) - end->changes).norm();
+    EXPECT_TRUE(left <= 1e-3 * end->changes.norm()) << left;
+    EXPECT_EQ(end->signature, start->signature);
+  }
+}
+
+TEST(Landing, IsGivenUpWhereNothingSmallerIsInSight) {
+  Shot t({-0.9285, -0.5132, 0}, {"cue", nthImpact(1, "red"), {{"time", {0.5968}}}}, false);
+  const EditPointPtr start = t.search.evaluateStart();
+  Landing landing;
+  const double length = lengthOf(t.problem, land(t.search, start, landing)->changes);
+  landing.below = 0.5 * length;
+  EXPECT_EQ(land(t.search, start, landing), nullptr);
+  landing.below = 1.01 * length;
+  EXPECT_NE(land(t.search, start, landing), nullptr);
+}
+
+TEST(MissingImpacts, NameWhatHasToComeBefore) {
+  for (const bool reversed : {false, true}) {
+    // the cue ball goes to and fro between two rails, and red, which shall hit yellow, lies still
+    Shot t({0, 0.2, 0}, {"red", nthImpact(1, "yellow"), {{"position", {any, 0.1, any}}}}, reversed);
+    const EditPointPtr start = t.search.evaluateStart();
+    ASSERT_FALSE(start->rows.available);
+    const std::vector<LackingImpact> missing = missingImpacts(t.problem, *start);
+    ASSERT_EQ(missing.size(), 2u);
+    ASSERT_EQ(missing[0].pairs.size(), 2u);  // one of them has to be struck by what varies
+    for (const auto& [a, b] : missing[0].pairs) {
+      EXPECT_TRUE(a == t.indexOf("red") || a == t.indexOf("yellow"));
+      EXPECT_EQ(b, t.indexOf("cue"));
+    }
+    EXPECT_EQ(missing[1].constraint, start->rows.lacking[0].constraint);
+    EXPECT_EQ(missing[1].pairs, start->rows.lacking[0].pairs);
+  }
+}
+
+}  // namespace
+}  // namespace carom
