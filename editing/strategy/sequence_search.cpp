@@ -21,11 +21,11 @@ constexpr int kLandingSteps = 30, kImprovingSteps = 15;
 constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderSteps = 8;
 /// The way along the constraints that is left where a change is as small as it gets, as a share of it.
 constexpr double kStationary = 1e-9, kNearlyStationary = 1e-8;
-/// Of the objective: a fifth of a natural scale; and the part of the landings that is done for less than that.
-constexpr double kSmallChange = 0.02;
+/// Of the objective: half a natural scale; and the part of the landings that is done for less than that.
+constexpr double kSmallChange = 0.1;
 constexpr std::size_t kPart = 4;
 /// So many impacts leave few other ways.
-constexpr int kFewImpacts = 2;
+constexpr int kFewImpacts = 3;
 /// A step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 1.5;
 /// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
