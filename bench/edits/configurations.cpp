@@ -33,8 +33,8 @@ EditOptions searching(Effort effort) {
 const std::vector<Configuration>& configurations() {
   static const std::vector<Configuration> rows = {
       {"search", "with search", EditOptions{}},
-      {"fast", "with search, fast", searching(Effort::fast)},
-      {"thorough", "with search, thorough", searching(Effort::thorough)},
+      {"fast", "with search (fast)", searching(Effort::fast)},
+      {"thorough", "with search (thorough)", searching(Effort::thorough)},
       {"search_secant", "with search (secant update)", searchSecant()},
       {"no_search", "Ipopt alone", staying()},
       {"secant", "Ipopt alone (secant update)", derivatives(SecondDerivatives::secant)},
