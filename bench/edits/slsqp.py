@@ -51,6 +51,8 @@ class Problem:
 
     def rows(self, y):
         y = np.clip(y, self.lower, self.upper)
+        if not np.all(np.isfinite(y)):  # SLSQP makes such steps where gradients vanish
+            return {"available": False}
         if self.at is None or not np.array_equal(y, self.at):
             self.at = y.copy()
             self.answer = self.bench.ask("rows", *y)
@@ -131,6 +133,8 @@ def solve(problem, count, seconds, dice, hidden):
         try:
             y = problem.descend(start)
         except ValueError:  # numbers that are not finite
+            continue
+        if not np.all(np.isfinite(y)):
             continue
         judged = problem.bench.ask("judge", *y)
         if judged["met"] and judged["objective"] < best:
