@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace carom::editing_detail {
 namespace {
@@ -39,6 +40,13 @@ struct Influence {
   }
 };
 
+/// In increasing order, each once.
+std::vector<int> sorted(std::vector<int> bodies) {
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
 /// Bodies of constraints with a row that is not met, in increasing order.
 std::vector<int> unmetBodies(const ConstraintSet& constraints, const Scene& scene, const EditPoint& point) {
   std::vector<int> bodies;
@@ -51,9 +59,7 @@ std::vector<int> unmetBodies(const ConstraintSet& constraints, const Scene& scen
         std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
     if (found != scene.bodies.end()) bodies.push_back(static_cast<int>(found - scene.bodies.begin()));
   }
-  std::sort(bodies.begin(), bodies.end());
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
-  return bodies;
+  return sorted(std::move(bodies));
 }
 
 /// What the controls have a part in up to a time.
@@ -86,8 +92,7 @@ std::vector<LackingImpact> withWhatComesBefore(const EditProblem& problem, const
     for (const auto& [a, b] : lacking.pairs)
       for (const int body : {a, b})
         if (!bodies[static_cast<std::size_t>(body)].immovable()) still.push_back(body);
-    std::sort(still.begin(), still.end());
-    still.erase(std::unique(still.begin(), still.end()), still.end());
+    still = sorted(std::move(still));
     if (std::none_of(still.begin(), still.end(), isMoved)) {
       LackingImpact before = withMoved(still, moved, lacking.to);
       if (!before.pairs.empty()) missing.push_back(std::move(before));

@@ -91,7 +91,7 @@ std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   const double to_beat = lengthToBeat(seek);
   std::erase_if(lacking, [&](const EditPointPtr& p) { return lengthOf(search_.problem(), p->changes) > to_beat; });
   if (round_ == 0 && lacks(start_)) lacking.push_back(start_);
-  for (const EditPointPtr& point : approachAll(std::move(lacking))) points.push_back(point);
+  for (const EditPointPtr& point : approachAll(lacking)) points.push_back(point);
   if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
   if (search_.best() != start_) points.insert(points.begin(), search_.best());
   for (const EditPointPtr& point : neighbours(seek)) points.push_back(point);
@@ -155,22 +155,21 @@ std::vector<EditPointPtr> SequenceSearch::crossings(const std::vector<EditPointP
 }
 
 // From the points that lack least, steps towards the impacts that they lack. Returns those that arrived.
-std::vector<EditPointPtr> SequenceSearch::approachAll(std::vector<EditPointPtr> lacking) {
+std::vector<EditPointPtr> SequenceSearch::approachAll(const std::vector<EditPointPtr>& lacking) {
+  const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::vector<std::pair<double, EditPointPtr>> ranked;
-  const auto share = [&](const EditPointPtr& point) {
-    double sum = 0;
-    for (const LackingImpact& impact : missingImpacts(search_.problem(), *point)) sum += 1 - impact.share;
-    return sum;
-  };
-  const auto more = [&](const EditPointPtr& a, const EditPointPtr& b) { return share(a) < share(b); };
-  std::stable_sort(lacking.begin(), lacking.end(), more);
+  for (const EditPointPtr& point : lacking) {
+    double left = 0;  // of what was wished
+    for (const LackingImpact& impact : missingImpacts(search_.problem(), *point)) left += 1 - impact.share;
+    ranked.emplace_back(left, point);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), nearer);
   const std::size_t followed = solutions_.empty() ? landings() : (landings() + 1) / 2;
-  lacking.resize(std::min(lacking.size(), kLackingForEach * followed));
-  for (const EditPointPtr& point : lacking) ranked.emplace_back(0, point);
+  ranked.resize(std::min(ranked.size(), kLackingForEach * followed));
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
   });
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(ranked.begin(), ranked.end(), nearer);
   ranked.resize(std::min(ranked.size(), followed));
   forAll(ranked.size(), [&](std::size_t i, ContactSource& contacts) {
     EditSearch branch = search_.branch({{&contacts}, nullptr, true}, true);

@@ -60,7 +60,7 @@ class SequenceSearch {
   std::vector<EditPointPtr> sample(Seek seek);
   std::vector<EditPointPtr> neighbours(Seek seek);
   std::vector<EditPointPtr> crossings(const std::vector<EditPointPtr>& points);
-  std::vector<EditPointPtr> approachAll(std::vector<EditPointPtr> lacking);
+  std::vector<EditPointPtr> approachAll(const std::vector<EditPointPtr>& lacking);
   std::vector<EditPointPtr> nearestOfEachGroup(const std::vector<EditPointPtr>& points) const;
   std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points, Seek seek);
   std::vector<EditPointPtr> landAll(const std::vector<EditPointPtr>& candidates, Seek seek);

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "editing/solve/reduced_hessian.hpp"
@@ -84,11 +83,7 @@ struct Shot {
         problem(scene, contacts, 2, {velocity("cue")}, {constraint}),
         search(problem, options) {}
 
-  int indexOf(const std::string& name) const {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (scene.bodies[i].name == name) return static_cast<int>(i);
-    return -1;
-  }
+  int indexOf(const char* name) const { return bodyIndex(scene, name); }
 };
 
 // The time of a nearly central hit bends strongly with the direction of the throw, though its derivative by it is small:
