@@ -162,9 +162,15 @@ std::vector<FeatureLimit> FeatureGeometry::limits(int a, int b, const FeaturePai
   std::vector<FeatureLimit> limits;
   const ContactPoint at = contact(a, b, f, A, B);
   const auto kind = static_cast<GapKind>(f.kind);
+  const auto isRound = [&](int body, Family family, int index) {
+    return family != Family::face && isSwept(solid(body).feature(family, index));
+  };
+  const bool round_a = isRound(a, familyOfFirst(kind), f.a), round_b = isRound(b, familyOfSecond(kind), f.b);
   const auto add = [&](int body, Family family, int index, const Pose& pose, double sign) {
+    const std::size_t before = limits.size();
     addFeatureLimits(solid(body), family, index, pose.R.transpose() * (at.point - pose.x),
                      pose.R.transpose() * at.normal, sign, body, limits);
+    for (std::size_t i = before; i < limits.size(); ++i) limits[i].rolls_over = body == a ? round_b : round_a;
   };
   add(a, familyOfFirst(kind), f.a, A, -1);
   add(b, familyOfSecond(kind), f.b, B, 1);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
-#include "ode_bridge/held_faces.hpp"
+#include "ode_bridge/held_planes.hpp"
 #include "ode_bridge/rounding.hpp"
 #include "ode_bridge/seams.hpp"
 #include "ode_bridge/touching.hpp"
@@ -149,11 +149,39 @@ class Search {
         from_(from),
         until_(until),
         a_(pair.geometry.solid(pair.a), pair.arc_a, from),
-        b_(pair.geometry.solid(pair.b), pair.arc_b, from) {
-    if (!held.empty()) held_.emplace(a_, b_, held);
+        b_(pair.geometry.solid(pair.b), pair.arc_b, from),
+        start_a_(a_),
+        start_b_(b_),
+        held_features_(held) {
+    if (!held.empty()) held_.emplace(start_a_, start_b_, held);
   }
 
   std::optional<PredictedImpact> run() {
+    searchPieces();
+    if (held_) searchPlanes();
+    return first_;
+  }
+
+ private:
+  // What comes to the plane of a held contact, and meets there.
+  void searchPlanes() {
+    held_->firstReach(pair_, from_, end(), [&](double t) {
+      placeAt(t);
+      const double tolerance = touchTolerance(a_, b_);
+      bool found = false;
+      for (const FeaturePair& f : touchingFeatures(a_, b_, 4 * tolerance)) {
+        if (std::ranges::find(held_features_, f) != held_features_.end()) continue;
+        const GapOfPair gap(pair_, f, from_, until_, tolerance);
+        const Root root = gap.root(t, a_, b_, true);
+        if (!root.approaching) continue;
+        found = true;
+        if (root.time <= until_ && (!first_ || root.time < first_->time)) first_ = PredictedImpact{root.time, f};
+      }
+      return found;
+    });
+  }
+
+  void searchPieces() {
     now_ = {from_, 0, 0, 0, false, Vec3::Zero()};
     do {
       while (advance())
@@ -162,10 +190,8 @@ class Search {
           break;
         }
     } while (takeNext());
-    return first_;
   }
 
- private:
   double end() const { return first_ ? std::min(until_, first_->time) : until_; }
 
   bool takeNext() {
@@ -298,8 +324,9 @@ class Search {
 
   const PairMotion& pair_;
   double from_, until_;
-  Placed a_, b_;
-  std::optional<HeldFaces> held_;
+  Placed a_, b_, start_a_, start_b_;
+  std::optional<HeldPlanes> held_;
+  std::span<const FeaturePair> held_features_;
   int steps_ = 0;
   double placed_at_ = std::numeric_limits<double>::quiet_NaN();
   Pending now_;

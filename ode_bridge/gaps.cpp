@@ -166,6 +166,25 @@ ContactPoint FeatureGeometry::contact(int a, int b, const FeaturePair& f, const 
   return contactOf(static_cast<GapKind>(f.kind), placeFeature(pair.a, A), placeFeature(pair.b, B), f.sign);
 }
 
+// Of a vertex and a face, which is most of what lasts, written out.
+ContactMotion FeatureGeometry::motion(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
+                                      const PoseRate& of_a, const PoseRate& of_b) const {
+  if (f.kind != kPointPlane && f.kind != kPlanePoint) return ContactGeometry::motion(a, b, f, A, B, of_a, of_b);
+  const FoundPair pair = found(solids_, a, b, f);
+  const bool swapped = f.kind == kPlanePoint;
+  const Feature &point = swapped ? pair.b : pair.a, &face = swapped ? pair.a : pair.b;
+  const Pose &P = swapped ? B : A, &Q = swapped ? A : B;
+  const PoseRate &of_point = swapped ? of_b : of_a, &of_face = swapped ? of_a : of_b;
+  const Vec3 arm = P.R * point.point, arm_face = Q.R * face.point;
+  const Vec3 N = (f.sign < 0 ? -1.0 : 1.0) * (Q.R * face.direction), N_rate = of_face.w.cross(N);
+  const Vec3 apart = P.x + arm - Q.x - arm_face, moves = of_point.v + of_point.w.cross(arm);
+  const double side = swapped ? -1 : 1;
+  return {{N.dot(apart) - point.radius, side * N, P.x + arm - point.radius * N},
+          N.dot(moves - of_face.v - of_face.w.cross(arm_face)) + N_rate.dot(apart),
+          side * N_rate,
+          moves - point.radius * N_rate};
+}
+
 ContactJacobian FeatureGeometry::jacobian(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const {
   const auto& [row, of_a, of_b, fa, fb] = found(solids_, a, b, f);
   const WorldFeature wa = placeFeature(fa, A), wb = placeFeature(fb, B);

@@ -91,6 +91,8 @@ class FeatureGeometry final : public ContactGeometry,
   explicit FeatureGeometry(std::vector<Solid> solids) : solids_(std::move(solids)) {}
 
   ContactPoint contact(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;
+  ContactMotion motion(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B, const PoseRate& of_a,
+                       const PoseRate& of_b) const override;
   ContactJacobian jacobian(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;
   std::vector<ContactJacobian> jacobianRates(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
                                              std::span<const PairTangent> directions) const override;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "adjoint/contact/glide_path.hpp"
+#include "adjoint/contact/integrated_path.hpp"
 #include "adjoint/contact/rest_path.hpp"
 #include "adjoint/contact/roll_path.hpp"
 #include "adjoint/scene/body_model.h"
@@ -20,7 +21,8 @@ auto withPath(PathForm form, const PathInputs<S>& in, F f) {
     case PathForm::glide_block: return f(GlidePath<S>::block(in));
     case PathForm::roll_ball: return f(RollPath<S>::ball(in));
     case PathForm::roll_axle: return f(RollPath<S>::axle(in));
-    case PathForm::rest: break;
+    case PathForm::rest:
+    case PathForm::held: break;
   }
   return f(RestPath<S>{in});
 }
@@ -64,14 +66,25 @@ V3<S> slipDirectionAt(PathForm form, const PathInputs<S>& in, const S& elapsed) 
   return glideOf(form, in).directionAt(elapsed);
 }
 
-/// Bounds over a stretch of a path.
-struct PathBounds {
-  Vec3 acceleration = Vec3::Zero();  ///< m/s^2, of the centre of mass at the start of the stretch
-  double variation = 0;              ///< how far it may differ from that, m/s^2
-  bool straight = true;              ///< it is constant
-  double spin = 0, spin_rate = 0;    ///< |w| rad/s, |w'| rad/s^2
-};
+/// Of a closed form.
 PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until);
+
+/// Its own copy of an integrated path.
+class OwnPath {
+ public:
+  OwnPath() = default;
+  explicit OwnPath(std::unique_ptr<IntegratedPath> path) : path_(std::move(path)) {}
+  OwnPath(const OwnPath& o) : path_(o.path_ ? o.path_->clone() : nullptr) {}
+  OwnPath& operator=(const OwnPath& o) { return *this = OwnPath(o); }
+  OwnPath(OwnPath&&) noexcept = default;
+  OwnPath& operator=(OwnPath&&) noexcept = default;
+  IntegratedPath* operator->() const { return path_.get(); }
+  IntegratedPath* get() const { return path_.get(); }
+  explicit operator bool() const { return path_ != nullptr; }
+
+ private:
+  std::unique_ptr<IntegratedPath> path_;
+};
 
 /// A path as an arc keeps it, with what its derivative needs of the scene.
 struct ContactPath {
@@ -84,6 +97,7 @@ struct ContactPath {
   double start = 0;   ///< s
   /// Elapsed at the end of slip, where the slip is exactly 0; infinite where there is none.
   double slip_end = std::numeric_limits<double>::infinity();
+  OwnPath integrated;  ///< of PathForm::held
 
   /// At that end, start + slip_end, exactly slip_end.
   double elapsedAt(double t) const { return t < start + slip_end ? t - start : slip_end; }

@@ -36,6 +36,7 @@ PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, 
 }
 
 State ContactPath::stateAt(const State& start_state, double t, bool turning) const {
+  if (integrated) return integrated->stateAt(t);
   const double elapsed = elapsedAt(t);
   if (form == PathForm::rest || elapsed == 0) return start_state;
   const PathState<double> now =

@@ -7,8 +7,9 @@
 namespace carom::adjoint_detail {
 
 /// Motions in lasting contact with one fixed face that have a closed form; docs/equations.md, section 11. `ball`: a
-/// uniform one; `block`: a body that does not turn; `axle`: a cylinder or capsule that rolls about its axis.
-enum class PathForm { rest, glide_ball, glide_block, roll_ball, roll_axle };
+/// uniform one; `block`: a body that does not turn; `axle`: a cylinder or capsule that rolls about its axis. `held`: any
+/// other one, which is integrated (see IntegratedPath).
+enum class PathForm { rest, glide_ball, glide_block, roll_ball, roll_axle, held };
 
 /// All that a path depends on, as it is at its start.
 template <class S>

@@ -15,7 +15,7 @@ namespace carom {
 
 using namespace adjoint_detail;
 
-const char* nameOf(ArcKind kind) { return nameIn({"flight", "rest", "slide", "roll"}, kind); }
+const char* nameOf(ArcKind kind) { return nameIn({"flight", "rest", "slide", "roll", "pivot"}, kind); }
 const char* nameOf(Tier tier) { return nameIn({"none", "spherical", "symmetric", "triaxial"}, tier); }
 
 namespace {
@@ -90,10 +90,17 @@ Arc::Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, c
 
 Arc::Arc(const BodyModel& model, Tier tier, const ContactPath& path, double start, const State& state)
     : model_(&model), tier_(tier), start_(start), path_(std::make_unique<ContactPath>(path)), state_(state) {
+  takeBounds();
+}
+
+void Arc::takeBounds() {
+  if (path_->integrated) path_->bounds = path_->integrated->bounds();
   acceleration_ = path_->bounds.acceleration;
   spin_bound_ = path_->bounds.spin;
   spin_rate_bound_ = path_->bounds.spin_rate;
 }
+
+IntegratedPath* Arc::integrated() const { return path_ ? path_->integrated.get() : nullptr; }
 
 ArcKind Arc::kind() const {
   if (!path_) return ArcKind::flight;
@@ -103,6 +110,9 @@ ArcKind Arc::kind() const {
     case PathForm::glide_ball:
     case PathForm::glide_block:
       return ArcKind::slide;
+    case PathForm::held:
+      if (path_->integrated->slides()) return ArcKind::slide;
+      return path_->integrated->rolls() ? ArcKind::roll : ArcKind::pivot;
     case PathForm::roll_ball:
     case PathForm::roll_axle:
       break;
@@ -137,13 +147,26 @@ Arc::Arc(Arc&&) noexcept = default;
 Arc& Arc::operator=(Arc&&) noexcept = default;
 Arc::~Arc() = default;
 
+double Arc::knownUntil() const {
+  return path_ && path_->integrated ? path_->integrated->knownUntil() : std::numeric_limits<double>::infinity();
+}
+
 double Arc::availableUntil() const {
+  if (path_ && path_->integrated)
+    return path_->integrated->ended() ? std::numeric_limits<double>::infinity() : path_->integrated->knownUntil();
   if (path_ && tier_ != Tier::none) return path_->followedUntil(TriaxialRotation::kMostSegments);
   return triaxial_ ? start_ + triaxial_->availableUntil() : std::numeric_limits<double>::infinity();
 }
-std::size_t Arc::series() const { return triaxial_ ? triaxial_->series() : 0; }
+std::size_t Arc::series() const {
+  if (path_ && path_->integrated) return path_->integrated->steps();
+  return triaxial_ ? triaxial_->series() : 0;
+}
 
 void Arc::extendTo(double t) {
+  if (path_ && path_->integrated) {
+    if (availableUntil() < t) path_->integrated->extendTo(t), takeBounds();
+    return;
+  }
   if (triaxial_) triaxial_->extendTo(t - start_);
   if (path_ && !(t <= availableUntil()))
     throw NotComputable("its rotation takes more than " + std::to_string(TriaxialRotation::kMostSegments) +
@@ -172,11 +195,13 @@ Quat Arc::rotationAt(double s) const {
 
 Vec3 Arc::positionAt(double t) const {
   const double s = t - start_;
+  if (path_ && path_->integrated) return path_->integrated->positionAt(t);
   if (path_ && !path_->bounds.straight) return centerOn(*path_, t).x;
   return state_.x + s * (state_.v + 0.5 * s * acceleration_);
 }
 
 Vec3 Arc::velocityAt(double t) const {
+  if (path_ && path_->integrated) return path_->integrated->velocityAt(t);
   if (path_ && !path_->bounds.straight) return centerOn(*path_, t).v;
   return state_.v + (t - start_) * acceleration_;
 }
@@ -199,6 +224,7 @@ Kinematics Arc::kinematicsOf(const State& s) const {
 StateDerivative Arc::rateAt(double t, const State& s) const {
   StateDerivative ds;
   if (!model_->moving) return ds;
+  if (path_ && path_->integrated) return path_->integrated->rateAt(t);
   if (path_) return pathRateAt(path_->form, path_->inputs, path_->elapsedAt(t));
   const Mat3 R = s.q.toRotationMatrix();
   ds.x = s.v;

@@ -12,13 +12,14 @@ namespace carom {
 
 namespace adjoint_detail {
 class TriaxialRotation;
+class IntegratedPath;
 struct ContactPath;
 }
 
-/// What a body does on an arc: it flies freely, or stays in contact with what stands still, where it rests, slides
-/// without turning otherwise than friction makes it, or rolls; see docs/equations.md section 11.
-enum class ArcKind { flight, rest, slide, roll };
-/// "flight", "rest", "slide" or "roll".
+/// What a body does on an arc: it flies freely, or stays in contact with what stands still, where it rests, slides at a
+/// contact at least, rolls, or turns about corners and edges that stay where they are; see docs/equations.md section 11.
+enum class ArcKind { flight, rest, slide, roll, pivot };
+/// "flight", "rest", "slide", "roll" or "pivot".
 const char* nameOf(ArcKind kind);
 
 /// How the rotation of a flight is carried; see docs/equations.md section 2.
@@ -67,9 +68,13 @@ class Arc {
   void extendTo(double t);
   /// Up to here the motion is available; infinite where all of it is.
   double availableUntil() const;
+  /// Of a path that is integrated, up to where it is known or ends; else infinite. A later time is none of the path.
+  double knownUntil() const;
 
   /// Series that carry the rotation so far: the work that `extendTo` has done.
   std::size_t series() const;
+  /// The integrated path in contact that it is; null for any other arc.
+  adjoint_detail::IntegratedPath* integrated() const;
 
   State stateAt(double t) const;  ///< at time t, which must be available
   /// The same as pose and velocities.
@@ -100,6 +105,7 @@ class Arc {
 
  private:
   Quat rotationAt(double elapsed) const;
+  void takeBounds();
 
   const BodyModel* model_;  // outlives the arc: held by the Motion
   Tier tier_;
@@ -108,7 +114,7 @@ class Arc {
   double spin_bound_ = 0, spin_rate_bound_ = 0;
   // Apart, so that most arcs are small.
   std::unique_ptr<adjoint_detail::TriaxialRotation> triaxial_;
-  std::unique_ptr<const adjoint_detail::ContactPath> path_;  // null: a flight
+  std::unique_ptr<adjoint_detail::ContactPath> path_;  // null: a flight
   Vec3 acceleration_;
   State state_;
 };

@@ -55,10 +55,32 @@ struct PairTangent {
   Eigen::VectorXd size_b;                                                    ///< of the dimensions of b
 };
 
+/// How fast a pose changes.
+struct PoseRate {
+  Vec3 v = Vec3::Zero();  ///< m/s, of Pose::x
+  Vec3 w = Vec3::Zero();  ///< rad/s, world axes
+};
+
+/// A contact of frozen features and how it moves with its bodies.
+struct ContactMotion {
+  ContactPoint at;                    ///< now
+  double gap_rate = 0;                ///< m/s
+  Vec3 normal_rate = Vec3::Zero();    ///< 1/s
+  Vec3 point_rate = Vec3::Zero();     ///< m/s; of the place of the contact, which no point of a body need stay at
+};
+
 /// The smooth gap of frozen feature pairs, for the shapes of one scene. Immutable: a Motion keeps it.
 class ContactGeometry {
  public:
   virtual ~ContactGeometry() = default;
+  /// The contact and its rates, where the poses change at these rates.
+  virtual ContactMotion motion(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B, const PoseRate& of_a,
+                               const PoseRate& of_b) const {
+    Eigen::Matrix<double, 12, 1> rate;
+    rate << of_a.v, of_a.w, of_b.v, of_b.w;
+    const Eigen::Matrix<double, 7, 1> d = jacobian(a, b, f, A, B).pose * rate;
+    return {contact(a, b, f, A, B), d[0], d.segment<3>(1), d.segment<3>(4)};
+  }
   /// Gap, normal and point of bodies a and b at these poses.
   virtual ContactPoint contact(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const = 0;
   /// Their derivatives.

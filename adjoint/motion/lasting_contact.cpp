@@ -61,6 +61,8 @@ const char* verbOf(EventKind event, ArcKind before, ArcKind after) {
       return again ? "slides on" : "slides";
     case ArcKind::roll:
       return again ? "rolls on" : "rolls";
+    case ArcKind::pivot:
+      return again ? "turns on" : "turns about where it touches";
   }
   return "";
 }

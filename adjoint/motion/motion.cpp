@@ -15,7 +15,7 @@ using namespace adjoint_detail;
 
 const char* nameOf(EventKind kind) { return nameIn({"impact", "capture", "transition", "placed"}, kind); }
 
-const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip_ends", "leaves", "tips"}, cause); }
+const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip_ends", "leaves", "tips", "lifts", "slips", "sticks"}, cause); }
 
 const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 

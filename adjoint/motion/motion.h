@@ -35,9 +35,10 @@ enum class EventKind : std::uint8_t { impact, capture, transition, placed };
 const char* nameOf(EventKind kind);
 
 /// Why a body in lasting contact goes on otherwise: its slip comes to an end, a contact comes to the border of the feature
-/// that it is at, or the force at a corner comes to 0.
-enum class TransitionCause : std::uint8_t { none, slip_ends, leaves, tips };
-/// "none", "slip_ends", "leaves" or "tips".
+/// that it is at, or the force at a corner of a body that slides without turning comes to 0. Of a body on corners, edges
+/// and faces that may turn: the force at a contact comes to 0, it begins to slip, or its slip ends.
+enum class TransitionCause : std::uint8_t { none, slip_ends, leaves, tips, lifts, slips, sticks };
+/// "none", "slip_ends", "leaves", "tips", "lifts", "slips" or "sticks".
 const char* nameOf(TransitionCause cause);
 
 /// One contact of an event, between bodies a and b at frozen features.

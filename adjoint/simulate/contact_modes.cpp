@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adjoint/contact/cone_program.hpp"
+#include "adjoint/held/held_start.hpp"
 #include "adjoint/impact/complementarity.hpp"
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/numeric/so3.hpp"
@@ -23,6 +24,8 @@ constexpr double kNoSlip = 1e-9;
 constexpr double kSameNormal = 1e-9;
 // Acceleration left by the forces of rest, as a share of gravity.
 constexpr double kAtRest = 1e-9;
+// Where a slip ends, all that are slower than so many times the slowest end with it.
+constexpr double kEndTogether = 1e3;
 
 class Chooser {
  public:
@@ -38,8 +41,11 @@ class Chooser {
         omega_(model_.inverseInertiaWorld(R_) * state.L) {
     for (const Contact* c : closed) reach_ = std::max(reach_, armOf(*c).norm());
     no_slip_ = kNoSlip * std::sqrt(gravity_.norm() * reach_);
+    closed_ = closed;
     press(closed);
   }
+
+  void slipEnds() { no_slip_ *= kEndTogether; }
 
   ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
     pressed_ = contacts;
@@ -49,18 +55,33 @@ class Chooser {
   /// Without friction.
   const FreeAcceleration& acceleration() const { return free_; }
 
-  ContactChoice choose() {
+  ContactChoice choose(const ModeHint& hint) {
     if (pressed_.empty()) return {};
     if (isSlow(state_.v) && isSlow(reach_ * omega_) && canRest()) return stays(PathForm::rest, 1);
-    const bool one_face = isOneFace();
-    if (isBall()) {
-      if (pressed_.size() > 1 || !one_face) return beyond("a ball in lasting contact with several faces or with an edge is not modelled yet");
-      return ball();
+    ContactChoice closed_form;
+    if (isOneFace()) {
+      if (isBall()) {
+        if (pressed_.size() == 1) closed_form = ball();
+      } else if (isAxle()) {
+        closed_form = axle();
+      } else if (isSlow(reach_ * omega_)) {
+        closed_form = block();
+      }
     }
-    if (!one_face) return beyond("lasting contact with a corner, an edge or several faces is not modelled yet");
-    if (isAxle()) return axle();
-    if (isSlow(reach_ * omega_)) return block();
-    return beyond("lasting contact of a body that turns is not modelled yet, but for balls and for what rolls about its axis");
+    return closed_form.path ? closed_form : held(hint);
+  }
+
+  ContactChoice heldAs(const std::vector<const Contact*>& contacts, const HeldModes& like) {
+    pressed_ = contacts;
+    ContactChoice choice = onHeldPath();
+    choice.modes = like;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      HeldContact& c = choice.modes.contacts[k];
+      const HeldContact now = candidate(*contacts[k]);
+      c.with = now.with, c.is_first = now.is_first, c.features = now.features, c.friction = now.friction;
+    }
+    begin(choice);
+    return choice;
   }
 
  private:
@@ -153,6 +174,58 @@ class Chooser {
     return (gravity_ + model_.inverse_mass * force).norm() <= most && (A_ * moment).norm() * reach_ <= most;
   }
 
+  HeldContact candidate(const Contact& c) const {
+    HeldContact held;
+    held.with = otherOf(c), held.is_first = c.a == body_;
+    held.features = c.features;
+    held.friction = c.pair.friction;
+    return held;
+  }
+  HeldScene heldScene(const std::vector<const Contact*>& contacts) const {
+    HeldScene scene;
+    scene.geometry = motion_.geometry;
+    scene.model = &model_;
+    scene.body = body_;
+    scene.gravity = gravity_;
+    for (const Contact* c : contacts)
+      scene.with.push_back(
+          shapePose(motion_, otherOf(*c), motion_.world_lines[asIndex(otherOf(*c))].arcs.back().startState()));
+    scene.length = reach_ > 0 ? reach_ : 1;
+    scene.speed = std::sqrt(gravity_.norm() * scene.length + state_.v.squaredNorm()) + omega_.norm() * scene.length;
+    return scene;
+  }
+  ContactChoice onHeldPath() const {
+    ContactChoice choice;
+    choice.path = std::make_shared<ContactPath>();
+    choice.path->form = PathForm::held;
+    choice.path->inputs = inputs(1);
+    choice.path->body = body_;
+    choice.path->face = otherOf(*pressed_.front());
+    choice.contacts = pressed_;
+    choice.scene = heldScene(pressed_);
+    return choice;
+  }
+  void begin(ContactChoice& choice) const {
+    choice.start = heldStart(choice.scene, choice.modes.contacts, state_);
+    choice.path->inputs.x = choice.start.x, choice.path->inputs.v = choice.start.v, choice.path->inputs.L = choice.start.L;
+  }
+
+  // Any contacts, in the modes that forces allow.
+  ContactChoice held(const ModeHint& hint) {
+    std::vector<HeldContact> candidates;
+    for (const Contact* c : closed_) candidates.push_back(candidate(*c));
+    const HeldScene all = heldScene(closed_);
+    HeldModes modes = chooseModes(all, candidates, state_, hint, no_slip_);
+    if (!modes.unresolved.empty()) return beyond(modes.unresolved);
+    if (modes.held.empty()) return {};
+    pressed_.clear();
+    for (const std::size_t k : modes.held) pressed_.push_back(closed_[k]);
+    ContactChoice choice = onHeldPath();
+    choice.modes = std::move(modes);
+    begin(choice);
+    return choice;
+  }
+
   bool isBall() const { return isUniformBall(scene_.bodies[asIndex(body_)].shape, model_); }
   // Of a cylinder or capsule that lies on its side, all of whose contacts are on the line below its axis.
   bool isAxle() const {
@@ -186,8 +259,7 @@ class Chooser {
   ContactChoice ball() {
     const PathInputs<double> in = inputs(heightOf());
     const Tier derivative = motion_.plan.bodies[asIndex(body_)].derivative_tier;
-    if (!keepsBall(derivative))
-      return beyond("a ball whose moments of inertia vary one by one is not modelled yet where it rolls or slides");
+    if (!keepsBall(derivative)) return {};
     if (slipOf(*pressed_.front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
     const Vec3 slope = alongFace(in.normal, in.gravity);
     const double k = ballInertia(in) / (in.mass * in.reach * in.reach);
@@ -198,12 +270,10 @@ class Chooser {
   ContactChoice axle() {
     const PathInputs<double> in = inputs(heightOf());
     for (const Contact* c : pressed_)
-      if (slipOf(*c).norm() > no_slip_)
-        return beyond("a body on its side that slides is not modelled yet");
+      if (slipOf(*c).norm() > no_slip_) return {};
     const RollPath<double> path = RollPath<double>::axle(in);
     const Vec3 friction = alongFace(in.normal, in.gravity) - path.acceleration();
-    if (!(friction.norm() <= in.friction * pressingGravity(in)))
-      return beyond("a body on its side that slides is not modelled yet");
+    if (!(friction.norm() <= in.friction * pressingGravity(in))) return {};
     return stays(PathForm::roll_axle, in.reach);
   }
 
@@ -211,12 +281,15 @@ class Chooser {
     const PathInputs<double> in = inputs(heightOf());
     const Vec3 ahead = slipDirectionAt<double>(PathForm::glide_block, in, 0);
     const SupportPolygon support(pressed_, in.normal);
-    if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > 0))
-      return beyond("tipping over a corner or an edge is not modelled yet");
+    if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > 0)) return {};
     return stays(PathForm::glide_block, in.reach);
   }
 
-  ContactChoice beyond(std::string what) const { return {nullptr, state_, pressed_, std::move(what)}; }
+  ContactChoice beyond(std::string what) const {
+    ContactChoice choice;
+    choice.start = state_, choice.contacts = pressed_, choice.beyond = std::move(what);
+    return choice;
+  }
 
   ContactChoice stays(PathForm form, double reach) const {
     ContactChoice choice;
@@ -249,7 +322,7 @@ class Chooser {
   Mat3 R_, A_;
   Vec3 omega_;
   double reach_ = 0, no_slip_ = 0;
-  std::vector<const Contact*> pressed_;
+  std::vector<const Contact*> closed_, pressed_;
   FreeAcceleration free_;
 };
 
@@ -266,8 +339,15 @@ ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
 }
 
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
-                                const std::vector<const Contact*>& closed) {
-  return Chooser(motion, body, state, closed).choose();
+                                const std::vector<const Contact*>& closed, const ModeHint& hint) {
+  Chooser chooser(motion, body, state, closed);
+  if (hint.cause == TransitionCause::sticks || hint.cause == TransitionCause::slip_ends) chooser.slipEnds();
+  return chooser.choose(hint);
+}
+
+ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
+                         const HeldModes& like) {
+  return Chooser(motion, body, state, contacts).heldAs(contacts, like);
 }
 
 }  // namespace carom::adjoint_detail

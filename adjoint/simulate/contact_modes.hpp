@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adjoint/contact/contact_path.hpp"
+#include "adjoint/held/held_modes.hpp"
 #include "adjoint/simulate/contact_acceleration.hpp"
 
 namespace carom::adjoint_detail {
@@ -23,6 +24,8 @@ struct ContactChoice {
   State start;                           ///< of the path: what contact fixes of the state is exact
   std::vector<const Contact*> contacts;  ///< that last
   std::string beyond;                    ///< what the path would have to be, as the end of a sentence
+  HeldScene scene;                       ///< of a path that is held
+  HeldModes modes;                       ///< of that: one of each of `contacts`
 };
 
 /// The same where contacts that do not rub keep the body from what they are with; `closed` are those with n.u = 0, and
@@ -35,8 +38,13 @@ ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
                             const std::vector<const Contact*>& contacts, PathForm form);
 
 /// The path of a body from `state` on, where `closed` are its contacts with fixed bodies that part without speed: rest where rest is
-/// possible; sliding or rolling of what has a closed form (docs/equations.md section 11).
+/// possible; sliding or rolling of what has a closed form; else held (docs/equations.md section 11). `hint`: its contact is
+/// one of `closed`.
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
-                                const std::vector<const Contact*>& closed);
+                                const std::vector<const Contact*>& closed, const ModeHint& hint = {});
+
+/// The path on which contacts hold a body as `like` says, one of each.
+ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
+                         const HeldModes& like);
 
 }  // namespace carom::adjoint_detail

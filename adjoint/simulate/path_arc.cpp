@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "adjoint/held/held_path.hpp"
 #include "adjoint/impact/complementarity.hpp"
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/numeric/so3.hpp"
@@ -10,8 +11,38 @@
 
 namespace carom::adjoint_detail {
 
+namespace {
+
+PathArc makeHeldArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<HeldGuard> guards) {
+  const int body = choice.path->body;
+  choice.path->start = time;
+  auto path = std::make_unique<HeldPath>(choice.scene, choice.modes.contacts, choice.modes.redundant, std::move(guards),
+                                         choice.start, time, motion.duration);
+  PathArc made{Arc((*motion.models)[asIndex(body)], motion.plan.bodies[asIndex(body)].tier, [&] {
+                     ContactPath own = *choice.path;
+                     own.integrated = OwnPath(std::move(path));
+                     return own;
+                   }(), time, choice.start),
+               {},
+               {}};
+  for (const Contact* c : choice.contacts) made.held.push_back(*c);
+  made.transition = heldTransition(made.arc, time);
+  return made;
+}
+
+}  // namespace
+
+PathTransition heldTransition(const Arc& arc, double start) {
+  const auto* path = static_cast<const HeldPath*>(arc.integrated());
+  if (!path->end()) return {};
+  const HeldPath::End& end = *path->end();
+  return {end.time - start, end.guard.cause, end.guard.contact, end.guard.limit};
+}
+
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time) {
   const int body = choice.path->body;
+  if (choice.path->form == PathForm::held)
+    return makeHeldArc(motion, choice, time, guardsOf(choice.scene, choice.modes.contacts, choice.start));
   const double left = motion.duration - time;
   choice.path->start = time;
   const PathTransition transition = firstTransition(motion, choice, left);

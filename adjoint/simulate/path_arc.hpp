@@ -12,6 +12,8 @@ struct PathArc {
   PathTransition transition;  ///< up to the duration of the motion
 };
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time);
+/// How an integrated path goes on, as far as that is known.
+PathTransition heldTransition(const Arc& arc, double start);
 
 /// The pose with all gaps 0, moved as little as possible as measured by the mass (11.13); the contacts follow.
 void closeGaps(const Motion& motion, int body, State& state, std::vector<Contact>& closed);

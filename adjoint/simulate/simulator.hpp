@@ -126,6 +126,8 @@ class Simulator {
   void chooseArcs();
   void fly(std::size_t participant);
   void chooseArc(std::size_t participant);
+  ModeHint hintOf(const std::vector<Contact>& closed) const;
+  bool changesTooOften(int body) const;
   bool presses(const Contact& contact) const;
   void endBeyond(const Contact& contact, const std::string& why);
   bool isCounted(const Contact& contact, const State& a, const State& b) const;
@@ -144,6 +146,8 @@ class Simulator {
   void search(int body, double from, Outlook& outlook);
   std::optional<PredictedImpact> firstImpact(int a, int b, double from, double until);
   void enter(int body, Outlook& outlook);
+  void setPath(int body, const Arc& arc, double from);
+  void followHeld(int body, double from);
   Arc& pathOf(int body) {
     const int i = in_draft_[index(body)];
     return i < 0 ? arcOf(body) : draft_.arcs[index(i)];

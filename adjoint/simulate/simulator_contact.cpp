@@ -18,6 +18,8 @@ constexpr double kUncounted = 1e-6;
 constexpr double kFastestSpin = 1e6;
 // What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
 constexpr double kBeyond = 2e-7;
+// Changes of contact this close in time are in one instant, s.
+constexpr double kSameInstant = 1e-12;
 
 bool isTilted(const Contact& c) { return c.tilt_a >= 0 || c.tilt_b >= 0; }
 
@@ -189,6 +191,26 @@ void Simulator::endBeyond(const Contact& c, const std::string& why) {
                          impactsWithDraft(), "; ", why, ", so the motion ends there");
 }
 
+// The contact that a transition is about, among those that stay closed.
+ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
+  const Event& event = draft_.event;
+  ModeHint hint;
+  if (event.kind != EventKind::transition) return hint;
+  hint.cause = event.cause;
+  for (std::size_t k = 0; k < closed.size(); ++k)
+    if (closed[k].features == event.contacts[0].features && closed[k].a == event.contacts[0].a &&
+        closed[k].b == event.contacts[0].b)
+      hint.contact = static_cast<int>(k);
+  return hint;
+}
+
+bool Simulator::changesTooOften(int body) const {
+  if (draft_.event.kind != EventKind::transition) return false;
+  const WorldLine& line = motion_.world_lines[index(body)];
+  constexpr std::size_t kMost = 8;
+  return line.arcs.size() > kMost && line.arcs[line.arcs.size() - kMost].start() >= draft_.event.time - kSameInstant;
+}
+
 void Simulator::chooseArc(std::size_t participant) {
   const Event& event = draft_.event;
   const int body = bodies_[participant];
@@ -206,8 +228,8 @@ void Simulator::chooseArc(std::size_t participant) {
   }
   State& after = draft_.after[participant];
   ContactChoice choice;
-  if (!closed.empty()) choice = chooseContactPath(motion_, body, after, pointersTo(closed));
-  if (choice.path && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {
+  if (!closed.empty()) choice = chooseContactPath(motion_, body, after, pointersTo(closed), hintOf(closed));
+  if (choice.path && choice.path->form != PathForm::held && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {
     std::vector<Contact> last;  // what begins to last fixes the pose
     for (const Contact* c : choice.contacts) last.push_back(*c);
     closed = std::move(last);
@@ -219,8 +241,19 @@ void Simulator::chooseArc(std::size_t participant) {
     if (!choice.beyond.empty()) endBeyond(*choice.contacts.front(), choice.beyond);
     return;
   }
+  if (changesTooOften(body)) {
+    fly(participant);
+    endBeyond(*choice.contacts.front(), "how they hold on to each other changes more than 8 times in one instant");
+    return;
+  }
   Onward& onward = draft_.onward[participant];
-  PathArc made = makePathArc(motion_, choice, event.time);
+  PathArc made = [&]() -> PathArc {
+    try {
+      return makePathArc(motion_, choice, event.time);
+    } catch (const NotComputable& error) {
+      giveUp("contact", event.contacts[0].a, event.contacts[0].b, event.time, error);
+    }
+  }();
   onward.held = std::move(made.held);
   onward.why = made.transition;
   if (onward.why.cause != TransitionCause::none) onward.transition = event.time + onward.why.elapsed;
@@ -271,7 +304,10 @@ void Simulator::resolveTransition(int body) {
     for (const Contact& c : contactsBeyond(from, body, event.time))
       if (!(c.features == event.contacts[0].features)) add(c, true);
   } else {
-    for (const Contact& h : from.held) add(h, true);
+    const int first = from.why.contact;  // none of a body that slides without turning
+    if (first >= 0) add(from.held[index(first)], event.cause != TransitionCause::lifts);
+    for (std::size_t k = 0; k < from.held.size(); ++k)
+      if (static_cast<int>(k) != first) add(from.held[k], true);
   }
   bodies_ = {body};
   event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
@@ -326,7 +362,7 @@ void Simulator::solvePlaced(int body) {
     giveUp("contact", event.contacts[0].a, event.contacts[0].b, 0, error);
   }
   chooseArcs();
-  contacts_.setPath(body, draft_.arcs[0], 0, motion_.duration);
+  setPath(body, draft_.arcs[0], 0);
   draft_.outlooks.assign(1, {});
   commit();
 }

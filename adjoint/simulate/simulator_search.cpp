@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/simulate/path_arc.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 // Who will meet whom next: searches of one body's future against its neighbours.
@@ -13,7 +14,9 @@ namespace carom::adjoint_detail {
 // the body's arc beyond that will happen, unless the other body is struck before. In that case the search goes on when
 // that time is reached with the arc still in force. Adds everything found to found_.
 void Simulator::search(int body, double from, Outlook& outlook) {
+  if (pathOf(body).integrated()) followHeld(body, from);
   double until = std::min({contacts_.window(body, from), motion_.duration, onwardOf(body).transition});
+  if (pathOf(body).integrated()) until = std::min(until, pathOf(body).knownUntil());
   contacts_.neighbours(body, neighbours_);
   const std::size_t begin = found_.size();
   for (int other : neighbours_) {
@@ -41,9 +44,33 @@ void Simulator::search(int body, double from, Outlook& outlook) {
     if (found_[i].time <= first->time + kInstant && &found_[i] != &*first) outlook.of_instant.push_back(found_[i]);
 }
 
+// Bounds of an integrated path hold as far as it is known.
+void Simulator::setPath(int body, const Arc& arc, double from) {
+  contacts_.setPath(body, arc, from, std::min(motion_.duration, arc.knownUntil()));
+}
+
+// An integrated path is followed a step further where the search has come to the end of what is known.
+void Simulator::followHeld(int body, double from) {
+  Arc& arc = pathOf(body);
+  if (arc.integrated()->ended() || from < arc.knownUntil() || in_draft_[index(body)] >= 0) return;
+  work_.step();
+  try {
+    arc.extendTo(std::nextafter(arc.knownUntil(), kInfinity));
+  } catch (const NotComputable& error) {
+    const Contact& c = onward_[index(body)].held.front();
+    giveUp("contact", c.a, c.b, from, error);
+  }
+  Onward& onward = onward_[index(body)];
+  onward.why = heldTransition(arc, arc.start());
+  if (onward.why.cause != TransitionCause::none) onward.transition = arc.start() + onward.why.elapsed;
+  setPath(body, arc, from);
+}
+
 // Of bodies a < b; those that overlap from the start have to part first.
 std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from, double until) {
   Arc &arc_a = pathOf(a), &arc_b = pathOf(b);
+  until = std::min({until, arc_a.knownUntil(), arc_b.knownUntil()});
+  if (!(from <= until)) return std::nullopt;
   if (StartOverlap* overlap = overlapOf(a, b)) {
     const std::optional<double> parted = partingOf(*overlap, from, until);
     if (!parted) return std::nullopt;
@@ -80,7 +107,7 @@ void Simulator::predictBody(int body, double from) {
 void Simulator::predictDraft() {
   const Event& event = draft_.event;
   for (std::size_t i = 0; i < draft_.arcs.size(); ++i)
-    contacts_.setPath(event.participants[i].body, draft_.arcs[i], event.time, motion_.duration);
+    setPath(event.participants[i].body, draft_.arcs[i], event.time);
   found_.clear();
   draft_.outlooks.resize(draft_.arcs.size());
   for (std::size_t i = 0; i < draft_.arcs.size(); ++i)

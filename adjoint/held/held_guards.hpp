@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/held/held_step.hpp"
+#include "adjoint/motion/body_geometry.h"
+#include "adjoint/motion/motion.h"
+
+namespace carom::adjoint_detail {
+
+/// What may end a path in lasting contact: a quantity that falls to 0.
+struct HeldGuard {
+  TransitionCause cause = TransitionCause::none;
+  int contact = -1;     ///< of the path
+  int limit = -1;       ///< leaves: of BodyGeometry::limits
+  FeatureLimit border;  ///< leaves: as it is at the start; a circle's goes round with the contact
+
+  bool isSame(const HeldGuard& o) const { return cause == o.cause && contact == o.contact && limit == o.limit; }
+};
+
+/// All guards of a path that begins with `start`.
+std::vector<HeldGuard> guardsOf(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& start);
+
+/// The value of a guard, and how much of it is rounding:
+///   lifts   n.f / (m a);    slips   (mu n.f - |f_t|) / (m a);    sticks   t.u / c;    leaves   see FeatureLimit
+/// with the units of force m a and speed c of the scene.
+double guardValue(const HeldGuard& guard, const HeldScene& scene, const std::vector<HeldContact>& contacts,
+                  const Pose& own, const HeldInstant& now, const HeldDynamics<double>& forces);
+double guardRounding(const HeldGuard& guard);
+
+}  // namespace carom::adjoint_detail

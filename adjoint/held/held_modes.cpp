@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/held/held_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "adjoint/base/errors.h"
+
+namespace carom::adjoint_detail {
+namespace {
+
+// What of a force or an acceleration is rounding, as a share of the unit; and of a contact that is at its limit.
+constexpr double kModeRounding = 1e-10, kAtLimit = 1e-7;
+constexpr int kModeRounds = 60, kDirectionRounds = 200;
+constexpr std::size_t kEnumerated = 5;
+
+enum class Way : char { off, sticks, slides, begins };  // begins: from no slip
+
+class ModeSearch {
+ public:
+  ModeSearch(const HeldScene& scene, const std::vector<HeldContact>& candidates, const State& state, double no_slip)
+      : scene_(scene), candidates_(candidates) {
+    std::vector<Vec3> none(candidates.size(), Vec3::Zero());
+    now_ = instantOf(scene, candidates, state, none);
+    pull_ = scene.speed * scene.speed / scene.length;
+    force_ = pull_ * scene.model->mass;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const Vec3 slip = now_.slipAt(k);
+      slips_.push_back(slip.norm() > no_slip);
+      direction_.push_back(slips_.back() ? Vec3(slip.normalized()) : Vec3(Vec3::Zero()));
+    }
+  }
+
+  HeldModes run(const ModeHint& hint) {
+    std::vector<Way> ways;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) ways.push_back(closedWay(k));
+    if (hint.contact >= 0) {
+      const auto at = static_cast<std::size_t>(hint.contact);
+      if (hint.cause == TransitionCause::lifts) ways[at] = Way::off, lifted_ = hint.contact;
+      if (hint.cause == TransitionCause::slips && !slips_[at]) ways[at] = Way::begins;
+    }
+    if (settle(ways) || enumerate()) return answer();
+    HeldModes modes;
+    modes.unresolved = "no forces within the cones of friction hold them, and none part them";
+    return modes;
+  }
+
+ private:
+  struct Solved {
+    std::vector<std::size_t> on;
+    std::vector<ContactInstant<double>> contacts;
+    bool redundant = false;
+    std::optional<HeldDynamics<double>> forces;
+  };
+
+  bool rubs(std::size_t k) const { return candidates_[k].friction > 0; }
+  Way closedWay(std::size_t k) const { return slips_[k] || !rubs(k) ? Way::slides : Way::sticks; }
+
+  void solve(Solved& solved, const std::vector<Way>& ways, const std::vector<Vec3>& direction) const {
+    solved.on.clear(), solved.contacts.clear();
+    Eigen::Index unknowns = 0;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      if (ways[k] == Way::off) continue;
+      solved.on.push_back(k);
+      ContactInstant<double> c = now_.contacts[k];
+      c.mode = ways[k] == Way::sticks ? HeldMode::sticks : HeldMode::slides;
+      c.slip = direction[k];
+      unknowns += c.mode == HeldMode::sticks ? 3 : 1;
+      solved.contacts.push_back(c);
+    }
+    solved.forces.emplace(now_.body, solved.contacts, true);
+    solved.redundant = false;
+    if (unknowns > 1) {
+      Eigen::FullPivLU<Eigen::MatrixXd> rank(solved.forces->matrix());
+      rank.setThreshold(kModeRounding);
+      solved.redundant = rank.rank() < unknowns;
+    }
+  }
+
+  // The directions in which contacts begin to slip: those of the friction that held them last, then those in which they
+  // then move. False where these do not come to rest.
+  bool solveBegins(Solved& solved, const std::vector<Way>& ways) {
+    std::vector<Vec3> direction = direction_;
+    if (std::ranges::none_of(ways, [](Way w) { return w == Way::begins; })) {
+      solve(solved, ways, direction);
+      used_ = direction;
+      return true;
+    }
+    std::vector<Way> sticking = ways;
+    for (Way& w : sticking)
+      if (w == Way::begins) w = Way::sticks;
+    solve(solved, sticking, direction);
+    for (std::size_t i = 0; i < solved.on.size(); ++i) {
+      const std::size_t k = solved.on[i];
+      if (ways[k] != Way::begins) continue;
+      const Vec3 &n = now_.contacts[k].n, f = solved.forces->force(i), along = f - n.dot(f) * n;
+      if (!(along.norm() > 0)) return false;
+      direction[k] = -along.normalized();
+    }
+    double damped = 1;
+    for (int round = 0; round < kDirectionRounds; ++round) {
+      solve(solved, ways, direction);
+      double turned = 0;
+      for (std::size_t i = 0; i < solved.on.size(); ++i) {
+        const std::size_t k = solved.on[i];
+        if (ways[k] != Way::begins) continue;
+        const Vec3 &n = now_.contacts[k].n, rate = solved.forces->slipRate(i), along = rate - n.dot(rate) * n;
+        if (!(along.norm() > kAtLimit * pull_)) continue;  // at the limit of friction: it begins as that pulled
+        const Vec3 to = along.normalized();
+        turned = std::max(turned, (to - direction[k]).norm());
+        direction[k] = (direction[k] + damped * (to - direction[k])).normalized();
+        if (!direction[k].allFinite()) return false;
+      }
+      if (turned < 1e-14) break;
+      if (round == kDirectionRounds - 1 && turned > 1e-9) return false;
+      if (round % 20 == 19) damped *= 0.5;
+    }
+    used_ = direction;
+    return true;
+  }
+
+  // Whether the ways are consistent; else which is to be changed into what.
+  struct Change {
+    std::size_t contact = 0;
+    Way to = Way::off;
+  };
+  std::optional<Change> violated(const Solved& solved, const std::vector<Way>& ways) const {
+    double most = 0;
+    std::optional<Change> change;
+    for (std::size_t i = 0; i < solved.on.size(); ++i) {
+      const double share = -solved.forces->pressing(i) / force_;
+      if (share > std::max(most, kModeRounding)) most = share, change = {solved.on[i], Way::off};
+    }
+    if (change) return change;
+    for (std::size_t i = 0; i < solved.on.size(); ++i) {
+      const std::size_t k = solved.on[i];
+      const double pressing = solved.forces->pressing(i);
+      if (ways[k] == Way::sticks) {
+        const double share =
+            ((solved.forces->force(i) - pressing * now_.contacts[k].n).norm() - now_.contacts[k].friction * pressing) / force_;
+        if (share > std::max(most, kModeRounding)) most = share, change = {k, Way::begins};
+      }
+    }
+    if (change) return change;
+    for (std::size_t i = 0; i < solved.on.size(); ++i) {
+      const std::size_t k = solved.on[i];
+      if (ways[k] != Way::begins) continue;
+      const double against = -solved.forces->slipRate(i).dot(used_[k]) / pull_;
+      if (against > std::max(most, kAtLimit)) most = against, change = {k, Way::sticks};
+    }
+    if (change) return change;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      if (ways[k] != Way::off || static_cast<int>(k) == lifted_) continue;
+      const double falls = -solved.forces->gapAcceleration(now_.contacts[k]) / pull_;
+      if (falls > std::max(most, kModeRounding)) most = falls, change = {k, closedWay(k)};
+    }
+    return change;
+  }
+
+  bool settle(std::vector<Way> ways) {
+    std::set<std::vector<Way>> seen;
+    for (int round = 0; round < kModeRounds; ++round) {
+      if (!seen.insert(ways).second) return false;
+      if (!solveBegins(found_, ways)) return false;
+      const std::optional<Change> change = violated(found_, ways);
+      if (!change) {
+        ways_ = ways;
+        return true;
+      }
+      ways[change->contact] = change->to;
+    }
+    return false;
+  }
+
+  // All combinations, those with most that sticks first.
+  bool enumerate() {
+    if (candidates_.size() > kEnumerated) return false;
+    std::vector<std::vector<Way>> all{{}};
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      std::vector<std::vector<Way>> longer;
+      for (const auto& ways : all)
+        for (const Way w : {Way::sticks, Way::begins, Way::slides, Way::off}) {
+          if (slips_[k] || !rubs(k) ? w == Way::sticks || w == Way::begins : w == Way::slides) continue;
+          longer.push_back(ways);
+          longer.back().push_back(w);
+        }
+      all = std::move(longer);
+    }
+    const auto loose = [](const std::vector<Way>& ways) {
+      return std::ranges::count_if(ways, [](Way w) { return w != Way::sticks; });
+    };
+    std::ranges::stable_sort(all, {}, loose);
+    for (const std::vector<Way>& ways : all) {
+      if (!solveBegins(found_, ways) || violated(found_, ways)) continue;
+      ways_ = ways;
+      return true;
+    }
+    return false;
+  }
+
+  HeldModes answer() const {
+    HeldModes modes;
+    modes.redundant = found_.redundant;
+    for (std::size_t i = 0; i < found_.on.size(); ++i) {
+      const std::size_t k = found_.on[i];
+      HeldContact c = candidates_[k];
+      c.mode = found_.contacts[i].mode;
+      c.slip = c.mode == HeldMode::slides && rubs(k) ? used_[k] : Vec3(Vec3::Zero());
+      modes.held.push_back(k);
+      modes.contacts.push_back(c);
+    }
+    return modes;
+  }
+
+  const HeldScene& scene_;
+  const std::vector<HeldContact>& candidates_;
+  HeldInstant now_;
+  double pull_ = 0, force_ = 0;
+  std::vector<char> slips_;
+  std::vector<Vec3> direction_, used_;
+  std::vector<Way> ways_;
+  int lifted_ = -1;
+  Solved found_;
+};
+
+}  // namespace
+
+HeldModes chooseModes(const HeldScene& scene, const std::vector<HeldContact>& candidates, const State& state,
+                      const ModeHint& hint, double no_slip) {
+  return ModeSearch(scene, candidates, state, no_slip).run(hint);
+}
+
+}  // namespace carom::adjoint_detail

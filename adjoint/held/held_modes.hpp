@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adjoint/held/held_step.hpp"
+#include "adjoint/motion/motion.h"
+
+namespace carom::adjoint_detail {
+
+/// Which of the contacts that are closed hold a body, and how.
+struct HeldModes {
+  std::vector<std::size_t> held;       ///< of the candidates, in their order; empty: it flies
+  std::vector<HeldContact> contacts;   ///< these, with mode and direction of slip
+  bool redundant = false;              ///< forces are those of least norm
+  std::string unresolved;              ///< why none were found, as the end of a sentence
+};
+
+/// What is known of the modes before they are looked for.
+struct ModeHint {
+  TransitionCause cause = TransitionCause::none;
+  int contact = -1;  ///< of the candidates: the one that a transition is about
+};
+
+/// N >= 0 and alpha >= 0, complementary, for all candidates, with Coulomb's law: (11.23). A slip slower than `no_slip`
+/// counts as none. The answer is the one with as little slip as possible that is found first, in an order that does not
+/// depend on anything but the candidates.
+HeldModes chooseModes(const HeldScene& scene, const std::vector<HeldContact>& candidates, const State& state,
+                      const ModeHint& hint, double no_slip);
+
+}  // namespace carom::adjoint_detail

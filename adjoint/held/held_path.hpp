@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/contact/integrated_path.hpp"
+#include "adjoint/held/held_guards.hpp"
+#include "adjoint/held/held_step.hpp"
+
+namespace carom::adjoint_detail {
+
+/// The path of a body that contacts hold to bodies which stand still, at frozen features and in frozen modes: as many
+/// steps as somebody has looked at, up to the first guard that falls to 0.
+class HeldPath final : public IntegratedPath {
+ public:
+  struct End {
+    double time = kInfinity;
+    HeldGuard guard;
+  };
+
+  /// `until`: nothing later is asked for. Throws NotComputable where not even a first step can be made.
+  HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redundant, std::vector<HeldGuard> guards,
+           const State& start, double time, double until);
+
+  std::unique_ptr<IntegratedPath> clone() const override { return std::make_unique<HeldPath>(*this); }
+  void extendTo(double t) override;
+  double knownUntil() const override { return known_; }
+  bool ended() const override { return end_ || known_ >= until_; }
+  std::size_t steps() const override { return steps_.size(); }
+
+  State stateAt(double t) const override;
+  Vec3 positionAt(double t) const override { return stateAt(t).x; }
+  Vec3 velocityAt(double t) const override;
+  StateDerivative rateAt(double t) const override;
+  PathBounds bounds() const override { return bounds_; }
+  bool slides() const override;
+  bool rolls() const override { return rolls_; }
+
+  /// One step more.
+  void extend();
+  /// Where it goes on otherwise, once that is known.
+  const std::optional<End>& end() const { return end_; }
+
+  const HeldScene& scene() const { return scene_; }
+  const std::vector<HeldContact>& contacts() const { return contacts_; }
+  const std::vector<HeldGuard>& guards() const { return guards_; }
+  bool redundant() const { return redundant_; }
+  const std::vector<HeldStep>& allSteps() const { return steps_; }
+  double start() const { return start_; }
+  /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node.
+  HeldInstant instantAt(double t) const;
+
+ private:
+  const HeldStep& stepAt(double t) const;
+  HeldStep stepFrom(const State& from);
+  double lengthTo(double t) const { return t - known_; }
+  std::vector<Vec3> slipAfter() const;
+  std::vector<char> endingSlips(const State& from, const std::vector<Vec3>& slip) const;
+  std::optional<End> firstEnd(const HeldStep& step) const;
+  double rootOf(const HeldStep& step, std::size_t guard, double above, double below, const std::vector<Vec3>& slip) const;
+  std::vector<double> valuesAt(const HeldStep& step, double t, const std::vector<Vec3>& slip) const;
+  void take(HeldStep step);
+
+  HeldScene scene_;
+  std::vector<HeldContact> contacts_;
+  bool redundant_;
+  std::vector<HeldGuard> guards_;
+  State start_state_, last_;
+  double start_, until_, known_, next_length_;
+  std::vector<HeldStep> steps_;
+  std::optional<End> end_;
+  PathBounds bounds_;
+  bool rolls_ = false;
+};
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/held/held_start.hpp"
+
+#include "adjoint/impact/complementarity.hpp"
+#include "adjoint/numeric/so3.hpp"
+
+namespace carom::adjoint_detail {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+Rows gapRows(const HeldInstant& now) {
+  Rows G(now.contacts.size(), 6);
+  for (std::size_t k = 0; k < now.contacts.size(); ++k) {
+    const ContactInstant<double>& c = now.contacts[k];
+    G.row(static_cast<Eigen::Index>(k)) << c.n.transpose(), c.r.cross(c.n).transpose();
+  }
+  return G;
+}
+
+Rows heldRows(const HeldInstant& now) {
+  Eigen::Index rows = 0;
+  for (const auto& c : now.contacts) rows += c.mode == HeldMode::sticks ? 3 : 1;
+  Rows C(rows, 6);
+  Eigen::Index at = 0;
+  for (const auto& c : now.contacts) {
+    if (c.mode == HeldMode::sticks) {
+      C.block<3, 3>(at, 0).setIdentity();
+      C.block<3, 3>(at, 3) = -skew(c.r);
+      at += 3;
+    } else {
+      C.row(at++) << c.n.transpose(), c.r.cross(c.n).transpose();
+    }
+  }
+  return C;
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> undoing(const HeldInstant& now, const Rows& C) {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> moved = C.transpose();
+  moved.topRows<3>() *= now.body.inverse_mass;
+  moved.bottomRows<3>() = now.body.A * C.transpose().bottomRows<3>();
+  const Eigen::MatrixXd K = C * moved;
+  return moved * LeastNormSolve(K, Eigen::VectorXd::Zero(K.rows())).inverse;
+}
+
+State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state) {
+  const std::vector<Vec3> none(contacts.size(), Vec3::Zero());
+  for (int round = 0; round < 2; ++round) {
+    const HeldInstant now = instantOf(scene, contacts, state, none);
+    Eigen::VectorXd gaps(contacts.size());
+    const Pose own{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())};
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      gaps[static_cast<Eigen::Index>(k)] = scene.contact(contacts[k], k, own, Vec3::Zero(), Vec3::Zero()).at.gap;
+    const Eigen::Matrix<double, 6, 1> move = -undoing(now, gapRows(now)) * gaps;
+    const Vec3 turn = move.tail<3>();
+    state.x += move.head<3>();
+    if (turn.norm() > 0) state.q = (expSO3(turn) * state.q).normalized();
+  }
+  for (int round = 0; round < 2; ++round) {
+    const HeldInstant now = instantOf(scene, contacts, state, none);
+    const Rows C = heldRows(now);
+    Eigen::Matrix<double, 6, 1> velocity;
+    velocity << now.body.v, now.body.omega;
+    const Eigen::Matrix<double, 6, 1> change = -undoing(now, C) * (C * velocity);
+    const Mat3 R = state.q.toRotationMatrix();
+    state.v += change.head<3>();
+    state.L += R * scene.model->inertia.cwiseProduct(R.transpose() * change.tail<3>());
+  }
+  return state;
+}
+
+}  // namespace carom::adjoint_detail

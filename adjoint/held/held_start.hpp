@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/held/held_step.hpp"
+
+namespace carom::adjoint_detail {
+
+/// The state with all gaps 0, no speed along the normals, and none at contacts that stick: moved as little as possible,
+/// as measured by the mass (11.13, 11.24).
+State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state);
+
+/// Rows of n.u of each contact, or of u where it sticks, by (v, omega).
+Eigen::Matrix<double, Eigen::Dynamic, 6> heldRows(const HeldInstant& now);
+/// The same of the gaps by (x, theta).
+Eigen::Matrix<double, Eigen::Dynamic, 6> gapRows(const HeldInstant& now);
+/// M^-1 C^T (C M^-1 C^T)^+, by which a change of (v, L), or of a pose, undoes that of rows C; of the pose: its own
+/// (x, theta).
+Eigen::Matrix<double, 6, Eigen::Dynamic> undoing(const HeldInstant& now, const Eigen::Matrix<double, Eigen::Dynamic, 6>& C);
+
+}  // namespace carom::adjoint_detail

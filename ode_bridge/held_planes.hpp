@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ode_bridge/first_impact.hpp"
+
+namespace carom::ode_bridge_detail {
+
+/// The planes of the contacts that hold two bodies to each other. Two convex pieces in contact lie on the two sides of
+/// the plane through the contact across its normal: on the plane itself, what is held; all else of them can meet the other
+/// piece only once it has come to the plane. A plane goes with the body that has three held points in it, as it has where
+/// a face is held; or, of two edges that cross, with both of them.
+class HeldPlanes {
+ public:
+  /// The bodies are placed at the start of the search.
+  HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held);
+
+  /// Whether two pieces are on the two sides of a plane, as long as nothing has come to it.
+  bool keepApart(int piece_a, int piece_b) const;
+
+  /// The first time in [from, until] at which more of the pieces that planes keep apart has come to a plane, and does not
+  /// go away from it: every vertex and rim is followed to first order, with a bound on its second derivative. `accept`: is
+  /// asked whether there is an impact there; where there is none, the search goes on.
+  template <class Accept>
+  std::optional<double> firstReach(const PairMotion& pair, double from, double until, const Accept& accept) const {
+    double t = from;
+    for (int steps = 0; t <= until; ++steps) {
+      const Reach reach = reachAt(pair, t, until, steps);
+      if (reach.touches && accept(t)) return t;
+      if (!(t + reach.step < until)) break;
+      t = std::max(t + reach.step, std::nextafter(t, until));
+    }
+    return std::nullopt;
+  }
+
+ private:
+  enum class Frame { body_a, body_b, crossed };
+  // A vertex or a rim that may come to the plane; of a or of b.
+  struct Follower {
+    bool of_a;
+    Feature feature;
+    bool is_rim;
+  };
+  struct Plane {
+    Frame frame;
+    Vec3 n;                           // at the start, from b to a
+    double level, room;               // of n.(p - x_b) at the start
+    std::vector<FeaturePair> held;
+    Vec3 normal = Vec3::Zero(), point = Vec3::Zero();  // in the axes of its body, where it goes with one
+    Feature edge_a, edge_b;           // crossed
+    double sign = 1;                  // of edge_a x edge_b
+    std::vector<Follower> followers;
+  };
+  struct Reach {
+    double step = 0;
+    bool touches = false;
+  };
+
+  void addFollowers(Plane& plane);
+  bool holds(const Plane& plane, bool of_a, int piece) const;
+  bool staysBeyond(const Plane& plane, bool of_a, int piece) const;
+  Reach reachAt(const PairMotion& pair, double t, double until, int steps) const;
+
+  const Placed &a_, &b_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace carom::ode_bridge_detail
