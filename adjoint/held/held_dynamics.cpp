@@ -15,6 +15,7 @@ constexpr double kRank = 1e-10;
 Eigen::VectorXd solveForces(const Eigen::MatrixXd& B, const Eigen::VectorXd& b, bool redundant,
                             Eigen::MatrixXd* inverse) {
   if (!B.allFinite() || !b.allFinite()) throw NotComputable("forces at its contacts are beyond the range of doubles");
+  if (B.rows() == 0) return {};
   if (B.rows() == 1 && !redundant) {
     if (inverse) *inverse = B.cwiseInverse();
     return -b / B(0, 0);

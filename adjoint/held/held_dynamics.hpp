@@ -107,6 +107,7 @@ class HeldDynamics {
     for (std::size_t k = 0; k < force_.size(); ++k) m += contacts_[k].r.cross(force_[k]);
     return m;
   }
+  V3<S> spinRate() const { return body_.A * V3<S>(moment() - body_.omega.cross(body_.L)); }
   /// d/dt of the velocity of the body where it is touched; also of a contact that has no force.
   V3<S> slipRate(std::size_t k) const {
     V3<S> d = free_[k];
@@ -114,8 +115,7 @@ class HeldDynamics {
     return d;
   }
   V3<S> slipRateAt(const ContactInstant<S>& c) const {
-    const V3<S> spin = body_.A * V3<S>(moment() - body_.omega.cross(body_.L));
-    return acceleration() + spin.cross(c.r) + body_.omega.cross(V3<S>(c.point_rate - body_.v));
+    return acceleration() + spinRate().cross(c.r) + body_.omega.cross(V3<S>(c.point_rate - body_.v));
   }
   /// d^2(gap)/dt^2.
   S gapAcceleration(const ContactInstant<S>& c) const {

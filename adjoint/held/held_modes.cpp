@@ -202,6 +202,8 @@ class ModeSearch {
   HeldModes answer() const {
     HeldModes modes;
     modes.redundant = found_.redundant;
+    modes.acceleration = found_.forces->acceleration();
+    modes.spin_rate = found_.forces->spinRate();
     for (std::size_t i = 0; i < found_.on.size(); ++i) {
       const std::size_t k = found_.on[i];
       HeldContact c = candidates_[k];

@@ -14,6 +14,7 @@ struct HeldModes {
   std::vector<std::size_t> held;       ///< of the candidates, in their order; empty: it flies
   std::vector<HeldContact> contacts;   ///< these, with mode and direction of slip
   bool redundant = false;              ///< forces are those of least norm
+  Vec3 acceleration = Vec3::Zero(), spin_rate = Vec3::Zero();  ///< of the body: m/s^2, rad/s^2
   std::string unresolved;              ///< why none were found, as the end of a sentence
 };
 
@@ -21,6 +22,7 @@ struct HeldModes {
 struct ModeHint {
   TransitionCause cause = TransitionCause::none;
   int contact = -1;  ///< of the candidates: the one that a transition is about
+  double no_slip = 0;  ///< m/s: slips that are slower count as none, too
 };
 
 /// N >= 0 and alpha >= 0, complementary, for all candidates, with Coulomb's law: (11.23). A slip slower than `no_slip`

@@ -45,6 +45,7 @@ class Chooser {
     press(closed);
   }
 
+  void ignoreSlips(double slower) { no_slip_ = std::max(no_slip_, slower); }
   void slipEnds() { no_slip_ *= kEndTogether; }
 
   ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
@@ -52,8 +53,15 @@ class Chooser {
     return stays(form, form == PathForm::rest ? 1 : heightOf());
   }
 
-  /// Without friction.
-  const FreeAcceleration& acceleration() const { return free_; }
+  /// As forces within the cones of friction hold it; without friction where none are found.
+  FreeAcceleration acceleration() const {
+    if (pressed_.empty()) return free_;
+    std::vector<HeldContact> candidates;
+    for (const Contact* c : closed_) candidates.push_back(candidate(*c));
+    const HeldModes modes = chooseModes(heldScene(closed_), candidates, state_, {}, no_slip_);
+    if (!modes.unresolved.empty()) return free_;
+    return {modes.acceleration, modes.spin_rate};
+  }
 
   ContactChoice choose(const ModeHint& hint) {
     if (pressed_.empty()) return {};
@@ -341,6 +349,7 @@ ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
                                 const std::vector<const Contact*>& closed, const ModeHint& hint) {
   Chooser chooser(motion, body, state, closed);
+  chooser.ignoreSlips(hint.no_slip);
   if (hint.cause == TransitionCause::sticks || hint.cause == TransitionCause::slip_ends) chooser.slipEnds();
   return chooser.choose(hint);
 }

@@ -28,7 +28,7 @@ struct ContactChoice {
   HeldModes modes;                       ///< of that: one of each of `contacts`
 };
 
-/// The same where contacts that do not rub keep the body from what they are with; `closed` are those with n.u = 0, and
+/// The same where contacts keep the body from what they are with; `closed` are those with n.u = 0, and
 /// what they are with is fixed.
 FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State& state,
                                      const std::vector<const Contact*>& closed);

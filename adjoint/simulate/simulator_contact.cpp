@@ -18,6 +18,8 @@ constexpr double kUncounted = 1e-6;
 constexpr double kFastestSpin = 1e6;
 // What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
 constexpr double kBeyond = 2e-7;
+// An impulse makes contacts slip no faster than so many times as fast as it stops bodies.
+constexpr double kOwnSlip = 4;
 // Changes of contact this close in time are in one instant, s.
 constexpr double kSameInstant = 1e-12;
 
@@ -195,7 +197,14 @@ void Simulator::endBeyond(const Contact& c, const std::string& why) {
 ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
   const Event& event = draft_.event;
   ModeHint hint;
-  if (event.kind != EventKind::transition) return hint;
+  if (event.kind != EventKind::transition) {
+    // What is captured from below the lowest bounce leaves no slip but that of its own impulse.
+    double fastest = 0;
+    for (const Contact& c : event.contacts)
+      if (!c.held && !c.kept) fastest = std::max(fastest, std::abs(c.approach));
+    if (fastest * fastest < 2 * motion_.lowest_bounce * scene_.gravity.norm()) hint.no_slip = kOwnSlip * fastest;
+    return hint;
+  }
   hint.cause = event.cause;
   for (std::size_t k = 0; k < closed.size(); ++k)
     if (closed[k].features == event.contacts[0].features && closed[k].a == event.contacts[0].a &&
