@@ -147,7 +147,10 @@ RowValues requireRows(const std::string& path, const EditProblem& problem, const
   if (rows.available) return rows;
   const std::vector<Constraint>& held = problem.constraints.constraints();
   for (std::size_t i = 0; i < held.size(); ++i) {  // what has no number may be what is not there
-    const char* word = held[i].hits ? "/hits" : !held[i].sequence.empty() ? "/sequence" : held[i].at.rest ? "/at/rest" : "";
+    const char* word = held[i].hits                ? "/hits"
+                       : !held[i].sequence.empty() ? "/sequence"
+                       : held[i].at.rest           ? "/at/rest"
+                                                   : "";
     if (*word && !rows.lacking.empty() && rows.lacking.front().constraint == static_cast<int>(i))
       throw FormatError(path, "/constraints/" + std::to_string(i) + word, rows.lacking.front().sentence);
   }

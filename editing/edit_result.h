@@ -50,7 +50,8 @@ struct HeldNumber {
   double upper = 0;                         ///< greatest allowed value, SI; infinity where it is open
 };
 
-/// When a constraint at some time of a span is met, or a body that is held at rest comes to rest, in the verified motion.
+/// When a constraint at some time of a span is met, or a body that is held at rest comes to rest, in the verified
+/// motion.
 struct MetTime {
   int constraint = -1;                ///< index of the Constraint
   std::string name;                   ///< "'hat' between 1 s and 2 s", "'die' at rest"

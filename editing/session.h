@@ -92,8 +92,8 @@ class EditSession {
   /// Removes a nail. The motion stays. One step for undo.
   void unnail(NailId id);
 
-  /// Takes hold of a moving body at a time or an impact of the motion, or at rest. From here to `release` is one step for undo;
-  /// the controls `also_vary` are there from here on, in the same step.
+  /// Takes hold of a moving body at a time or an impact of the motion, or at rest. From here to `release` is one step
+  /// for undo; the controls `also_vary` are there from here on, in the same step.
   SessionUpdate grab(const std::string& body, When at, const Grip& grip = {}, std::vector<Control> also_vary = {});
   /// Takes hold of a nail: what is dragged is the place that it holds the body to. It does not hold that meanwhile, but
   /// what it has besides place and orientation. `release` puts it where the body got to, `cancel` back.

@@ -100,6 +100,7 @@ std::string describeApproach(const EditProblem& problem, const EditPoint& point)
   const LackingImpact& lacking = point.rows.lacking.front();
   const Constraint& held = problem.constraints.constraints()[static_cast<std::size_t>(lacking.constraint)];
   if (held.at.rest) {
+    if (!(point.motion.end > 0)) return "";
     const BodyState last = point.motion.stateAt(held.body, point.motion.end);
     return "The slowest ends with " + brief(last.velocity.norm()) + " m/s and " + brief(last.angular_velocity.norm()) +
            " rad/s.";

@@ -174,7 +174,8 @@ TEST(ConstraintAtRest, WhatNeverRestsIsRefused) {
   scene["bodies"][1]["kinematic"] = true;
   const json answer = runJson({"edit", written(scene)}, 1);
   EXPECT_EQ(answer["error"]["pointer"], "/constraints/0/body");
-  EXPECT_NE(answer["error"]["message"].get<std::string>().find("others never come to rest"), std::string::npos) << answer;
+  EXPECT_NE(answer["error"]["message"].get<std::string>().find("others never come to rest"), std::string::npos)
+      << answer;
   scene = sceneOfRest();
   scene["constraints"][0]["velocity"] = {0, 0, 0};
   EXPECT_EQ(runJson({"validate", written(scene)}, 1)["error"]["pointer"], "/constraints/0/velocity");

@@ -149,9 +149,9 @@ TEST(Hessian, OfRowsAtRest) {
   OdeContacts contacts(scene);
   const std::vector<Constraint> constraints{
       {"box", atRest(), {{"position", {1, 0.2, any}}, {"time", {1}}, {"point", {1, 1, any}, {0.1, 0.2, 0.05}}}}};
-  const EditProblem problem(scene, contacts, 3,
-                            {velocity("box").only({"x", "y"}), position("box").only({"x", "y"}), friction("wood"), mass("box")},
-                            constraints);
+  const std::vector<Control> controls{velocity("box").only({"x", "y"}), position("box").only({"x", "y"}),
+                                      friction("wood"), mass("box")};
+  const EditProblem problem(scene, contacts, 3, controls, constraints);
   expectDerivative(problem, someUnknowns(problem, 0.01), someWeights(problem.constraints.size()));
 }
 

@@ -264,8 +264,8 @@ class RowsAtRest : public testing::TestWithParam<Rest> {};
 TEST_P(RowsAtRest, HaveTheirDerivatives) {
   const Rest& row = GetParam();
   OdeContacts contacts(row.scene);
-  std::vector<Control> controls{position(row.body).only({"x", "y"}), mass(row.body), elasticity("wood"), gravity().only({"z"}),
-                                velocity("other")};
+  std::vector<Control> controls{position(row.body).only({"x", "y"}), mass(row.body), elasticity("wood"),
+                                gravity().only({"z"}), velocity("other")};
   const bool slides = row.scene.bodies[1].velocity.norm() > 0;
   if (slides) controls.insert(controls.end(), {velocity(row.body).only({"x", "y"}), friction("wood")});
   const EditProblem problem(row.scene, contacts, 3, controls, everyRow(row.body));

@@ -184,7 +184,10 @@ TEST(SceneRoundTrip, randomConstraintsAreExact) {
   for (int round = 0; round < 300; ++round) {
     Constraint c{"ball", When(0), {}};
     const double from = unit(random), to = from + 1e-3 + unit(random);
-    c.at = chance() ? between(from, to) : chance() ? nthImpact(3, chance() ? "floor" : "") : chance() ? atRest() : When(to);
+    c.at = chance()   ? between(from, to)
+           : chance() ? nthImpact(3, chance() ? "floor" : "")
+           : chance() ? atRest()
+                      : When(to);
     if (chance()) c.relative_to = "book";
     for (const char* quantity : {"position", "velocity", "angular_velocity", "point"}) {
       Target target{quantity, {number(), any, chance() ? number() : any}};

@@ -20,8 +20,8 @@ struct EventMargin {
     leaves,   ///< the value of a FeatureLimit: m, or a sine
     parts,    ///< gap of one contact of several at one instant: 0 as it is, m
     order,    ///< time from one impact to the next, s
-    is_read,  ///< time from an impact to an instant at which a body of it is read, s; may be negative. Of a body that is
-              ///< held at rest: time from its coming to rest to the end of the motion
+    is_read,  ///< time from an impact to an instant at which a body of it is read, s; may be negative. Of a body that
+              ///< is held at rest: time from its coming to rest to the end of the motion
   };
   Way way = Way::grazes;
   int event = -1;

@@ -144,7 +144,8 @@ void checkComesToRest(const Body& body, const std::string& where) {
 
 void checkWhen(const When& at, const std::string& where) {
   if (at.rest && (at.impact != 0 || !at.with.empty() || at.span || at.time != 0))
-    throw InputError(where, std::string("found rest and ") + (at.span ? "a span of time" : at.time != 0 ? "a time" : "an impact") +
+    throw InputError(where, std::string("found rest and ") +
+                                (at.span ? "a span of time" : at.time != 0 ? "a time" : "an impact") +
                                 ", expected one of the two");
   if (at.impact < 0 || (at.impact == 0 && !at.with.empty())) {
     throw InputError(where + "/impact", "found " + std::to_string(at.impact) + ", expected 1 or more");

@@ -13,6 +13,7 @@ namespace {
 
 /// The slower a body is where its motion ends, the more of its coming to rest is done; never all of it.
 double shareOfRest(const Motion& motion, int body) {
+  if (motion.world_lines[static_cast<std::size_t>(body)].arcs.empty()) return 0;  // it never began
   const NaturalScales scales = naturalScales(*motion.scene, body);
   const BodyState last = motion.stateAt(body, motion.end);
   return 1 / (2 + last.velocity.norm() / scales.velocity + last.angular_velocity.norm() / scales.angular_velocity);

@@ -110,7 +110,8 @@ class ConstraintSet {
   /// result unavailable, with a sentence; they are not an error.
   RowValues evaluate(const Motion& motion) const { return evaluate(motion, nearestTimes(motion)); }
   RowValues evaluate(const Motion& motion, const Eigen::VectorXd& times) const;
-  /// When constraints hold whose time is not given: those at some time of a span, and those at rest that the motion has.
+  /// When constraints hold whose time is not given: those at some time of a span, and those at rest that the motion
+  /// has.
   std::vector<HeldTime> heldTimes(const Motion& motion, const Eigen::VectorXd& times) const;
   /// For each free time one at which its constraint is most nearly met, among many.
   Eigen::VectorXd nearestTimes(const Motion& motion) const;
@@ -137,7 +138,8 @@ class ConstraintSet {
   bool waits() const;
   /// Whether something is held at rest, of which only the end of the motion tells that it stays so.
   bool holdsAtRest() const;
-  /// Whether a motion has the impacts that are waited for, as far as it is known; what is held at rest waits for its end.
+  /// Whether a motion has the impacts that are waited for, as far as it is known; what is held at rest waits for its
+  /// end.
   bool hasWhatItWaitsFor(const Motion& motion) const;
   /// The last time that is held besides, s.
   double leastDuration() const;
