@@ -163,6 +163,23 @@ TEST(AtRest, ARestThatNeverComesIsTold) {
   EXPECT_NE(result.message.find("The slowest ends with 0.5"), std::string::npos) << result.message;
 }
 
+// On a table or beside it: the height at rest has no gradient, and samples find the other one.
+TEST(AtRest, AnOutcomeOfFewValuesIsFound) {
+  Scene scene = onFloor({ball("ball", "wood", 0.1, {0.2, 0, 0.8}, Vec3::Zero())});
+  Body table = block("table", {0, 0, 0.1}, Vec3::Zero());
+  table.fixed = true, table.shape = Box{{1, 1, 0.2}};
+  scene.bodies.push_back(table);
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 3);
+  edit.vary(position("ball").only({"x", "y"}));
+  edit.nail("ball", atRest()).position(any, any, 0.1);
+  const EditResult result = edit.solve();
+  ASSERT_EQ(result.status, EditStatus::solved_sequence_changed) << result.message;
+  const Vec3 start = result.scene.bodies[1].position;
+  EXPECT_GE(std::max(std::abs(start.x()), std::abs(start.y())), 0.5) << start.transpose();
+  EXPECT_LE((start - scene.bodies[1].position).norm(), 0.5) << "0.4 is the smallest that there is";
+}
+
 /// A block that stops, and a ball without friction.
 Scene withBall(const Vec3& block_velocity, const Vec3& ball_position, const Vec3& ball_velocity) {
   Scene scene = onFloor({block("block", {0, 0, 0.05}, block_velocity),
