@@ -59,9 +59,11 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
   }
   out.text() << '\n';
   rows.print(out);
-  for (int k = 0; k < problem.times(); ++k)
-    out.text() << "  of " << problem.constraints.describeConstraint(problem.constraints.freeTimes()[k].constraint)
-               << ": at " << out.number(result.rows.times[k]) << " s, where it is nearest\n";
+  for (const HeldTime& held : problem.constraints.heldTimes(result.motion, result.rows.times)) {
+    const bool rests = problem.constraints.constraints()[static_cast<std::size_t>(held.constraint)].at.rest;
+    out.text() << "  of " << problem.constraints.describeConstraint(held.constraint) << ": at "
+               << out.number(held.time) << (rests ? " s\n" : " s, where it is nearest\n");
+  }
   out.text() << '\n'
              << (reliability.reliable ? out.styled(Look::good, "Reliable") + ": no impact on the way is near a place "
                                                                              "where derivatives stop.\n"

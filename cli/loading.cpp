@@ -147,10 +147,12 @@ RowValues requireRows(const std::string& path, const EditProblem& problem, const
   if (rows.available) return rows;
   const std::vector<Constraint>& held = problem.constraints.constraints();
   for (std::size_t i = 0; i < held.size(); ++i) {  // what has no number may be what is not there
-    const bool wishes = held[i].hits || !held[i].sequence.empty();
-    if (wishes && !rows.lacking.empty() && rows.lacking.front().constraint == static_cast<int>(i))
-      throw FormatError(path, "/constraints/" + std::to_string(i) + (held[i].hits ? "/hits" : "/sequence"),
-                        rows.lacking.front().sentence);
+    const char* word = held[i].hits                ? "/hits"
+                       : !held[i].sequence.empty() ? "/sequence"
+                       : held[i].at.rest           ? "/at/rest"
+                                                   : "";
+    if (*word && !rows.lacking.empty() && rows.lacking.front().constraint == static_cast<int>(i))
+      throw FormatError(path, "/constraints/" + std::to_string(i) + word, rows.lacking.front().sentence);
   }
   int first = 0;
   while (first + 1 < problem.constraints.size() && !std::isnan(rows.values[first])) ++first;

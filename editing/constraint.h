@@ -16,17 +16,20 @@ namespace carom {
 inline constexpr double any = std::numeric_limits<double>::quiet_NaN();
 
 /// When a constraint holds: at a time; just before the body's n-th impact (1 = first), counting only those with `with`
-/// when it is not empty; or at some time of a span, which the edit chooses.
+/// when it is not empty; at some time of a span, which the edit chooses; or when the body has come to rest.
 struct When {
   double time = 0;   ///< s; first of a span
   int impact = 0;    ///< 0: not at an impact
   std::string with;  ///< body that it meets; empty: any
   std::optional<std::pair<double, double>> span;  ///< s, first and last; at some time in it
+  bool rest = false;  ///< from when on the body rests up to the end of the motion, whenever that is
 
   /// At a time, s.
   When(double t) : time(t) {}  // NOLINT: nail("hat", 1.4) is how people write it
   /// Just before the n-th impact, with one body or with any.
   When(int n, std::string other) : impact(n), with(std::move(other)) {}
+  /// At a time that is given.
+  bool isTime() const { return impact == 0 && !span && !rest; }
 };
 /// Just before the n-th impact of the body (1 = first), with the body `with` or with any.
 inline When nthImpact(int n, std::string with = "") { return When(n, std::move(with)); }
@@ -34,6 +37,12 @@ inline When nthImpact(int n, std::string with = "") { return When(n, std::move(w
 inline When between(double from, double to) {
   When when(from);
   when.span = {from, to};
+  return when;
+}
+/// When the body has come to rest, where it stays up to the end of the motion.
+inline When atRest() {
+  When when(0);
+  when.rest = true;
   return when;
 }
 

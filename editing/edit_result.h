@@ -50,12 +50,13 @@ struct HeldNumber {
   double upper = 0;                         ///< greatest allowed value, SI; infinity where it is open
 };
 
-/// When a constraint at some time of a span is met, in the verified motion.
+/// When a constraint at some time of a span is met, or a body that is held at rest comes to rest, in the verified
+/// motion.
 struct MetTime {
   int constraint = -1;                ///< index of the Constraint
-  std::string name;                   ///< "'hat' between 1 s and 2 s"
+  std::string name;                   ///< "'hat' between 1 s and 2 s", "'die' at rest"
   double from = 0;     ///< s, begin of the span
-  double to = 0;       ///< s, end of the span
+  double to = 0;       ///< s, end of the span; at rest: of the motion
   double time = 0;     ///< s, when it is met
 };
 
@@ -83,7 +84,7 @@ struct EditResult {
   Motion motion;        ///< of that scene, simulated afresh
   std::vector<ChangedNumber> changed;  ///< all numbers that were free to change
   std::vector<HeldNumber> residuals;   ///< all numbers that were held
-  std::vector<MetTime> times;  ///< one for each constraint `between` two times
+  std::vector<MetTime> times;  ///< one for each constraint `between` two times or at rest
   double residual = 0;         ///< largest |error| of that motion, SI (m, m/s, rad, rad/s, s mixed)
   double scaled_residual = 0;  ///< the same, dimensionless: this is compared with EditOptions::tolerance
   double objective = 0;        ///< 1/2 sum (w_i z_i)^2, or what Edit::minimise says

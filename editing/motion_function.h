@@ -33,10 +33,11 @@ struct MotionFunction {
   /// same motion must give the same reading. What it throws comes out of Edit::solve.
   std::function<RowReading(const Motion&)> read;
   double scale = 1;  ///< SI: what counts as much as a natural scale of a body does
-  /// Up to when it reads the motion: a time, or just after an impact of `body`, without which it is not asked. Empty: up
-  /// to the end. What comes later is not simulated for it, and may change freely.
+  /// Up to when it reads the motion: a time, or just after an impact of `body` or its coming to rest, without which it
+  /// is not asked. Empty: up to the end. What comes later than a time or an impact is not simulated for it, and may
+  /// change freely.
   std::optional<When> until = std::nullopt;
-  std::string body = {};  ///< whose impact `until` counts; else empty
+  std::string body = {};  ///< whose impact or rest `until` means; else empty
 };
 
 }  // namespace carom

@@ -25,7 +25,7 @@ class Nail {
   Nail& velocity(Wanted x, Wanted y, Wanted z);  ///< m/s, component by component
   Nail& angularVelocity(const Vec3& w_W);  ///< rad/s, world axes
   Nail& angularVelocity(Wanted x, Wanted y, Wanted z);  ///< rad/s, component by component
-  Nail& time(Wanted t);                                    ///< s, of the impact; only for nails at an impact
+  Nail& time(Wanted t);                                    ///< s, of the impact, or when the body comes to rest
   Nail& point(const Vec3& body_point, const Vec3& world);  ///< a point in shape axes comes to a place in the world
   /// The same, component by component.
   Nail& point(const Vec3& body_point, Wanted x, Wanted y, Wanted z);

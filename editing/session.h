@@ -21,9 +21,9 @@ namespace carom {
 struct NailState {
   NailId id;                ///< which
   bool on = true;           ///< held by gestures, see EditSession::setNailOn
-  bool available = true;    ///< the motion has it: gestures leave out a nail whose impact does not come
+  bool available = true;    ///< the motion has it: gestures leave out a nail whose impact or rest does not come
   bool met = true;          ///< within SessionOptions::tolerance
-  double time = 0;          ///< s, where it is now, also of an n-th impact; NaN where the motion lacks it
+  double time = 0;          ///< s, where it is now, also of an n-th impact or rest; NaN where the motion lacks it
   double error = 0;         ///< largest error of its numbers, SI; NaN where the motion lacks it
   double scaled_error = 0;  ///< the same, dimensionless
   std::string message;      ///< why it is not met, or not there; empty where it is met
@@ -92,8 +92,8 @@ class EditSession {
   /// Removes a nail. The motion stays. One step for undo.
   void unnail(NailId id);
 
-  /// Takes hold of a moving body at a time or an impact of the motion. From here to `release` is one step for undo;
-  /// the controls `also_vary` are there from here on, in the same step.
+  /// Takes hold of a moving body at a time or an impact of the motion, or at rest. From here to `release` is one step
+  /// for undo; the controls `also_vary` are there from here on, in the same step.
   SessionUpdate grab(const std::string& body, When at, const Grip& grip = {}, std::vector<Control> also_vary = {});
   /// Takes hold of a nail: what is dragged is the place that it holds the body to. It does not hold that meanwhile, but
   /// what it has besides place and orientation. `release` puts it where the body got to, `cancel` back.

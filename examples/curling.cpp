@@ -39,7 +39,7 @@ int main() {
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 20);
   edit.vary(velocity("stone").only({"x", "y"}));
-  edit.nail("stone", 20.0).position({10, 0, any});
+  edit.nail("stone", atRest()).position({10, 0, any});
 
   const EditResult result = edit.solve();
   std::printf("%s\n", nameOf(result.status));

@@ -28,6 +28,7 @@ int nailOf(const Json& message) { return message["nail"].get<int>(); }
 
 When readAt(const Json& at) {
   if (at.is_number()) return When(at.get<double>());
+  if (at.contains("rest")) return atRest();
   return nthImpact(at["impact"].get<int>(), at.value("with", std::string()));
 }
 

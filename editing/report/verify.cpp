@@ -34,13 +34,10 @@ std::vector<HeldNumber> heldNumbers(const ConstraintSet& constraints, const RowV
   return held;
 }
 
-std::vector<MetTime> metTimes(const ConstraintSet& constraints, const RowValues& rows) {
+std::vector<MetTime> metTimes(const ConstraintSet& constraints, const Motion& motion, const RowValues& rows) {
   std::vector<MetTime> times;
-  for (std::size_t k = 0; k < constraints.freeTimes().size(); ++k) {
-    const FreeTime& free = constraints.freeTimes()[k];
-    times.push_back({free.constraint, constraints.describeConstraint(free.constraint), free.from, free.to,
-                     rows.times[static_cast<Eigen::Index>(k)]});
-  }
+  for (const HeldTime& held : constraints.heldTimes(motion, rows.times))
+    times.push_back({held.constraint, constraints.describeConstraint(held.constraint), held.from, held.to, held.time});
   return times;
 }
 
@@ -102,7 +99,7 @@ void compareImpacts(const EditProblem& problem, const EditSolution& solution, co
 void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditResult& result) {
   const RowValues rows = problem.constraints.evaluate(result.motion, times);
   result.residuals = heldNumbers(problem.constraints, rows);
-  result.times = metTimes(problem.constraints, rows);
+  result.times = metTimes(problem.constraints, result.motion, rows);
   result.residual = largest(rows.residuals);
   result.scaled_residual = largest(rows.scaled);
   result.reliability = reliabilityOf(problem, result.motion, rows);

@@ -136,7 +136,7 @@ void EditSession::State::grabNail(NailId id) {
   const auto refuse = [](const std::string& found, const std::string& expected) {
     throw InputError("grabNail", "found a nail " + found + ", expected one " + expected);
   };
-  if (nail.at.span) refuse("at some time of a span", "at a time or an impact: setNail moves the others");
+  if (nail.at.span) refuse("at some time of a span", "at a time, an impact or rest: setNail moves the others");
   if (!nail.relative_to.empty())
     refuse("seen from '" + nail.relative_to + "'", "seen from the world: setNail moves the others");
   const int place = placeTargetOf(nail), turn = turnTargetOf(nail);

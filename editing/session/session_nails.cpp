@@ -7,6 +7,7 @@
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
+#include "editing/problem/rows/instants.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session/session_words.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t kNamedNails = 3;
 
 std::string whyMissing(const Constraint& nail, const Motion& motion) {
-  if (nail.at.impact > 0) return describeImpact(nail.at, "Impact") + " of '" + nail.body + "' does not come.";
+  if (nail.at.impact > 0 || nail.at.rest) return describeLack(nail.at, nail.body) + ".";
   return "The motion ends at " + brief(motion.end) + " s, before it.";
 }
 
@@ -44,11 +45,8 @@ double timeOf(const ConstraintSet& set, const RowValues& rows, const Motion& mot
   if (nail.hits || !nail.sequence.empty()) return set.extentIn(motion).time;
   if (nail.targets.empty()) return set.timeOfClearance(motion, 0).value_or(0);
   if (nail.at.span) return rows.times[0];
-  if (nail.at.impact == 0) return nail.at.time;
-  const Scene& scene = *motion.scene;
-  const int with = nail.at.with.empty() ? -1 : bodyIndex(scene, nail.at.with);
-  const auto event = motion.findImpact(bodyIndex(scene, nail.body), nail.at.impact, with);
-  return event ? motion.events[static_cast<std::size_t>(*event)].time : std::numeric_limits<double>::quiet_NaN();
+  const auto instant = findInstant(motion, bodyIndex(*motion.scene, nail.body), nail.at);
+  return instant ? editing_detail::timeOf(motion, *instant) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, do
   start_ = point_ = pointAt(problem_, unknowns, until_, true);
   if (!point_->rows.available)
     throw InputError("found a constraint that the motion lacks, expected one that it has: " + point_->rows.message);
-  until_ = std::min(until_, kMarginAfterLast * problem_.constraints.extentIn(point_->motion).time);
+  if (!problem_.constraints.holdsAtRest())
+    until_ = std::min(until_, kMarginAfterLast * problem_.constraints.extentIn(point_->motion).time);
   if (!is_part_ && until_ > kNearlyAll * duration) until_ = duration;
   nails_allowed_ = std::max(options_.tolerance, nailViolation(*point_));
 }

@@ -7,6 +7,8 @@
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/rows/constraint_checks.hpp"
+#include "editing/problem/rows/instants.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session/session_words.hpp"
 
@@ -27,7 +29,14 @@ BodyState editing_detail::stateAtMoment(const Motion& motion, const std::string&
     return findAt(where, [&] { return bodyIndex(*motion.scene, name); });
   };
   const int index = find(body);
-  if (at.span) throw InputError(where, "found a span of time, expected a time or an impact");
+  if (at.span) throw InputError(where, "found a span of time, expected a time, an impact or rest");
+  const std::string within = " within " + number(motion.end) + " s" + behind(earlyEnd(motion));
+  if (at.rest) {
+    checkWhen(at, where);
+    const auto instant = findRest(motion, index);
+    if (!instant) throw InputError(where, "found '" + body + "' at rest, expected a body that comes to rest" + within);
+    return stateAt(motion, index, *instant);
+  }
   if (at.impact == 0 && at.with.empty()) {
     if (!(at.time >= 0 && at.time <= motion.end))
       throw InputError(where, "found " + number(at.time) + " s, expected a time in the motion, 0 to " +
@@ -39,8 +48,7 @@ BodyState editing_detail::stateAtMoment(const Motion& motion, const std::string&
   if (!event)
     throw InputError(where, "found impact " + std::to_string(at.impact) +
                                 (at.with.empty() ? "" : " with '" + at.with + "'") + " of '" + body +
-                                "', expected one that comes within " + number(motion.end) + " s" +
-                                behind(earlyEnd(motion)));
+                                "', expected one that comes" + within);
   return motion.stateBefore(*event, index);
 }
 

@@ -44,6 +44,7 @@ std::string wordsOf(const GroupChange& group) {
 
 std::string wordsOf(const When& at) {
   if (at.span) return "between " + brief(at.span->first) + " s and " + brief(at.span->second) + " s";
+  if (at.rest) return "at rest";
   return "at " + (at.impact == 0 ? brief(at.time) + " s" : describeImpact(at, "its impact"));
 }
 

@@ -88,7 +88,7 @@ EditPointPtr EditSearch::evaluateStart() {
   consider(point);
   step_limit_ = std::max(kLeastSteps, kStepsOfStart * point->motion.steps);
   if (!point->rows.available) return point;
-  if (!problem_.enough)
+  if (!problem_.enough && !problem_.constraints.holdsAtRest())
     until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
   recent_.push_back(point);
   return point;

@@ -97,7 +97,15 @@ EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps) {
 
 std::string describeApproach(const EditProblem& problem, const EditPoint& point) {
   if (point.rows.lacking.empty()) return "";
-  const std::optional<ClosestApproach> nearest = nearestOf(point, point.rows.lacking.front());
+  const LackingImpact& lacking = point.rows.lacking.front();
+  const Constraint& held = problem.constraints.constraints()[static_cast<std::size_t>(lacking.constraint)];
+  if (held.at.rest) {
+    if (!(point.motion.end > 0)) return "";
+    const BodyState last = point.motion.stateAt(held.body, point.motion.end);
+    return "The slowest ends with " + brief(last.velocity.norm()) + " m/s and " + brief(last.angular_velocity.norm()) +
+           " rad/s.";
+  }
+  const std::optional<ClosestApproach> nearest = nearestOf(point, lacking);
   if (!nearest) return "";
   const std::vector<Body>& bodies = problem.controls.startScene().bodies;
   const auto name = [&](int body) { return "'" + bodies[static_cast<std::size_t>(body)].name + "'"; };

@@ -147,7 +147,7 @@ bool mayBecomeAvailable(const EditSearch& search) {
   if (search.best()->motion.status == MotionStatus::step_limit) return false;
   const std::vector<Constraint>& held = problem.constraints.constraints();
   return std::none_of(held.begin(), held.end(), [&](const Constraint& c) {
-    return !c.targets.empty() && c.at.impact == 0 && c.at.time > problem.duration;
+    return !c.targets.empty() && c.at.isTime() && c.at.time > problem.duration;
   });
 }
 
@@ -234,9 +234,10 @@ EditSolution findSolution(EditSearch& search) {
   solution.point = confirmed ? confirmed : polished(search, search.best());
   if (!search.reached(*solution.point)) {
     solution = unsolved(search, std::move(solution));
-    if (across.nearestLacking() && !across.nearestLacking()->rows.available && !solution.point->rows.available)
-      solution.message += " " + across.nearestLacking()->rows.message + " " +
-                          describeApproach(search.problem(), *across.nearestLacking());
+    const EditPointPtr lacks = across.nearestLacking();
+    if (lacks && !lacks->rows.available && !solution.point->rows.available)
+      for (const std::string& said : {lacks->rows.message, describeApproach(search.problem(), *lacks)})
+        if (solution.message.find(said) == std::string::npos) solution.message += " " + said;
     if (search.halt() == Halt::none) solution.contradiction = choice.contradiction;
     return solution;
   }

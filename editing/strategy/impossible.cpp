@@ -16,7 +16,8 @@ bool nothingVaries(const EditSearch& search) {
 
 bool sameMoment(const Constraint& a, const Constraint& b) {
   if (a.body != b.body || a.relative_to != b.relative_to || a.hits || b.hits) return false;
-  return !a.at.span && !b.at.span && a.at.time == b.at.time && a.at.impact == b.at.impact && a.at.with == b.at.with;
+  return !a.at.span && !b.at.span && a.at.time == b.at.time && a.at.impact == b.at.impact &&
+         a.at.with == b.at.with && a.at.rest == b.at.rest;
 }
 
 /// Whether two rows read the same number of every motion.
@@ -79,7 +80,7 @@ std::string readTooEarly(const EditSearch& search, const EditPoint& start) {
     const bool is_met = std::abs(start.rows.scaled[i]) <= search.options().tolerance;
     if (row.constraint < 0 || row.region >= 0 || is_met) continue;
     const When& at = problem.constraints.constraints()[static_cast<std::size_t>(row.constraint)].at;
-    if (at.span || at.impact > 0 || !(at.time <= *first)) continue;
+    if (!at.isTime() || !(at.time <= *first)) continue;
     return "In this impact sequence no control can influence " + problem.constraints.describeRow(i) + " (off by " +
            brief(start.rows.residuals[i]) +
            "), and in no other: what varies acts in impacts alone, and none comes before.";

@@ -20,10 +20,9 @@ void writeRows(JsonWriter& out, const ConstraintSet& constraints, const RowValue
   });
 }
 
-void writeTimes(JsonWriter& out, const ConstraintSet& constraints, const RowValues& rows) {
-  Eigen::Index k = 0;
-  out.objects("times", constraints.freeTimes(), Layout::line, [&](const FreeTime& free) {
-    out.members("constraint", free.constraint, "from", free.from, "to", free.to, "time", rows.times[k++]);
+void writeTimes(JsonWriter& out, const std::vector<HeldTime>& times) {
+  out.objects("times", times, Layout::line, [&](const HeldTime& held) {
+    out.members("constraint", held.constraint, "from", held.from, "to", held.to, "time", held.time);
   });
 }
 
@@ -48,7 +47,7 @@ std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& valu
   JsonWriter out;
   out.beginObject();
   writeRows(out, problem.constraints, result.rows);
-  writeTimes(out, problem.constraints, result.rows);
+  writeTimes(out, problem.constraints.heldTimes(result.motion, result.rows.times));
   writeColumns(out, problem.controls, values);
   out.key("jacobian").beginArray();
   for (Eigen::Index i = 0; i < result.jacobian.rows(); ++i) out.value(Eigen::VectorXd(result.jacobian.row(i)));

@@ -92,7 +92,7 @@ std::vector<Control> readControlList(const Json& value, const Scenes& scenes, co
 void readGrab(SessionGesture& gesture, const std::string& where) {
   const Constraint& held = *gesture.constraint;
   if (held.at.span || !held.relative_to.empty() || !held.regions.empty())
-    fail(where, "a grab with a span of time, relative to a body or with a region", "one at a time or an impact");
+    fail(where, "a grab with a span of time, relative to a body or with a region", "one at a time, an impact or rest");
   const bool place =
       !held.targets.empty() && (held.targets[0].quantity == "position" || held.targets[0].quantity == "point");
   const bool turn = held.targets.size() == 2 && held.targets[1].quantity == "orientation";

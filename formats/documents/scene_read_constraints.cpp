@@ -31,6 +31,7 @@ When readWhen(const Json& value, const Json& body, const Scene& scene, double du
     const auto [from, to] = readSpan(value["between"], duration, where + "/between");
     return between(from, to);
   }
+  if (value.contains("rest")) return atRest();
   std::string with;
   if (value.contains("with")) {
     readBodyName(value["with"], where + "/with", scene);
@@ -64,8 +65,9 @@ void readNumbers(const Json& value, Target& target, const std::string& where) {
     fail(where, "only null", "a number or a range for at least one component");
 }
 
-void readTime(const Json& value, bool at_impact, double duration, Target& target, const std::string& where) {
-  if (!at_impact) fail(where, "a target \"time\" at a given time", "\"at\": {\"impact\": n} beside it");
+void readTime(const Json& value, const When& at, double duration, Target& target, const std::string& where) {
+  if (at.impact == 0 && !at.rest)
+    fail(where, "a target \"time\" at a given time", "\"at\": {\"impact\": n} or {\"rest\": true} beside it");
   target.value = {value.is_number() ? value.get<double>() : any};
   if (value.is_number()) requireWithin(target.value[0], duration, where);
   if (!value.is_object()) return;
@@ -95,7 +97,7 @@ Target readTarget(const std::string& quantity, const Json& value, const When& at
     const Quat q = readQuaternion(value, where);
     target.value = {q.w(), q.x(), q.y(), q.z()};
   } else if (quantity == "time") {
-    readTime(value, at.impact > 0, duration, target, where);
+    readTime(value, at, duration, target, where);
   } else if (quantity == "point") {
     readNumbers(value["world"], target, where + "/world");
     target.body_point = readVector(value["body_point"]);

@@ -20,13 +20,15 @@ void writeSpan(JsonWriter& out, const char* member, const std::pair<double, doub
 }
 
 void writeWhen(JsonWriter& out, const When& at) {
-  if (!at.span && at.impact == 0) {
+  if (at.isTime()) {
     out.members("at", at.time);
     return;
   }
   out.key("at").beginObject();
   if (at.span)
     writeSpan(out, "between", *at.span);
+  else if (at.rest)
+    out.members("rest", true);
   else
     out.members("impact", at.impact).unlessEmpty("with", at.with);
   out.endObject();

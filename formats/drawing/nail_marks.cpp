@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "editing/problem/rows/instants.hpp"
 #include "editing/problem/rows/refined_times.hpp"
 #include "formats/base/short_text.hpp"
 
@@ -14,40 +15,23 @@ using namespace editing_detail;
 
 namespace {
 
-/// When a nail holds: just before an event, or at a time.
-struct Moment {
-  std::optional<int> event;
-  double time = 0;
-};
-
-BodyState stateAtMoment(const Motion& motion, int body, const Moment& moment) {
-  return moment.event ? motion.stateBefore(*moment.event, body) : motion.stateAt(body, moment.time);
-}
-
 /// Nothing when that moment does not come.
-std::optional<Moment> momentOf(const Constraint& constraint, const Motion& motion, int body) {
+std::optional<Instant> momentOf(const Constraint& constraint, const Motion& motion, int body) {
   const When& at = constraint.at;
-  if (at.impact > 0) {
-    const int with = at.with.empty() ? -1 : bodyIndex(*motion.scene, at.with);
-    const std::optional<int> event = motion.findImpact(body, at.impact, with);
-    if (!event) return std::nullopt;
-    return Moment{event, motion.events[static_cast<std::size_t>(*event)].time};
-  }
-  double time = at.time;
-  if (at.span) {
-    Constraint alone = constraint;
-    alone.regions.clear();
-    time = refinedTimes(ConstraintSet(*motion.scene, {alone}, motion.duration), motion)[0];
-  }
-  if (!(time >= 0 && time <= motion.end)) return std::nullopt;
-  return Moment{std::nullopt, time};
+  if (!at.span) return findInstant(motion, body, at);
+  Constraint alone = constraint;
+  alone.regions.clear();
+  const double time = refinedTimes(ConstraintSet(*motion.scene, {alone}, motion.duration), motion)[0];
+  return time <= motion.end ? std::optional(Instant::at(time)) : std::nullopt;
 }
 
-std::string nailLabel(const Constraint& constraint, const std::optional<Moment>& moment) {
+std::string nailLabel(const Constraint& constraint, const std::optional<Instant>& moment) {
   const When& at = constraint.at;
   std::string text = constraint.body + " at ";
   if (at.impact > 0) {
     text += "impact " + std::to_string(at.impact) + (at.with.empty() ? "" : " with " + at.with);
+  } else if (at.rest) {
+    text += "rest";
   } else {
     text += shortNumber(moment ? moment->time : at.time) + " s";
   }
@@ -108,15 +92,15 @@ void readPose(const Target& target, const Frame& frame, NailMark& nail) {
 std::optional<NailMark> nailOf(const Constraint& constraint, const Motion& motion) {
   NailMark nail;
   nail.body = bodyIndex(*motion.scene, constraint.body);
-  const std::optional<Moment> moment = momentOf(constraint, motion, nail.body);
+  const std::optional<Instant> moment = momentOf(constraint, motion, nail.body);
   const bool is_relative = !constraint.relative_to.empty();
   if (is_relative && !moment) return std::nullopt;
   nail.label = nailLabel(constraint, moment);
   std::optional<BodyState> state;
-  if (moment) state = stateAtMoment(motion, nail.body, *moment);
+  if (moment) state = stateAt(motion, nail.body, *moment);
   Frame frame;
   if (is_relative) {
-    const BodyState other = stateAtMoment(motion, bodyIndex(*motion.scene, constraint.relative_to), *moment);
+    const BodyState other = stateAt(motion, bodyIndex(*motion.scene, constraint.relative_to), *moment);
     frame.origin = other.position, frame.axes = other.orientation;
   }
   bool on_origin = true;

@@ -73,10 +73,10 @@ export function listener({ store, gesture, opened }) {
   };
 }
 
-/** The play head stays, but goes with an impact that is held, whose time changes. @param {State} state
+/** The play head stays, but goes with an impact or a rest that is held, whose time changes. @param {State} state
  * @param {import('./types.js').Motion} motion */
 function timeShown({ document, gesture: { state, hit }, time }, motion) {
-  const held = state !== 'idle' && document && hit?.kind === 'impact' ? timeOf(hit.at, hit.body, motion, document.bodies.map((body) => body.name)) : null;
+  const held = state !== 'idle' && document && (hit?.kind === 'impact' || hit?.kind === 'rest') ? timeOf(hit.at, hit.body, motion, document.bodies.map((body) => body.name)) : null;
   return Math.min(held ?? time, motion.end);
 }
 

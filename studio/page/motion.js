@@ -139,11 +139,24 @@ export function atOf(impacts, impact, body, names) {
   return { impact: same.indexOf(impact) + 1, with: names[other] };
 }
 
+/** When the body comes to rest, to stay so up to the end: from then on it neither moves nor would. @param {Track} track
+ * @returns {number | null} none: it does not, or it never moves */
+export function restTime({ arcs, stride = parabolaNumbers }) {
+  const still = (/** @type {number} */ row) => {
+    for (let i = 4; i < stride; ++i) if (arcs[row * stride + i] !== 0) return false;
+    return true;
+  };
+  let first = arcs.length / stride;
+  while (first > 0 && still(first - 1)) --first;
+  return first > 0 && first < arcs.length / stride ? arcs[first * stride] : null;
+}
+
 /** Time of an `at` in this motion. @param {import('./types.js').When} at @param {number} body
  * @param {import('./types.js').Motion} motion @param {string[]} names @returns {number | null} none: it does not come */
 export function timeOf(at, body, motion, names) {
   if (typeof at === 'number') return at <= motion.end ? at : null;
   if ('between' in at) return null;
+  if ('rest' in at) return restTime(motion.tracks[body]);
   let n = 0;
   for (const impact of motion.impacts) {
     const met = metBy(impact, body);

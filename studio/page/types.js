@@ -3,7 +3,7 @@
 
 /** @typedef {[number, number, number]} Vec3 */
 /** @typedef {[number, number, number, number]} Quat */
-/** @typedef {number | {impact: number, with?: string} | {between: [number, number]}} When  as in scene documents */
+/** @typedef {number | {impact: number, with?: string} | {between: [number, number]} | {rest: true}} When  as in scene documents */
 /** @typedef {{vary: string, body?: string, material?: string, impact?: number, components?: string[],
  *    min?: number | number[], max?: number | number[], weight?: number, notes?: string}} Control */
 /** @typedef {null | number | {min?: number, max?: number}} Target */
@@ -40,7 +40,7 @@
 /** @typedef {{shapes: Shape[], min: Vec3, max: Vec3}} SceneShapes */
 
 /** What lies under the pointer, or is held.
- * @typedef {{kind: 'path' | 'body' | 'impact' | 'nail' | 'handle', body: number, time: number, at: When, place: Vec3,
+ * @typedef {{kind: 'path' | 'body' | 'impact' | 'rest' | 'nail' | 'handle', body: number, time: number, at: When, place: Vec3,
  *    nail?: number, impact?: Impact, handle?: string}} Hit */
 /** @typedef {{message: string, kind?: 'plain' | 'amber' | 'red', actions?: {name: string, act: () => void}[],
  *    key?: string}} Notice */

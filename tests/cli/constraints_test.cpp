@@ -103,6 +103,84 @@ TEST(EveryConstraint, AreDrawnAndExported) {
   EXPECT_EQ(found, expected);
 }
 
+/// A block that slides to a stop on a floor, 0.2936 m from where it starts.
+json sceneOfRest() {
+  json scene = {{"carom", 1}, {"duration", 3}, {"materials", {{"wood", {{"friction", 0.25}}}}}};
+  scene["bodies"] = {
+      {{"name", "floor"}, {"fixed", true}, {"material", "wood"}, {"shape", {{"plane", {{"normal", {0, 0, 1}}}}}}},
+      {{"name", "block"}, {"material", "wood"}, {"mass", 1}, {"shape", {{"box", {{"size", {0.2, 0.2, 0.1}}}}}},
+       {"position", {0, 0, 0.05}}, {"velocity", {1.2, 0, 0}}}};
+  scene["controls"] = {{{"vary", "velocity"}, {"body", "block"}, {"components", {"x", "y"}}}};
+  scene["constraints"] = json::parse(R"([{ "body": "block", "at": { "rest": true }, "position": [1, 0.2, null] }])");
+  return scene;
+}
+
+TEST(ConstraintAtRest, EveryCommandReadsIt) {
+  const std::string path = written(sceneOfRest());
+  const json gradient = runJson({"gradient", path});
+  ASSERT_EQ(gradient["rows"].size(), 2u);
+  const double mu_g = 0.25 * 9.81;
+  EXPECT_NEAR(gradient["rows"][0]["value"].get<double>(), 1.2 * 1.2 / (2 * mu_g), 1e-12);
+  EXPECT_NEAR(gradient["jacobian"][0][0].get<double>(), 1.2 / mu_g, 1e-12);
+  ASSERT_EQ(gradient["times"].size(), 1u);
+  EXPECT_NEAR(gradient["times"][0]["time"].get<double>(), 1.2 / mu_g, 1e-12);
+  EXPECT_EQ(gradient["times"][0]["to"], 3);
+  EXPECT_NE(runCommand({"gradient", path}).out.find("of 'block' at rest: at 0.489297 s\n"), std::string::npos);
+  const json check = runJson({"check", path});
+  EXPECT_TRUE(check["passed"].get<bool>()) << check["message"];
+
+  const std::string edited = temporaryPath("rest-edited.json");
+  const json answer = runJson({"edit", path, "-o", edited});
+  EXPECT_EQ(answer["status"], "solved");
+  const json& changed = answer["changed"];
+  const double length = std::hypot(1, 0.2), speed = std::sqrt(2 * mu_g * length);
+  EXPECT_NEAR(changed[0]["after"].get<double>(), speed / length, 1e-9);
+  EXPECT_NEAR(changed[1]["after"].get<double>(), 0.2 * speed / length, 1e-9);
+  EXPECT_EQ(answer["times"][0]["name"], "'block' at rest");
+  EXPECT_NEAR(answer["times"][0]["time"].get<double>(), speed / mu_g, 1e-9);
+  EXPECT_EQ(json::parse(readText(edited))["constraints"], sceneOfRest()["constraints"]);
+  const CommandRun text = runCommand({"edit", path});
+  EXPECT_NE(text.out.find("'block' at rest: at 0.912 s"), std::string::npos) << text.out;
+}
+
+TEST(ConstraintAtRest, IsDrawnAndExported) {
+  const std::string path = written(sceneOfRest()), svg = temporaryPath("rest.svg"), glb = temporaryPath("rest.glb"),
+                    again = temporaryPath("rest-again.json");
+  runJson({"export", path, "-o", svg});
+  EXPECT_NE(readText(svg).find("block at rest"), std::string::npos);
+  runJson({"export", path, "-o", glb});
+  runJson({"import", glb, "-o", again});
+  EXPECT_EQ(json::parse(readText(again))["constraints"], sceneOfRest()["constraints"]);
+}
+
+TEST(ConstraintAtRest, OneThatDoesNotComeIsNamed) {
+  json scene = sceneOfRest();
+  scene["materials"]["wood"]["friction"] = 0;
+  const std::string path = written(scene);
+  for (const char* command : {"gradient", "check", "validate"}) {
+    const json answer = runJson({command, path}, 1);
+    EXPECT_EQ(answer["error"]["pointer"], "/constraints/0/at/rest") << command;
+    EXPECT_EQ(answer["error"]["message"], "'block' does not come to rest within 3 s.") << command;
+  }
+  const json edit = runJson({"edit", path, "--effort", "fast"}, 3);
+  EXPECT_EQ(edit["status"], "not_converged");
+  EXPECT_NE(edit["message"].get<std::string>().find("'block' does not come to rest within 3 s."), std::string::npos);
+  const json stays = runJson({"edit", path, "--same-sequence"}, 1);
+  EXPECT_EQ(stays["error"]["pointer"], "/constraints/0/at/rest");
+}
+
+TEST(ConstraintAtRest, WhatNeverRestsIsRefused) {
+  json scene = sceneOfRest();
+  scene["bodies"][1]["kinematic"] = true;
+  const json answer = runJson({"edit", written(scene)}, 1);
+  EXPECT_EQ(answer["error"]["pointer"], "/constraints/0/body");
+  EXPECT_NE(answer["error"]["message"].get<std::string>().find("others never come to rest"), std::string::npos)
+      << answer;
+  scene = sceneOfRest();
+  scene["constraints"][0]["velocity"] = {0, 0, 0};
+  EXPECT_EQ(runJson({"validate", written(scene)}, 1)["error"]["pointer"], "/constraints/0/velocity");
+}
+
 struct Beyond {
   const char* name;
   const char* constraint;

@@ -163,6 +163,12 @@ struct BadConstraint {
   const char* says;
 };
 
+When restAnd(void (*change)(When&)) {
+  When at = atRest();
+  change(at);
+  return at;
+}
+
 const BadConstraint kBadConstraints[] = {
     {"body", {"bix", 0.4, {{"position", {0, 0, 0}}}}, "/constraints/0/body", "bix"},
     {"with", {"box", nthImpact(1, "wall"), {{"position", {0, 0, 0}}}}, "/constraints/0/at/with", "wall"},
@@ -190,6 +196,28 @@ const BadConstraint kBadConstraints[] = {
     {"energy_seen", {"box", 0.4, {{"kinetic_energy", {1}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
     {"height_seen", {"box", 0.4, {{"height", {1}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
     {"impulse_seen", {"box", nthImpact(1), {{"impulse", {1}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
+    {"rest_of_floor",
+     {"floor", atRest(), {{"position", {0, 0, 0}}}},
+     "/constraints/0/body",
+     "others never come to rest"},
+    {"velocity_at_rest",
+     {"box", atRest(), {{"velocity", {0, 0, 0}}}},
+     "/constraints/0/velocity",
+     "found velocity held at rest, expected a time or an impact"},
+    {"speed_at_rest", {"box", atRest(), {{"speed", {1}}}}, "/constraints/0/speed", "a body at rest has none"},
+    {"impulse_at_rest", {"box", atRest(), {{"impulse", {1}}}}, "/constraints/0/impulse", "at rest, expected an impact"},
+    {"rest_and_impact",
+     {"box", restAnd([](When& at) { at.impact = 1; }), {{"position", {0, 0, 0}}}},
+     "/constraints/0/at",
+     "found rest and an impact, expected one of the two"},
+    {"rest_and_span",
+     {"box", restAnd([](When& at) { at.span = {0, 1}; }), {{"position", {0, 0, 0}}}},
+     "/constraints/0/at",
+     "found rest and a span of time"},
+    {"rest_and_time",
+     {"box", restAnd([](When& at) { at.time = 1; }), {{"position", {0, 0, 0}}}},
+     "/constraints/0/at",
+     "found rest and a time"},
     {"all_free", {"box", 0.4, {{"position", {any, any, any}}}}, "/constraints/0", "no number to hold"},
     {"nothing", {"box", 0.4, {}}, "/constraints/0", "no number to hold"},
 };

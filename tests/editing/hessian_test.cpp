@@ -135,6 +135,26 @@ TEST(Hessian, OfRowsAtAFreeTime) {
   expectDerivative(problem, someUnknowns(problem, 0.01), someWeights(problem.constraints.size()));
 }
 
+// A block that slides to a stop, the place of which goes with the square of its throw.
+TEST(Hessian, OfRowsAtRest) {
+  Scene scene;
+  scene.materials = {material("wood", 0.3, 0.25)};
+  scene.bodies = {fixedPlane("floor", "wood", Vec3::UnitZ(), 0), thrownBox().bodies[1]};
+  Body& box = scene.bodies[1];
+  box.material = "wood";
+  box.shape = Box{{0.2, 0.3, 0.1}};
+  box.center_of_mass.reset(), box.inertia = {};
+  box.position = {0.1, 0, 0.05}, box.orientation.setIdentity();
+  box.velocity = {1.2, 0.3, 0}, box.angular_velocity.setZero();
+  OdeContacts contacts(scene);
+  const std::vector<Constraint> constraints{
+      {"box", atRest(), {{"position", {1, 0.2, any}}, {"time", {1}}, {"point", {1, 1, any}, {0.1, 0.2, 0.05}}}}};
+  const std::vector<Control> controls{velocity("box").only({"x", "y"}), position("box").only({"x", "y"}),
+                                      friction("wood"), mass("box")};
+  const EditProblem problem(scene, contacts, 3, controls, constraints);
+  expectDerivative(problem, someUnknowns(problem, 0.01), someWeights(problem.constraints.size()));
+}
+
 // All the time, in or out of a shape that is turned.
 Constraint inRegion(const std::string& body, std::pair<double, double> during, Region::Side side,
                     std::variant<Sphere, Box> shape, const Vec3& at) {

@@ -69,6 +69,32 @@ TEST(Journal, ReadsBackAsItWasAndPlaysTheSame) {
   parseDocument(writeDocument(end), "end");
 }
 
+TEST(Journal, KeepsWhatIsHeldAtRest) {
+  const Document document = parseDocument(R"({
+  "carom": 1, "duration": 3,
+  "bodies": [
+    { "name": "floor", "fixed": true, "shape": { "plane": { "normal": [0, 0, 1] } } },
+    { "name": "block", "mass": 2, "shape": { "box": { "size": [0.3, 0.2, 0.1] } }, "position": [0, 0, 0.05],
+      "velocity": [1.5, 0.2, 0] }
+  ],
+  "controls": [{ "vary": "velocity", "body": "block", "components": ["x", "y"] }]
+})",
+                                          "block");
+  OdeContacts contacts(document.scene);
+  EditSession session(document.scene, contacts, document.duration, document.controls, {});
+  session.grab("block", atRest(), {.components = {"x", "y"}});
+  session.dragTo(session.grabbedPlace() + Vec3(0.2, 0.1, 0));
+  session.releaseNailed();
+  const std::string text = writeJournal({session.journal(), ""});
+  const JournalDocument read = parseJournal(text, "journal");
+  EXPECT_EQ(writeJournal(read), text);
+  EXPECT_TRUE(read.journal.gestures.at(0).at.rest);
+  OdeContacts again(read.journal.scene);
+  SessionReplay replay(read.journal, again);
+  while (!replay.done()) EXPECT_TRUE(replay.next().differences.empty());
+  EXPECT_TRUE(replay.session().constraints().at(0).at.rest);
+}
+
 /// A session with every kind of gesture that studios make.
 SessionJournal recordedInAStudio() {
   const Document document = throwOfABox();

@@ -150,6 +150,7 @@ void expectSameEdit(const Document& a, const Document& b) {
     EXPECT_EQ(c.at.impact, d.at.impact);
     EXPECT_EQ(c.at.with, d.at.with);
     EXPECT_EQ(c.at.span, d.at.span);
+    EXPECT_EQ(c.at.rest, d.at.rest);
     EXPECT_EQ(c.relative_to, d.relative_to);
     EXPECT_EQ(c.notes, d.notes);
     ASSERT_EQ(c.targets.size(), d.targets.size());

@@ -113,7 +113,8 @@ const std::string& documentWithEverything() {
     { "body": "pill", "closest_approach": { "to": "can", "value": 0.065, "during": [0.45, 1.95] } },
     { "body": "can", "hits": "pill", "during": [0.55, 1.85], "after": { "body": "die", "impact": 8, "with": "crate" },
       "before": { "body": "pill", "impact": 7 }, "notes": "from a miss" },
-    { "sequence": ["can pill", "...", "d?e pil*"] }
+    { "sequence": ["can pill", "...", "d?e pil*"] },
+    { "body": "hat", "at": { "rest": true }, "position": [null, 5.125, null], "time": { "max": 2.375 } }
   ]
 })";
   return text;

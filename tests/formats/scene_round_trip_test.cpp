@@ -112,7 +112,10 @@ Numbers shown(Numbers numbers) {
 
 TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   const Document d = parseDocument(documentWithEverything(), "everything");
-  ASSERT_EQ(d.constraints.size(), 12u);
+  ASSERT_EQ(d.constraints.size(), 13u);
+  EXPECT_TRUE(d.constraints[12].at.rest);
+  EXPECT_EQ(shown(d.constraints[12].targets.at(0).value), (Numbers{99, 5.125, 99}));
+  EXPECT_EQ(d.constraints[12].targets.at(1).max, Numbers{2.375});
   const Target &distance = d.constraints[8].targets[0], &closest = d.constraints[9].targets[0];
   EXPECT_EQ(distance.quantity + " " + distance.to, "distance pill");
   EXPECT_EQ(shown(distance.value), Numbers{99});
@@ -181,7 +184,10 @@ TEST(SceneRoundTrip, randomConstraintsAreExact) {
   for (int round = 0; round < 300; ++round) {
     Constraint c{"ball", When(0), {}};
     const double from = unit(random), to = from + 1e-3 + unit(random);
-    c.at = chance() ? between(from, to) : chance() ? nthImpact(3, chance() ? "floor" : "") : When(to);
+    c.at = chance()   ? between(from, to)
+           : chance() ? nthImpact(3, chance() ? "floor" : "")
+           : chance() ? atRest()
+                      : When(to);
     if (chance()) c.relative_to = "book";
     for (const char* quantity : {"position", "velocity", "angular_velocity", "point"}) {
       Target target{quantity, {number(), any, chance() ? number() : any}};

@@ -90,6 +90,7 @@ TEST(Protocol, ReadsEveryMessage) {
   EXPECT_EQ(grab.gesture, 4);
   EXPECT_EQ(grab.body, "hat");
   EXPECT_EQ(grab.at.impact, 1);
+  EXPECT_FALSE(grab.at.rest);
   EXPECT_EQ(grab.at.with, "coatrack");
   EXPECT_TRUE(grab.grip.orientation);
   EXPECT_EQ(grab.grip.body_point.value(), Vec3(0, 0, 0.1));
@@ -163,6 +164,14 @@ TEST(Protocol, EveryWrongMemberIsNamed) {
   }
 }
 
+TEST(Protocol, AGrabIsAtATimeAnImpactOrAtRest) {
+  Json message = examples().at("grab");
+  message["at"] = {{"rest", true}};
+  EXPECT_TRUE(std::get<Grab>(readCommand(message.dump()).what).at.rest);
+  message["at"] = 0.5;
+  EXPECT_TRUE(std::get<Grab>(readCommand(message.dump()).what).at.isTime());
+}
+
 TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
   const std::map<std::string, std::vector<const char*>> optional = {
       {"grab", {"grip", "also_vary"}},  {"drag", {"orientation"}},     {"release", {"orientation", "nail"}},
@@ -191,6 +200,8 @@ TEST(Protocol, WrongMembersWithinOthersAreNamed) {
   };
   expectNamed("grab", "/at/impact", 0);
   expectNamed("grab", "/at/impact", 1.5);
+  expectNamed("grab", "/at", {{"rest", true}, {"impact", 1}});
+  expectNamed("grab", "/at/rest", false);
   expectNamed("grab", "/at/with", 3);
   expectNamed("grab", "/at/other", 3);
   expectNamed("grab", "/grip/point", {0, 0});

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
+#include "adjoint/derivative/adjoint.h"
 #include "adjoint/impact/law.hpp"
 #include "adjoint/impact/single_laws.hpp"
 #include "adjoint/motion/body_geometry.h"
@@ -73,6 +75,16 @@ class MarginReader {
       m.what = name(event, 0, instant.time) + (m.value >= 0 ? " comes after " : " comes before ") +
                briefBeside(instant.time, e.time) + " s, when it is read";
     }
+    margins_.push_back(std::move(m));
+  }
+
+  void readRest(const ReadInstant& instant) {
+    EventMargin m = start(Way::is_read, instant.rest);
+    m.value = instant.time - eventAt(instant.rest).time;
+    StateSeed seed;
+    seed.body = instant.body, seed.at = Instant::after(instant.rest), seed.time = -1;
+    m.gradient = by_changes_(adjoint(tape_, std::span(&seed, 1)));
+    m.what = "the rest of '" + bodyName(instant.body) + "' begins after the end of the motion";
     margins_.push_back(std::move(m));
   }
 
@@ -252,7 +264,9 @@ std::vector<EventMargin> eventMargins(DerivativeTape& tape, std::size_t count, c
     reader.readOrder(e);
   }
   for (const ReadInstant& instant : instants)
-    for (int e = 0; e < (instant.end ? counted : all); ++e) reader.readInstant(e, instant);
+    if (instant.rest >= 0) reader.readRest(instant);
+  for (const ReadInstant& instant : instants)
+    for (int e = 0; instant.rest < 0 && e < (instant.end ? counted : all); ++e) reader.readInstant(e, instant);
   return reader.take();
 }
 

@@ -20,7 +20,8 @@ struct EventMargin {
     leaves,   ///< the value of a FeatureLimit: m, or a sine
     parts,    ///< gap of one contact of several at one instant: 0 as it is, m
     order,    ///< time from one impact to the next, s
-    is_read,  ///< time from an impact to an instant at which a body of it is read, s; may be negative
+    is_read,  ///< time from an impact to an instant at which a body of it is read, s; may be negative. Of a body that
+              ///< is held at rest: time from its coming to rest to the end of the motion
   };
   Way way = Way::grazes;
   int event = -1;
@@ -37,6 +38,7 @@ struct ReadInstant {
   int body = -1;
   double time = 0;
   bool end = false;  ///< the end of the motion, which the impacts that count must come before
+  int rest = -1;     ///< event with which `body` comes to rest, which must come before the end, too
 };
 
 /// The margins of the first `count` events, of the order up to the one after them, and of all events to the instants.

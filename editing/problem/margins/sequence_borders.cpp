@@ -7,20 +7,32 @@ namespace carom::editing_detail {
 namespace {
 
 /// The instants at which targets are read, and the last one of all, up to which every impact counts. What a region
-/// keeps clear of is read where it is nearest, and does not jump. Impacts that are held must not come after the end.
+/// keeps clear of is read where it is nearest, and does not jump. Impacts that are held must not come after the end,
+/// nor must a rest.
 std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues& rows, double last) {
   std::vector<ReadInstant> instants;
   bool at_impact = false;
+  const std::vector<Body>& bodies = problem.controls.startScene().bodies;
   const auto add = [&](int body, double time) {
     const auto known = std::find_if(instants.begin(), instants.end(),
                                     [&](const ReadInstant& i) { return i.body == body && i.time == time; });
     if (known == instants.end()) instants.push_back({body, time, false});
+  };
+  const auto addRest = [&](int constraint, const StateSeed& seed) {
+    if (constraint < 0) return;
+    const Constraint& held = problem.constraints.constraints()[static_cast<std::size_t>(constraint)];
+    if (!held.at.rest || held.body != bodies[static_cast<std::size_t>(seed.body)].name) return;
+    const bool known = std::any_of(instants.begin(), instants.end(), [&](const ReadInstant& i) {
+      return i.body == seed.body && i.rest == seed.at.event;
+    });
+    if (!known) instants.push_back({seed.body, problem.duration, true, seed.at.event});
   };
   for (int i = 0; i < problem.constraints.size(); ++i) {
     if (problem.constraints.rows()[static_cast<std::size_t>(i)].overSpan()) continue;
     for (const StateSeed& seed : rows.seeds[static_cast<std::size_t>(i)]) {
       if (seed.at.event >= 0) {
         at_impact = true;
+        addRest(problem.constraints.rows()[static_cast<std::size_t>(i)].constraint, seed);
         continue;
       }
       add(seed.at.time == last ? -1 : seed.body, seed.at.time);

@@ -9,6 +9,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/detail/thrown_by_user.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
+#include "editing/problem/rows/instants.hpp"
 
 namespace carom::editing_detail {
 
@@ -49,8 +50,8 @@ BoundFunction::BoundFunction(const Scene& scene, const MotionFunction& f, double
     throw InputError(where + "/scale", "found " + number(f.scale) + ", expected a number > 0");
   if (!f.until) return;
   checkWhen(*f.until, where + "/until");
-  if (f.until->span) throw InputError(where + "/until", "found a span, expected a time or an impact");
-  if (f.until->impact == 0) {
+  if (f.until->span) throw InputError(where + "/until", "found a span, expected a time, an impact or rest");
+  if (f.until->isTime()) {
     if (!f.body.empty()) throw InputError(where + "/body", "found '" + f.body + "' beside a time, expected none");
     if (!(f.until->time <= duration))
       throw InputError(where + "/until", "found " + number(f.until->time) + ", expected a time in [0, " +
@@ -59,21 +60,26 @@ BoundFunction::BoundFunction(const Scene& scene, const MotionFunction& f, double
     return;
   }
   body = findAt(where + "/body", [&] { return bodyIndex(scene, f.body); });
+  if (f.until->rest) checkComesToRest(scene.bodies[static_cast<std::size_t>(body)], where + "/body");
   if (!f.until->with.empty())
     with = findAt(where + "/until/with", [&] { return bodyIndex(scene, f.until->with); });
 }
 
+std::optional<Instant> BoundFunction::awaited(const Motion& motion) const {
+  return findInstant(motion, body, *function.until, with);
+}
+
 double BoundFunction::extentIn(const Motion& motion) const {
   if (!waits()) return std::min(end, motion.end);
-  const auto event = motion.findImpact(body, function.until->impact, with);
-  return event ? motion.events[static_cast<std::size_t>(*event)].time : 0;
+  const std::optional<Instant> instant = awaited(motion);
+  return instant ? timeOf(motion, *instant) : 0;
 }
 
 RowReading BoundFunction::read(const Motion& motion) const {
   RowReading reading;
-  if (waits() && !motion.findImpact(body, function.until->impact, with)) {
-    reading.missing = describeImpact(*function.until, "Impact") + " of '" + function.body +
-                      "' does not come within " + number(motion.end) + " s; '" + function.name + "' is read after it.";
+  if (waits() && !awaited(motion)) {
+    reading.missing = describeLack(*function.until, function.body) + " within " + number(motion.end) + " s; '" +
+                      function.name + "' is read after it.";
   } else if (!waits() && !(motion.end >= end)) {
     reading.missing = "The motion ends at " + number(motion.end) + " s, before " + number(end) + " s, up to which '" +
                       function.name + "' reads it.";

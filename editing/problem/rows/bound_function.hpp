@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "adjoint/motion/motion.h"
@@ -13,14 +14,16 @@ namespace carom::editing_detail {
 struct BoundFunction {
   MotionFunction function;
   std::string where;  ///< for errors
-  int body = -1;      ///< whose impact it waits for; -1: it goes by the time
+  int body = -1;      ///< whose impact or rest it waits for; -1: it goes by the time
   int with = -1;
-  double end = 0;  ///< s, up to which it reads the motion, where it waits for no impact
+  double end = 0;  ///< s, up to which it reads the motion, where it waits for nothing
 
   /// Throws InputError at `where`: without a name or a function, a scale that is not positive, no such body, ...
   BoundFunction(const Scene& scene, const MotionFunction& function, double duration, std::string where);
 
   bool waits() const { return body >= 0; }
+  /// What it waits for, if it is there.
+  std::optional<Instant> awaited(const Motion& motion) const;
   /// s, up to when it reads this motion; no further than the motion goes.
   double extentIn(const Motion& motion) const;
   /// Calls it, and checks what comes back. Where the motion does not reach far enough it is `missing`. Throws

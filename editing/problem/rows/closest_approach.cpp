@@ -8,6 +8,7 @@
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/motion/guard.hpp"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/rows/instants.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -18,7 +19,7 @@ Pose poseAt(const Motion& motion, int body, const Instant& at) {
 DistanceReading placeAt(const Motion& motion, int a, int b, const Instant& at) {
   DistanceReading d;
   d.a = a, d.b = b, d.at = at;
-  d.time = at.event >= 0 ? motion.events[static_cast<std::size_t>(at.event)].time : at.time;
+  d.time = timeOf(motion, at);
   d.geometry = motion.geometry;
   d.pose_a = poseAt(motion, a, at), d.pose_b = poseAt(motion, b, at);
   return d;

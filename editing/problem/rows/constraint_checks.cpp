@@ -88,9 +88,12 @@ const QuantityKind& checkedKind(const Target& target, const When& at, const std:
   if (!kind) throw InputError(where, "found '" + target.quantity + "', expected one of " + quantityWords());
   const std::string place = where + "/" + target.quantity;
   checkNumbers(target, *kind, place);
-  if (kind->only_at_impacts && at.impact == 0) {
-    throw InputError(place, std::string("found ") + kind->word + " held at a time, expected an impact");
-  }
+  const std::string found = std::string("found ") + kind->word + " held at ";
+  if (at.rest && !kind->of_rest)
+    throw InputError(place, found + "rest, expected " + (kind->only_at_events ? "an impact" : "a time or an impact") +
+                                ": a body at rest has none");
+  if (kind->only_at_events && at.impact == 0 && !at.rest)
+    throw InputError(place, found + "a time, expected an impact" + (kind->of_rest ? " or rest" : ""));
   return *kind;
 }
 
@@ -133,7 +136,17 @@ void checkSpan(const std::pair<double, double>& span, const std::string& where) 
   }
 }
 
+void checkComesToRest(const Body& body, const std::string& where) {
+  if (!body.immovable()) return;
+  throw InputError(where, std::string("found the ") + (body.fixed ? "fixed" : "kinematic") + " body '" + body.name +
+                              "' held at rest, expected one that impacts move: others never come to rest");
+}
+
 void checkWhen(const When& at, const std::string& where) {
+  if (at.rest && (at.impact != 0 || !at.with.empty() || at.span || at.time != 0))
+    throw InputError(where, std::string("found rest and ") +
+                                (at.span ? "a span of time" : at.time != 0 ? "a time" : "an impact") +
+                                ", expected one of the two");
   if (at.impact < 0 || (at.impact == 0 && !at.with.empty())) {
     throw InputError(where + "/impact", "found " + std::to_string(at.impact) + ", expected 1 or more");
   }
@@ -174,6 +187,11 @@ std::string describeImpact(const When& at, const std::string& noun) {
   std::string text = noun + " " + std::to_string(at.impact);
   if (!at.with.empty()) text += " with '" + at.with + "'";
   return text;
+}
+
+std::string describeLack(const When& at, const std::string& body) {
+  if (at.rest) return "'" + body + "' does not come to rest";
+  return describeImpact(at, "Impact") + " of '" + body + "' does not come";
 }
 
 }  // namespace carom::editing_detail

@@ -16,8 +16,10 @@ void checkBody(const QuantityKind& kind, const Body& body, const Constraint& con
 /// The other body that a distance is to; -1 where the kind has none.
 int checkedOther(const QuantityKind& kind, const Target& target, const Scene& scene, const std::string& body,
                  const std::string& where);
-/// Time, impact and span.
+/// Time, impact, span and rest.
 void checkWhen(const When& at, const std::string& where);
+/// A body that is held at rest.
+void checkComesToRest(const Body& body, const std::string& where);
 /// Of one number: a value, or a range with a limit at least.
 void checkWanted(const Target& target, const std::string& where);
 void checkRegion(const Region& region, const std::string& where);
@@ -25,5 +27,7 @@ void checkSpan(const std::pair<double, double>& span, const std::string& where);
 
 /// "its impact 3 with 'floor'", with the noun given.
 std::string describeImpact(const When& at, const std::string& noun);
+/// "Impact 3 with 'floor' of 'mug' does not come", "'mug' does not come to rest".
+std::string describeLack(const When& at, const std::string& body);
 
 }  // namespace carom::editing_detail

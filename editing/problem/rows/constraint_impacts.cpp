@@ -6,8 +6,20 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 #include "editing/problem/rows/constraint_rows.hpp"
+#include "editing/problem/rows/instants.hpp"
 
 namespace carom::editing_detail {
+namespace {
+
+/// The slower a body is where its motion ends, the more of its coming to rest is done; never all of it.
+double shareOfRest(const Motion& motion, int body) {
+  if (motion.world_lines[static_cast<std::size_t>(body)].arcs.empty()) return 0;  // it never began
+  const NaturalScales scales = naturalScales(*motion.scene, body);
+  const BodyState last = motion.stateAt(body, motion.end);
+  return 1 / (2 + last.velocity.norm() / scales.velocity + last.angular_velocity.norm() / scales.angular_velocity);
+}
+
+}  // namespace
 
 void ConstraintSet::bindImpacts(const Scene& scene, int index, const std::string& where) {
   Constraint& constraint = constraints_[index];
@@ -35,16 +47,17 @@ void ConstraintSet::bindImpacts(const Scene& scene, int index, const std::string
   rows_.push_back(std::move(row));
 }
 
-bool ConstraintSet::waitsForImpact(int index) const {
+bool ConstraintSet::waitsForEvent(int index) const {
   const Bound& bound = bound_[index];
-  return bound.hit || bound.sequence || (constraints_[index].at.impact > 0 && bound.at_instant);
+  const When& at = constraints_[index].at;
+  return bound.hit || bound.sequence || ((at.impact > 0 || at.rest) && bound.at_instant);
 }
 
-std::optional<int> ConstraintSet::awaited(const Motion& motion, int index) const {
+std::optional<Instant> ConstraintSet::awaited(const Motion& motion, int index) const {
   const Bound& bound = bound_[index];
-  if (bound.sequence) return bound.sequence->find(motion);
-  if (bound.hit) return bound.hit->find(motion);
-  return motion.findImpact(bound.body, constraints_[index].at.impact, bound.with);
+  if (!bound.sequence && !bound.hit) return findInstant(motion, bound.body, constraints_[index].at, bound.with);
+  const std::optional<int> event = bound.sequence ? bound.sequence->find(motion) : bound.hit->find(motion);
+  return event ? std::optional(Instant::before(*event)) : std::nullopt;
 }
 
 LackingImpact ConstraintSet::lacking(const Motion& motion, int index) const {
@@ -53,9 +66,13 @@ LackingImpact ConstraintSet::lacking(const Motion& motion, int index) const {
   if (bound.hit) return bound.hit->lacking(motion);
   const When& at = constraints_[index].at;
   LackingImpact lacking;
-  lacking.sentence = describeImpact(at, "Impact") + " of '" + constraints_[index].body + "' does not come within " +
-                     number(motion.end) + " s.";
+  lacking.sentence = describeLack(at, constraints_[index].body) + " within " + number(motion.end) + " s.";
   lacking.to = motion.end;
+  if (at.rest) {
+    lacking.share = shareOfRest(motion, bound.body);
+    if (motion.status != MotionStatus::complete) lacking.sentence += " " + sentence(motion.message);
+    return lacking;
+  }
   int last = 0;
   while (const std::optional<int> event = motion.findImpact(bound.body, last + 1, bound.with)) {
     lacking.from = motion.events[*event].time;
@@ -69,18 +86,26 @@ LackingImpact ConstraintSet::lacking(const Motion& motion, int index) const {
 bool ConstraintSet::waits() const {
   const auto own_waits = [](const BoundFunction& own) { return own.waits(); };
   for (std::size_t i = 0; i < constraints_.size(); ++i)
-    if (waitsForImpact(static_cast<int>(i))) return true;
+    if (waitsForEvent(static_cast<int>(i))) return true;
   return std::any_of(own_.begin(), own_.end(), own_waits) || (objective_ && objective_->waits());
 }
 
+bool ConstraintSet::holdsAtRest() const {
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (constraints_[i].at.rest && bound_[i].at_instant) return true;
+  const auto own = [](const BoundFunction& f) { return f.function.until && f.function.until->rest; };
+  return std::any_of(own_.begin(), own_.end(), own) || (objective_ && own(*objective_));
+}
+
 bool ConstraintSet::hasWhatItWaitsFor(const Motion& motion) const {
+  if (holdsAtRest()) return false;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const int index = static_cast<int>(i);
-    if (!waitsForImpact(index)) continue;
+    if (!waitsForEvent(index)) continue;
     if (bound_[i].hit ? !bound_[i].hit->isSettled(motion) : !awaited(motion, index)) return false;
   }
   const auto has = [&](const BoundFunction& own) {
-    return !own.waits() || motion.findImpact(own.body, own.function.until->impact, own.with);
+    return !own.waits() || own.awaited(motion).has_value();
   };
   return std::all_of(own_.begin(), own_.end(), has) && (!objective_ || has(*objective_));
 }
@@ -90,7 +115,8 @@ double ConstraintSet::leastDuration() const {
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const When& at = constraints_[i].at;
     const Bound& bound = bound_[i];
-    if (bound.at_instant && at.impact == 0) last = std::max(last, at.span ? at.span->second : at.time);
+    if (bound.at_instant && at.impact == 0 && !at.rest)
+      last = std::max(last, at.span ? at.span->second : at.time);
     for (std::size_t t = 0; t < bound.kinds.size(); ++t)
       if (bound.kinds[t]->over_span) last = std::max(last, bound.during[t].second);
     for (const BoundRegion& region : bound.regions) last = std::max(last, region.to);
@@ -115,9 +141,9 @@ ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen:
     for (std::size_t t = 0; t < bound_[i].kinds.size(); ++t)
       if (bound_[i].kinds[t]->over_span)
         extent.time = std::max(extent.time, std::min(bound_[i].during[t].second, motion.end));
-    if (waitsForImpact(static_cast<int>(i))) {
-      if (const auto event = awaited(motion, static_cast<int>(i)))
-        extent.time = std::max(extent.time, motion.events[*event].time);
+    if (waitsForEvent(static_cast<int>(i))) {
+      if (const auto instant = awaited(motion, static_cast<int>(i)))
+        extent.time = std::max(extent.time, timeOf(motion, *instant));
       continue;
     }
     if (!bound_[i].at_instant) continue;

@@ -8,6 +8,7 @@
 #include "editing/problem/rows/closest_approach.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 #include "editing/problem/rows/constraint_rows.hpp"
+#include "editing/problem/rows/instants.hpp"
 #include "editing/problem/rows/relative.hpp"
 
 namespace carom::editing_detail {
@@ -25,13 +26,12 @@ constexpr int kLooks = 64;
 ConstraintSet::Reading ConstraintSet::read(const Motion& motion, int index, double free_time) const {
   const Constraint& constraint = constraints_[index];
   const Bound& bound = bound_[index];
-  if (waitsForImpact(index)) {
-    const std::optional<int> event = awaited(motion, index);
-    if (event) return readAt(motion, index, Instant::before(*event), motion.events[*event].time);
-    return {};
+  if (waitsForEvent(index)) {
+    const std::optional<Instant> instant = awaited(motion, index);
+    return instant ? readAt(motion, index, *instant) : Reading();
   }
   const double t = bound.free_time >= 0 ? free_time : constraint.at.time;
-  if (t <= motion.end) return readAt(motion, index, Instant::at(t), t);
+  if (t <= motion.end) return readAt(motion, index, Instant::at(t));
   Reading reading;
   reading.message = "The constraint on " + describeConstraint(index) + " lies after the end of the motion at " +
                     number(motion.end) + " s.";
@@ -39,20 +39,16 @@ ConstraintSet::Reading ConstraintSet::read(const Motion& motion, int index, doub
   return reading;
 }
 
-ConstraintSet::Reading ConstraintSet::readAt(const Motion& motion, int index, const Instant& instant,
-                                             double time) const {
+ConstraintSet::Reading ConstraintSet::readAt(const Motion& motion, int index, const Instant& instant) const {
   const Bound& bound = bound_[index];
-  const auto stateOf = [&](int body) {
-    return instant.event >= 0 ? motion.stateBefore(instant.event, body) : motion.stateAt(body, time);
-  };
   Reading reading;
   reading.available = true;
   reading.motion = &motion;
   reading.instant = instant;
-  reading.time = time;
-  reading.seen = reading.own = stateOf(bound.body);
+  reading.time = timeOf(motion, instant);
+  reading.seen = reading.own = stateAt(motion, bound.body, instant);
   if (bound.relative_to >= 0) {
-    reading.other = stateOf(bound.relative_to);
+    reading.other = stateAt(motion, bound.relative_to, instant);
     reading.seen = seenFrom(reading.own, reading.other);
   }
   return reading;
@@ -220,7 +216,7 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
   out.notes.resize(rows_.size());
   for (std::size_t k = 0; k < constraints_.size(); ++k) {
     const int index = static_cast<int>(k);
-    if (!waitsForImpact(index) || awaited(motion, index)) continue;
+    if (!waitsForEvent(index) || awaited(motion, index)) continue;
     out.available = false;
     out.lacking.push_back(lacking(motion, index));
     out.lacking.back().constraint = index;
@@ -257,7 +253,7 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
 
 /// Sum of the squares of the residuals of one constraint when it is read at a time.
 double ConstraintSet::missAt(const Motion& motion, int index, double time) const {
-  const Reading reading = readAt(motion, index, Instant::at(time), time);
+  const Reading reading = readAt(motion, index, Instant::at(time));
   double sum = 0;
   for (int i = 0; i < size(); ++i) {
     const Row& row = rows_[i];
@@ -269,6 +265,20 @@ double ConstraintSet::missAt(const Motion& motion, int index, double time) const
     sum += scaled * scaled;
   }
   return sum;
+}
+
+std::vector<HeldTime> ConstraintSet::heldTimes(const Motion& motion, const Eigen::VectorXd& times) const {
+  std::vector<HeldTime> held;
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const int index = static_cast<int>(k), free = bound_[k].free_time;
+    if (free >= 0) {
+      const FreeTime& span = free_times_[static_cast<std::size_t>(free)];
+      held.push_back({index, span.from, span.to, times[free]});
+    } else if (constraints_[k].at.rest && bound_[k].at_instant) {
+      if (const auto rest = awaited(motion, index)) held.push_back({index, 0, motion.end, timeOf(motion, *rest)});
+    }
+  }
+  return held;
 }
 
 Eigen::VectorXd ConstraintSet::nearestTimes(const Motion& motion) const {

@@ -46,6 +46,7 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
   bound.body = findAt(where + "/body", [&] { return bodyIndex(scene, constraint.body); });
   const When& at = constraint.at;
   checkWhen(at, where + "/at");
+  if (at.rest) checkComesToRest(scene.bodies[bound.body], where + "/body");
   if (!at.with.empty()) bound.with = findAt(where + "/at/with", [&] { return bodyIndex(scene, at.with); });
   if (!constraint.relative_to.empty()) {
     bound.relative_to = findAt(where + "/relative_to", [&] { return bodyIndex(scene, constraint.relative_to); });
@@ -185,6 +186,7 @@ std::string ConstraintSet::describeConstraint(int index) const {
   if (constraint.hits) return text + " when it hits '" + constraint.hits->with + "'";
   if (constraint.targets.empty()) return text;
   if (at.span) return text + " between " + number(at.span->first) + " s and " + number(at.span->second) + " s";
+  if (at.rest) return text + " at rest";
   return text + " at " + (at.impact == 0 ? number(at.time) + " s" : describeImpact(at, "its impact"));
 }
 

@@ -58,6 +58,13 @@ struct FreeTime {
   double scale = 1;         ///< natural time of the body, s
 };
 
+/// When a constraint holds whose time the edit chooses, in a span, or the motion, at rest.
+struct HeldTime {
+  int constraint = -1;
+  double from = 0, to = 0;  ///< s, in which it may hold
+  double time = 0;          ///< s
+};
+
 /// What there is to know of the derivative of one row, besides its seeds.
 struct RowNote {
   std::string doubt;          ///< not empty: why it cannot be trusted, a clause
@@ -99,10 +106,13 @@ class ConstraintSet {
   const std::vector<int>& ranges() const { return ranges_; }
 
   /// Reads all rows in a motion, with the free times given, or else at the nearest ones. Rows that the motion does not
-  /// have (the n-th impact does not come, or the time lies after its end) make the result unavailable, with a sentence;
-  /// they are not an error.
+  /// have (the n-th impact does not come, the body does not come to rest, or the time lies after its end) make the
+  /// result unavailable, with a sentence; they are not an error.
   RowValues evaluate(const Motion& motion) const { return evaluate(motion, nearestTimes(motion)); }
   RowValues evaluate(const Motion& motion, const Eigen::VectorXd& times) const;
+  /// When constraints hold whose time is not given: those at some time of a span, and those at rest that the motion
+  /// has.
+  std::vector<HeldTime> heldTimes(const Motion& motion, const Eigen::VectorXd& times) const;
   /// For each free time one at which its constraint is most nearly met, among many.
   Eigen::VectorXd nearestTimes(const Motion& motion) const;
 
@@ -126,7 +136,10 @@ class ConstraintSet {
   double horizon(double duration) const;
   /// Whether it depends on the motion up to when it has to be known.
   bool waits() const;
-  /// Whether a motion has the impacts that are waited for, as far as it is known.
+  /// Whether something is held at rest, of which only the end of the motion tells that it stays so.
+  bool holdsAtRest() const;
+  /// Whether a motion has the impacts that are waited for, as far as it is known; what is held at rest waits for its
+  /// end.
   bool hasWhatItWaitsFor(const Motion& motion) const;
   /// The last time that is held besides, s.
   double leastDuration() const;
@@ -173,16 +186,16 @@ class ConstraintSet {
   };
   void bind(const Scene& scene, int index, double duration);
   void bindImpacts(const Scene& scene, int index, const std::string& where);
-  /// The event of a constraint that waits for one, if it is there.
-  std::optional<int> awaited(const Motion& motion, int constraint) const;
-  bool waitsForImpact(int constraint) const;
+  /// The instant of a constraint that waits for an event, if it is there.
+  std::optional<Instant> awaited(const Motion& motion, int constraint) const;
+  bool waitsForEvent(int constraint) const;
   LackingImpact lacking(const Motion& motion, int constraint) const;
   const Target& targetOf(const Row& row) const;
   void addTargetRows(const Scene& scene, int index, int target);
   void addOwnRow(const Scene& scene, int index, const OwnFunctions::Row& own, double duration);
   void addRegionRows(const Scene& scene, int index, int region, double duration);
   Reading read(const Motion& motion, int constraint, double free_time) const;
-  Reading readAt(const Motion& motion, int constraint, const Instant& instant, double time) const;
+  Reading readAt(const Motion& motion, int constraint, const Instant& instant) const;
   void readRow(int row, const Reading& reading, RowValues& out) const;
   void bindTarget(const Scene& scene, int index, int target, double duration);
   RowReading readMotionQuantity(const Reading& reading, int row) const;

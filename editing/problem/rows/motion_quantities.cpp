@@ -5,6 +5,7 @@
 
 #include "adjoint/scene/body_model.h"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/rows/instants.hpp"
 
 namespace carom::editing_detail {
 
@@ -15,10 +16,7 @@ namespace {
 /// Below this share of its scale a length of a vector is rounding, and its direction too.
 constexpr double kNothing = 1e-13;
 
-BodyState stateOf(const QuantityPlace& place, int body) {
-  return place.at.event >= 0 ? place.motion.stateBefore(place.at.event, body)
-                             : place.motion.stateAt(body, place.time);
-}
+BodyState stateOf(const QuantityPlace& place, int body) { return stateAt(place.motion, body, place.at); }
 
 std::string nameIn(const QuantityPlace& place, int body) {
   return "'" + place.motion.scene->bodies[static_cast<std::size_t>(body)].name + "'";

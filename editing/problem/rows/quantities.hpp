@@ -18,7 +18,8 @@ struct QuantityKind {
   int rows;             ///< 3: components x, y, z; 1: a single number
   int numbers;          ///< that a person gives as the target
   bool all_or_nothing = false;  ///< no number of the target can be left free
-  bool only_at_impacts = false;
+  bool only_at_events = false;  ///< at impacts, and at rest where it is `of_rest`
+  bool of_rest = true;          ///< there is such a number of a body that has come to rest
   bool turns = false;  ///< depends on the orientation of the body when it is read
   double NaturalScales::*scale = nullptr;  ///< makes a residual dimensionless; null: 1 rad
 

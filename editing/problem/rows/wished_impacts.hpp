@@ -13,7 +13,8 @@
 /// Impacts that a motion shall have, by the bodies that meet. Internal to editing/.
 namespace carom::editing_detail {
 
-/// What a motion lacks of an impact that shall come: bodies that shall meet, and when they may.
+/// What a motion lacks of an impact that shall come: bodies that shall meet, and when they may. Without pairs: of one
+/// with anybody, or of a body that shall come to rest.
 struct LackingImpact {
   int constraint = -1;                     ///< index of the Constraint
   std::vector<std::pair<int, int>> pairs;  ///< bodies, one of these pairs

@@ -77,11 +77,12 @@ function nailWords({ on, available, met, error, message, constraint }) {
   return on && !met && placeHeld(constraint) ? lengthText(error) : '';
 }
 
-/** For people: "0.600 s", "impact 3 with table". @param {import('../types.js').When | undefined} at */
+/** For people: "0.600 s", "impact 3 with table", "rest". @param {import('../types.js').When | undefined} at */
 export function atText(at) {
   if (at === undefined) return 'all the time';
   if (typeof at === 'number') return `${at.toFixed(3)} s`;
   if ('between' in at) return `between ${at.between[0]} and ${at.between[1]} s`;
+  if ('rest' in at) return 'rest';
   return `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}`;
 }
 

@@ -5,7 +5,8 @@ import { impactsThatChanged } from '../changes.js';
 import { colours, impactColours, inkOf } from '../colours.js';
 import { centreAt } from '../motion.js';
 import { lengthText } from '../number_field_text.js';
-import { label } from './hoops.js';
+import { atText, label } from './hoops.js';
+import { restPlaces } from './pick.js';
 
 /** @typedef {import('../types.js').State} State */
 /** @typedef {import('./pick.js').Project} Project */
@@ -63,6 +64,18 @@ export function drawImpacts(pen, { motion, hover, selected }, bodies, project, s
   pen.globalAlpha = 1;
 }
 
+/** A bar under each place of rest. @param {Pen} pen @param {State} state @param {number[]} bodies @param {Project} project
+ * @param {number} scale */
+export function drawRests(pen, { motion, scene, hover }, bodies, project, scale) {
+  for (const { body, place } of motion ? restPlaces(motion, bodies) : []) {
+    const [x, y, depth] = project(place);
+    if (depth <= 0) continue;
+    const hovered = hover?.kind === 'rest' && hover.body === body, half = (hovered ? 8 : 6) * scale;
+    pen.fillStyle = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);
+    pen.fillRect(x - half, y + 4 * scale, 2 * half, (hovered ? 4 : 3) * scale);
+  }
+}
+
 /** Impacts that came and went, with words, once a person asked to see them. @param {Pen} pen @param {State} state
  * @param {Project} project @param {number} scale */
 export function drawChangedImpacts(pen, { motion, before, changesShown, document }, project, scale) {
@@ -79,7 +92,7 @@ export function drawChangedImpacts(pen, { motion, before, changesShown, document
   }
 }
 
-/** What lies under the pointer: its time, or its impact. @param {Pen} pen @param {import('../types.js').Hit} hit
+/** What lies under the pointer: its time, its impact, or that it rests. @param {Pen} pen @param {import('../types.js').Hit} hit
  * @param {string} name of its body, where there are several @param {Project} project @param {number} scale */
 export function drawHover(pen, hit, name, project, scale) {
   if (hit.kind === 'handle') return;
@@ -92,7 +105,7 @@ export function drawHover(pen, hit, name, project, scale) {
     pen.fill();
   }
   const at = hit.at, time = `${hit.time.toFixed(2)} s`;
-  label(pen, (name && `${name}, `) + (typeof at === 'object' && 'impact' in at ? `impact ${at.impact}${at.with ? ` with ${at.with}` : ''}, ${time}` : time), x + 9 * scale, y - 9 * scale, colours.text);
+  label(pen, (name && `${name}, `) + (typeof at === 'object' && !('between' in at) ? `${atText(at)}, ${time}` : time), x + 9 * scale, y - 9 * scale, colours.text);
 }
 
 /** The held point, and while dragging the target with the way to it. @param {Pen} pen @param {State} state

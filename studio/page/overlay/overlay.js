@@ -5,7 +5,7 @@ import { moves, pathTimes, pointAt } from '../motion.js';
 import { sagOf } from '../view/paths.js';
 import { drawHandles, handleShapes, handleUnder } from './handles.js';
 import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
-import { drawChangedImpacts, drawDots, drawHeld, drawHover, drawImpacts } from './marks.js';
+import { drawChangedImpacts, drawDots, drawHeld, drawHover, drawImpacts, drawRests } from './marks.js';
 import { onScreen, pick } from './pick.js';
 
 /** @typedef {import('../types.js').State} State */
@@ -47,6 +47,7 @@ export class Overlay {
     const bodies = this.view.paths.shownBodies(state), dragging = gesture.state === 'dragging' || gesture.state === 'typing';
     drawDots(pen, state, bodies, project, scale);
     drawImpacts(pen, state, bodies, project, scale);
+    drawRests(pen, state, bodies, project, scale);
     drawChangedImpacts(pen, state, project, scale);
     drawHoops(pen, nailPlaces(state), project, scale, state.selectedNail);
     if (!dragging) drawHandles(pen, this.handles(), hover?.handle ?? '');

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What lies under the pointer, judged on the screen: nothing is too small to hit. Handles win over nails, nails over
-// impacts, impacts over paths, paths over bodies.
+// impacts, impacts over places of rest, these over paths, paths over bodies.
 
-import { atOf, centreAt } from '../motion.js';
+import { atOf, centreAt, restTime } from '../motion.js';
 
 /** @typedef {import('../types.js').Hit} Hit */
 /** @typedef {import('../types.js').Motion} Motion */
@@ -90,7 +90,21 @@ export function pick(pickable, x, y) {
     const at = atOf(motion.impacts, impact.one, body, names);
     return { kind: 'impact', body, time: impact.t, at, place: centreAt(motion.tracks[body], impact.t), impact: impact.one };
   }
-  return pickPath(pickable, x, y) ?? pickBody(pickable, x, y);
+  return pickRest(pickable, x, y) ?? pickPath(pickable, x, y) ?? pickBody(pickable, x, y);
+}
+
+/** Where a body comes to rest, whenever that is. @param {Pickable} pickable @param {number} x @param {number} y @returns {Hit | null} */
+function pickRest({ motion, paths, project }, x, y) {
+  const rest = nearestPoint(restPlaces(motion, [...paths.keys()]), project, x, y, reach.impact);
+  return rest && { kind: 'rest', ...rest, at: { rest: true } };
+}
+
+/** Where bodies come to rest, and when. @param {Motion} motion @param {number[]} bodies */
+export function restPlaces({ tracks }, bodies) {
+  return bodies.flatMap((body) => {
+    const time = restTime(tracks[body]);
+    return time === null ? [] : [{ body, time, place: centreAt(tracks[body], time) }];
+  });
 }
 
 /** @param {Pickable} pickable @param {number} x @param {number} y @returns {Hit | null} */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { atOf, centreAt, moves, multiply, pathTimes, pointAt, poseAt, rotate, timeOf, turnAbout, turnAt, velocityAt } from '../../../studio/page/motion.js';
+import { atOf, centreAt, moves, multiply, pathTimes, pointAt, poseAt, restTime, rotate, timeOf, turnAbout, turnAt, velocityAt } from '../../../studio/page/motion.js';
 
 const near = (found, expected, tolerance) => {
   assert.equal(found.length, expected.length);
@@ -55,4 +55,14 @@ test('impacts are named as documents name them', () => {
   assert.equal(timeOf({ impact: 3 }, 1, motion, names), 0.3);
   assert.equal(timeOf({ impact: 3, with: 'floor' }, 1, motion, names), null);
   assert.equal(timeOf(2, 1, motion, names), null);
+});
+
+test('a rest is where what moves moves no more', () => {
+  const fall = [0, 0, 0, 1, 0, 0, 0, 0, 0, -10], rest = (t) => [t, 0, 0, 0.1, 0, 0, 0, 0, 0, 0];
+  const track = (...rows) => ({ body: 0, center: [0, 0, 0], turns: new Float32Array([0, 1, 0, 0, 0]), arcs: new Float64Array(rows.flat()) });
+  assert.equal(restTime(track(fall, rest(0.4))), 0.4);
+  assert.equal(restTime(track(fall, rest(0.4), rest(0.7))), 0.4, 'hit, and still at rest');
+  assert.equal(restTime(track(fall, rest(0.4), fall)), null);
+  assert.equal(restTime(track(rest(0))), null, 'it never moved');
+  assert.equal(timeOf({ rest: true }, 0, { end: 1, impacts: [], tracks: [track(fall, rest(0.4))] }, ['ball']), 0.4);
 });

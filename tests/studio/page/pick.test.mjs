@@ -49,6 +49,14 @@ test('handles win over nails, nails over impacts, impacts over paths, paths over
   assert.deepEqual([body.kind, body.time], ['body', 0.25]);
 });
 
+test('where a path comes to rest it is the rest that is held, whenever that is', () => {
+  const slid = { body: 0, center: [0, 0, 0], turns: new Float32Array([0, 1, 0, 0, 0]), arcs: new Float64Array([0, 0, 0, 0, 2, 0, 0, -4, 0, 0, 0.5, 0.5, 0, 0, 0, 0, 0, 0, 0, 0]) };
+  const motion = { tracks: [slid], end: 1, impacts: [] }, of = scene({ motion, paths: new Map([[0, onScreen(slid, times, project)]]) });
+  const [x, y] = project([0.5, 0, 0]), hit = pick(of, x + 5, y);
+  assert.deepEqual([hit.kind, hit.at, hit.time, hit.body, hit.place], ['rest', { rest: true }, 0.5, 0, [0.5, 0, 0]]);
+  assert.equal(pick(of, x - 20, y).kind, 'path');
+});
+
 test('handles: arrows, squares and rings, none where one looks along an axis', () => {
   const shapes = handleShapes('move', [0, 0, 0], 0.01, project);
   assert.deepEqual(shapes.map((shape) => shape.name), ['plane y', 'x', 'z']);

@@ -70,6 +70,27 @@ test('the third impact of a mug is dragged along the table; the nail stays at th
     assert.ok(later.available && Math.abs(later.time - time) > 1e-4, `${later.time} after ${time}`);
   }));
 
+test('a stone is dragged by where it stops and nailed there, whenever that is', { skip }, () =>
+  withStudio('curling.json', async (page) => {
+    const [x, y] = await place(page, 'stone', 20);
+    await page.click('#nail-on-release');
+    await pull(page, [x, y], [x - 30, y + 10]);
+    assert.deepEqual(await state(page, '(s) => [s.gesture.hit.kind, s.gesture.hit.at]'), ['rest', { rest: true }]);
+    await picture(page, 'curling-rest');
+    await letGo(page);
+    await until(page, '(s) => s.document.nails.length === 2');
+    const nail = await state(page, '(s) => s.document.nails[1]');
+    assert.deepEqual(nail.constraint.at, { rest: true });
+    assert.ok(nail.met && nail.time < 20, nail.message);
+    assert.match(await page.textContent('#nails .nail:nth-child(2)'), /stone, rest/);
+    await page.click('#nail-on-release');
+    const from = await place(page, 'stone', 1);
+    await pull(page, from, [from[0] + 3, from[1] - 3]);
+    await letGo(page);
+    const after = await state(page, '(s) => s.document.nails[1]');
+    assert.ok(after.available && after.met, after.message);
+  }));
+
 test('goals are off at opening and nothing moves; Meet them all meets them', { skip }, () =>
   withStudio('hat-on-coatrack.json', async (page) => {
     assert.deepEqual(await state(page, '(s) => [s.document.nails.map((n) => n.on), s.document.saved, s.document.undo]'), [[false, false], true, null]);
