@@ -17,6 +17,7 @@ struct HeldContact {
   FeaturePair features;    ///< frozen
   HeldMode mode = HeldMode::sticks;
   double friction = 0;     ///< coefficient
+  bool begins = false;     ///< it slides from no slip on
   Vec3 slip = Vec3::Zero();  ///< unit, the direction of its slip at the start of the path; 0 where it sticks
 };
 

@@ -208,6 +208,7 @@ class ModeSearch {
       const std::size_t k = found_.on[i];
       HeldContact c = candidates_[k];
       c.mode = found_.contacts[i].mode;
+      c.begins = ways_[k] == Way::begins;
       c.slip = c.mode == HeldMode::slides && rubs(k) ? used_[k] : Vec3(Vec3::Zero());
       modes.held.push_back(k);
       modes.contacts.push_back(c);

@@ -17,13 +17,15 @@ Rows gapRows(const HeldInstant& now) {
   return G;
 }
 
-Rows heldRows(const HeldInstant& now) {
+Rows heldRows(const HeldInstant& now, const std::vector<HeldContact>& contacts) {
+  const auto stands = [](const HeldContact& c) { return c.mode == HeldMode::sticks || c.begins; };
   Eigen::Index rows = 0;
-  for (const auto& c : now.contacts) rows += c.mode == HeldMode::sticks ? 3 : 1;
+  for (const HeldContact& c : contacts) rows += stands(c) ? 3 : 1;
   Rows C(rows, 6);
   Eigen::Index at = 0;
-  for (const auto& c : now.contacts) {
-    if (c.mode == HeldMode::sticks) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ContactInstant<double>& c = now.contacts[k];
+    if (stands(contacts[k])) {
       C.block<3, 3>(at, 0).setIdentity();
       C.block<3, 3>(at, 3) = -skew(c.r);
       at += 3;
@@ -57,7 +59,7 @@ State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts
   }
   for (int round = 0; round < 2; ++round) {
     const HeldInstant now = instantOf(scene, contacts, state, none);
-    const Rows C = heldRows(now);
+    const Rows C = heldRows(now, contacts);
     Eigen::Matrix<double, 6, 1> velocity;
     velocity << now.body.v, now.body.omega;
     const Eigen::Matrix<double, 6, 1> change = -undoing(now, C) * (C * velocity);

@@ -5,12 +5,12 @@
 
 namespace carom::adjoint_detail {
 
-/// The state with all gaps 0, no speed along the normals, and none at contacts that stick: moved as little as possible,
+/// The state with all gaps 0, no speed along the normals, and none at contacts that stick or begin to slip: moved as little as possible,
 /// as measured by the mass (11.13, 11.24).
 State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state);
 
-/// Rows of n.u of each contact, or of u where it sticks, by (v, omega).
-Eigen::Matrix<double, Eigen::Dynamic, 6> heldRows(const HeldInstant& now);
+/// Rows of n.u of each contact, or of u where there is no slip at the start, by (v, omega).
+Eigen::Matrix<double, Eigen::Dynamic, 6> heldRows(const HeldInstant& now, const std::vector<HeldContact>& contacts);
 /// The same of the gaps by (x, theta).
 Eigen::Matrix<double, Eigen::Dynamic, 6> gapRows(const HeldInstant& now);
 /// M^-1 C^T (C M^-1 C^T)^+, by which a change of (v, L), or of a pose, undoes that of rows C; of the pose: its own

@@ -72,7 +72,7 @@ class Chooser {
         if (pressed_.size() == 1) closed_form = ball();
       } else if (isAxle()) {
         closed_form = axle();
-      } else if (isSlow(reach_ * omega_)) {
+      } else if (isSlow(reach_ * omega_) && hint.cause != TransitionCause::tips) {
         closed_form = block();
       }
     }

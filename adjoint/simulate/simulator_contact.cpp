@@ -265,7 +265,8 @@ void Simulator::chooseArc(std::size_t participant) {
   }();
   onward.held = std::move(made.held);
   onward.why = made.transition;
-  if (onward.why.cause != TransitionCause::none) onward.transition = event.time + onward.why.elapsed;
+  if (onward.why.cause != TransitionCause::none)
+    onward.transition = made.arc.integrated() ? made.arc.knownUntil() : event.time + onward.why.elapsed;
   after = choice.start;
   draft_.arcs.push_back(std::move(made.arc));
   in_draft_[index(body)] = static_cast<int>(participant);

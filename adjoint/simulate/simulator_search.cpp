@@ -62,7 +62,7 @@ void Simulator::followHeld(int body, double from) {
   }
   Onward& onward = onward_[index(body)];
   onward.why = heldTransition(arc, arc.start());
-  if (onward.why.cause != TransitionCause::none) onward.transition = arc.start() + onward.why.elapsed;
+  if (onward.why.cause != TransitionCause::none) onward.transition = arc.knownUntil();
   setPath(body, arc, from);
 }
 
