@@ -38,7 +38,7 @@ class ModeSearch {
     if (hint.contact >= 0) {
       const auto at = static_cast<std::size_t>(hint.contact);
       if (hint.cause == TransitionCause::lifts) ways[at] = Way::off, lifted_ = hint.contact;
-      if (hint.cause == TransitionCause::slips && !slips_[at]) ways[at] = Way::begins;
+      if (hint.cause == TransitionCause::slips && !slips_[at]) beginAtLimit(ways, at);
     }
     if (settle(ways) || enumerate()) return answer();
     HeldModes modes;
@@ -75,6 +75,18 @@ class ModeSearch {
       Eigen::FullPivLU<Eigen::MatrixXd> rank(solved.forces->matrix());
       rank.setThreshold(kModeRounding);
       solved.redundant = rank.rank() < unknowns;
+    }
+  }
+
+  // All that stick at the limit of friction begin to slip with the one that is known to.
+  void beginAtLimit(std::vector<Way>& ways, std::size_t first) {
+    solve(found_, ways, direction_);
+    for (std::size_t i = 0; i < found_.on.size(); ++i) {
+      const std::size_t k = found_.on[i];
+      if (ways[k] != Way::sticks) continue;
+      const Vec3 &n = now_.contacts[k].n, f = found_.forces->force(i);
+      const double pressing = n.dot(f), room = now_.contacts[k].friction * pressing - (f - pressing * n).norm();
+      if (k == first || room <= kAtLimit * force_) ways[k] = Way::begins;
     }
   }
 

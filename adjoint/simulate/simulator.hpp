@@ -73,6 +73,7 @@ class Simulator {
     std::vector<Contact> held;
     double transition = EventQueue::kNever;
     PathTransition why;
+    std::size_t steps = 0;  // of an integrated path: of those the above is
   };
   static const Onward kInFlight;
   // An event that is worked out but not yet part of the motion. Its storage is used again and again.

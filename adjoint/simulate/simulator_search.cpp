@@ -49,18 +49,23 @@ void Simulator::setPath(int body, const Arc& arc, double from) {
   contacts_.setPath(body, arc, from, std::min(motion_.duration, arc.knownUntil()));
 }
 
-// An integrated path is followed a step further where the search has come to the end of what is known.
+// An integrated path is followed a step further where the search has come to the end of what is known. A search may
+// have followed it by itself, to find a root.
 void Simulator::followHeld(int body, double from) {
+  if (in_draft_[index(body)] >= 0) return;
   Arc& arc = pathOf(body);
-  if (arc.integrated()->ended() || from < arc.knownUntil() || in_draft_[index(body)] >= 0) return;
-  work_.step();
-  try {
-    arc.extendTo(std::nextafter(arc.knownUntil(), kInfinity));
-  } catch (const NotComputable& error) {
-    const Contact& c = onward_[index(body)].held.front();
-    giveUp("contact", c.a, c.b, from, error);
+  if (!arc.integrated()->ended() && !(from < arc.knownUntil())) {
+    work_.step();
+    try {
+      arc.extendTo(std::nextafter(arc.knownUntil(), kInfinity));
+    } catch (const NotComputable& error) {
+      const Contact& c = onward_[index(body)].held.front();
+      giveUp("contact", c.a, c.b, from, error);
+    }
   }
   Onward& onward = onward_[index(body)];
+  if (onward.steps == arc.series()) return;
+  onward.steps = arc.series();
   onward.why = heldTransition(arc, arc.start());
   if (onward.why.cause != TransitionCause::none) onward.transition = arc.knownUntil();
   setPath(body, arc, from);
