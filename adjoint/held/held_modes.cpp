@@ -6,13 +6,15 @@
 #include <set>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
 // What of a force or an acceleration is rounding, as a share of the unit; and of a contact that is at its limit.
 constexpr double kModeRounding = 1e-10, kAtLimit = 1e-7;
-constexpr int kModeRounds = 60, kDirectionRounds = 200;
+constexpr int kModeRounds = 60, kDirectionRounds = 60;
+constexpr double kMostTurn = 0.5;  // rad, of a direction in one round
 constexpr std::size_t kEnumerated = 5;
 
 enum class Way : char { off, sticks, slides, begins };  // begins: from no slip
@@ -110,26 +112,52 @@ class ModeSearch {
       if (!(along.norm() > 0)) return false;
       direction[k] = -along.normalized();
     }
-    double damped = 1;
     for (int round = 0; round < kDirectionRounds; ++round) {
       solve(solved, ways, direction);
-      double turned = 0;
-      for (std::size_t i = 0; i < solved.on.size(); ++i) {
-        const std::size_t k = solved.on[i];
-        if (ways[k] != Way::begins) continue;
-        const Vec3 &n = now_.contacts[k].n, rate = solved.forces->slipRate(i), along = rate - n.dot(rate) * n;
-        if (!(along.norm() > kAtLimit * pull_)) continue;  // at the limit of friction: it begins as that pulled
-        const Vec3 to = along.normalized();
-        turned = std::max(turned, (to - direction[k]).norm());
-        direction[k] = (direction[k] + damped * (to - direction[k])).normalized();
-        if (!direction[k].allFinite()) return false;
-      }
+      const double turned = turnBegins(solved, ways, direction);
+      if (!std::isfinite(turned)) return false;
       if (turned < 1e-14) break;
       if (round == kDirectionRounds - 1 && turned > 1e-9) return false;
-      if (round % 20 == 19) damped *= 0.5;
     }
     used_ = direction;
     return true;
+  }
+
+  // A step of Newton's method on (n x d).u' = 0 for the directions d of all that begin; gives the largest turn, rad.
+  double turnBegins(const Solved& solved, const std::vector<Way>& ways, std::vector<Vec3>& direction) const {
+    std::vector<std::size_t> turning;  // in solved.on
+    for (std::size_t i = 0; i < solved.on.size(); ++i) {
+      const Vec3 &n = now_.contacts[solved.on[i]].n, rate = solved.forces->slipRate(i);
+      // at the limit of friction it begins as that pulled
+      if (ways[solved.on[i]] == Way::begins && (rate - n.dot(rate) * n).norm() > kAtLimit * pull_) turning.push_back(i);
+    }
+    if (turning.empty()) return 0;
+    const auto size = static_cast<Eigen::Index>(turning.size());
+    Eigen::MatrixXd J(size, size);
+    Eigen::VectorXd r(size);
+    for (Eigen::Index b = 0; b < size; ++b) {
+      const std::vector<Vec3> answer = solved.forces->answerToTurn(turning[static_cast<std::size_t>(b)], true);
+      for (Eigen::Index a = 0; a < size; ++a) {
+        const std::size_t i = turning[static_cast<std::size_t>(a)];
+        const ContactInstant<double>& c = solved.contacts[i];
+        const Vec3 across = c.n.cross(c.slip), rate = solved.forces->slipRate(i);
+        Vec3 by = Vec3::Zero();
+        for (std::size_t k = 0; k < answer.size(); ++k) by += solved.forces->responseAt(c.r, k, answer[k]);
+        J(a, b) = across.dot(by) - (a == b ? c.slip.dot(rate) : 0.0);
+        r[a] = across.dot(rate);
+      }
+    }
+    Eigen::VectorXd turn = -J.partialPivLu().solve(r);
+    const double most = turn.cwiseAbs().maxCoeff();
+    if (!std::isfinite(most)) return most;
+    if (most > kMostTurn) turn *= kMostTurn / most;
+    for (Eigen::Index a = 0; a < size; ++a) {
+      const std::size_t i = turning[static_cast<std::size_t>(a)];
+      const ContactInstant<double>& c = solved.contacts[i];
+      const auto [sine, cosine] = elementary::sincos(turn[a]);
+      direction[solved.on[i]] = (cosine * c.slip + sine * c.n.cross(c.slip)).normalized();
+    }
+    return most;
   }
 
   // Whether the ways are consistent; else which is to be changed into what.

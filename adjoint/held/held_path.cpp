@@ -99,12 +99,6 @@ HeldStep HeldPath::stepFrom(const State& from) {
       continue;
     }
     std::optional<End> end = firstEnd(*step);
-    if (getenv("HD")) {
-      fprintf(stderr, "t %.12f h %.3e err %.2e end %s %g |", known_, length, stepper.errorOf(*step), end ? nameOf(end->guard.cause) : "-", end ? end->time-known_ : 0.0);
-      const HeldInstant now = instantOf(scene_, contacts_, from, slip); HeldDynamics<double> f(now.body, now.contacts, redundant_);
-      for (std::size_t k = 0; k < contacts_.size(); ++k) fprintf(stderr, " %c u %.2e N %.2e d.u %.2e d.u' %.2e;", contacts_[k].mode == HeldMode::sticks ? 'S' : 'G', now.slipAt(k).norm(), f.pressing(k), slip[k].dot(now.velocityAt(k)), slip[k].dot(f.slipRate(k)));
-      fprintf(stderr, "\n");
-    }
     const double error = stepper.errorOf(*step);
     const double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-12), -1.0 / 11), 0.2, 2.0);
     if (!(error <= 1)) {
