@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/base/errors.h"
 #include "adjoint/base/names.hpp"
 #include "adjoint/contact/contact_path.hpp"
 #include "adjoint/flight/flight_pass.hpp"

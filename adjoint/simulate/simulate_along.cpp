@@ -257,6 +257,8 @@ class Follower {
     const Arc& like = like_.world_lines[index(p.body)].arcs[index(p.arc) + 1];
     FollowedPath& held = held_[index(p.body)] = {};
     if (!like.path()) return builder_.flight(p.body, event_.time, after);
+    if (like.path()->form == PathForm::held)
+      throw NotComputable("a body held on corners, edges and faces is not followed yet");
     State start = after;
     for (const Contact& c : event_.contacts)
       if (c.lasts && (c.a == p.body || c.b == p.body)) {
