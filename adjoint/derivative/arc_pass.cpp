@@ -36,7 +36,15 @@ PathLinearization::PathLinearization(const Motion& motion, const ContactPath& pa
       friction(rulesOf(materialOfBody(scene, path.body), materialOfBody(scene, path.face)).friction),
       path_(path),
       elapsed_(elapsed),
-      orientation_(motion.plan.bodies[static_cast<std::size_t>(path.body)].derivative_tier != Tier::none) {}
+      orientation_(motion.plan.bodies[static_cast<std::size_t>(path.body)].derivative_tier != Tier::none) {
+  if (path.integrated) columns_.emplace(motion, static_cast<const HeldPath&>(*path.integrated.get()));
+}
+
+const Eigen::MatrixXd& PathLinearization::matrix() const {
+  if (!matrix_)
+    matrix_ = heldSensitivity(static_cast<const HeldPath&>(*path_.integrated.get()), columns_->inputs(), path_.start + elapsed_);
+  return *matrix_;
+}
 
 const PathSensitivity<double>& PathLinearization::sensitivity(bool turns) const {
   if (whole_) return *whole_;
@@ -55,12 +63,16 @@ std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, co
 StateDerivative arcTangent(const Arc& arc, double t, const ArcSensitivity& S, const StateDerivative& dstart,
                            const SceneTangent& dscene, const BodyModelDerivative& dmodel) {
   if (!S.path) return flightTangent(arc, t, S, dstart, dscene.gravity, dmodel);
+  if (const HeldColumns* columns = S.path->columns())
+    return asState(S.path->matrix() * columns->tangent(dstart, dscene, dmodel));
   return tangent(S.path->sensitivity(true), dstart, S.path->inputs(*arc.path(), dscene, dmodel));
 }
 
 StateDerivative arcPullback(const Arc& arc, double t, const ArcSensitivity& S, const StateDerivative& end_bar,
                             SceneGradient& scene_bar, BodyModelDerivative& model_bar) {
   if (!S.path) return flightPullback(arc, t, S, end_bar, scene_bar.gravity, model_bar);
+  if (const HeldColumns* columns = S.path->columns())
+    return columns->pullback(S.path->matrix().transpose() * asVector(end_bar), scene_bar, model_bar);
   PathInputsDerivative<double> inputs_bar;
   const StateDerivative start_bar = pullback(S.path->sensitivity(!end_bar.theta.isZero(0)), end_bar, inputs_bar);
   const ContactPath& path = *arc.path();

@@ -6,6 +6,7 @@
 
 #include "adjoint/contact/path_sensitivity.hpp"
 #include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/derivative/held_pass.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 
 /// Derivatives over a stretch of an arc, whatever the body does on it: forward and reverse.
@@ -42,6 +43,10 @@ class PathLinearization {
   PathInputsDerivative<double> inputs(const ContactPath& path, const SceneTangent& dscene,
                                       const BodyModelDerivative& dmodel) const;
 
+  /// Of a path that is integrated, by the columns of its inputs: null for any other.
+  const HeldColumns* columns() const { return columns_ ? &*columns_ : nullptr; }
+  const Eigen::MatrixXd& matrix() const;
+
   const Scene& scene;     // of the motion
   Rule<double> friction;  // of the materials, the body's first
 
@@ -50,6 +55,8 @@ class PathLinearization {
   double elapsed_;
   bool orientation_;  // is asked for
   mutable std::optional<PathSensitivity<double>> without_turn_, whole_;
+  std::optional<HeldColumns> columns_;
+  mutable std::optional<Eigen::MatrixXd> matrix_;
 };
 
 std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, const ContactPath& path, double elapsed);

@@ -44,6 +44,10 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
 EventGuard<double> guardOf(const Motion& motion, const Event& event, std::vector<Part>& parts) {
   EventGuard<double> guard;
   if (event.kind != EventKind::transition) return guard;
+  if (const std::shared_ptr<const PathGuard> by_path = pathGuardOf(motion, event)) {
+    guard.by_path = by_path;
+    return guard;
+  }
   if (event.cause == TransitionCause::slip_ends) {
     guard.by_slip = true;
     guard.slip = slipDirectionAtEnd(motion, event);
@@ -117,6 +121,10 @@ double EventLinearization::frictionFromZero() const {
 double EventLinearization::guardTangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,
                                         const std::vector<BodyModelDerivative>& dmodel) const {
   double d = 0;
+  if (guard().by_path) {
+    const auto body = static_cast<std::size_t>(event().participants[0].body);
+    return guard().by_path->by_state.dot(before[0]) + guard().by_path->tangent(dscene, dmodel[body]);
+  }
   for (const Part& part : parts())
     if (!part.guard.isZero(0)) d += part.guard.dot(contactTangent(part, before, dscene));
   if (guard().by_slip) {

@@ -61,9 +61,8 @@ class HeldDynamics {
  public:
   HeldDynamics(const BodyInstant<S>& body, const std::vector<ContactInstant<S>>& contacts, bool redundant)
       : body_(body), contacts_(contacts) {
-    using Index = Eigen::Index;
-    const Index n = static_cast<Index>(contacts.size());
-    Index unknowns = 0;
+    const Eigen::Index n = static_cast<Eigen::Index>(contacts.size());
+    Eigen::Index unknowns = 0;
     for (const auto& c : contacts) first_.push_back(unknowns), unknowns += c.mode == HeldMode::sticks ? 3 : 1;
     free_.resize(contacts.size());
     const V3<S> turning = body.A * body.L.cross(body.omega);  // of omega, without forces
@@ -72,7 +71,7 @@ class HeldDynamics {
                  body.omega.cross(V3<S>(contacts[k].point_rate - body.v));
     B_.resize(unknowns, unknowns);
     b_.resize(unknowns);
-    for (Index k = 0; k < n; ++k) {
+    for (Eigen::Index k = 0; k < n; ++k) {
       const auto& c = contacts[static_cast<std::size_t>(k)];
       const V3<S>& own = free_[static_cast<std::size_t>(k)];
       if (c.mode == HeldMode::sticks) {
@@ -80,11 +79,11 @@ class HeldDynamics {
       } else {
         b_[first(k)] = c.n.dot(own) + c.normal_rate.dot(body.velocityAt(c.r));
       }
-      for (Index l = 0; l < n; ++l) fill(k, l);
+      for (Eigen::Index l = 0; l < n; ++l) fill(k, l);
     }
     y_ = solveForces(B_, b_, redundant);
     force_.resize(contacts.size());
-    for (Index k = 0; k < n; ++k) {
+    for (Eigen::Index k = 0; k < n; ++k) {
       const auto& c = contacts[static_cast<std::size_t>(k)];
       force_[static_cast<std::size_t>(k)] = c.mode == HeldMode::sticks ? V3<S>(y_.template segment<3>(first(k)))
                                                                        : V3<S>(pushOf(c) * y_[first(k)]);

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "adjoint/impact/contact_part.hpp"
 #include "adjoint/motion/body_geometry.h"
 
 namespace carom::adjoint_detail {
 
+/// Of a path that is integrated: the row of its guard by the state at the end, and by all else.
+struct PathGuard {
+  StateDerivative by_state;
+  std::function<double(const SceneTangent&, const BodyModelDerivative&)> tangent;
+  std::function<void(double sigma, SceneGradient&, BodyModelDerivative&)> pullback;
+};
+
 /// What the guard of a transition is made of beyond its contacts' gaps, normals and points:
 ///   slip_ends: t . u at the first contact, t the direction of slip there, held: u is 0 at the root;
-///   leaves: weight . (p - x - R border), (x, R) of a body whose feature ends there (see FeatureLimit).
+///   leaves: weight . (p - x - R border), (x, R) of a body whose feature ends there (see FeatureLimit);
+///   of a path that is integrated: its own row, of the one participant.
 template <class S>
 struct EventGuard {
+  std::shared_ptr<const PathGuard> by_path;
   bool by_slip = false;
   V3<S> slip = V3<S>::Zero();  // t
   int border_body = -1, border_participant = -1;
@@ -42,6 +54,9 @@ struct EventGuard {
   /// d/dt of its part of the guard, beyond that of the contacts.
   S rate(const ImpactPass<S>& impact, const std::vector<StateDerivativeOf<S>>& rates) const {
     S d = 0;
+    if constexpr (std::is_same_v<S, double>) {
+      if (by_path) return by_path->by_state.dot(rates[0]);
+    }
     if (by_slip) {  // A is that of a ball, or nothing turns
       const auto& c = impact.inputs().contacts[0];
       for (std::size_t i = 0; i < rates.size(); ++i) {

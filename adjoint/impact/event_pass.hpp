@@ -221,6 +221,13 @@ class EventPass {
   // Of what the guard has beyond the gaps, normals and points of contacts.
   void guardPullback(const S& sigma, std::vector<StateBar>& before_bar, SceneBar& scene_bar,
                      std::vector<ModelBar>& model_bar) const {
+    if constexpr (std::is_same_v<S, double>) {
+      if (guard_.by_path) {
+        before_bar[0].addScaled(sigma, guard_.by_path->by_state);
+        guard_.by_path->pullback(sigma, scene_bar, model_bar[static_cast<std::size_t>(event_.participants[0].body)]);
+        return;
+      }
+    }
     if (guard_.by_slip) {
       const ImpactBars<S> bars = slipPullback(impact_, guard_.slip, sigma);
       for (std::size_t i = 0; i < before_bar.size(); ++i) {

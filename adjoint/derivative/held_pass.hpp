@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/derivative/tangent.h"
+#include "adjoint/held/held_sensitivity.hpp"
+
+/// Between the inputs of a path in lasting contact and the scene, forward and reverse.
+namespace carom::adjoint_detail {
+
+/// Where the columns of HeldInputs come from.
+class HeldColumns {
+ public:
+  HeldColumns(const Motion& motion, const HeldPath& path);
+
+  const HeldInputs& inputs() const { return inputs_; }
+  /// All columns, the start first.
+  Eigen::VectorXd tangent(const StateDerivative& start, const SceneTangent& dscene, const BodyModelDerivative& dmodel) const;
+  /// Its adjoint: that of the start; adds to those of the scene and the model.
+  StateDerivative pullback(const Eigen::VectorXd& bar, SceneGradient& scene_bar, BodyModelDerivative& model_bar) const;
+
+ private:
+  struct Friction {
+    int own, other;  // materials; -1 for none
+    double by_own, by_other;
+  };
+  int body_;
+  HeldInputs inputs_;
+  std::vector<Friction> friction_;
+};
+
+inline Eigen::Matrix<double, 12, 1> asVector(const StateDerivative& d) {
+  Eigen::Matrix<double, 12, 1> v;
+  v << d.x, d.theta, d.v, d.L;
+  return v;
+}
+inline StateDerivative asState(const Eigen::Matrix<double, 12, 1>& v) {
+  StateDerivative d;
+  d.x = v.head<3>(), d.theta = v.segment<3>(3), d.v = v.segment<3>(6), d.L = v.tail<3>();
+  return d;
+}
+
+/// The integrated path of an arc; null for any other arc.
+const HeldPath* heldPathOf(const Arc& arc);
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/held/held_rates.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using Number = HeldLanes::Number;
+
+// weight . (R^T (p - x) - border) + normal_weight . R^T n, see FeatureLimit.
+Number borderRate(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs, const HeldLanes& lanes,
+                  int first, int count) {
+  const FeatureLimit& limit = guard.border;
+  const auto k = static_cast<std::size_t>(guard.contact);
+  const HeldContact& held = path.contacts()[k];
+  const bool own = limit.body != held.with;
+  const HeldInputs::Partner& partner = inputs.partners[inputs.partner_of[k]];
+  V3<Number> x = lanes.x;
+  M3<Number> R = lanes.R;
+  if (!own) x = path.scene().with[k].x.cast<Number>(), R = path.scene().with[k].R.cast<Number>();
+  V3<Number> border = limit.border.cast<Number>(), normal_weight = limit.normal_weight.cast<Number>();
+  const int sizes = own ? HeldInputs::kSizes : partner.sizes, size_count = own ? inputs.size_count : partner.size_count;
+  for (int lane = 0; lane < count; ++lane) {
+    const int column = first + lane;
+    const auto at = static_cast<std::size_t>(lane);
+    if (!own && column >= partner.pose && column < partner.pose + 3) x[column - partner.pose].rate[at] = 1;
+    if (!own && column >= partner.pose + 3 && column < partner.pose + 6)
+      setRates(R, Mat3(skew(Vec3(Vec3::Unit(column - partner.pose - 3))) * path.scene().with[k].R), at);
+    if (column < sizes || column >= sizes + size_count) continue;
+    if (limit.border_rates.cols() > 0) setRates(border, Vec3(limit.border_rates.col(column - sizes)), at);
+    if (limit.normal_rates.cols() > 0) setRates(normal_weight, Vec3(limit.normal_rates.col(column - sizes)), at);
+  }
+  const ContactInstant<Number>& c = lanes.contacts[k];
+  const V3<Number> at = R.transpose() * V3<Number>(lanes.x + c.r - x);
+  Number value = 0;
+  if (limit.radius > 0) {  // the border is where the weight pointed at the start; the circle's centre stays
+    const Vec3 center = limit.border + limit.radius * limit.point_weight;
+    const V3<Number> to = at - center.cast<Number>(), axis = limit.axis.cast<Number>();
+    const V3<Number> across = to - axis * axis.dot(to);
+    value = -sqrt(across.squaredNorm());
+    const V3<Number> outward = V3<Number>(border - limit.border.cast<Number>());  // how border and centre move
+    value += outward.dot(V3<Number>(-limit.point_weight.cast<Number>()));
+  } else if (!limit.point_weight.isZero(0)) {
+    value = limit.point_weight.cast<Number>().dot(V3<Number>(at - border));
+  }
+  const V3<Number> n = held.is_first ? c.n : V3<Number>(-c.n);
+  return value + normal_weight.dot(V3<Number>(R.transpose() * n));
+}
+
+}  // namespace
+
+Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs, const HeldLanes& lanes,
+                   int first, int count) {
+  const auto k = static_cast<std::size_t>(guard.contact);
+  const ContactInstant<Number>& c = lanes.contacts[k];
+  if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count);
+  if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.velocityAt(c.r));
+  const HeldDynamics<Number> forces(lanes.body, lanes.contacts, path.redundant());
+  const Number pressing = forces.pressing(k);
+  if (guard.cause == TransitionCause::lifts) return pressing;
+  const V3<Number> along = forces.force(k) - c.n * pressing;
+  return c.friction * pressing - sqrt(along.squaredNorm());
+}
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/held/held_inputs.hpp"
+
+namespace carom::adjoint_detail {
+
+HeldInputs::HeldInputs(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& start) {
+  const Pose own{start.x, scene.model->shapeToWorld(start.q.toRotationMatrix())};
+  std::vector<int> sizes;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const HeldContact& c = contacts[k];
+    const ContactJacobian J = c.is_first ? scene.geometry->jacobian(scene.body, c.with, c.features, own, scene.with[k])
+                                         : scene.geometry->jacobian(c.with, scene.body, c.features, scene.with[k], own);
+    size_count = static_cast<int>((c.is_first ? J.size_a : J.size_b).cols());
+    std::size_t p = 0;
+    while (p < partners.size() && partners[p].body != c.with) ++p;
+    if (p == partners.size())
+      partners.push_back({c.with, 0, 0, static_cast<int>((c.is_first ? J.size_b : J.size_a).cols())});
+    partner_of.push_back(p);
+  }
+  count = kSizes + size_count;
+  for (Partner& p : partners) {
+    p.pose = count;
+    p.sizes = count + 6;
+    count += 6 + p.size_count;
+  }
+  friction = count;
+  count += static_cast<int>(contacts.size());
+}
+
+bool HeldInputs::movesGeometry(const HeldContact&, std::size_t k, int column) const {
+  const Partner& p = partners[partner_of[k]];
+  return column < 6 || (column >= kSizes && column < kSizes + size_count) ||
+         (column >= p.pose && column < p.sizes + p.size_count);
+}
+
+PairTangent HeldInputs::pairTangent(const HeldContact& contact, std::size_t k, int column) const {
+  const Partner& p = partners[partner_of[k]];
+  PairTangent t;
+  Eigen::VectorXd own = Eigen::VectorXd::Zero(size_count), other = Eigen::VectorXd::Zero(p.size_count);
+  const int first = contact.is_first ? 0 : 6, second = 6 - first;
+  if (column < 6) t.pose[first + column] = 1;
+  if (column >= kSizes && column < kSizes + size_count) own[column - kSizes] = 1;
+  if (column >= p.pose && column < p.sizes) t.pose[second + column - p.pose] = 1;
+  if (column >= p.sizes && column < p.sizes + p.size_count) other[column - p.sizes] = 1;
+  t.size_a = contact.is_first ? own : other;
+  t.size_b = contact.is_first ? other : own;
+  return t;
+}
+
+}  // namespace carom::adjoint_detail

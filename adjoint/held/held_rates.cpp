@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/held/held_rates.hpp"
+
+namespace carom::adjoint_detail {
+
+HeldRates::HeldRates(const HeldScene& scene, const std::vector<HeldContact>& contacts, const HeldInputs& inputs,
+                     const State& state, std::vector<Vec3> slip)
+    : scene_(scene), contacts_(contacts), inputs_(inputs), state_(state), slip_(std::move(slip)),
+      now_(instantOf(scene, contacts, state, slip_)),
+      own_{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())} {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const HeldContact& c = contacts[k];
+    jacobians_.push_back(c.is_first ? scene.geometry->jacobian(scene.body, c.with, c.features, own_, scene.with[k])
+                                    : scene.geometry->jacobian(c.with, scene.body, c.features, scene.with[k], own_));
+  }
+}
+
+HeldLanes HeldRates::lanes(int first, int count) const {
+  using Number = HeldLanes::Number;
+  using I = HeldInputs;
+  const BodyModel& model = *scene_.model;
+  HeldLanes out;
+  BodyInstant<Number>& body = out.body;
+  out.x = state_.x.cast<Number>();
+  const Mat3 R = state_.q.toRotationMatrix();
+  M3<Number> turned = R.cast<Number>(), inverse = Mat3(model.inverse_inertia.asDiagonal()).cast<Number>();
+  body.v = state_.v.cast<Number>(), body.L = state_.L.cast<Number>(), body.gravity = scene_.gravity.cast<Number>();
+  body.inverse_mass = model.inverse_mass;
+  const auto in = [](int column, int begin, int size) { return column >= begin && column < begin + size; };
+  for (int lane = 0; lane < count; ++lane) {
+    const int column = first + lane;
+    const auto at = static_cast<std::size_t>(lane);
+    if (in(column, 0, 3)) out.x[column].rate[at] = 1;
+    if (in(column, 3, 3)) setRates(turned, Mat3(skew(Vec3(Vec3::Unit(column - 3))) * R), at);
+    if (in(column, 6, 3)) body.v[column - 6].rate[at] = 1;
+    if (in(column, 9, 3)) body.L[column - 9].rate[at] = 1;
+    if (in(column, I::kGravity, 3)) body.gravity[column - I::kGravity].rate[at] = model.gravity_factor;
+    if (column == I::kMass) body.inverse_mass.rate[at] = -model.inverse_mass * model.inverse_mass;
+    if (in(column, I::kInertia, 6)) {
+      Mat3 dJ = Mat3::Zero();
+      if (column < I::kProducts) {
+        const int i = column - I::kInertia;
+        dJ(i, i) = 1;
+      } else {
+        const int of = column - I::kProducts, row = (of + 1) % 3, other = (of + 2) % 3;
+        dJ(row, other) = dJ(other, row) = 1;
+      }
+      const Mat3 D = model.inverse_inertia.asDiagonal();
+      setRates(inverse, Mat3(-D * dJ * D), at);
+    }
+  }
+  body.A = turned * inverse * turned.transpose();
+  body.omega = body.A * body.L;
+  out.R = model.has_offset ? M3<Number>(turned * model.R_BG.cast<Number>()) : turned;
+  const Vec3 omega = now_.body.omega;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const HeldContact& held = contacts_[k];
+    const ContactInstant<double>& now = now_.contacts[k];
+    const ContactJacobian& J = jacobians_[k];
+    const double sign = held.is_first ? 1 : -1;
+    const int own = held.is_first ? 0 : 6;
+    Eigen::Matrix<double, 6, 1> rate;
+    rate << state_.v, omega;
+    ContactInstant<Number> c;
+    c.mode = held.mode;
+    c.n = now.n.cast<Number>(), c.normal_rate = now.normal_rate.cast<Number>();
+    c.point_rate = now.point_rate.cast<Number>();
+    V3<Number> point = Vec3(now.r + state_.x).cast<Number>();
+    Number gap = 0;
+    c.friction = held.friction;
+    std::vector<PairTangent> along;
+    std::vector<int> lane_of;
+    for (int lane = 0; lane < count; ++lane) {
+      const int column = first + lane;
+      const auto at = static_cast<std::size_t>(lane);
+      if (column == inputs_.friction + static_cast<int>(k)) c.friction.rate[at] = 1;
+      // J q', where q' changes
+      Eigen::Matrix<double, 6, 1> drate;
+      drate << ratesOf(body.v, at), ratesOf(body.omega, at);
+      const Eigen::Matrix<double, 7, 1> d = J.pose.middleCols<6>(own) * drate;
+      setRates(c.normal_rate, Vec3(sign * d.segment<3>(1)), at);
+      setRates(c.point_rate, Vec3(d.tail<3>()), at);
+      if (!inputs_.movesGeometry(held, k, column)) continue;
+      along.push_back(inputs_.pairTangent(held, k, column));
+      lane_of.push_back(lane);
+    }
+    if (!along.empty()) {
+      const auto dJ = held.is_first ? scene_.geometry->jacobianRates(scene_.body, held.with, held.features, own_,
+                                                                    scene_.with[k], along)
+                                    : scene_.geometry->jacobianRates(held.with, scene_.body, held.features,
+                                                                    scene_.with[k], own_, along);
+      for (std::size_t i = 0; i < along.size(); ++i) {
+        const auto at = static_cast<std::size_t>(lane_of[i]);
+        Eigen::Matrix<double, 7, 1> d = J.pose * along[i].pose;
+        if (J.size_a.cols() > 0) d += J.size_a * along[i].size_a;
+        if (J.size_b.cols() > 0) d += J.size_b * along[i].size_b;
+        gap.rate[at] = d[0];
+        setRates(c.n, Vec3(sign * d.segment<3>(1)), at);
+        setRates(point, Vec3(d.tail<3>()), at);
+        const Eigen::Matrix<double, 7, 1> bent = dJ[i].pose.middleCols<6>(own) * rate;
+        for (int j = 0; j < 3; ++j) {
+          c.normal_rate[j].rate[at] += sign * bent[1 + j];
+          c.point_rate[j].rate[at] += bent[4 + j];
+        }
+      }
+    }
+    c.r = point - out.x;
+    c.slip = slip_[k].cast<Number>();
+    if (held.mode == HeldMode::slides && slip_[k].isZero(0)) {
+      const V3<Number> u = body.velocityAt(c.r), along_face = u - c.n * c.n.dot(u);
+      const Number speed = sqrt(along_face.squaredNorm());
+      if (speed.value > 0) c.slip = along_face / speed;
+    }
+    out.contacts.push_back(std::move(c));
+    out.gap.push_back(gap);
+  }
+  return out;
+}
+
+}  // namespace carom::adjoint_detail

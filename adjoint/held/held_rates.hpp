@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/held/held_inputs.hpp"
+
+namespace carom::adjoint_detail {
+
+/// An instant of a path in numbers that carry the rates along four of its inputs.
+struct HeldLanes {
+  using Number = Dual<4>;
+  V3<Number> x;
+  M3<Number> R;  // shape axes to world
+  BodyInstant<Number> body;
+  std::vector<ContactInstant<Number>> contacts;
+  std::vector<Number> gap;
+};
+
+/// Fills an instant of a path, and calls visit(lanes, first, count) for the columns first, first + 1, ... of HeldInputs
+/// until all were there. `slip`: a direction for each contact that is kept as it is; a zero vector lets it follow the slip.
+class HeldRates {
+ public:
+  HeldRates(const HeldScene& scene, const std::vector<HeldContact>& contacts, const HeldInputs& inputs,
+            const State& state, std::vector<Vec3> slip);
+
+  template <class Visit>
+  void each(const Visit& visit) {
+    for (int first = 0; first < inputs_.count; first += 4) {
+      const int count = std::min(4, inputs_.count - first);
+      visit(lanes(first, count), first, count);
+    }
+  }
+  const HeldInstant& now() const { return now_; }
+
+ private:
+  HeldLanes lanes(int first, int count) const;
+
+  const HeldScene& scene_;
+  const std::vector<HeldContact>& contacts_;
+  const HeldInputs& inputs_;
+  State state_;
+  std::vector<Vec3> slip_;
+  HeldInstant now_;
+  Pose own_;
+  std::vector<ContactJacobian> jacobians_;
+};
+
+/// The value of a guard up to a factor, with its rates (see guardValue).
+HeldLanes::Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs,
+                              const HeldLanes& lanes, int first, int count);
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "adjoint/held/held_inputs.hpp"
+
+namespace carom::adjoint_detail {
+
+using HeldRow = Eigen::RowVectorXd;  ///< by the columns of HeldInputs, of which the first 12 are a state
+
+/// Derivative of the state (x, theta, v, L) of a path at a fixed time by its inputs, 12 rows: the collocation of its steps,
+/// differentiated, from a start whose gaps and slips stay what they are (11.24).
+Eigen::MatrixXd heldSensitivity(const HeldPath& path, const HeldInputs& inputs, double t);
+
+/// Of the guard that ends a path, by the state there and the other inputs.
+HeldRow guardRow(const HeldPath& path, const HeldInputs& inputs, HeldGuard guard, double t);
+
+}  // namespace carom::adjoint_detail
