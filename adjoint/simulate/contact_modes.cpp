@@ -123,6 +123,24 @@ class Chooser {
     const NormalContacts pressing(model_, state_, body_, pressed_);
     const LeastNormSolve forces(pressing.mobility(), alpha(active));
     push(pressing.moved * forces.y);
+    const Eigen::VectorXd left = alpha + along.rows.transpose() * (pressing.moved * forces.y);
+    pressed_ = wholeFaces(closed, active, left);
+  }
+
+  // A face stands on all of its corners, also on those that have no force, if they do not lift: without them it could tilt.
+  std::vector<const Contact*> wholeFaces(const std::vector<const Contact*>& closed, const std::vector<int>& active,
+                                         const Eigen::VectorXd& acceleration) const {
+    std::vector<const Contact*> pressed;
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      const bool is_active = std::ranges::find(active, static_cast<int>(k)) != active.end();
+      const bool stays = std::abs(acceleration[static_cast<Index>(k)]) <= kAtRest * gravity_.norm();
+      const bool on_face = std::ranges::any_of(active, [&](int i) {
+        const Contact& c = *closed[asIndex(i)];
+        return otherOf(c) == otherOf(*closed[k]) && (normalOf(c) - normalOf(*closed[k])).norm() <= kSameNormal;
+      });
+      if (is_active || (stays && on_face)) pressed.push_back(closed[k]);
+    }
+    return pressed;
   }
 
   double freeGapAcceleration(const Contact& c) const {
