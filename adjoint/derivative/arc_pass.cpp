@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/derivative/arc_pass.hpp"
 
-#include "adjoint/base/errors.h"
-
 namespace carom::adjoint_detail {
 
 PathInputsDerivative<double> PathLinearization::inputs(const ContactPath& path, const SceneTangent& dscene,
@@ -55,8 +53,6 @@ const PathSensitivity<double>& PathLinearization::sensitivity(bool turns) const 
 
 std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, const ContactPath& path,
                                                         double elapsed) {
-  if (path.form == PathForm::held)
-    throw NotComputable("the derivative of a body held on corners, edges and faces is not modelled yet");
   return std::make_shared<PathLinearization>(motion, path, elapsed);
 }
 

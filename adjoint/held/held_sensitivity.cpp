@@ -11,8 +11,38 @@ using Eigen::MatrixXd;
 
 std::vector<Vec3> followSlips(const HeldPath& path) { return std::vector<Vec3>(path.contacts().size(), Vec3::Zero()); }
 
-// The start as it is projected (held_start.cpp): 12 rows.
-MatrixXd startDerivative(const HeldPath& path, const HeldInputs& inputs) {
+// Below this share of gravity a slip that begins has no acceleration: the contact came to the limit of friction there.
+constexpr double kNoStart = 1e-9;
+
+// Tangents are taken on in one go while a slip changes by so much of itself; slower than this share of the unit of speed it
+// is straight.
+constexpr double kReach = 0.7, kNoSlip = 1e-8;
+
+HeldVector asColumn(const StateDerivative& d) { return (HeldVector() << d.x, d.theta, d.v, d.L).finished(); }
+
+// The derivative of the start, 12 rows, and that of its time. Slips that begin with an acceleration u' are 0 at the start,
+// whenever it is; what the state at a fixed time has of them tells how far the start is moved: dt = -u' . du / |u'|^2.
+struct StartDerivative {
+  MatrixXd state;
+  HeldRow time;
+};
+
+// Accelerations of slips that begin, in the rows of heldRows.
+Eigen::VectorXd rateOfBeginningSlips(const HeldPath& path, Eigen::Index rows) {
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(rows);
+  const HeldInstant now = path.instantAt(path.start());
+  const HeldDynamics<double> forces(now.body, now.contacts, path.redundant());
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < path.contacts().size(); ++k) {
+    const HeldContact& c = path.contacts()[k];
+    if (c.begins) rate.segment<3>(row) = forces.slipRate(k);
+    row += c.mode == HeldMode::sticks || c.begins ? 3 : 1;
+  }
+  return rate;
+}
+
+// Of the start as it is projected (held_start.cpp).
+StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) {
   const std::vector<HeldContact>& contacts = path.contacts();
   const State start = path.stateAt(path.start());
   HeldRates rates(path.scene(), contacts, inputs, start, followSlips(path));
@@ -36,8 +66,14 @@ MatrixXd startDerivative(const HeldPath& path, const HeldInputs& inputs) {
       }
     }
   });
-  MatrixXd D = MatrixXd::Zero(12, inputs.count);
+  StartDerivative out{MatrixXd::Zero(12, inputs.count), HeldRow::Zero(inputs.count)};
+  MatrixXd& D = out.state;
   D.leftCols<12>().setIdentity();
+  const Eigen::VectorXd slip_rate = rateOfBeginningSlips(path, C.rows());
+  if (slip_rate.norm() > kNoStart * path.scene().gravity.norm()) {
+    out.time = -(slip_rate.transpose() * speeds) / slip_rate.squaredNorm();
+    D += asColumn(path.rateAt(path.start())) * out.time;
+  }
   D.topRows<6>() -= undoing(now, gapRows(now)) * gaps;
   MatrixXd change = speeds.leftCols<12>() * D;
   change.rightCols(inputs.count - 12) += speeds.rightCols(inputs.count - 12);
@@ -45,7 +81,7 @@ MatrixXd startDerivative(const HeldPath& path, const HeldInputs& inputs) {
   const Mat3 R = start.q.toRotationMatrix(), J = R * path.scene().model->inertia.asDiagonal() * R.transpose();
   D.middleRows<3>(6) -= undone.topRows<3>();
   D.bottomRows<3>() -= J * undone.bottomRows<3>();
-  return D;
+  return out;
 }
 
 // Slopes of the tangent at one node, by the tangent of the state there and the other inputs: 12 rows.
@@ -65,37 +101,75 @@ MatrixXd slopeRates(const HeldPath& path, const HeldInputs& inputs, const State&
   return G;
 }
 
-// Takes the tangent at the start of a step to a time in it.
-void throughStep(const HeldPath& path, const HeldInputs& inputs, const HeldStep& step, double t, MatrixXd& D) {
+// Takes the tangent from one time of a step to another. `straight`: of each contact the direction that its slip keeps.
+void through(const HeldPath& path, const HeldInputs& inputs, const HeldStep& step, double from, double to,
+             const std::vector<Vec3>& straight, MatrixXd& D) {
   constexpr int n = Gauss::kNodes;
   const Gauss& gauss = Gauss::get();
-  const double h = step.length;
+  const double h = to - from;
   const Eigen::Index columns = inputs.count;
   MatrixXd M = MatrixXd::Identity(12 * n, 12 * n), F(12 * n, columns);
   for (int i = 0; i < n; ++i) {
-    const State state = step.stateAt(step.start + gauss.node[i] * h);
-    std::vector<Vec3> slip = followSlips(path);
-    for (std::size_t k = 0; k < slip.size(); ++k)
-      if (step.frozen[k]) slip[k] = step.slip[k][static_cast<std::size_t>(i)];
-    const MatrixXd G = slopeRates(path, inputs, state, slip);
+    const MatrixXd G = slopeRates(path, inputs, step.stateAt(from + gauss.node[i] * h), straight);
     F.middleRows<12>(12 * i) = G.leftCols<12>() * D;
     F.middleRows<12>(12 * i).rightCols(columns - 12) += G.rightCols(columns - 12);
     for (int j = 0; j < n; ++j) M.block<12, 12>(12 * i, 12 * j) -= h * gauss.integral(i, j) * G.leftCols<12>();
   }
   F = M.partialPivLu().solve(F);
-  const Gauss::Row weight = Gauss::integrals((t - step.start) / h) * gauss.coefficients;
+  const Gauss::Row weight = Gauss::integrals(1) * gauss.coefficients;
   for (int j = 0; j < n; ++j) D += h * weight[j] * F.middleRows<12>(12 * j);
+}
+
+// A stretch of a step that tangents are taken over in one go, and of each contact the direction that its slip keeps: what
+// a slip u has across its direction goes as a power of |u|, also where the path itself is straight, and polynomials follow
+// that only while |u| does not change by much.
+struct Stretch {
+  double until;
+  std::vector<Vec3> straight;
+};
+
+Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, double t) {
+  const HeldInstant now = path.instantAt(from);
+  const HeldDynamics<double> forces(now.body, now.contacts, path.redundant());
+  Stretch out{t, followSlips(path)};
+  for (std::size_t k = 0; k < path.contacts().size(); ++k) {
+    const HeldContact& c = path.contacts()[k];
+    if (c.mode != HeldMode::slides || !(c.friction > 0)) continue;
+    const double slip = now.slipAt(k).norm();
+    if (step.frozen[k]) {
+      out.straight[k] = now.contacts[k].slip;
+    } else if (c.begins && !(from > path.start())) {
+      continue;
+    } else if (!(slip > kNoSlip * path.scene().speed)) {
+      out.straight[k] = now.contacts[k].slip;
+    } else {
+      const double reach = kReach * slip / forces.slipRate(k).norm();
+      if (from + 1.2 * reach < out.until) out.until = from + reach;
+    }
+  }
+  return out;
+}
+
+// Takes the tangent at the start of a step to a time in it.
+void throughStep(const HeldPath& path, const HeldInputs& inputs, const HeldStep& step, double t, MatrixXd& D) {
+  for (double from = step.start; from < t;) {
+    const Stretch stretch = stretchFrom(path, step, from, t);
+    through(path, inputs, step, from, stretch.until, stretch.straight, D);
+    from = stretch.until;
+  }
 }
 
 }  // namespace
 
 MatrixXd heldSensitivity(const HeldPath& path, const HeldInputs& inputs, double t) {
-  MatrixXd D = startDerivative(path, inputs);
+  StartDerivative start = startDerivative(path, inputs);
+  MatrixXd& D = start.state;
   for (const HeldStep& step : path.allSteps()) {
     if (!(step.length > 0) || !(step.start < t)) break;
     const bool last = &step == &path.allSteps().back();
     throughStep(path, inputs, step, last ? t : std::min(t, step.start + step.length), D);
   }
+  if (!start.time.isZero(0)) D -= asColumn(path.rateAt(t)) * start.time;
   return D;
 }
 

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What holds of every body that contacts hold, whatever it does: contacts stay closed, energy does not grow, and neither
+// the order of bodies nor the duration matters.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/compare.h"
+#include "tests/support/held_checks.h"
+#include "tests/support/held_scenes.h"
+#include "tests/support/lasting_scenes.h"
+
+namespace carom::held_invariants {
+namespace {
+
+using namespace test;
+
+TEST(HeldInvariants, ContactsStayClosedAndEnergyDoesNotGrow) {
+  for (const HeldScene& row : heldScenes()) {
+    SCOPED_TRACE(row.name);
+    const Motion m = playLasting(row.scene, row.duration);
+    EXPECT_EQ(m.status, MotionStatus::complete) << m.message;
+    const HeldFindings found = lookAtHeldPaths(m, 100);
+    EXPECT_GT(found.paths, 0);
+    EXPECT_TRUE(found.worst_gap <= 1e-12) << found.worst_gap;
+    EXPECT_TRUE(found.worst_growth <= 1e-12) << found.worst_growth;
+  }
+}
+
+TEST(HeldInvariants, TheOrderOfBodiesDoesNotMatter) {
+  for (const HeldScene& row : heldScenes()) {
+    SCOPED_TRACE(row.name);
+    Scene reversed = row.scene;
+    std::ranges::reverse(reversed.bodies);
+    const Motion m = playLasting(row.scene, row.duration), r = playLasting(reversed, row.duration);
+    const int own = static_cast<int>(row.scene.bodies.size()) - 1;
+    EXPECT_EQ(m.status, r.status) << m.message << "\n" << r.message;
+    ASSERT_EQ(m.events.size(), r.events.size());
+    for (std::size_t e = 0; e < m.events.size(); ++e) {
+      EXPECT_EQ(m.events[e].kind, r.events[e].kind);
+      EXPECT_EQ(m.events[e].cause, r.events[e].cause);
+      expectEntries(r.events[e].time, m.events[e].time, 1e-9, "time of event " + std::to_string(e));
+    }
+    for (int i = 0; i <= 20; ++i) {
+      const double t = std::min(m.end, r.end) * i / 20;
+      expectEntries(flatten(r.stateAt(own, t)), flatten(m.stateAt(0, t)), 1e-8, "state at " + std::to_string(t), 10);
+    }
+  }
+}
+
+TEST(HeldInvariants, TheSameBitsTwiceAndHoweverLongItIsFollowed) {
+  for (const HeldScene& row : heldScenes()) {
+    SCOPED_TRACE(row.name);
+    const Motion m = playLasting(row.scene, row.duration), again = playLasting(row.scene, row.duration),
+                 longer = playLasting(row.scene, row.duration + 60);
+    const bool rests = m.world_lines[0].arcs.back().kind() == ArcKind::rest;
+    for (const Motion* other : {&again, &longer}) {
+      ASSERT_GE(other->events.size(), m.events.size());
+      if (rests || other == &again) EXPECT_EQ(other->events.size(), m.events.size());
+      for (std::size_t e = 0; e < m.events.size(); ++e) EXPECT_EQ(other->events[e].time, m.events[e].time);
+      if (!rests && other == &longer) continue;
+      for (int i = 0; i <= 100; ++i) {
+        const double t = m.end * i / 100;
+        EXPECT_EQ(flatten(other->stateAt(0, t)), flatten(m.stateAt(0, t)));
+      }
+    }
+    if (!rests) continue;
+    EXPECT_EQ(flatten(longer.stateAt(0, row.duration + 60)), flatten(m.stateAt(0, row.duration)));
+  }
+}
+
+}  // namespace
+}  // namespace carom::held_invariants

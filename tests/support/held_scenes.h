@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "tests/support/scenes.h"
+
+namespace carom::test {
+
+/// A body that contacts hold on corners, edges or faces.
+struct HeldScene {
+  const char* name;
+  Scene scene;
+  double duration;
+};
+std::vector<HeldScene> heldScenes();
+
+}  // namespace carom::test
