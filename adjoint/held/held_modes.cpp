@@ -48,6 +48,15 @@ class ModeSearch {
     return modes;
   }
 
+  HeldModes as() {
+    for (const HeldContact& c : candidates_)
+      ways_.push_back(c.mode == HeldMode::sticks ? Way::sticks : c.begins ? Way::begins : Way::slides);
+    if (solveBegins(found_, ways_)) return answer();
+    HeldModes modes;
+    modes.unresolved = "the direction in which they begin to slip was not found";
+    return modes;
+  }
+
  private:
   struct Solved {
     std::vector<std::size_t> on;
@@ -272,6 +281,10 @@ class ModeSearch {
 HeldModes chooseModes(const HeldScene& scene, const std::vector<HeldContact>& candidates, const State& state,
                       const ModeHint& hint, double no_slip) {
   return ModeSearch(scene, candidates, state, no_slip).run(hint);
+}
+
+HeldModes modesAs(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state) {
+  return ModeSearch(scene, contacts, state, 0).as();
 }
 
 }  // namespace carom::adjoint_detail

@@ -31,4 +31,7 @@ struct ModeHint {
 HeldModes chooseModes(const HeldScene& scene, const std::vector<HeldContact>& candidates, const State& state,
                       const ModeHint& hint, double no_slip);
 
+/// The modes of `contacts` as they are, from another state: the directions in which they begin to slip are found anew.
+HeldModes modesAs(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state);
+
 }  // namespace carom::adjoint_detail

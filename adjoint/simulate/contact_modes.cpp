@@ -79,15 +79,16 @@ class Chooser {
     return closed_form.path ? closed_form : held(hint);
   }
 
-  ContactChoice heldAs(const std::vector<const Contact*>& contacts, const HeldModes& like) {
+  ContactChoice heldAs(const std::vector<const Contact*>& contacts, const std::vector<HeldContact>& like) {
     pressed_ = contacts;
     ContactChoice choice = onHeldPath();
-    choice.modes = like;
+    std::vector<HeldContact> held;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-      HeldContact& c = choice.modes.contacts[k];
-      const HeldContact now = candidate(*contacts[k]);
-      c.with = now.with, c.is_first = now.is_first, c.features = now.features, c.friction = now.friction;
+      held.push_back(candidate(*contacts[k]));
+      held.back().mode = like[k].mode, held.back().begins = like[k].begins;
     }
+    choice.modes = modesAs(choice.scene, held, state_);
+    if (!choice.modes.unresolved.empty()) return beyond(choice.modes.unresolved);
     begin(choice);
     return choice;
   }
@@ -373,7 +374,7 @@ ContactChoice chooseContactPath(const Motion& motion, int body, const State& sta
 }
 
 ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
-                         const HeldModes& like) {
+                         const std::vector<HeldContact>& like) {
   return Chooser(motion, body, state, contacts).heldAs(contacts, like);
 }
 

@@ -43,8 +43,8 @@ ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
                                 const std::vector<const Contact*>& closed, const ModeHint& hint = {});
 
-/// The path on which contacts hold a body as `like` says, one of each.
+/// The path on which contacts hold a body in the modes of `like`, one of each.
 ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
-                         const HeldModes& like);
+                         const std::vector<HeldContact>& like);
 
 }  // namespace carom::adjoint_detail

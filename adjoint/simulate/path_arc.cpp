@@ -11,8 +11,6 @@
 
 namespace carom::adjoint_detail {
 
-namespace {
-
 PathArc makeHeldArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<HeldGuard> guards) {
   const int body = choice.path->body;
   choice.path->start = time;
@@ -29,8 +27,6 @@ PathArc makeHeldArc(const Motion& motion, const ContactChoice& choice, double ti
   made.transition = heldTransition(made.arc, time);
   return made;
 }
-
-}  // namespace
 
 PathTransition heldTransition(const Arc& arc, double start) {
   const auto* path = static_cast<const HeldPath*>(arc.integrated());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "adjoint/held/held_guards.hpp"
 #include "adjoint/simulate/path_transition.hpp"
 
 namespace carom::adjoint_detail {
@@ -12,6 +13,8 @@ struct PathArc {
   PathTransition transition;  ///< up to the duration of the motion
 };
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time);
+/// The same of contacts that hold it, up to the first of these guards.
+PathArc makeHeldArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<HeldGuard> guards);
 /// How an integrated path goes on, as far as that is known.
 PathTransition heldTransition(const Arc& arc, double start);
 

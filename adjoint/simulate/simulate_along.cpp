@@ -104,7 +104,7 @@ class Follower {
   void extendLast(std::size_t body) {
     Arc& arc = motion_.world_lines[body].arcs.back();
     try {
-      arc.extendTo(motion_.end);
+      extendAlong(motion_, held_[body], arc, motion_.end);
     } catch (const NotComputable& error) {
       motion_.end = std::min(motion_.end, arc.availableUntil());
       builder_.endFlight(body, error);
@@ -168,7 +168,11 @@ class Follower {
     const FollowedPath& held = held_[index(body)];
     if (!arc.path()) return fail(was, "the bodies are not in contact");
     std::optional<double> elapsed;
-    if (was.cause == TransitionCause::slip_ends && std::isfinite(arc.path()->slip_end)) {
+    if (arc.integrated()) {
+      extendAlong(motion_, held, arcOf(body), motion_.duration);
+      const PathTransition end = heldTransition(arc, arc.start());
+      if (end.cause == was.cause) elapsed = end.elapsed;
+    } else if (was.cause == TransitionCause::slip_ends && std::isfinite(arc.path()->slip_end)) {
       elapsed = arc.path()->slip_end;
     } else if (held.transition.cause == was.cause && was.cause == TransitionCause::tips) {
       elapsed = held.transition.elapsed;
@@ -176,7 +180,7 @@ class Follower {
       elapsed = held.leaves(motion_, arc, was);
     }
     if (!elapsed) return fail(was, was.cause == TransitionCause::leaves ? "the contact stays on its feature"
-                                                                        : "the body goes on sliding");
+                                                                        : "the body goes on as before");
     if (arc.start() + *elapsed > motion_.duration) {
       markLate(was);
       return Outcome::late;
@@ -209,7 +213,7 @@ class Follower {
     event_.time = time;
     for (Participant& p : event_.participants) {
       Arc& arc = arcOf(p.body);
-      arc.extendTo(time);
+      extendAlong(motion_, held_[index(p.body)], arc, time);
       p.before = arc.stateAt(time);
     }
     const auto kinematics = [&](int body) {
@@ -255,10 +259,10 @@ class Follower {
   Arc arcAfter(const Event& was, std::size_t participant, const State& after) {
     const Participant& p = was.participants[participant];
     const Arc& like = like_.world_lines[index(p.body)].arcs[index(p.arc) + 1];
-    FollowedPath& held = held_[index(p.body)] = {};
+    FollowedPath& held = held_[index(p.body)];
+    if (like.integrated()) return heldAfter(was, p, after);
+    held = {};
     if (!like.path()) return builder_.flight(p.body, event_.time, after);
-    if (like.path()->form == PathForm::held)
-      throw NotComputable("a body held on corners, edges and faces is not followed yet");
     State start = after;
     for (const Contact& c : event_.contacts)
       if (c.lasts && (c.a == p.body || c.b == p.body)) {
@@ -270,6 +274,30 @@ class Follower {
     PathArc made = makePathArc(
         motion_, contactPathOf(motion_, p.body, start, pointersTo(held.contacts), like.path()->form), event_.time);
     held.transition = made.transition;
+    return std::move(made.arc);
+  }
+
+  // A path on which the contacts of the event hold a body, and those that held it before.
+  Arc heldAfter(const Event& was, const Participant& p, const State& after) {
+    const WorldLine& line = like_.world_lines[index(p.body)];
+    const auto next = index(p.arc) + 1;
+    FollowedPath& held = held_[index(p.body)];
+    std::vector<Contact> contacts;
+    const auto add = [&](const Contact& c) {
+      if (c.a == p.body || c.b == p.body) contacts.push_back(c);
+    };
+    std::ranges::for_each(event_.contacts, add);
+    std::ranges::for_each(held.contacts, add);
+    const auto now = [&](int body) { return arcOf(body).kinematicsOf(body == p.body ? after : arcOf(body).startState()); };
+    for (Contact& c : contacts) {
+      builder_.place(c, now(c.a), now(c.b));
+      c.pair = builder_.pairOf(c.a, c.b);
+    }
+    const bool ends = next < line.events.size() &&
+                      like_.events[index(line.events[next])].kind == EventKind::transition;
+    const auto& like = static_cast<const HeldPath&>(*line.arcs[next].integrated());
+    PathArc made = heldAlong(motion_, like, HeldEnds::all, after, contacts, event_.time);
+    held = {made.held, made.transition, &like, ends};
     return std::move(made.arc);
   }
 

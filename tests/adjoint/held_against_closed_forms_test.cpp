@@ -59,13 +59,12 @@ PathArc heldInstead(const Motion& m, std::size_t k) {
   }
   const std::vector<const Contact*> closed = pointersTo(lasting);
   const State& start = line.arcs[k].startState();
-  HeldModes any;
-  any.contacts.resize(closed.size());
+  const std::vector<HeldContact> any(closed.size());
   const ContactChoice candidates = heldPathOf(m, 0, start, closed, any);
   const HeldModes modes = chooseModes(candidates.scene, candidates.modes.contacts, start, {}, 1e-9);
   EXPECT_EQ(modes.unresolved, "");
   EXPECT_EQ(modes.held.size(), closed.size());
-  return makePathArc(m, heldPathOf(m, 0, start, closed, modes), line.arcs[k].start());
+  return makePathArc(m, heldPathOf(m, 0, start, closed, modes.contacts), line.arcs[k].start());
 }
 
 void checkArcs(const Motion& m, std::size_t arcs) {
