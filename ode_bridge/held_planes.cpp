@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "adjoint/base/errors.h"
+#include "ode_bridge/affine_span.hpp"
 #include "ode_bridge/rounding.hpp"
 #include "ode_bridge/time_to.hpp"
 #include "ode_bridge/touching.hpp"
@@ -14,37 +16,14 @@ namespace {
 
 // What is within so many tolerances of contact of a held plane lies in it.
 constexpr double kInPlane = 10;
-// Normals that differ by less are one; points on a line through others by this share of the size go with these.
+// Normals that differ by less are one.
 constexpr double kSamePlane = 1e-9;
 constexpr int kMostPlaneSteps = 1'000'000;
 
 const Piece& pieceOf(const Placed& body, int piece) { return body.solid->pieces[static_cast<std::size_t>(piece)]; }
 
-// How far points span: a basis of their differences from the first one.
-struct Span {
-  std::vector<Vec3> points;
-  std::vector<Vec3> basis;
-  double size = 1;
-
-  void add(const Vec3& p) {
-    if (points.empty()) {
-      points.push_back(p);
-      return;
-    }
-    if (const Vec3 rest = across(p); rest.norm() > kSamePlane * size) basis.push_back(rest.normalized());
-    points.push_back(p);
-  }
-  Vec3 across(const Vec3& p) const {
-    Vec3 rest = p - points.front();
-    for (const Vec3& e : basis) rest -= e.dot(rest) * e;
-    return rest;
-  }
-  bool contains(const Vec3& p) const { return !points.empty() && across(p).norm() <= kSamePlane * size; }
-  bool isPlane() const { return basis.size() >= 2; }
-};
-
 // The points of a feature that lie in the plane of its contact, in the axes of its solid.
-void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& contact, Span& span) {
+void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& contact, AffineSpan& span) {
   const auto at = static_cast<std::size_t>(index);
   switch (family) {
     case Family::vertex:
@@ -73,70 +52,79 @@ void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& 
 
 }  // namespace
 
+// A plane, and what is known to lie in it: of each body, in the axes of its solid.
+struct HeldPlanes::Laid {
+  Plane plane;
+  AffineSpan of_a, of_b;
+};
+
 HeldPlanes::HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held) : a_(a), b_(b) {
-  struct Found {
-    Plane plane;
-    Span of_a, of_b;
-  };
-  std::vector<Found> found;
-  const double tolerance = touchTolerance(a, b);
-  for (const FeaturePair& f : held) {
-    const auto kind = static_cast<GapKind>(f.kind);
-    const ContactPoint c = contactAt(a, b, f);
-    if (!c.normal.allFinite() || !std::isfinite(c.gap)) continue;
-    const Family of_a = familyOfFirst(kind), of_b = familyOfSecond(kind);
-    const auto levelOf = [&] {
-      if (of_b == Family::face)
-        return c.normal.dot(b.world(b.solid->faces[static_cast<std::size_t>(f.b)].point) - b.k.x);
-      if (of_a == Family::face)
-        return c.normal.dot(a.world(a.solid->faces[static_cast<std::size_t>(f.a)].point) - b.k.x);
-      return c.normal.dot(c.point - b.k.x);
-    };
-    const double level = levelOf(), room = kInPlane * tolerance + std::abs(c.gap);
-    auto same = std::ranges::find_if(found, [&](const Found& o) {
-      return (o.plane.n - c.normal).norm() <= kSamePlane && std::abs(o.plane.level - level) <= room + o.plane.room;
-    });
-    if (same == found.end()) {
-      Found fresh;
-      fresh.plane.frame = Frame::crossed;
-      fresh.plane.n = c.normal, fresh.plane.level = level, fresh.plane.room = room;
-      const auto size = [](const Placed& p) { return p.solid->plane ? 1.0 : p.solid->bound(); };
-      fresh.of_a.size = size(a), fresh.of_b.size = size(b);
-      same = found.insert(found.end(), std::move(fresh));
-    }
-    same->plane.held.push_back(f);
-    if (of_a == Family::edge && of_b == Family::edge && same->plane.held.size() == 1) {
-      same->plane.edge_a = a.solid->edges[static_cast<std::size_t>(f.a)];
-      same->plane.edge_b = b.solid->edges[static_cast<std::size_t>(f.b)];
-    }
-    addPointsInPlane(*a.solid, of_a, f.a, a.k.R.transpose() * (c.point - a.k.x), same->of_a);
-    addPointsInPlane(*b.solid, of_b, f.b, b.k.R.transpose() * (c.point - b.k.x), same->of_b);
-  }
-  for (Found& each : found) {
-    Plane& plane = each.plane;
-    const auto goesWith = [&](Frame frame, const Placed& body, const Span& span) {
-      plane.frame = frame;
-      plane.normal = body.k.R.transpose() * plane.n;
-      plane.point = span.points.front();
-    };
-    if (each.of_b.isPlane()) {
-      goesWith(Frame::body_b, b, each.of_b);
-    } else if (each.of_a.isPlane()) {
-      goesWith(Frame::body_a, a, each.of_a);
-    } else {
-      const Vec3 across = (a.k.R * plane.edge_a.direction).cross(b.k.R * plane.edge_b.direction);
-      plane.sign = across.dot(plane.n) < 0 ? -1 : 1;
-    }
-    planes_.push_back(std::move(plane));
+  std::vector<Laid> laid;
+  for (const FeaturePair& f : held) layThrough(f, laid);
+  for (Laid& each : laid) {
+    fixTo(each);
+    planes_.push_back(std::move(each.plane));
     Plane& kept = planes_.back();
     addFollowers(kept);
     const auto inPlane = [&](const Follower& f) {
       const Placed& body = f.of_a ? a_ : b_;
-      const Span& span = f.of_a ? each.of_a : each.of_b;
+      const AffineSpan& span = f.of_a ? each.of_a : each.of_b;
       if (!span.contains(f.feature.point)) return false;
       return !f.is_rim || (body.k.R * f.feature.direction).cross(kept.n).norm() <= kSamePlane;
     };
     std::erase_if(kept.followers, inPlane);
+  }
+}
+
+// Adds a contact to the plane that it lies in; that is a new one where it lies in none of the others.
+void HeldPlanes::layThrough(const FeaturePair& f, std::vector<Laid>& laid) const {
+  const auto kind = static_cast<GapKind>(f.kind);
+  const ContactPoint c = contactAt(a_, b_, f);
+  if (!c.normal.allFinite() || !std::isfinite(c.gap)) return;
+  const Family of_a = familyOfFirst(kind), of_b = familyOfSecond(kind);
+  const auto levelOf = [&] {
+    if (of_b == Family::face)
+      return c.normal.dot(b_.world(b_.solid->faces[static_cast<std::size_t>(f.b)].point) - b_.k.x);
+    if (of_a == Family::face)
+      return c.normal.dot(a_.world(a_.solid->faces[static_cast<std::size_t>(f.a)].point) - b_.k.x);
+    return c.normal.dot(c.point - b_.k.x);
+  };
+  const double level = levelOf(), room = kInPlane * touchTolerance(a_, b_) + std::abs(c.gap);
+  auto same = std::ranges::find_if(laid, [&](const Laid& o) {
+    return (o.plane.n - c.normal).norm() <= kSamePlane && std::abs(o.plane.level - level) <= room + o.plane.room;
+  });
+  if (same == laid.end()) {
+    Laid fresh;
+    fresh.plane.frame = Frame::crossed;
+    fresh.plane.n = c.normal, fresh.plane.level = level, fresh.plane.room = room;
+    const auto size = [](const Placed& p) { return p.solid->plane ? 1.0 : p.solid->bound(); };
+    fresh.of_a = AffineSpan(size(a_)), fresh.of_b = AffineSpan(size(b_));
+    same = laid.insert(laid.end(), std::move(fresh));
+  }
+  same->plane.held.push_back(f);
+  if (of_a == Family::edge && of_b == Family::edge && same->plane.held.size() == 1) {
+    same->plane.edge_a = a_.solid->edges[static_cast<std::size_t>(f.a)];
+    same->plane.edge_b = b_.solid->edges[static_cast<std::size_t>(f.b)];
+  }
+  addPointsInPlane(*a_.solid, of_a, f.a, a_.k.R.transpose() * (c.point - a_.k.x), same->of_a);
+  addPointsInPlane(*b_.solid, of_b, f.b, b_.k.R.transpose() * (c.point - b_.k.x), same->of_b);
+}
+
+// Finds what the plane goes with.
+void HeldPlanes::fixTo(Laid& laid) const {
+  Plane& plane = laid.plane;
+  const auto goesWith = [&](Frame frame, const Placed& body, const AffineSpan& span) {
+    plane.frame = frame;
+    plane.normal = body.k.R.transpose() * plane.n;
+    plane.point = span.origin();
+  };
+  if (laid.of_b.isPlane()) {
+    goesWith(Frame::body_b, b_, laid.of_b);
+  } else if (laid.of_a.isPlane()) {
+    goesWith(Frame::body_a, a_, laid.of_a);
+  } else {
+    const Vec3 across = (a_.k.R * plane.edge_a.direction).cross(b_.k.R * plane.edge_b.direction);
+    plane.sign = across.dot(plane.n) < 0 ? -1 : 1;
   }
 }
 
@@ -200,6 +188,80 @@ bool HeldPlanes::keepApart(int piece_a, int piece_b) const {
   });
 }
 
+// A plane at an instant: its normal with the bounds |n'| <= n1, |n''| <= n2, and a point of it that goes with a body.
+struct HeldPlanes::Lying {
+  Vec3 n, dn, point, arm, velocity;
+  double n1 = 0, n2 = 0;
+  const Placed* with = nullptr;
+  double holds_for = std::numeric_limits<double>::infinity();  ///< s, the bounds
+};
+
+std::optional<HeldPlanes::Lying> HeldPlanes::lie(const Plane& plane, const Placed& a, const Placed& b) const {
+  Lying p;
+  if (plane.frame == Frame::crossed) {
+    const double spin = a.spin + b.spin;
+    const Vec3 ea = a.k.R * plane.edge_a.direction, eb = b.k.R * plane.edge_b.direction;
+    const Vec3 c = ea.cross(eb), dc = a.k.w.cross(ea).cross(eb) + ea.cross(b.k.w.cross(eb));
+    const double sine = c.norm();
+    if (!(sine > 0)) return std::nullopt;
+    p.n = plane.sign / sine * c;
+    p.dn = plane.sign / sine * (dc - p.n * p.n.dot(dc));
+    p.n1 = spin / (0.5 * sine), p.n2 = (spin * spin + a.spin_rate + b.spin_rate) / (0.5 * sine) + 3 * p.n1 * p.n1;
+    if (spin > 0) p.holds_for = 0.5 * sine / spin;
+    p.point = b.world(plane.edge_b.point);
+    p.with = &b;
+  } else {
+    p.with = plane.frame == Frame::body_a ? &a : &b;
+    p.n = p.with->k.R * plane.normal, p.dn = p.with->k.w.cross(p.n);
+    p.n1 = p.with->spin, p.n2 = p.with->spin * p.with->spin + p.with->spin_rate;
+    p.point = p.with->world(plane.point);
+  }
+  p.arm = p.point - p.with->k.x;
+  p.velocity = p.with->k.v + p.with->k.w.cross(p.arm);
+  return p;
+}
+
+// How far a follower is from the plane, how fast that changes, and what bounds the second derivative for some time.
+struct HeldPlanes::Approach {
+  double gap = 0, rate = 0, bend = 0;
+  double fastest = 0;  // of the gap, whatever the direction
+  double speed = 0;    // against which the rate is rounded
+};
+
+HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a,
+                                            const Placed& b, double window) const {
+  const Placed& body = f.of_a ? a : b;
+  const double sign = f.of_a ? 1 : -1;
+  const Vec3 w = body.world(f.feature.point), r = w - body.k.x, d = w - p.point;
+  const Vec3 dd = body.k.v + body.k.w.cross(r) - p.velocity;
+  Approach out;
+  out.gap = sign * p.n.dot(d) - f.feature.radius, out.rate = sign * (p.dn.dot(d) + p.n.dot(dd));
+  const auto pull = [](const Placed& of, double arm) {
+    return of.acceleration.norm() + of.variation + (of.spin * of.spin + of.spin_rate) * arm;
+  };
+  const double arm = r.norm() + f.feature.rim;
+  const double second = &body == p.with ? 0 : pull(body, arm) + pull(*p.with, p.arm.norm());
+  const double fastest = dd.norm() + body.spin * f.feature.rim + second * window;
+  const double furthest = d.norm() + f.feature.rim + fastest * window;
+  out.bend = p.n2 * furthest + 2 * p.n1 * fastest + second;
+  if (plane.frame == Frame::body_b && !(b.spin > 0)) {  // the plane stands: only what is along its normal counts
+    out.bend = std::abs(p.n.dot(body.acceleration - b.acceleration)) + body.variation + b.variation +
+               (body.spin * body.spin + body.spin_rate) * arm;
+  }
+  if (f.is_rim) {
+    const Vec3 axis = body.k.R * f.feature.direction;
+    const double sine = axis.cross(p.n).norm();
+    out.gap -= f.feature.rim * sine;
+    if (sine > 0) {
+      const Vec3 u = axis.cross(axis.cross(sign * p.n)) / sine;  // to its lowest point
+      out.rate += sign * (p.dn.dot(f.feature.rim * u) + p.n.dot(body.k.w.cross(f.feature.rim * u)));
+    }
+  }
+  out.fastest = fastest + p.n1 * furthest;
+  out.speed = dd.norm() + body.spin * arm + a.k.v.norm() + b.k.v.norm();
+  return out;
+}
+
 HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double until, int steps) const {
   if (steps > kMostPlaneSteps)
     throw NotComputable("it takes more than " + std::to_string(kMostPlaneSteps) + " steps: they go along each other too closely");
@@ -211,64 +273,21 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
   Reach reach{until - t, false};
   if (spin > 0) reach.step = std::min(reach.step, 0.5 / spin);
   for (const Plane& plane : planes_) {
-    // n and its bounds |n'| <= n1, |n''| <= n2; Q a point of the plane, of body q
-    Vec3 n, dn, Q;
-    double n1 = 0, n2 = 0;
-    const Placed* q = &b;
-    if (plane.frame == Frame::crossed) {
-      const Vec3 ea = a.k.R * plane.edge_a.direction, eb = b.k.R * plane.edge_b.direction;
-      const Vec3 c = ea.cross(eb), dc = a.k.w.cross(ea).cross(eb) + ea.cross(b.k.w.cross(eb));
-      const double sine = c.norm();
-      if (!(sine > 0)) continue;
-      n = plane.sign / sine * c;
-      dn = plane.sign / sine * (dc - n * n.dot(dc) * 1.0);
-      n1 = spin / (0.5 * sine), n2 = (spin * spin + a.spin_rate + b.spin_rate) / (0.5 * sine) + 3 * n1 * n1;
-      if (spin > 0) reach.step = std::min(reach.step, 0.5 * sine / spin);
-      Q = b.world(plane.edge_b.point);
-    } else {
-      q = plane.frame == Frame::body_a ? &a : &b;
-      n = q->k.R * plane.normal, dn = q->k.w.cross(n);
-      n1 = q->spin, n2 = q->spin * q->spin + q->spin_rate;
-      Q = q->world(plane.point);
-    }
-    const Vec3 rq = Q - q->k.x, dQ = q->k.v + q->k.w.cross(rq);
-    const auto pull = [](const Placed& p, double arm) {
-      return p.acceleration.norm() + p.variation + (p.spin * p.spin + p.spin_rate) * arm;
-    };
+    const std::optional<Lying> p = lie(plane, a, b);
+    if (!p) continue;
+    reach.step = std::min(reach.step, p->holds_for);
     for (const Follower& f : plane.followers) {
-      const Placed& body = f.of_a ? a : b;
-      const double sign = f.of_a ? 1 : -1;
-      const Vec3 w = body.world(f.feature.point), r = w - body.k.x, d = w - Q;
-      const Vec3 dd = body.k.v + body.k.w.cross(r) - dQ;
-      double gap = sign * n.dot(d) - f.feature.radius, rate = sign * (dn.dot(d) + n.dot(dd));
-      const double arm = r.norm() + f.feature.rim;
-      const double second = &body == q ? 0 : pull(body, arm) + pull(*q, rq.norm());
-      const double win = reach.step, fastest = dd.norm() + body.spin * f.feature.rim + second * win;
-      const double furthest = d.norm() + f.feature.rim + fastest * win;
-      double bend = n2 * furthest + 2 * n1 * fastest + second;
-      if (plane.frame == Frame::body_b && !(b.spin > 0)) {  // the plane stands: only what is along its normal counts
-        bend = std::abs(n.dot(body.acceleration - b.acceleration)) + body.variation + b.variation +
-               (body.spin * body.spin + body.spin_rate) * arm;
-      }
-      if (f.is_rim) {
-        const Vec3 axis = body.k.R * f.feature.direction;
-        const double sine = axis.cross(n).norm();
-        gap -= f.feature.rim * sine;
-        if (sine > 0) {
-          const Vec3 u = axis.cross(axis.cross(sign * n)) / sine;  // to its lowest point
-          rate += sign * (dn.dot(f.feature.rim * u) + n.dot((body.k.w - Vec3::Zero()).cross(f.feature.rim * u)));
-        }
-      }
-      const double still = kStill * (dd.norm() + body.spin * arm + a.k.v.norm() + b.k.v.norm());
-      if (gap <= tolerance && rate < -still) {
+      const Approach to = approachOf(f, plane, *p, a, b, reach.step);
+      const bool there = to.gap <= tolerance;
+      if (there && to.rate < -kStill * to.speed) {
         reach.touches = true;
-        reach.step = std::min(reach.step, timeTo(tolerance, -rate, bend));
+        reach.step = std::min(reach.step, timeTo(tolerance, -to.rate, to.bend));
         continue;
       }
-      const double c = std::max(gap, 0.0) + tolerance * (gap <= tolerance ? 1 : 0);
-      double h = timeTo(c, -rate, bend);
+      const double room = std::max(to.gap, 0.0) + tolerance * (there ? 1 : 0);
+      double h = timeTo(room, -to.rate, to.bend);
       if (f.is_rim)  // the lowest point may be another one soon
-        h = std::min(h, std::max(c / (fastest + n1 * furthest), gap <= tolerance ? std::sqrt(2 * tolerance / bend) : 0.0));
+        h = std::min(h, std::max(room / to.fastest, there ? std::sqrt(2 * tolerance / to.bend) : 0.0));
       reach.step = std::min(reach.step, h);
     }
   }

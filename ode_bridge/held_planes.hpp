@@ -59,9 +59,18 @@ class HeldPlanes {
     bool touches = false;
   };
 
+  struct Laid;
+  struct Lying;
+  struct Approach;
+
+  void layThrough(const FeaturePair& f, std::vector<Laid>& laid) const;
+  void fixTo(Laid& laid) const;
   void addFollowers(Plane& plane);
   bool holds(const Plane& plane, bool of_a, int piece) const;
   bool staysBeyond(const Plane& plane, bool of_a, int piece) const;
+  std::optional<Lying> lie(const Plane& plane, const Placed& a, const Placed& b) const;
+  Approach approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a, const Placed& b,
+                      double window) const;
   Reach reachAt(const PairMotion& pair, double t, double until, int steps) const;
 
   const Placed &a_, &b_;

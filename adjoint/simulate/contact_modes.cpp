@@ -4,75 +4,54 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/contact/cone_program.hpp"
 #include "adjoint/held/held_start.hpp"
-#include "adjoint/impact/complementarity.hpp"
-#include "adjoint/motion/guard.hpp"
-#include "adjoint/numeric/so3.hpp"
 #include "adjoint/simulate/lasting_kinds.hpp"
-#include "adjoint/simulate/normal_contacts.hpp"
+#include "adjoint/simulate/pressed_body.hpp"
 #include "adjoint/simulate/support_polygon.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
-using Eigen::Index;
-
 // Slower slip than this, times sqrt(g l), counts as none (section 11 of docs/equations.md).
 constexpr double kNoSlip = 1e-9;
-// Normals that differ by less are those of one face.
-constexpr double kSameNormal = 1e-9;
-// Acceleration left by the forces of rest, as a share of gravity.
-constexpr double kAtRest = 1e-9;
 // Where a slip ends, all that are slower than so many times the slowest end with it.
 constexpr double kEndTogether = 1e3;
 
 class Chooser {
  public:
   Chooser(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
-      : motion_(motion),
-        scene_(*motion.scene),
-        body_(body),
-        model_((*motion.models)[asIndex(body)]),
-        state_(state),
-        gravity_(model_.gravity_factor * scene_.gravity),
-        R_(state.q.toRotationMatrix()),
-        A_(model_.mobilityWorld(R_)),
-        omega_(model_.inverseInertiaWorld(R_) * state.L) {
-    for (const Contact* c : closed) reach_ = std::max(reach_, armOf(*c).norm());
-    no_slip_ = kNoSlip * std::sqrt(gravity_.norm() * reach_);
-    closed_ = closed;
-    press(closed);
+      : motion_(motion), index_(body), state_(state), closed_(closed), body_(motion, body, state, closed) {
+    no_slip_ = kNoSlip * std::sqrt(body_.gravity().norm() * body_.reach());
   }
 
   void ignoreSlips(double slower) { no_slip_ = std::max(no_slip_, slower); }
   void slipEnds() { no_slip_ *= kEndTogether; }
 
   ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
-    pressed_ = contacts;
-    return stays(form, form == PathForm::rest ? 1 : heightOf());
+    body_.hold(contacts);
+    return stays(form, form == PathForm::rest ? 1 : body_.height());
   }
 
   /// As forces within the cones of friction hold it; without friction where none are found.
   FreeAcceleration acceleration() const {
-    if (pressed_.empty()) return free_;
+    if (body_.pressed().empty()) return body_.acceleration();
     std::vector<HeldContact> candidates;
-    for (const Contact* c : closed_) candidates.push_back(candidate(*c));
-    const HeldModes modes = chooseModes(heldScene(closed_), candidates, state_, {}, no_slip_);
-    if (!modes.unresolved.empty()) return free_;
+    for (const Contact* c : closed_) candidates.push_back(body_.candidate(*c));
+    const HeldModes modes = chooseModes(body_.heldScene(closed_), candidates, state_, {}, no_slip_);
+    if (!modes.unresolved.empty()) return body_.acceleration();
     return {modes.acceleration, modes.spin_rate};
   }
 
   ContactChoice choose(const ModeHint& hint) {
-    if (pressed_.empty()) return {};
-    if (isSlow(state_.v) && isSlow(reach_ * omega_) && canRest()) return stays(PathForm::rest, 1);
+    if (body_.pressed().empty()) return {};
+    if (isSlow(state_.v) && isSlow(body_.reach() * body_.spin()) && body_.canRest()) return stays(PathForm::rest, 1);
     ContactChoice closed_form;
-    if (isOneFace()) {
-      if (isBall()) {
-        if (pressed_.size() == 1) closed_form = ball();
-      } else if (isAxle()) {
+    if (body_.isOneFace()) {
+      if (body_.isBall()) {
+        if (body_.pressed().size() == 1) closed_form = ball();
+      } else if (body_.isAxle()) {
         closed_form = axle();
-      } else if (isSlow(reach_ * omega_) && hint.cause != TransitionCause::tips) {
+      } else if (isSlow(body_.reach() * body_.spin()) && hint.cause != TransitionCause::tips) {
         closed_form = block();
       }
     }
@@ -80,11 +59,11 @@ class Chooser {
   }
 
   ContactChoice heldAs(const std::vector<const Contact*>& contacts, const std::vector<HeldContact>& like) {
-    pressed_ = contacts;
+    body_.hold(contacts);
     ContactChoice choice = onHeldPath();
     std::vector<HeldContact> held;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-      held.push_back(candidate(*contacts[k]));
+      held.push_back(body_.candidate(*contacts[k]));
       held.back().mode = like[k].mode, held.back().begins = like[k].begins;
     }
     choice.modes = modesAs(choice.scene, held, state_);
@@ -94,142 +73,17 @@ class Chooser {
   }
 
  private:
-  double signOf(const Contact& c) const { return c.a == body_ ? 1 : -1; }
-  int otherOf(const Contact& c) const { return c.a == body_ ? c.b : c.a; }
-  Vec3 armOf(const Contact& c) const { return c.at.point - state_.x; }
-  Vec3 normalOf(const Contact& c) const { return signOf(c) * c.at.normal; }  // towards the body
-  Vec3 slipOf(const Contact& c) const {
-    const Vec3 u = state_.v + omega_.cross(armOf(c)), n = normalOf(c);
-    return u - n.dot(u) * n;
-  }
   bool isSlow(const Vec3& v) const { return v.norm() <= no_slip_; }
 
-  // Of the closed contacts, those that a force without friction has to keep closed.
-  void press(const std::vector<const Contact*>& closed) {
-    free_ = freeAcceleration(model_, state_, scene_.gravity);
-    if (closed.empty()) return;
-    Eigen::VectorXd alpha(closed.size());
-    for (std::size_t k = 0; k < closed.size(); ++k) alpha[static_cast<Index>(k)] = freeGapAcceleration(*closed[k]);
-    if (closed.size() == 1) {
-      if (!(alpha[0] < 0)) return;
-      pressed_ = closed;
-      const NormalContacts pressing(model_, state_, body_, pressed_);
-      push(-alpha[0] / pressing.mobility()(0, 0) * pressing.moved.col(0));
-      return;
-    }
-    const NormalContacts along(model_, state_, body_, closed);
-    const std::vector<int> active = activeContacts(along.mobility(), alpha);
-    if (active.empty()) return;
-    for (int k : active) pressed_.push_back(closed[asIndex(k)]);
-    const NormalContacts pressing(model_, state_, body_, pressed_);
-    const LeastNormSolve forces(pressing.mobility(), alpha(active));
-    push(pressing.moved * forces.y);
-    const Eigen::VectorXd left = alpha + along.rows.transpose() * (pressing.moved * forces.y);
-    pressed_ = wholeFaces(closed, active, left);
-  }
-
-  // A face stands on all of its corners, also on those that have no force, if they do not lift: without them it could tilt.
-  std::vector<const Contact*> wholeFaces(const std::vector<const Contact*>& closed, const std::vector<int>& active,
-                                         const Eigen::VectorXd& acceleration) const {
-    std::vector<const Contact*> pressed;
-    for (std::size_t k = 0; k < closed.size(); ++k) {
-      const bool is_active = std::ranges::find(active, static_cast<int>(k)) != active.end();
-      const bool stays = std::abs(acceleration[static_cast<Index>(k)]) <= kAtRest * gravity_.norm();
-      const bool on_face = std::ranges::any_of(active, [&](int i) {
-        const Contact& c = *closed[asIndex(i)];
-        return otherOf(c) == otherOf(*closed[k]) && (normalOf(c) - normalOf(*closed[k])).norm() <= kSameNormal;
-      });
-      if (is_active || (stays && on_face)) pressed.push_back(closed[k]);
-    }
-    return pressed;
-  }
-
-  double freeGapAcceleration(const Contact& c) const {
-    const ContactSide own{state_, free_},
-        other{motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState(), std::nullopt};
-    return c.a == body_ ? gapAcceleration(motion_, c, own, other) : gapAcceleration(motion_, c, other, own);
-  }
-  void push(const Eigen::Matrix<double, 6, 1>& acceleration) {
-    free_.v += acceleration.head<3>();
-    free_.w += acceleration.tail<3>();
-  }
-
-  bool isOneFace() const {
-    const Contact& first = *pressed_.front();
-    for (const Contact* c : pressed_) {
-      if (otherOf(*c) != otherOf(first) || (normalOf(*c) - normalOf(first)).norm() > kSameNormal) return false;
-      if (isBall() && !jacobianOf(*c).pose.block<3, 6>(1, c->a == body_ ? 0 : 6).isZero(0)) return false;
-    }
-    return true;
-  }
-
-  ContactJacobian jacobianOf(const Contact& c) const {
-    const auto poseOf = [&](int body) {
-      return shapePose(motion_, body, body == body_ ? state_ : motion_.world_lines[asIndex(body)].arcs.back().startState());
-    };
-    return motion_.geometry->jacobian(c.a, c.b, c.features, poseOf(c.a), poseOf(c.b));
-  }
-
-  // Forces within the cones of friction that undo gravity.
-  bool canRest() const {
-    const auto n = static_cast<Index>(pressed_.size());
-    ConeProgramOf<double> q;
-    q.K.resize(3 * n, 3 * n);
-    q.b.resize(3 * n);
-    for (Index k = 0; k < n; ++k) {
-      const Contact& c = *pressed_[static_cast<std::size_t>(k)];
-      for (Index l = 0; l < n; ++l)
-        q.K.block<3, 3>(3 * k, 3 * l) = model_.inverse_mass * Mat3::Identity() -
-                                        skew(armOf(c)) * A_ * skew(armOf(*pressed_[static_cast<std::size_t>(l)]));
-      q.b.segment<3>(3 * k) = gravity_;
-      q.normal.push_back(normalOf(c));
-      q.friction.push_back(c.pair.friction);
-    }
-    q.offset.assign(static_cast<std::size_t>(n), 0);
-    q.free.assign(static_cast<std::size_t>(n), 0);
-    const ConePointOf<double> at = solveConeProgram(q);
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    for (std::size_t k = 0; k < pressed_.size(); ++k) {
-      Vec3 f = Vec3::Zero();
-      if (at.state[k] == ConeState::inside) f = at.f[k];
-      if (at.state[k] == ConeState::slides)
-        f = at.pressure[k] * (q.normal[k] + q.friction[k] * at.direction[k]);
-      force += f;
-      moment += armOf(*pressed_[k]).cross(f);
-    }
-    const double most = kAtRest * gravity_.norm();
-    return (gravity_ + model_.inverse_mass * force).norm() <= most && (A_ * moment).norm() * reach_ <= most;
-  }
-
-  HeldContact candidate(const Contact& c) const {
-    HeldContact held;
-    held.with = otherOf(c), held.is_first = c.a == body_;
-    held.features = c.features;
-    held.friction = c.pair.friction;
-    return held;
-  }
-  HeldScene heldScene(const std::vector<const Contact*>& contacts) const {
-    HeldScene scene;
-    scene.geometry = motion_.geometry;
-    scene.model = &model_;
-    scene.body = body_;
-    scene.gravity = gravity_;
-    for (const Contact* c : contacts)
-      scene.with.push_back(
-          shapePose(motion_, otherOf(*c), motion_.world_lines[asIndex(otherOf(*c))].arcs.back().startState()));
-    scene.length = reach_ > 0 ? reach_ : 1;
-    scene.speed = std::sqrt(gravity_.norm() * scene.length + state_.v.squaredNorm()) + omega_.norm() * scene.length;
-    return scene;
-  }
   ContactChoice onHeldPath() const {
     ContactChoice choice;
     choice.path = std::make_shared<ContactPath>();
     choice.path->form = PathForm::held;
-    choice.path->inputs = inputs(1);
-    choice.path->body = body_;
-    choice.path->face = otherOf(*pressed_.front());
-    choice.contacts = pressed_;
-    choice.scene = heldScene(pressed_);
+    choice.path->inputs = body_.inputs(1);
+    choice.path->body = index_;
+    choice.path->face = body_.otherOf(*body_.pressed().front());
+    choice.contacts = body_.pressed();
+    choice.scene = body_.heldScene(body_.pressed());
     return choice;
   }
   void begin(ContactChoice& choice) const {
@@ -240,54 +94,25 @@ class Chooser {
   // Any contacts, in the modes that forces allow.
   ContactChoice held(const ModeHint& hint) {
     std::vector<HeldContact> candidates;
-    for (const Contact* c : closed_) candidates.push_back(candidate(*c));
-    const HeldScene all = heldScene(closed_);
+    for (const Contact* c : closed_) candidates.push_back(body_.candidate(*c));
+    const HeldScene all = body_.heldScene(closed_);
     HeldModes modes = chooseModes(all, candidates, state_, hint, no_slip_);
     if (!modes.unresolved.empty()) return beyond(modes.unresolved);
     if (modes.held.empty()) return {};
-    pressed_.clear();
-    for (const std::size_t k : modes.held) pressed_.push_back(closed_[k]);
+    std::vector<const Contact*> holding;
+    for (const std::size_t k : modes.held) holding.push_back(closed_[k]);
+    body_.hold(holding);
     ContactChoice choice = onHeldPath();
     choice.modes = std::move(modes);
     begin(choice);
     return choice;
   }
 
-  bool isBall() const { return isUniformBall(scene_.bodies[asIndex(body_)].shape, model_); }
-  // Of a cylinder or capsule that lies on its side, all of whose contacts are on the line below its axis.
-  bool isAxle() const {
-    const Shape& shape = scene_.bodies[asIndex(body_)].shape;
-    const auto* cylinder = std::get_if<Cylinder>(&shape);
-    if (!isRoundAboutAxis(shape, model_)) return false;
-    const double radius = cylinder ? cylinder->radius : std::get<Capsule>(shape).radius;
-    const Vec3 axis = R_ * axisOf(), n = normalOf(*pressed_.front());
-    if (pressed_.size() < 2 || std::abs(axis.dot(n)) > kSameNormal) return false;
-    if (!(omega_ - axis.dot(omega_) * axis).isZero(kNoSlip * omega_.norm())) return false;
-    return std::ranges::all_of(pressed_, [&](const Contact* c) {
-      return std::abs(armOf(*c).dot(n) + radius) <= kSameNormal * radius;
-    });
-  }
-  Vec3 axisOf() const { return model_.has_offset ? Vec3(model_.R_BG * Vec3::UnitZ()) : Vec3(Vec3::UnitZ()); }
-
-  PathInputs<double> inputs(double reach) const {
-    PathInputs<double> in;
-    in.x = state_.x, in.v = state_.v, in.L = state_.L, in.R = R_;
-    in.gravity = gravity_;
-    in.normal = normalOf(*pressed_.front());
-    in.friction = pressed_.front()->pair.friction;
-    in.mass = model_.mass;
-    in.J = model_.inertia.asDiagonal();
-    in.reach = reach;
-    in.axis = axisOf();
-    return in;
-  }
-  double heightOf() const { return -armOf(*pressed_.front()).dot(normalOf(*pressed_.front())); }
-
   ContactChoice ball() {
-    const PathInputs<double> in = inputs(heightOf());
-    const Tier derivative = motion_.plan.bodies[asIndex(body_)].derivative_tier;
+    const PathInputs<double> in = body_.inputs(body_.height());
+    const Tier derivative = motion_.plan.bodies[asIndex(index_)].derivative_tier;
     if (!keepsBall(derivative)) return {};
-    if (slipOf(*pressed_.front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
+    if (body_.slipOf(*body_.pressed().front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
     const Vec3 slope = alongFace(in.normal, in.gravity);
     const double k = ballInertia(in) / (in.mass * in.reach * in.reach);
     const bool rolls = slope.norm() * k / (1 + k) <= in.friction * pressingGravity(in);
@@ -295,9 +120,9 @@ class Chooser {
   }
 
   ContactChoice axle() {
-    const PathInputs<double> in = inputs(heightOf());
-    for (const Contact* c : pressed_)
-      if (slipOf(*c).norm() > no_slip_) return {};
+    const PathInputs<double> in = body_.inputs(body_.height());
+    for (const Contact* c : body_.pressed())
+      if (body_.slipOf(*c).norm() > no_slip_) return {};
     const RollPath<double> path = RollPath<double>::axle(in);
     const Vec3 friction = alongFace(in.normal, in.gravity) - path.acceleration();
     if (!(friction.norm() <= in.friction * pressingGravity(in))) return {};
@@ -305,16 +130,16 @@ class Chooser {
   }
 
   ContactChoice block() {
-    const PathInputs<double> in = inputs(heightOf());
+    const PathInputs<double> in = body_.inputs(body_.height());
     const Vec3 ahead = slipDirectionAt<double>(PathForm::glide_block, in, 0);
-    const SupportPolygon support(pressed_, in.normal);
+    const SupportPolygon support(body_.pressed(), in.normal);
     if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > 0)) return {};
     return stays(PathForm::glide_block, in.reach);
   }
 
   ContactChoice beyond(std::string what) const {
     ContactChoice choice;
-    choice.start = state_, choice.contacts = pressed_, choice.beyond = std::move(what);
+    choice.start = state_, choice.contacts = body_.pressed(), choice.beyond = std::move(what);
     return choice;
   }
 
@@ -323,12 +148,12 @@ class Chooser {
     choice.path = std::make_shared<ContactPath>();
     ContactPath& path = *choice.path;
     path.form = form;
-    path.inputs = inputs(reach);
-    path.body = body_;
-    path.face = otherOf(*pressed_.front());
+    path.inputs = body_.inputs(reach);
+    path.body = index_;
+    path.face = body_.otherOf(*body_.pressed().front());
     if (form != PathForm::rest) {
-      const ContactJacobian J = jacobianOf(*pressed_.front());
-      path.reach_rates = -(pressed_.front()->a == body_ ? J.size_a : J.size_b).row(0);
+      const ContactJacobian J = body_.jacobianOf(*body_.pressed().front());
+      path.reach_rates = -(body_.pressed().front()->a == index_ ? J.size_a : J.size_b).row(0);
     }
     if (form == PathForm::glide_block) path.inputs.L.setZero();
     const PathState<double> start = pathStateAt<double>(form, path.inputs, 0);
@@ -336,21 +161,16 @@ class Chooser {
     path.inputs.v = start.v;
     path.inputs.L = start.L;
     if (const auto end = slipEnd(form, path.inputs)) path.slip_end = *end;
-    choice.contacts = pressed_;
+    choice.contacts = body_.pressed();
     return choice;
   }
 
   const Motion& motion_;
-  const Scene& scene_;
-  int body_;
-  const BodyModel& model_;
+  int index_;
   const State& state_;
-  Vec3 gravity_;
-  Mat3 R_, A_;
-  Vec3 omega_;
-  double reach_ = 0, no_slip_ = 0;
-  std::vector<const Contact*> closed_, pressed_;
-  FreeAcceleration free_;
+  std::vector<const Contact*> closed_;
+  PressedBody body_;
+  double no_slip_ = 0;
 };
 
 }  // namespace

@@ -113,17 +113,22 @@ class Simulator {
   void commit();
   int tiltOf(int body, int impact) const;
 
+  // simulator_capture.cpp: bounces that are too low
+  void setSpeedsOfContact();
+  void solveLaw();
+  const State& stateAfter(int body) const;
+  double accelerationOf(const Contact& contact) const;
+  bool leavesFast() const;
+  bool captureLow();
+  bool isCounted(const Contact& contact, const State& a, const State& b) const;
+
   // simulator_contact.cpp: contact that lasts
   bool contactsLast() const { return motion_.lowest_bounce > 0; }
   bool placeAtStart();
   void solvePlaced(int body);
   void resolveTransition(int body);
   std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
-  void setSpeedsOfContact();
   void addHeld();
-  void solveLaw();
-  bool leavesFast() const;
-  bool captureLow();
   void chooseArcs();
   void fly(std::size_t participant);
   void chooseArc(std::size_t participant);
@@ -131,9 +136,6 @@ class Simulator {
   bool changesTooOften(int body) const;
   bool presses(const Contact& contact) const;
   void endBeyond(const Contact& contact, const std::string& why);
-  bool isCounted(const Contact& contact, const State& a, const State& b) const;
-  double accelerationOf(const Contact& contact) const;
-  const State& stateAfter(int body) const;
   const Onward& onwardOf(int body) const {
     const int i = in_draft_[index(body)];
     if (i < 0) return onward_[index(body)];

@@ -12,18 +12,12 @@
 namespace carom::adjoint_detail {
 namespace {
 
-// A bounce that arrives from a lower height than this, as a share of the arm of the contact, is no impact to people.
-constexpr double kUncounted = 1e-6;
-// Accelerations of contacts beyond this, m/s^2, come of spins that no bounce is low at: far most often it tells at once.
-constexpr double kFastestSpin = 1e6;
 // What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
 constexpr double kBeyond = 2e-7;
 // An impulse makes contacts slip no faster than so many times as fast as it stops bodies.
 constexpr double kOwnSlip = 4;
 // Changes of contact this close in time are in one instant, s.
 constexpr double kSameInstant = 1e-12;
-
-bool isTilted(const Contact& c) { return c.tilt_a >= 0 || c.tilt_b >= 0; }
 
 }  // namespace
 
@@ -58,97 +52,6 @@ void Simulator::addHeld() {
       }
   const auto order = [](const Contact& c, const Contact& d) { return std::pair(c.a, c.b) < std::pair(d.a, d.b); };
   if (!std::ranges::is_sorted(contacts, order)) std::ranges::stable_sort(contacts, order);
-}
-
-void Simulator::solveLaw() {
-  Event& event = draft_.event;
-  do {
-    try {
-      solveImpact(event, *motion_.models, draft_.after);
-    } catch (const NotComputable& error) {
-      giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
-    }
-  } while (contactsLast() && !leavesFast() && captureLow());
-  event.settles_at.reset();
-  if (event.contacts[0].captured) event.settles_at = settlesAt(motion_, event, draft_.after);
-}
-
-const State& Simulator::stateAfter(int body) const {
-  const Participant* p = draft_.event.find(body);
-  if (!p) return motion_.world_lines[index(body)].arcs.back().startState();
-  return draft_.after[static_cast<std::size_t>(p - draft_.event.participants.data())];
-}
-
-// d^2(gap)/dt^2 after the event, while contacts with fixed bodies that part without speed stay closed.
-double Simulator::accelerationOf(const Contact& contact) const {
-  const auto sideOf = [&](int body) -> ContactSide {
-    if (!(*motion_.models)[index(body)].moving) return {stateAfter(body), std::nullopt};
-    std::vector<const Contact*> closed;
-    for (const Contact& c : draft_.event.contacts)
-      if (c.lasts && (c.a == body || c.b == body) && isFixed(c.a == body ? c.b : c.a))
-        closed.push_back(&c);
-    return {stateAfter(body), pressedAcceleration(motion_, body, stateAfter(body), closed)};
-  };
-  return gapAcceleration(motion_, contact, sideOf(contact.a), sideOf(contact.b));
-}
-
-// What no contact is faster than if it is to be low, and if it is not to count: squares of speeds, m^2/s^2.
-void Simulator::setSpeedsOfContact() {
-  const double pull = scene_.gravity.norm();
-  lowest_speed_ = 2 * motion_.lowest_bounce * kFastestSpin * (pull + 1);
-  double reach = 0;
-  for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
-    if (isMoved(static_cast<int>(i)))
-      reach = std::max(reach, kindOf(scene_.bodies[i].shape).boundingRadius(scene_.bodies[i].shape) +
-                                  (*motion_.models)[i].center.norm());
-  counted_speed_ = contactsLast() ? 2.1 * kUncounted * reach * (kFastestSpin + pull) : 0;
-}
-
-// A lone contact leaves far too fast to be low: most events are that.
-bool Simulator::leavesFast() const {
-  const Contact& c = draft_.event.contacts[0];
-  if (draft_.event.contacts.size() > 1 || isTilted(c)) return false;
-  const double leaves = c.pair.elasticity * c.approach;
-  return leaves * leaves > 2 * lowest_speed_;  // twice, for rounding
-}
-
-// Contacts that leave so slowly that they would be back from less than the lowest bounce part without speed instead
-// (11.11); true where there are more of them than before.
-bool Simulator::captureLow() {
-  Event& event = draft_.event;
-  bool more = false;
-  for (Contact& c : event.contacts) {
-    if (c.lasts || c.kept || c.captured) continue;
-    double leaves = 0;
-    for (int body : {c.a, c.b}) {
-      if (!event.find(body)) continue;
-      const Kinematics k = arcOf(body).kinematicsOf(stateAfter(body));
-      leaves += (body == c.a ? 1 : -1) * c.at.normal.dot(k.v + k.w.cross(c.at.point - k.x));
-    }
-    if (!(leaves * leaves < lowest_speed_)) continue;
-    const double alpha = accelerationOf(c);
-    if (!(alpha < 0 && leaves * leaves < -2 * motion_.lowest_bounce * alpha)) continue;
-    more = true;
-    if (c.held || !(c.approach < 0)) {
-      c.kept = true;
-      continue;
-    }
-    c.captured = true;
-    c.pair.elasticity = 0;
-  }
-  return more;
-}
-
-// Whether a contact arrives from high enough to be an impact to people.
-bool Simulator::isCounted(const Contact& c, const State& a, const State& b) const {
-  if (!contactsLast()) return true;
-  if (c.approach * c.approach > counted_speed_) return true;
-  double reach = 0;
-  for (const auto& [body, s] : {std::pair{c.a, &a}, std::pair{c.b, &b}})
-    if (isMoved(body)) reach = std::max(reach, (c.at.point - s->x).norm());
-  const double height = kUncounted * reach;
-  const double alpha = gapAcceleration(motion_, c, freeSide(motion_, c.a, a), freeSide(motion_, c.b, b));
-  return !(alpha < 0 && c.approach * c.approach < -2 * height * alpha);
 }
 
 // Whether a contact between bodies that move, which part without speed, goes on pressing while what stands still holds them.

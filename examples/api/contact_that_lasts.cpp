@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ball drops onto a table, slides, rolls, and falls off: which paths it takes, what happens in between, and how the
-// place where it lands varies with the throw.
+// A ball drops onto a table, slides, rolls, and falls off: which paths it takes, how its contact moves, what happens in
+// between, and how the place where it lands varies with the throw.
 #include <cstdio>
 
 #include "adjoint/derivative/settling.h"
@@ -9,6 +9,16 @@
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;
+
+// The contact goes with the ball, at the speed of its centre; the point of the ball that is there slips, or stands.
+void printContactHalfWay(const Motion& motion, const LastingContact& c) {
+  const BodyState ball = motion.stateAt(c.body, 0.5 * (c.from + c.to)), table = motion.stateAt(c.with, 0.5 * (c.from + c.to));
+  const auto poseOf = [](const BodyState& s) { return Pose{s.position, s.orientation.toRotationMatrix()}; };
+  const PoseRate rate{ball.velocity, ball.angular_velocity};
+  const ContactMotion at = motion.geometry->motion(c.body, c.with, c.features[0], poseOf(ball), poseOf(table), rate, {});
+  const Vec3 slip = rate.v + rate.w.cross(at.at.point - ball.position);
+  std::printf("half-way the contact moves at %.9f m/s, slip %.9f m/s\n", at.point_rate.norm(), slip.norm());
+}
 
 int main() {
   Scene scene;
@@ -36,9 +46,11 @@ int main() {
     std::printf("\n");
   }
   const auto name = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].name.c_str(); };
-  for (const LastingContact& c : lastingContacts(motion))
+  for (const LastingContact& c : lastingContacts(motion)) {
     std::printf("%s %s on %s from %.9f s to %.9f s\n", name(c.body), c.kind == ArcKind::roll ? "rolls" : "slides",
                 name(c.with), c.from, c.to);
+    printContactHalfWay(motion, c);
+  }
 
   DerivativeTape tape(motion);
   for (int e = 0; e < static_cast<int>(motion.events.size()); ++e)

@@ -169,5 +169,34 @@ TEST(Joint, BallBetweenFloorAndAnotherBall) {
   expectEntries(m.stateAt("low", 0.5).velocity.z(), 0, kState, "low");
 }
 
+// A ball strikes a block that rests on the floor, anywhere on its top: the floor gives the block no speed at all, so the
+// ball bounces as off the ground, and rubs as on it. Struck straight down, or aslant where the floor is rough enough.
+TEST(Joint, ABlockAtRestThatIsStruckStays) {
+  constexpr double e = 0.3, mu = 0.25, fall = 3;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Body block = makeBox("block", {0.2, 0.3, 0.1}, {0, 0, 0.05}), floor = makePlane("floor", Vec3::UnitZ(), 0);
+    block.mass = 1.3, floor.material = "rough";
+    const Vec3 along = seed % 2 ? Vec3(3.6, 4.8, 0) : Vec3(Vec3::Zero());  // so fast that it slides
+    const Vec3 struck(random.in(-0.06, 0.06), random.in(-0.11, 0.11), 0.1);
+    Body ball = makeBall("ball", 0.05, struck + 0.1 * Vec3(-along.x(), -along.y(), fall) + Vec3(0, 0, 0.05 - 0.04905),
+                         along + Vec3(0, 0, -(fall - 0.981)));
+    Scene s = makeScene({0, 0, -9.81}, e, mu, {block, ball, floor});
+    s.materials.push_back(makeMaterial("rough", e, 1));
+    const Motion m = play(s, 0.15);
+    ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
+    ASSERT_EQ(m.events.size(), 2u);
+    EXPECT_EQ(m.events[1].contacts.size(), 5u) << m.describeEvent(1);
+    const BodyState stays = m.stateAfter(1, 0), bounces = m.stateAfter(1, 1);
+    EXPECT_TRUE(stays.velocity.isZero(0) && stays.angular_velocity.isZero(0));
+    EXPECT_EQ(m.stateAt(0, 0.15).position, block.position);
+    const Vec3 before = m.stateBefore(1, 1).velocity;
+    const Vec3 rubbed = along - mu * (1 + e) * -before.z() * along.normalized();
+    expectEntries(before, Vec3(along.x(), along.y(), -fall), kState, "before");
+    expectEntries(bounces.velocity, Vec3(rubbed.x(), rubbed.y(), e * fall), kState, "after");
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/simulate/pressed_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/contact/cone_program.hpp"
+#include "adjoint/impact/complementarity.hpp"
+#include "adjoint/motion/guard.hpp"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/simulate/lasting_kinds.hpp"
+#include "adjoint/simulate/normal_contacts.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using Eigen::Index;
+
+// Normals that differ by less are those of one face.
+constexpr double kSameNormal = 1e-9;
+// Acceleration left by the forces of rest, as a share of gravity.
+constexpr double kAtRest = 1e-9;
+// A spin across the axis that is a smaller share of the whole is none.
+constexpr double kNoTilting = 1e-9;
+
+}  // namespace
+
+PressedBody::PressedBody(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
+    : motion_(motion),
+      body_(body),
+      model_((*motion.models)[asIndex(body)]),
+      state_(state),
+      gravity_(model_.gravity_factor * motion.scene->gravity),
+      R_(state.q.toRotationMatrix()),
+      A_(model_.mobilityWorld(R_)),
+      omega_(model_.inverseInertiaWorld(R_) * state.L) {
+  for (const Contact* c : closed) reach_ = std::max(reach_, armOf(*c).norm());
+  findPressed(closed);
+}
+
+void PressedBody::findPressed(const std::vector<const Contact*>& closed) {
+  acceleration_ = freeAcceleration(model_, state_, motion_.scene->gravity);
+  if (closed.empty()) return;
+  Eigen::VectorXd alpha(closed.size());
+  for (std::size_t k = 0; k < closed.size(); ++k) alpha[static_cast<Index>(k)] = freeGapAcceleration(*closed[k]);
+  if (closed.size() == 1) {
+    if (!(alpha[0] < 0)) return;
+    pressed_ = closed;
+    const NormalContacts pressing(model_, state_, body_, pressed_);
+    push(-alpha[0] / pressing.mobility()(0, 0) * pressing.moved.col(0));
+    return;
+  }
+  const NormalContacts along(model_, state_, body_, closed);
+  const std::vector<int> active = activeContacts(along.mobility(), alpha);
+  if (active.empty()) return;
+  for (int k : active) pressed_.push_back(closed[asIndex(k)]);
+  const NormalContacts pressing(model_, state_, body_, pressed_);
+  const LeastNormSolve forces(pressing.mobility(), alpha(active));
+  push(pressing.moved * forces.y);
+  const Eigen::VectorXd left = alpha + along.rows.transpose() * (pressing.moved * forces.y);
+  pressed_ = wholeFaces(closed, active, left);
+}
+
+std::vector<const Contact*> PressedBody::wholeFaces(const std::vector<const Contact*>& closed, const std::vector<int>& active,
+                                                    const Eigen::VectorXd& acceleration) const {
+  std::vector<const Contact*> pressed;
+  for (std::size_t k = 0; k < closed.size(); ++k) {
+    const bool is_active = std::ranges::find(active, static_cast<int>(k)) != active.end();
+    const bool stays = std::abs(acceleration[static_cast<Index>(k)]) <= kAtRest * gravity_.norm();
+    const bool on_face = std::ranges::any_of(active, [&](int i) {
+      const Contact& c = *closed[asIndex(i)];
+      return otherOf(c) == otherOf(*closed[k]) && (normalOf(c) - normalOf(*closed[k])).norm() <= kSameNormal;
+    });
+    if (is_active || (stays && on_face)) pressed.push_back(closed[k]);
+  }
+  return pressed;
+}
+
+double PressedBody::freeGapAcceleration(const Contact& c) const {
+  const ContactSide own{state_, acceleration_},
+      other{motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState(), std::nullopt};
+  return c.a == body_ ? gapAcceleration(motion_, c, own, other) : gapAcceleration(motion_, c, other, own);
+}
+
+void PressedBody::push(const Eigen::Matrix<double, 6, 1>& acceleration) {
+  acceleration_.v += acceleration.head<3>();
+  acceleration_.w += acceleration.tail<3>();
+}
+
+ContactJacobian PressedBody::jacobianOf(const Contact& c) const {
+  const auto poseOf = [&](int body) {
+    return shapePose(motion_, body, body == body_ ? state_ : motion_.world_lines[asIndex(body)].arcs.back().startState());
+  };
+  return motion_.geometry->jacobian(c.a, c.b, c.features, poseOf(c.a), poseOf(c.b));
+}
+
+bool PressedBody::isBall() const { return isUniformBall(shape(), model_); }
+
+bool PressedBody::isAxle() const {
+  const auto* cylinder = std::get_if<Cylinder>(&shape());
+  if (!isRoundAboutAxis(shape(), model_)) return false;
+  const double radius = cylinder ? cylinder->radius : std::get<Capsule>(shape()).radius;
+  const Vec3 axis = R_ * this->axis(), n = normalOf(*pressed_.front());
+  if (pressed_.size() < 2 || std::abs(axis.dot(n)) > kSameNormal) return false;
+  if (!(omega_ - axis.dot(omega_) * axis).isZero(kNoTilting * omega_.norm())) return false;
+  return std::ranges::all_of(pressed_, [&](const Contact* c) {
+    return std::abs(armOf(*c).dot(n) + radius) <= kSameNormal * radius;
+  });
+}
+
+Vec3 PressedBody::axis() const { return model_.has_offset ? Vec3(model_.R_BG * Vec3::UnitZ()) : Vec3(Vec3::UnitZ()); }
+
+bool PressedBody::isOneFace() const {
+  const Contact& first = *pressed_.front();
+  for (const Contact* c : pressed_) {
+    if (otherOf(*c) != otherOf(first) || (normalOf(*c) - normalOf(first)).norm() > kSameNormal) return false;
+    if (isBall() && !jacobianOf(*c).pose.block<3, 6>(1, c->a == body_ ? 0 : 6).isZero(0)) return false;
+  }
+  return true;
+}
+
+bool PressedBody::canRest() const {
+  const auto n = static_cast<Index>(pressed_.size());
+  ConeProgramOf<double> q;
+  q.K.resize(3 * n, 3 * n);
+  q.b.resize(3 * n);
+  for (Index k = 0; k < n; ++k) {
+    const Contact& c = *pressed_[static_cast<std::size_t>(k)];
+    for (Index l = 0; l < n; ++l)
+      q.K.block<3, 3>(3 * k, 3 * l) = model_.inverse_mass * Mat3::Identity() -
+                                      skew(armOf(c)) * A_ * skew(armOf(*pressed_[static_cast<std::size_t>(l)]));
+    q.b.segment<3>(3 * k) = gravity_;
+    q.normal.push_back(normalOf(c));
+    q.friction.push_back(c.pair.friction);
+  }
+  q.offset.assign(static_cast<std::size_t>(n), 0);
+  q.free.assign(static_cast<std::size_t>(n), 0);
+  const ConePointOf<double> at = solveConeProgram(q);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (std::size_t k = 0; k < pressed_.size(); ++k) {
+    Vec3 f = Vec3::Zero();
+    if (at.state[k] == ConeState::inside) f = at.f[k];
+    if (at.state[k] == ConeState::slides)
+      f = at.pressure[k] * (q.normal[k] + q.friction[k] * at.direction[k]);
+    force += f;
+    moment += armOf(*pressed_[k]).cross(f);
+  }
+  const double most = kAtRest * gravity_.norm();
+  return (gravity_ + model_.inverse_mass * force).norm() <= most && (A_ * moment).norm() * reach_ <= most;
+}
+
+PathInputs<double> PressedBody::inputs(double reach) const {
+  PathInputs<double> in;
+  in.x = state_.x, in.v = state_.v, in.L = state_.L, in.R = R_;
+  in.gravity = gravity_;
+  in.normal = normalOf(*pressed_.front());
+  in.friction = pressed_.front()->pair.friction;
+  in.mass = model_.mass;
+  in.J = model_.inertia.asDiagonal();
+  in.reach = reach;
+  in.axis = axis();
+  return in;
+}
+
+HeldContact PressedBody::candidate(const Contact& c) const {
+  HeldContact held;
+  held.with = otherOf(c), held.is_first = c.a == body_;
+  held.features = c.features;
+  held.friction = c.pair.friction;
+  return held;
+}
+
+HeldScene PressedBody::heldScene(const std::vector<const Contact*>& contacts) const {
+  HeldScene scene;
+  scene.geometry = motion_.geometry;
+  scene.model = &model_;
+  scene.body = body_;
+  scene.gravity = gravity_;
+  for (const Contact* c : contacts)
+    scene.with.push_back(
+        shapePose(motion_, otherOf(*c), motion_.world_lines[asIndex(otherOf(*c))].arcs.back().startState()));
+  scene.length = reach_ > 0 ? reach_ : 1;
+  scene.speed = std::sqrt(gravity_.norm() * scene.length + state_.v.squaredNorm()) + omega_.norm() * scene.length;
+  return scene;
+}
+
+}  // namespace carom::adjoint_detail
