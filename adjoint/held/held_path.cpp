@@ -71,6 +71,7 @@ std::vector<char> HeldPath::endingSlips(const State& from, const std::vector<Vec
   std::optional<HeldDynamics<double>> forces;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (contacts_[k].mode != HeldMode::slides || !(contacts_[k].friction > 0)) continue;
+    if (contacts_[k].begins && steps_.empty()) continue;
     if (!(now.slipAt(k).norm() < kStraight * scene_.speed)) continue;
     if (!forces) forces.emplace(now.body, now.contacts, redundant_);
     ending[k] = slip[k].dot(forces->slipRate(k)) < 0;
