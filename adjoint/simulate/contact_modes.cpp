@@ -40,13 +40,13 @@ class Chooser {
         A_(model_.mobilityWorld(R_)),
         omega_(model_.inverseInertiaWorld(R_) * state.L) {
     for (const Contact* c : closed) reach_ = std::max(reach_, armOf(*c).norm());
-    no_slip_ = kNoSlip * std::sqrt(gravity_.norm() * reach_);
+    no_slip_ = least_slip_ = kNoSlip * std::sqrt(gravity_.norm() * reach_);
     closed_ = closed;
     press(closed);
   }
 
   void ignoreSlips(double slower) { no_slip_ = std::max(no_slip_, slower); }
-  void slipEnds() { no_slip_ *= kEndTogether; }
+  void slipEnds() { no_slip_ *= kEndTogether, least_slip_ = no_slip_; }
 
   ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
     pressed_ = contacts;
@@ -268,7 +268,7 @@ class Chooser {
     const PathInputs<double> in = inputs(heightOf());
     const Tier derivative = motion_.plan.bodies[asIndex(body_)].derivative_tier;
     if (!keepsBall(derivative)) return {};
-    if (slipOf(*pressed_.front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
+    if (slipOf(*pressed_.front()).norm() > least_slip_) return stays(PathForm::glide_ball, in.reach);
     const Vec3 slope = alongFace(in.normal, in.gravity);
     const double k = ballInertia(in) / (in.mass * in.reach * in.reach);
     const bool rolls = slope.norm() * k / (1 + k) <= in.friction * pressingGravity(in);
@@ -278,7 +278,7 @@ class Chooser {
   ContactChoice axle() {
     const PathInputs<double> in = inputs(heightOf());
     for (const Contact* c : pressed_)
-      if (slipOf(*c).norm() > no_slip_) return {};
+      if (slipOf(*c).norm() > least_slip_) return {};
     const RollPath<double> path = RollPath<double>::axle(in);
     const Vec3 friction = alongFace(in.normal, in.gravity) - path.acceleration();
     if (!(friction.norm() <= in.friction * pressingGravity(in))) return {};
@@ -305,6 +305,12 @@ class Chooser {
     ContactPath& path = *choice.path;
     path.form = form;
     path.inputs = inputs(reach);
+    if (form == PathForm::roll_ball || form == PathForm::roll_axle) {  // what is left of a slip is stopped at the contact
+      const double inertia = form == PathForm::roll_ball ? ballInertia(path.inputs)
+                                                         : path.inputs.axis.dot(path.inputs.J * path.inputs.axis);
+      const double k = inertia / (path.inputs.mass * reach * reach);
+      path.inputs.v -= k / (1 + k) * slipOf(*pressed_.front());
+    }
     path.body = body_;
     path.face = otherOf(*pressed_.front());
     if (form != PathForm::rest) {
@@ -330,6 +336,7 @@ class Chooser {
   Mat3 R_, A_;
   Vec3 omega_;
   double reach_ = 0, no_slip_ = 0;
+  double least_slip_ = 0;  // of what can glide: that ends by itself
   std::vector<const Contact*> closed_, pressed_;
   FreeAcceleration free_;
 };
