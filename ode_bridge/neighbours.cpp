@@ -53,7 +53,7 @@ void Neighbours::begin(std::vector<BodyExtent> extents, const Vec3& gravity, std
   half_spaces_.clear();
   moving_ = 0;
   all_until_ = -kNever;
-  span_ = range_ = 0;
+  span_ = range_ = end_ = 0;
   broad_phase_.reset(n);
   for (std::size_t i = 0; i < n; ++i) {
     const BodyExtent& e = extents_[i];
@@ -96,7 +96,7 @@ void Neighbours::setPath(int body, const FlightPath& path, const Acceleration& a
   FlightPath& mine = paths_[at(body)];
   mine = path;
   mine.radius = radius;
-  end_ = until;
+  end_ = std::max(end_, until);
   if (few()) {
     const Bounds centre = sweptCentre(mine, accelerationOf(body), from, until);
     boxes_[at(body)] = grown(centre, radius + roundingRoom(centre));

@@ -36,8 +36,8 @@ class Neighbours {
   void begin(std::vector<BodyExtent> extents, const Vec3& gravity, std::size_t few = kFew,
              CollisionClasses classes = {});
 
-  /// Moving body `body` follows a path from `from` on; its centre is where it was at that time. `until` is the end of
-  /// all paths.
+  /// Moving body `body` follows a path from `from` on; its centre is where it was at that time. The path is known
+  /// up to `until`; the latest of these is the end of all paths.
   void setPath(int body, const FlightPath& path, const Acceleration& acceleration, double from, double until);
   /// The same in flight, under the body's share of gravity.
   void setPath(int body, const FlightPath& path, double from, double until) {

@@ -128,6 +128,7 @@ void OdeContacts::take(const Scene& scene) {
   arcs.reserve(n);
   state_->quick.assign(n, Quick::fixed);
   state_->varied.clear();
+  state_->end = 0;
   state_->in_series.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     arcs.emplace_back(models[i], Tier::none, Vec3::Zero(), 0.0, startState(scene.bodies[i], models[i]));
@@ -195,7 +196,7 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
   checkedNumber("setPath", "the time", from);
   checkedNumber("setPath", "the time", until);
   if (!arc.moving()) return;
-  state_->end = until;
+  state_->end = std::max(state_->end, until);  // a path of one body that is known no further ends no other
   state_->opened = -1;
   state_->in_series[static_cast<std::size_t>(body)] = arc.tier() == Tier::triaxial;
   const carom::State& s = arc.startState();

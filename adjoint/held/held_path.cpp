@@ -91,7 +91,7 @@ HeldStep HeldPath::stepFrom(const State& from) {
   const std::vector<Vec3> slip = slipAfter();
   const std::vector<char> frozen = endingSlips(from, slip);
   const HeldStep* before = steps_.empty() ? nullptr : &steps_.back();
-  double length = std::min(next_length_, until_ - known_);
+  double length = next_length_;  // not only to the end of the motion: its length must not matter
   for (int tries = 0; tries < kTries; ++tries) {
     if (!(known_ + length > known_)) break;
     std::optional<HeldStep> step = stepper.tried(from, known_, length, slip, frozen, before);

@@ -21,11 +21,11 @@ class Chooser {
  public:
   Chooser(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
       : motion_(motion), index_(body), state_(state), closed_(closed), body_(motion, body, state, closed) {
-    no_slip_ = kNoSlip * std::sqrt(body_.gravity().norm() * body_.reach());
+    no_slip_ = least_slip_ = kNoSlip * std::sqrt(body_.gravity().norm() * body_.reach());
   }
 
   void ignoreSlips(double slower) { no_slip_ = std::max(no_slip_, slower); }
-  void slipEnds() { no_slip_ *= kEndTogether; }
+  void slipEnds() { no_slip_ *= kEndTogether, least_slip_ = no_slip_; }
 
   ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
     body_.hold(contacts);
@@ -112,7 +112,7 @@ class Chooser {
     const PathInputs<double> in = body_.inputs(body_.height());
     const Tier derivative = motion_.plan.bodies[asIndex(index_)].derivative_tier;
     if (!keepsBall(derivative)) return {};
-    if (body_.slipOf(*body_.pressed().front()).norm() > no_slip_) return stays(PathForm::glide_ball, in.reach);
+    if (body_.slipOf(*body_.pressed().front()).norm() > least_slip_) return stays(PathForm::glide_ball, in.reach);
     const Vec3 slope = alongFace(in.normal, in.gravity);
     const double k = ballInertia(in) / (in.mass * in.reach * in.reach);
     const bool rolls = slope.norm() * k / (1 + k) <= in.friction * pressingGravity(in);
@@ -122,7 +122,7 @@ class Chooser {
   ContactChoice axle() {
     const PathInputs<double> in = body_.inputs(body_.height());
     for (const Contact* c : body_.pressed())
-      if (body_.slipOf(*c).norm() > no_slip_) return {};
+      if (body_.slipOf(*c).norm() > least_slip_) return {};
     const RollPath<double> path = RollPath<double>::axle(in);
     const Vec3 friction = alongFace(in.normal, in.gravity) - path.acceleration();
     if (!(friction.norm() <= in.friction * pressingGravity(in))) return {};
@@ -149,6 +149,12 @@ class Chooser {
     ContactPath& path = *choice.path;
     path.form = form;
     path.inputs = body_.inputs(reach);
+    if (form == PathForm::roll_ball || form == PathForm::roll_axle) {  // what is left of a slip is stopped at the contact
+      const double inertia = form == PathForm::roll_ball ? ballInertia(path.inputs)
+                                                         : path.inputs.axis.dot(path.inputs.J * path.inputs.axis);
+      const double k = inertia / (path.inputs.mass * reach * reach);
+      path.inputs.v -= k / (1 + k) * body_.slipOf(*body_.pressed().front());
+    }
     path.body = index_;
     path.face = body_.otherOf(*body_.pressed().front());
     if (form != PathForm::rest) {
@@ -171,6 +177,7 @@ class Chooser {
   std::vector<const Contact*> closed_;
   PressedBody body_;
   double no_slip_ = 0;
+  double least_slip_ = 0;  // of what can glide: that ends by itself
 };
 
 }  // namespace

@@ -111,7 +111,8 @@ void checkEnergy(const Motion& motion, Findings& findings) {
         findings.fail("energy of body " + std::to_string(p.body) + " drifts by " + number(drift) +
                       " of itself on the way to event " + std::to_string(k));
     }
-    const Real growth = (after - before) / before;
+    // a slip that ends leaves nothing, and a body that touches at rest has nothing before either
+    const Real growth = after == before ? Real(0) : (after - before) / before;
     findings.worst_energy = std::max(findings.worst_energy, growth);
     if (!(growth <= kEnergy))
       findings.fail("energy grows by " + number(growth) + " of itself over event " + std::to_string(k));

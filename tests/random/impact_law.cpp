@@ -63,6 +63,19 @@ std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Ki
           {b.v - mass_b.inverse_mass * P, b.w - Jb * rb.cross(P)}};
 }
 
+std::pair<Velocity, Velocity> stoppedAt(const MassProperties& mass_a, const Kinematic& a, const MassProperties& mass_b,
+                                        const Kinematic& b, const Contact& contact,
+                                        const std::pair<Velocity, Velocity>& after) {
+  const Vector ra = contact.p - a.x, rb = contact.p - b.x;
+  const auto& [va, vb] = after;
+  const Matrix Ja = inverseInertia(mass_a, a.R), Jb = inverseInertia(mass_b, b.R);
+  const Matrix K = (mass_a.inverse_mass + mass_b.inverse_mass) * Matrix::Identity() - cross(ra) * Ja * cross(ra) -
+                   cross(rb) * Jb * cross(rb);
+  const Vector P = K.partialPivLu().solve(-(va.v + va.w.cross(ra) - vb.v - vb.w.cross(rb)));
+  return {{va.v + mass_a.inverse_mass * P, va.w + Ja * ra.cross(P)},
+          {vb.v - mass_b.inverse_mass * P, vb.w - Jb * rb.cross(P)}};
+}
+
 Real violationOf(const JointContact& c) {
   const Real P = c.impulse.norm(), P_n = c.n.dot(c.impulse), P_t = (c.impulse - P_n * c.n).norm();
   const Real spare = c.n.dot(c.after) + c.pair.elasticity * c.n.dot(c.before);

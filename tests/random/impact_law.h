@@ -22,6 +22,11 @@ std::pair<Velocity, Velocity> afterImpact(const MassProperties& mass_a, const Ki
                                           const MassProperties& mass_b, const Kinematic& b, const Contact& contact,
                                           const Coefficients& c);
 
+/// The same, and an impulse that leaves no velocity at the contact: of bodies that stay there.
+std::pair<Velocity, Velocity> stoppedAt(const MassProperties& mass_a, const Kinematic& a, const MassProperties& mass_b,
+                                        const Kinematic& b, const Contact& contact,
+                                        const std::pair<Velocity, Velocity>& after);
+
 /// One of several contacts of an impact: impulse on a, relative velocities before and after it.
 struct JointContact {
   Vector n, impulse, before, after;

@@ -15,6 +15,7 @@ constexpr Real kTime = 1e-9L;       // s
 constexpr Real kPositionRounding = 1e-15L;  // m, of what positions in double leave open of a gap
 constexpr Real kTie = 1e-9L;        // m
 constexpr Real kVelocity = 1e-10L;  // relative to the larger of 1 and the speed
+constexpr Real kOwnSlip = 4;        // slips below so many times the approach count as none where a bounce is captured
 constexpr Real kFlight = 1e-11L;    // the same, and m, rad
 
 using PairOfBodies = std::pair<int, int>;
@@ -143,7 +144,12 @@ class SequenceCheck {
     if (candidates.size() > 1) ++findings_.tied;
     Real best = 1e30L;
     for (const Contact& contact : candidates) {
-      const auto [va, vb] = afterImpact(brute_.mass(a), ka, brute_.mass(b), kb, contact, c);
+      auto expected_after = afterImpact(brute_.mass(a), ka, brute_.mass(b), kb, contact, c);
+      const auto& [va, vb] = expected_after;
+      const Vector u = va.v + va.w.cross(contact.p - ka.x) - vb.v - vb.w.cross(contact.p - kb.x);
+      const Real left = (velocityAt(contact.p, found_a) - velocityAt(contact.p, found_b)).norm();
+      if (event.contacts[0].captured && left <= kVelocity && u.norm() <= kOwnSlip * std::abs(event.contacts[0].approach))
+        expected_after = stoppedAt(brute_.mass(a), ka, brute_.mass(b), kb, contact, expected_after);
       const auto error = [](const Vector& found, const Vector& expected) {
         return (found - expected).norm() / std::max(Real(1), expected.norm());
       };
