@@ -14,7 +14,7 @@ namespace {
 constexpr int kStageRounds = 40;
 constexpr double kStagesSettled = 2e-15, kStagesStalled = 1e-12;
 // What polynomials may leave out.
-constexpr double kLeftOut = 1e-13;
+constexpr double kLeftOut = 3e-14;
 
 // Perpendicular to n, unit.
 Vec3 inPlane(const Vec3& d, const Vec3& n) { return (d - n.dot(d) * n).normalized(); }

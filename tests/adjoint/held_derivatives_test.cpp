@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-class HeldDerivatives : public ::testing::TestWithParam<HeldScene> {};
+class HeldDerivatives : public ::testing::TestWithParam<HeldCase> {};
 
 TEST_P(HeldDerivatives, TangentAndAdjointAreTransposed) {
   Scene scene = GetParam().scene;

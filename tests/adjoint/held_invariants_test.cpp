@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 
 TEST(HeldInvariants, ContactsStayClosedAndEnergyDoesNotGrow) {
-  for (const HeldScene& row : heldScenes()) {
+  for (const HeldCase& row : heldScenes()) {
     SCOPED_TRACE(row.name);
     const Motion m = playLasting(row.scene, row.duration);
     EXPECT_EQ(m.status, MotionStatus::complete) << m.message;
@@ -29,7 +29,7 @@ TEST(HeldInvariants, ContactsStayClosedAndEnergyDoesNotGrow) {
 }
 
 TEST(HeldInvariants, TheOrderOfBodiesDoesNotMatter) {
-  for (const HeldScene& row : heldScenes()) {
+  for (const HeldCase& row : heldScenes()) {
     SCOPED_TRACE(row.name);
     Scene reversed = row.scene;
     std::ranges::reverse(reversed.bodies);
@@ -49,24 +49,28 @@ TEST(HeldInvariants, TheOrderOfBodiesDoesNotMatter) {
   }
 }
 
-TEST(HeldInvariants, TheSameBitsTwiceAndHoweverLongItIsFollowed) {
-  for (const HeldScene& row : heldScenes()) {
+TEST(HeldInvariants, TheSameBitsTwice) {
+  for (const HeldCase& row : heldScenes()) {
     SCOPED_TRACE(row.name);
-    const Motion m = playLasting(row.scene, row.duration), again = playLasting(row.scene, row.duration),
-                 longer = playLasting(row.scene, row.duration + 60);
-    const bool rests = m.world_lines[0].arcs.back().kind() == ArcKind::rest;
-    for (const Motion* other : {&again, &longer}) {
-      ASSERT_GE(other->events.size(), m.events.size());
-      if (rests || other == &again) EXPECT_EQ(other->events.size(), m.events.size());
-      for (std::size_t e = 0; e < m.events.size(); ++e) EXPECT_EQ(other->events[e].time, m.events[e].time);
-      if (!rests && other == &longer) continue;
-      for (int i = 0; i <= 100; ++i) {
-        const double t = m.end * i / 100;
-        EXPECT_EQ(flatten(other->stateAt(0, t)), flatten(m.stateAt(0, t)));
-      }
-    }
-    if (!rests) continue;
-    EXPECT_EQ(flatten(longer.stateAt(0, row.duration + 60)), flatten(m.stateAt(0, row.duration)));
+    const Motion m = playLasting(row.scene, row.duration), again = playLasting(row.scene, row.duration);
+    ASSERT_EQ(again.events.size(), m.events.size());
+    for (std::size_t e = 0; e < m.events.size(); ++e) EXPECT_EQ(again.events[e].time, m.events[e].time);
+    for (int i = 0; i <= 100; ++i) EXPECT_EQ(flatten(again.stateAt(0, m.end * i / 100)), flatten(m.stateAt(0, m.end * i / 100)));
+  }
+}
+
+// The end of a motion also ends the intervals in which roots are looked for: the last digit may differ.
+TEST(HeldInvariants, HowLongItIsFollowedDoesNotMatter) {
+  for (const HeldCase& row : heldScenes()) {
+    SCOPED_TRACE(row.name);
+    const Motion m = playLasting(row.scene, row.duration), longer = playLasting(row.scene, row.duration + 60);
+    ASSERT_GE(longer.events.size(), m.events.size());
+    for (std::size_t e = 0; e < m.events.size(); ++e)
+      expectEntries(longer.events[e].time, m.events[e].time, 1e-14, "time of event " + std::to_string(e));
+    for (int i = 0; i <= 100; ++i)
+      expectEntries(flatten(longer.stateAt(0, m.end * i / 100)), flatten(m.stateAt(0, m.end * i / 100)), 1e-11, "state");
+    if (m.world_lines[0].arcs.back().kind() == ArcKind::rest)
+      expectEntries(flatten(longer.stateAt(0, row.duration + 60)), flatten(m.stateAt(0, row.duration)), 1e-11, "rest");
   }
 }
 

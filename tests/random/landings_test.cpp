@@ -19,7 +19,7 @@ namespace {
 using namespace test;
 
 constexpr int kSamples = 120;
-constexpr Real kOverlap = 1e-11L;  // m: beyond the rounding of a gap that is held
+constexpr Real kLandingOverlap = 1e-11L;  // m: beyond the rounding of a gap that is held
 constexpr double kLook = 1e-3;     // s, that an arc is followed beyond its end
 
 // A box that falls without a rebound onto a plane, near the border of a box, or onto the corner of a box that juts out.
@@ -75,9 +75,9 @@ class Look {
     for (int i = 1; i <= kSamples; ++i) {
       const double t = from + (end - from) * i / kSamples;
       const Real apart = separationAt(path, std::min(t, path.availableUntil()));
-      EXPECT_TRUE(apart >= -kOverlap) << "overlap of " << static_cast<double>(-apart) << " at " << t << " of [" << from
+      EXPECT_TRUE(apart >= -kLandingOverlap) << "overlap of " << static_cast<double>(-apart) << " at " << t << " of [" << from
                                       << ", " << end << "]";
-      if (!(apart >= -kOverlap)) return;
+      if (!(apart >= -kLandingOverlap)) return;
     }
     if (!impact) return;
     double approach = 0;
@@ -86,12 +86,12 @@ class Look {
     path.extendTo(end + kLook);
     const double beyond = std::min(end + kLook, path.knownUntil());
     // it overlaps soon after: at the latest where twice the allowed overlap is reached at half its speed
-    const double soon = end + 4 * static_cast<double>(kOverlap) / approach + 1e-12;
+    const double soon = end + 4 * static_cast<double>(kLandingOverlap) / approach + 1e-12;
     if (!(soon < beyond) || !(approach > 1e-4)) {
       ++landings_.close;
       return;
     }
-    EXPECT_TRUE(separationAt(path, soon) < -kOverlap) << "no overlap at " << soon << ", after an impact at " << approach
+    EXPECT_TRUE(separationAt(path, soon) < -kLandingOverlap) << "no overlap at " << soon << ", after an impact at " << approach
                                                       << " m/s at " << end << ": "
                                                       << static_cast<double>(separationAt(path, soon));
     landings_.worst = std::max(landings_.worst, soon - end);

@@ -8,11 +8,11 @@
 namespace carom::test {
 
 /// A body that contacts hold on corners, edges or faces.
-struct HeldScene {
+struct HeldCase {
   const char* name;
   Scene scene;
   double duration;
 };
-std::vector<HeldScene> heldScenes();
+std::vector<HeldCase> heldScenes();
 
 }  // namespace carom::test
