@@ -14,11 +14,12 @@ std::size_t placeOf(int i) { return static_cast<std::size_t>(i); }
 
 const HeldPath* heldPathOf(const Arc& arc) { return static_cast<const HeldPath*>(arc.integrated()); }
 
-HeldColumns::HeldColumns(const Motion& motion, const HeldPath& path)
-    : body_(path.scene().body), inputs_(path.scene(), path.contacts(), path.stateAt(path.start())) {
+HeldColumns::HeldColumns(const Motion& motion, const HeldScene& held, const std::vector<HeldContact>& contacts,
+                         const State& state)
+    : body_(held.body), inputs_(held, contacts, state) {
   const Scene& scene = *motion.scene;
   const auto material = [&](int body) -> const Material& { return materialOf(scene, scene.bodies[placeOf(body)]); };
-  for (const HeldContact& c : path.contacts()) {
+  for (const HeldContact& c : contacts) {
     const int a = c.is_first ? body_ : c.with, b = c.is_first ? c.with : body_;
     const Rule<double> rule = rulesOf(material(a), material(b)).friction;
     friction_.push_back({materialIndexOf(scene, body_), materialIndexOf(scene, c.with), c.is_first ? rule.by_a : rule.by_b,

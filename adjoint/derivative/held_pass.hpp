@@ -10,7 +10,9 @@ namespace carom::adjoint_detail {
 /// Where the columns of HeldInputs come from.
 class HeldColumns {
  public:
-  HeldColumns(const Motion& motion, const HeldPath& path);
+  HeldColumns(const Motion& motion, const HeldPath& path)
+      : HeldColumns(motion, path.scene(), path.contacts(), path.stateAt(path.start())) {}
+  HeldColumns(const Motion& motion, const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state);
 
   const HeldInputs& inputs() const { return inputs_; }
   /// All columns, the start first.

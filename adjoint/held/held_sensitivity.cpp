@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/held/held_sensitivity.hpp"
 
+#include "adjoint/base/errors.h"
 #include "adjoint/held/held_rates.hpp"
 #include "adjoint/held/held_start.hpp"
 
@@ -16,7 +17,7 @@ constexpr double kNoStart = 1e-9;
 
 // Tangents are taken on in one go while a slip changes by so much of itself; slower than this share of the unit of speed it
 // is straight.
-constexpr double kReach = 0.7, kNoSlip = 1e-8;
+constexpr double kReach = 0.7, kNoSlip = 1e-8, kNeverSlips = 1e-13;
 
 HeldVector asColumn(const StateDerivative& d) { return (HeldVector() << d.x, d.theta, d.v, d.L).finished(); }
 
@@ -159,9 +160,23 @@ void throughStep(const HeldPath& path, const HeldInputs& inputs, const HeldStep&
   }
 }
 
+// Where supports are redundant, friction may be at its limit without any slip that begins.
+void requireSlips(const HeldPath& path) {
+  const HeldStep& first = path.allSteps().front();
+  for (std::size_t k = 0; k < path.contacts().size(); ++k) {
+    if (!path.contacts()[k].begins || !(first.length > 0)) continue;
+    double fastest = 0;
+    for (const double node : Gauss::get().node)
+      fastest = std::max(fastest, path.instantAt(first.start + node * first.length).slipAt(k).norm());
+    if (!(fastest > kNeverSlips * path.scene().speed))
+      throw NotComputable("the derivative of a contact at the limit of friction that does not slip is not determined");
+  }
+}
+
 }  // namespace
 
 MatrixXd heldSensitivity(const HeldPath& path, const HeldInputs& inputs, double t) {
+  requireSlips(path);
   StartDerivative start = startDerivative(path, inputs);
   MatrixXd& D = start.state;
   for (const HeldStep& step : path.allSteps()) {

@@ -231,8 +231,9 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 }  // namespace
 
 bool hasSecondOrder(const Motion& motion) {
-  return std::ranges::none_of(motion.events,
-                              [](const Event& event) { return event.cause == TransitionCause::tips; });
+  const auto isHeld = [](const Arc& arc) { return arc.integrated() != nullptr; };
+  return std::ranges::none_of(motion.events, [](const Event& event) { return event.cause == TransitionCause::tips; }) &&
+         std::ranges::none_of(motion.world_lines, [&](const WorldLine& line) { return std::ranges::any_of(line.arcs, isHeld); });
 }
 
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
@@ -242,7 +243,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   const Motion& motion = tape.motion();
   for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
   if (!hasSecondOrder(motion))
-    throw NotComputable("second derivatives are not known of a motion in which a body begins to tip");
+    throw NotComputable("second derivatives are not known of a motion in which a body tips, or moves on corners, edges or faces");
   for (const ReadingDirection& d : directions) {
     checkDirection("secondOrder", *motion.scene, d.scene);
     if (d.time.size() > 0)

@@ -116,27 +116,6 @@ Motion playRow(const Scene& scene) {
   return play(scene, T);
 }
 
-/// The scene along a direction.
-Scene moved(Scene s, const SceneTangent& d, double h) {
-  s.gravity += h * d.gravity;
-  for (std::size_t m = 0; m < s.materials.size(); ++m) {
-    s.materials[m].elasticity += h * d.materials[m].elasticity;
-    s.materials[m].friction += h * d.materials[m].friction;
-    s.materials[m].tangential_elasticity += h * d.materials[m].tangential_elasticity;
-  }
-  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-    Body& b = s.bodies[i];
-    const BodyDerivative& r = d.bodies[i];
-    b.position += h * r.position, b.velocity += h * r.velocity, b.angular_velocity += h * r.angular_velocity;
-    b.orientation = (expSO3(h * r.orientation) * b.orientation).normalized();
-    if (b.mass) *b.mass += h * r.mass;
-    if (b.density) *b.density += h * r.density;
-    const ShapeKind& kind = kindOf(b.shape);
-    if (r.size.size() > 0) kind.setDimensions(b.shape, kind.dimensions(b.shape) + h * r.size);
-  }
-  return s;
-}
-
 double readOff(const Motion& m, const Motion& about, const std::vector<StateSeed>& seeds) {
   double sum = 0;
   for (const StateSeed& seed : seeds) {

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/adjoint.h"
+#include "adjoint/numeric/so3.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/held_scenes.h"
 #include "tests/support/lasting_scenes.h"
@@ -15,6 +18,7 @@ namespace carom::held_derivatives {
 namespace {
 
 using namespace test;
+using adjoint_detail::logSO3;
 
 class HeldDerivatives : public ::testing::TestWithParam<HeldCase> {};
 
@@ -25,10 +29,68 @@ TEST_P(HeldDerivatives, TangentAndAdjointAreTransposed) {
     const Motion m = playLasting(scene, GetParam().duration);
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       SCOPED_TRACE((reverse ? "reversed, seed " : "seed ") + std::to_string(seed));
-      expectTransposed(m, seed);
+      expectTransposed(m, seed, 1e-12);
     }
   }
 }
+
+void expectLimits(const HeldCase& row) {
+  const Scene& scene = row.scene;
+  const Motion m = playLasting(scene, row.duration);
+  DerivativeTape tape(m);
+  Random random(71);
+  std::vector<Instant> when;
+  const double until = row.smooth > 0 ? row.smooth : m.end;
+  for (int i = 1; i <= 8; ++i) when.push_back(Instant::at(until * i / 8));
+  const SceneTangent all = randomDirection(scene, random);
+  int compared = 0;
+  for (const ControlRow& control : controlRows()) {
+    SceneTangent d(scene);
+    control.copy(d, all);
+    if (std::string(control.name) == "tangential_elasticity") continue;  // they are 0, and must not be less
+    if (std::string(control.name) == "elasticity" && scene.materials[0].elasticity == 0) continue;
+    const MotionTangent found = tangent(tape, d);
+    const double h = std::string(control.name) == "density" ? 0.05 : 2e-6, weights[] = {4. / 5, -1. / 5, 4. / 105, -1. / 280};
+    std::vector<Motion> there;
+    for (int k = 1; k <= 4; ++k)
+      for (int sign : {-1, 1}) there.push_back(playLasting(moved(scene, d, sign * k * h), row.duration));
+    if (std::ranges::any_of(there, [&](const Motion& n) { return n.signature() != m.signature(); })) continue;
+    for (const Instant& at : when) {
+      const BodyStateRate r = found.at(0, at);
+      Eigen::Matrix<double, 12, 1> rate, difference = Eigen::Matrix<double, 12, 1>::Zero();
+      rate << r.position, r.orientation, r.velocity, r.angular_velocity;
+      const BodyState here = m.stateAt(0, at.time);
+      for (std::size_t i = 0; i < there.size(); ++i) {
+        const BodyState s = there[i].stateAt(0, at.time);
+        Eigen::Matrix<double, 12, 1> change;
+        change << s.position - here.position, logSO3(s.orientation * here.orientation.conjugate()),
+            s.velocity - here.velocity, s.angular_velocity - here.angular_velocity;
+        difference += (i % 2 == 0 ? -1 : 1) * weights[i / 2] / h * change;
+      }
+      expectEntries(rate, difference, 1e-6, control.name + std::string(" at ") + std::to_string(at.time),
+                    std::max(1.0, difference.norm()));
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 24);
+}
+
+// A ball that rolls in a V is held by any of many shares of its two contacts.
+TEST(HeldDerivativesOf, WhereFrictionIsAtItsLimitWithoutSlipTheyAreRefused) {
+  for (const HeldCase& row : heldScenes()) {
+    if (std::string(row.name) != "ball spins in a V") continue;
+    const Motion m = playLasting(row.scene, 1);
+    try {
+      adjoint(m, std::vector<StateSeed>{seedOf(0, Instant::at(0.9), 0)});
+      FAIL();
+    } catch (const NotComputable& error) {
+      EXPECT_NE(std::string(error.what()).find("limit of friction"), std::string::npos) << error.what();
+    }
+  }
+}
+
+// Central differences at h to 4h, weighted so that the error is of order h^8; where they go through the same events.
+TEST_P(HeldDerivatives, AreLimitsOfDifferences) { expectLimits(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, HeldDerivatives, ::testing::ValuesIn(heldScenes()), [](const auto& info) {
   std::string name = info.param.name;

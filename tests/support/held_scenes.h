@@ -12,6 +12,7 @@ struct HeldCase {
   const char* name;
   Scene scene;
   double duration;
+  double smooth = 0;  ///< s, from which on derivatives are not those of all changes; 0: they are to the end
 };
 std::vector<HeldCase> heldScenes();
 

@@ -55,6 +55,8 @@ Scene randomScene(std::uint64_t seed, const RandomScene& options = {});
 
 /// Every field of every body, material and tilt at random.
 SceneTangent randomDirection(const Scene& scene, Random& random);
+/// The scene, each of its numbers changed by h times its entry of d.
+Scene moved(Scene scene, const SceneTangent& d, double h);
 
 /// Number i of a body's state: position 0-2, orientation 3-5, velocity 6-8, angular velocity 9-11.
 StateSeed seedOf(int body, const Instant& at, int i);

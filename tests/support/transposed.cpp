@@ -10,8 +10,6 @@
 namespace carom::test {
 namespace {
 
-constexpr double kDot = 1e-13;
-
 // What a change of the dimensions does by the inertia that it changes: with the spin held, L changes by the same share,
 // and the two turn the body to and fro by about as much as a change of the spin by that share does. The sum of both may
 // be far smaller than they are; their rounding is not. Dimensions are at most 1, so a share is at least d.size.
@@ -41,7 +39,7 @@ double absoluteSum(const MotionTangent& t, const std::vector<StateSeed>& seeds) 
 }  // namespace
 
 double expectTransposed(DerivativeTape& tape, const SceneTangent& direction, const std::vector<StateSeed>& seeds,
-                        double least, const std::string& what) {
+                        double least, const std::string& what, double most) {
   const MotionTangent t = tangent(tape, direction);
   double lhs = 0;
   for (const StateSeed& seed : seeds) lhs += t.at(seed.body, seed.at).dot(seed);
@@ -49,7 +47,7 @@ double expectTransposed(DerivativeTape& tape, const SceneTangent& direction, con
   const SceneGradient g = adjoint(tape, seeds);
   const double rhs = g.dot(direction);
   size = std::max(size, flatten(g).cwiseAbs().dot(flatten(direction).cwiseAbs()));
-  expectEntries(lhs / size, rhs / size, kDot, what);
+  expectEntries(lhs / size, rhs / size, most, what);
   return size;
 }
 
@@ -90,7 +88,7 @@ std::vector<ControlRow> controlRows() {
   return rows;
 }
 
-void expectTransposed(const Motion& motion, std::uint64_t seed) {
+void expectTransposed(const Motion& motion, std::uint64_t seed, double most) {
   const Scene& scene = *motion.scene;
   DerivativeTape tape(motion);
   Random random(seed);
@@ -113,13 +111,13 @@ void expectTransposed(const Motion& motion, std::uint64_t seed) {
   for (const auto& [seeds, when] : {std::pair{&at_times, ", at times"}, std::pair{&at_impacts, ", at impacts"},
                                     std::pair{&of_scene, ", of the scene and after impacts"}}) {
     // some derivatives are 0 (a lone body's by its mass) and cannot be held to their own size
-    const double least = 1e-2 * expectTransposed(tape, all, *seeds, 1e-12, std::string("everything") + when);
+    const double least = 1e-2 * expectTransposed(tape, all, *seeds, 1e-12, std::string("everything") + when, most);
     for (const ControlRow& control : controlRows()) {
       SceneTangent d(scene);
       control.copy(d, all);
       double parts = least;
       if (std::string(control.name) == "size") parts += absoluteSum(tangent(tape, spinBySize(scene, d)), *seeds);
-      expectTransposed(tape, d, *seeds, parts, control.name + std::string(when));
+      expectTransposed(tape, d, *seeds, parts, control.name + std::string(when), most);
     }
   }
 }

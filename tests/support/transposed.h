@@ -10,10 +10,10 @@
 /// Equation 5.5: <J u, w> = <u, J^T w>.
 namespace carom::test {
 
-/// Fails where tangent and adjoint pass differ by more than 1e-13 of the sum of absolute products, which is at least
+/// Fails where tangent and adjoint pass differ by more than `most` of the sum of absolute products, which is at least
 /// `least` and is returned.
 double expectTransposed(DerivativeTape& tape, const SceneTangent& direction, const std::vector<StateSeed>& seeds,
-                        double least, const std::string& what);
+                        double least, const std::string& what, double most = 1e-13);
 
 /// The fields of a SceneDerivative that one kind of control varies.
 struct ControlRow {
@@ -26,6 +26,6 @@ std::vector<int> movingBodies(const Scene& scene);
 
 /// expectTransposed of random seeds at times and at impacts, along a random direction: all of it, and each control's
 /// part.
-void expectTransposed(const Motion& motion, std::uint64_t seed);
+void expectTransposed(const Motion& motion, std::uint64_t seed, double most = 1e-13);
 
 }  // namespace carom::test
