@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "adjoint/scene/body_model.h"
-#include "adjoint/simulate/lasting_kinds.hpp"
 #include "carom/version.h"
 #include "cli/build_facts.h"
 #include "cli/command.h"
@@ -59,13 +58,12 @@ ScenePlan::Pair pairOf(const Output& out, const Scene& scene, int a, int b) {
   return pair;
 }
 
-std::vector<ScenePlan::Lasting> lastingOf(const Scene& scene, const Plan& plan) {
+std::vector<ScenePlan::Lasting> lastingOf(const Scene& scene) {
   std::vector<ScenePlan::Lasting> lasting(scene.bodies.size());
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.immovable()) continue;
-    auto [kinds, ends] = adjoint_detail::lastingKindsOf(body.shape, modelOf(body), plan.bodies[i].derivative_tier);
-    lasting[i] = {std::move(kinds), std::move(ends)};
+    lasting[i] = {{ArcKind::rest, ArcKind::slide, ArcKind::roll, ArcKind::pivot}, "stays in contact with a body that moves"};
   }
   return lasting;
 }
@@ -82,7 +80,7 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
   const bool edits = plan.controls > 0 && plan.rows > 0;
   plan.asked = edits ? "edit" : "simulate";
   plan.plan = makePlan(scene, edits ? problem.asked : std::vector<Asked>{});
-  plan.lasting = lastingOf(scene, plan.plan);
+  plan.lasting = lastingOf(scene);
   loaded.contacts.begin(scene);
   plan.overlaps = loaded.contacts.overlaps();
   const int count = static_cast<int>(scene.bodies.size());

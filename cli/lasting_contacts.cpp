@@ -11,7 +11,19 @@ namespace carom::cli {
 namespace {
 
 const char* verbOf(ArcKind kind) {
-  return kind == ArcKind::rest ? "rests" : kind == ArcKind::slide ? "slides" : "rolls";
+  switch (kind) {
+    case ArcKind::flight:
+      break;  // no contact
+    case ArcKind::rest:
+      return "rests";
+    case ArcKind::slide:
+      return "slides";
+    case ArcKind::roll:
+      return "rolls";
+    case ArcKind::pivot:
+      return "pivots";
+  }
+  return "";
 }
 
 }  // namespace

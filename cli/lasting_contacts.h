@@ -6,7 +6,7 @@
 
 namespace carom::cli {
 
-/// Which bodies rest, slide and roll on what, and from when to when, for people; nothing where no contact lasts. Of
+/// Which bodies rest, slide, roll and pivot on what, and from when to when, for people; nothing where no contact lasts. Of
 /// more than kMostListed only the first, unless `all` are asked for.
 void printLastingContacts(Output& out, const Motion& motion, bool all);
 

@@ -112,8 +112,8 @@ Action declareSimulate(CLI::App& app) {
 const Command kSimulateCommand{
     "simulate", "Simulate a scene: every impact, and states at any time",
     "Prints every impact (time, bodies, contact point and normal, mode, and the margin to where\n"
-    "derivatives stop), which bodies rest, slide and roll on what and how long, and the state at the end of\n"
-    "the motion, or at the times asked for. Bounces lower than a millionth of a body are no impacts; --json\n"
+    "derivatives stop), which bodies rest, slide, roll and pivot on what and how long, and the state at the\n"
+    "end of the motion, or at the times asked for. Bounces lower than a millionth of a body are no impacts; --json\n"
     "has them. Of more than 50 impacts it prints how many there are by mode, pair and body instead, if not\n"
     "--impacts.\n"
     "A motion that cannot be continued ends early: the answer says where, when and why. So does one that\n"

@@ -62,7 +62,7 @@ const char* verbOf(EventKind event, ArcKind before, ArcKind after) {
     case ArcKind::roll:
       return again ? "rolls on" : "rolls";
     case ArcKind::pivot:
-      return again ? "turns on" : "turns about where it touches";
+      return again ? "pivots on" : "pivots";
   }
   return "";
 }

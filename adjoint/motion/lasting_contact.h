@@ -8,7 +8,7 @@
 
 namespace carom {
 
-/// A stretch of time in which a body rests, slides or rolls on one that stands still, all the time at the same
+/// A stretch of time in which a body rests, slides, rolls or pivots on one that stands still, all the time at the same
 /// features.
 struct LastingContact {
   int body = -1;                      ///< on a path in contact
@@ -25,7 +25,7 @@ struct LastingContact {
 /// not recorded.
 std::vector<LastingContact> lastingContacts(const Motion& motion);
 
-/// How bodies go on after an event otherwise than before it, for people: "ball rolls", "die comes to rest"; empty where
+/// How bodies go on after an event otherwise than before it, for people: "ball rolls", "die pivots", "die comes to rest"; empty where
 /// nothing changes, and where the motion could not go on. Throws InputError for an event that is not there.
 std::string describeChanges(const Motion& motion, int event);
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "adjoint/motion/plan.h"
 
 namespace carom::adjoint_detail {
@@ -16,13 +13,5 @@ bool isRoundAboutAxis(const Shape& shape, const BodyModel& model);
 inline bool keepsBall(Tier derivative_tier) {
   return derivative_tier == Tier::spherical || derivative_tier == Tier::none;
 }
-
-/// What a body can do in lasting contact with fixed bodies.
-struct LastingKinds {
-  std::vector<ArcKind> kinds;  ///< in the order of ArcKind
-  std::string ends;            ///< where it ends the motion, as the end of a sentence that begins with "where it"
-};
-/// Of a body that moves and is not kinematic.
-LastingKinds lastingKindsOf(const Shape& shape, const BodyModel& model, Tier derivative_tier);
 
 }  // namespace carom::adjoint_detail

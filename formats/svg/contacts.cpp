@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contact that lasts: a broad, pale stroke where a body rolls, the same dashed where it slides, and a square where it
-// comes to rest.
+// Contact that lasts: a broad, pale stroke where a body rolls, the same dashed where it slides and dotted where it
+// pivots, and a square where it comes to rest.
 #include <string>
 #include <vector>
 
@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kStrokeWidth = 8, kRestSide = 11;  // px
 constexpr double kWhite = 0.5;                      // share in the colour of a stroke
-constexpr const char* kSlideDashes = "4 3";
 const Colour kKeyColour{0.27, 0.3, 0.34};  // of the legend, where it stands for all bodies
 
 std::string paleOf(const Colour& colour) { return colour.mixedWith({1, 1, 1}, kWhite).hex(); }
@@ -37,28 +36,34 @@ void forLines(const Picture& picture, F f) {
     if (picture.paths.looks[body].as == BodyLook::As::line) f(static_cast<int>(body), picture.paths.looks[body]);
 }
 
-void drawStrokes(const LayerPage& page, ArcKind kind, Mark mark, const char* words) {
+struct Stroke {
+  ArcKind kind;
+  Mark mark;
+  const char *words, *dashes;
+};
+
+void drawStrokes(const LayerPage& page, const Stroke& stroke) {
   const Motion& motion = page.picture.motion;
-  const bool slides = kind == ArcKind::slide;
   SvgCanvas strokes;
   forLines(page.picture, [&](int body, const BodyLook& look) {
-    for (const ArcRange& range : rangesOf(motion.world_lines[static_cast<std::size_t>(body)], kind)) {
+    for (const ArcRange& range : rangesOf(motion.world_lines[static_cast<std::size_t>(body)], stroke.kind)) {
       if (page.canvas.size() + strokes.size() > page.most) return;
       strokes.element("path", {{"d", pathData(motion, body, page.view, page.picture.paths.tolerance, range)},
                                {"stroke", paleOf(look.colour)}});
     }
   });
   if (strokes.size() == 0) return;
-  const SvgAttributes dashes{{"stroke-dasharray", kSlideDashes}};
+  const bool dashed = stroke.dashes != std::string("none");
+  const SvgAttributes dashes{{"stroke-dasharray", stroke.dashes}};
   page.canvas.open("g",
-                   {{"class", classOf(mark)},
+                   {{"class", classOf(stroke.mark)},
                     {"fill", "none"},
                     {"stroke-width", svgNumber(kStrokeWidth)},
                     {"stroke-linejoin", "round"}},
-                   slides ? dashes : SvgAttributes());
+                   dashed ? dashes : SvgAttributes());
   page.canvas.append(strokes.finish());
   page.canvas.close();
-  page.legend.add({mark, words, paleOf(kKeyColour), slides ? kSlideDashes : "none", kStrokeWidth});
+  page.legend.add({stroke.mark, stroke.words, paleOf(kKeyColour), stroke.dashes, kStrokeWidth});
 }
 
 void drawRests(const LayerPage& page) {
@@ -85,11 +90,12 @@ void drawRests(const LayerPage& page) {
 
 void drawContacts(const LayerPage& page) {
   if (page.level == kContactLevels - 1) {
-    if (page.index == 0) page.legend.leaveOut("where bodies roll, slide and rest");
+    if (page.index == 0) page.legend.leaveOut("where bodies roll, slide, pivot and rest");
     return;
   }
-  drawStrokes(page, ArcKind::roll, Mark::roll, "rolls");
-  drawStrokes(page, ArcKind::slide, Mark::slide, "slides");
+  drawStrokes(page, {ArcKind::roll, Mark::roll, "rolls", "none"});
+  drawStrokes(page, {ArcKind::slide, Mark::slide, "slides", "4 3"});
+  drawStrokes(page, {ArcKind::pivot, Mark::pivot, "pivots", "1.5 3"});
   drawRests(page);
 }
 

@@ -19,6 +19,7 @@ enum class Mark {
   end,
   roll,
   slide,
+  pivot,
   rest,
   ghost,
   crowd_ghost,

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/cli/run_command.h"
-#include "tests/cli/tipping_box.h"
+#include "tests/cli/stacked_boxes.h"
 
 namespace carom::test {
 namespace {
@@ -195,7 +195,7 @@ class BeyondTheEnd : public testing::TestWithParam<Beyond> {};
 TEST_P(BeyondTheEnd, IsNamed) {
   json scene = sceneOfEveryConstraint();
   scene["duration"] = 20;
-  addTippingBox(scene, 1);
+  addStackedBoxes(scene, 1);
   scene["constraints"] = json::array({json::parse(GetParam().constraint)});
   const std::string path = written(scene);
   for (const char* command : {"gradient", "validate"}) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "tests/cli/run_command.h"
-#include "tests/cli/tipping_box.h"
+#include "tests/cli/stacked_boxes.h"
 
 namespace carom::test {
 namespace {
@@ -278,11 +278,11 @@ TEST(Outcomes, AMotionThatEndsEarlySaysSo) {
   json scene = twoBalls(1);
   scene["duration"] = 20;
   scene["gravity"] = {0, 0, -9.81};
-  addTippingBox(scene, 1);
-  const std::string path = writeTemporary("tips.json", scene.dump());
+  addStackedBoxes(scene, 1);
+  const std::string path = writeTemporary("stacked.json", scene.dump());
   const json answer = runJson({"simulate", path});
   EXPECT_EQ(answer["status"], "cascade");
-  EXPECT_NE(answer["message"].get<std::string>().find("after 1 impact; lasting contact of a body that turns"), std::string::npos)
+  EXPECT_NE(answer["message"].get<std::string>().find("after 1 impact; rest, rolling and sliding on bodies that move"), std::string::npos)
       << answer["message"];
   EXPECT_LT(answer["end"].get<double>(), 20);
   EXPECT_EQ(answer["states"][0]["time"], answer["end"]);

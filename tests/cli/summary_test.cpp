@@ -9,7 +9,7 @@
 
 #include "cli/impacts.h"
 #include "tests/cli/run_command.h"
-#include "tests/cli/tipping_box.h"
+#include "tests/cli/stacked_boxes.h"
 
 namespace carom::test {
 namespace {
@@ -120,9 +120,9 @@ TEST(Summary, StatesOfManyBodiesAreToldWhenAskedFor) {
 TEST(Summary, HowAMotionEndsIsSaid) {
   json scene = json::parse(readText(scenePath("pen_500")));
   scene["duration"] = 60;
-  addTippingBox(scene, 1);
+  addStackedBoxes(scene, 1);
   scene.erase("controls"), scene.erase("constraints");
-  const std::string path = writeTemporary("tips.json", scene.dump());
+  const std::string path = writeTemporary("stacked.json", scene.dump());
   const CommandRun run = runCommand({"simulate", path});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("; the motion ends there (cascade): "), std::string::npos) << run.out;
@@ -207,7 +207,7 @@ TEST(Quiet, PrintsNothingForPeopleButErrors) {
 
 TEST(Quiet, LeavesWarningsOut) {
   json scene = json::parse(readText(scenePath("ball-over-wall")));
-  addTippingBox(scene, 0.5);
+  addStackedBoxes(scene, 0.5);
   const std::string path = writeTemporary("ends.json", scene.dump());
   EXPECT_NE(runCommand({"simulate", path, "--json"}).err.find("warning"), std::string::npos);
   EXPECT_EQ(runCommand({"simulate", path, "--json", "--quiet"}).err, "");

@@ -89,6 +89,20 @@ TEST(LastingExport, ThePictureShowsWhereContactLasts) {
   for (const char* word : {"rolls", "slides", "rests"}) EXPECT_NE(words.find(word), std::string::npos) << word;
 }
 
+TEST(LastingExport, WhatTurnsAboutAnEdgePivots) {
+  Body box = makeBox("box", {0.1, 0.1, 0.3}, {0, 0, 0.15 * std::cos(0.4) + 0.05 * std::sin(0.4)});
+  box.orientation = Quat(std::cos(0.2), 0, std::sin(0.2), 0);
+  const Motion motion = playLasting(makeScene({0, 0, -9.81}, 0, 1, {box, makePlane("floor", Vec3::UnitZ(), 0)}), 1);
+  ASSERT_EQ(motion.world_lines[0].arcs[1].kind(), ArcKind::pivot);
+  const SvgPicture picture(pictureOf(motion));
+  EXPECT_EQ(picture.ofClass("pivot", "side").size(), 1u);
+  EXPECT_NE(picture.words().find("pivots"), std::string::npos) << picture.words();
+  std::size_t rows = 0;
+  std::istringstream in(csvText(motion, 100));
+  for (std::string line; std::getline(in, line);) rows += line.ends_with(",pivot\r") ? 1 : 0;
+  EXPECT_GT(rows, 20u);
+}
+
 TEST(LastingExport, ThePictureMarksWhatCountsAsAnImpact) {
   const Motion motion = playLasting(everyPath(), 2);
   ASSERT_GT(motion.events.size(), 2 * motion.impacts);  // bounces lower than a micrometre, and changes of what lasts
