@@ -71,6 +71,38 @@ void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& 
   }
 }
 
+// How far the lowest point of a rim is below its middle: radius |across|, across = axis x n, whose second derivative is
+// no larger than `bend`.
+struct RimGap {
+  double radius = 0, bend = 0;
+  Vec3 across = Vec3::Zero(), rate = Vec3::Zero();
+
+  double below(double h) const { return radius * (across + h * rate).norm(); }
+  // Where the rim is flat: as it will be.
+  double belowRate() const {
+    const double sine = across.norm();
+    return radius * (sine > 0 ? across.dot(rate) / sine : rate.norm());
+  }
+  // No later, and up to `limit`, than a gap falls to 0 that is c > 0 now, and of which what belongs to the middle grows at
+  // `rate_of_middle` with a second derivative of no more than `bend_of_middle`: the root of a concave function, from
+  // below by chords.
+  double timeTo(double c, double rate_of_middle, double bend_of_middle, double limit) const {
+    const double half = 0.5 * (bend_of_middle + radius * bend), start = below(0);
+    const auto left = [&](double h) { return c + h * (rate_of_middle - half * h) - (below(h) - start); };
+    double low = 0, high = limit, at_low = c, at_high = left(high);
+    if (at_high >= 0) return limit;
+    for (int round = 0; round < 100 && high - low > 1e-3 * high; ++round) {
+      const double middle = 0.5 * (low + high), at_middle = left(middle);
+      if (at_middle < 0) {
+        high = middle, at_high = at_middle;
+      } else {
+        low = middle, at_low = at_middle;
+      }
+    }
+    return low + (high - low) * (at_low / (at_low - at_high));
+  }
+};
+
 }  // namespace
 
 HeldPlanes::HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held) : a_(a), b_(b) {
@@ -250,14 +282,13 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
         bend = std::abs(n.dot(body.acceleration - b.acceleration)) + body.variation + b.variation +
                (body.spin * body.spin + body.spin_rate) * arm;
       }
+      RimGap rim;
       if (f.is_rim) {
         const Vec3 axis = body.k.R * f.feature.direction;
-        const double sine = axis.cross(n).norm();
-        gap -= f.feature.rim * sine;
-        if (sine > 0) {
-          const Vec3 u = axis.cross(axis.cross(sign * n)) / sine;  // to its lowest point
-          rate += sign * (dn.dot(f.feature.rim * u) + n.dot((body.k.w - Vec3::Zero()).cross(f.feature.rim * u)));
-        }
+        rim.radius = f.feature.rim;
+        rim.across = axis.cross(n), rim.rate = body.k.w.cross(axis).cross(n) + axis.cross(dn);
+        rim.bend = body.spin * body.spin + body.spin_rate + 2 * body.spin * n1 + n2;
+        gap -= rim.below(0), rate -= rim.belowRate();
       }
       const double still = kStill * (dd.norm() + body.spin * arm + a.k.v.norm() + b.k.v.norm());
       if (gap <= tolerance && rate < -still) {
@@ -266,10 +297,8 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
         continue;
       }
       const double c = std::max(gap, 0.0) + tolerance * (gap <= tolerance ? 1 : 0);
-      double h = timeTo(c, -rate, bend);
-      if (f.is_rim)  // the lowest point may be another one soon
-        h = std::min(h, std::max(c / (fastest + n1 * furthest), gap <= tolerance ? std::sqrt(2 * tolerance / bend) : 0.0));
-      reach.step = std::min(reach.step, h);
+      reach.step = std::min(reach.step, f.is_rim ? rim.timeTo(c, rate + rim.belowRate(), bend, reach.step)
+                                                 : timeTo(c, -rate, bend));
     }
   }
   return reach;
