@@ -7,6 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "ode_bridge/affine_span.hpp"
+#include "ode_bridge/rim_gap.hpp"
 #include "ode_bridge/rounding.hpp"
 #include "ode_bridge/time_to.hpp"
 #include "ode_bridge/touching.hpp"
@@ -224,8 +225,8 @@ std::optional<HeldPlanes::Lying> HeldPlanes::lie(const Plane& plane, const Place
 // How far a follower is from the plane, how fast that changes, and what bounds the second derivative for some time.
 struct HeldPlanes::Approach {
   double gap = 0, rate = 0, bend = 0;
-  double fastest = 0;  // of the gap, whatever the direction
   double speed = 0;    // against which the rate is rounded
+  RimGap rim;         // where it is one
 };
 
 HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a,
@@ -250,14 +251,11 @@ HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plan
   }
   if (f.is_rim) {
     const Vec3 axis = body.k.R * f.feature.direction;
-    const double sine = axis.cross(p.n).norm();
-    out.gap -= f.feature.rim * sine;
-    if (sine > 0) {
-      const Vec3 u = axis.cross(axis.cross(sign * p.n)) / sine;  // to its lowest point
-      out.rate += sign * (p.dn.dot(f.feature.rim * u) + p.n.dot(body.k.w.cross(f.feature.rim * u)));
-    }
+    out.rim.radius = f.feature.rim;
+    out.rim.across = axis.cross(p.n), out.rim.rate = body.k.w.cross(axis).cross(p.n) + axis.cross(p.dn);
+    out.rim.bend = body.spin * body.spin + body.spin_rate + 2 * body.spin * p.n1 + p.n2;
+    out.gap -= out.rim.below(0), out.rate -= out.rim.belowRate();
   }
-  out.fastest = fastest + p.n1 * furthest;
   out.speed = dd.norm() + body.spin * arm + a.k.v.norm() + b.k.v.norm();
   return out;
 }
@@ -285,10 +283,8 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
         continue;
       }
       const double room = std::max(to.gap, 0.0) + tolerance * (there ? 1 : 0);
-      double h = timeTo(room, -to.rate, to.bend);
-      if (f.is_rim)  // the lowest point may be another one soon
-        h = std::min(h, std::max(room / to.fastest, there ? std::sqrt(2 * tolerance / to.bend) : 0.0));
-      reach.step = std::min(reach.step, h);
+      reach.step = std::min(reach.step, f.is_rim ? to.rim.timeTo(room, to.rate + to.rim.belowRate(), to.bend, reach.step)
+                                                 : timeTo(room, -to.rate, to.bend));
     }
   }
   return reach;
