@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/derivative/tangent.h"
 #include "adjoint/held/held_sensitivity.hpp"
+#include "adjoint/motion/motion.h"
 
 /// Between the inputs of a path in lasting contact and the scene, forward and reverse.
 namespace carom::adjoint_detail {

@@ -16,10 +16,20 @@ HeldRates::HeldRates(const HeldScene& scene, const std::vector<HeldContact>& con
 }
 
 HeldLanes HeldRates::lanes(int first, int count) const {
+  HeldLanes out;
+  fillBody(out, first, count);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    HeldLanes::Number gap = 0;
+    out.contacts.push_back(contactLanes(out, k, first, count, gap));
+    out.gap.push_back(gap);
+  }
+  return out;
+}
+
+void HeldRates::fillBody(HeldLanes& out, int first, int count) const {
   using Number = HeldLanes::Number;
   using I = HeldInputs;
   const BodyModel& model = *scene_.model;
-  HeldLanes out;
   BodyInstant<Number>& body = out.body;
   out.x = state_.x.cast<Number>();
   const Mat3 R = state_.q.toRotationMatrix();
@@ -52,69 +62,75 @@ HeldLanes HeldRates::lanes(int first, int count) const {
   body.A = turned * inverse * turned.transpose();
   body.omega = body.A * body.L;
   out.R = model.has_offset ? M3<Number>(turned * model.R_BG.cast<Number>()) : turned;
-  const Vec3 omega = now_.body.omega;
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const HeldContact& held = contacts_[k];
-    const ContactInstant<double>& now = now_.contacts[k];
-    const ContactJacobian& J = jacobians_[k];
-    const double sign = held.is_first ? 1 : -1;
-    const int own = held.is_first ? 0 : 6;
-    Eigen::Matrix<double, 6, 1> rate;
-    rate << state_.v, omega;
-    ContactInstant<Number> c;
-    c.mode = held.mode;
-    c.n = now.n.cast<Number>(), c.normal_rate = now.normal_rate.cast<Number>();
-    c.point_rate = now.point_rate.cast<Number>();
-    V3<Number> point = Vec3(now.r + state_.x).cast<Number>();
-    Number gap = 0;
-    c.friction = held.friction;
-    std::vector<PairTangent> along;
-    std::vector<int> lane_of;
-    for (int lane = 0; lane < count; ++lane) {
-      const int column = first + lane;
-      const auto at = static_cast<std::size_t>(lane);
-      if (column == inputs_.friction + static_cast<int>(k)) c.friction.rate[at] = 1;
-      // J q', where q' changes
-      Eigen::Matrix<double, 6, 1> drate;
-      drate << ratesOf(body.v, at), ratesOf(body.omega, at);
-      const Eigen::Matrix<double, 7, 1> d = J.pose.middleCols<6>(own) * drate;
-      setRates(c.normal_rate, Vec3(sign * d.segment<3>(1)), at);
-      setRates(c.point_rate, Vec3(d.tail<3>()), at);
-      if (!inputs_.movesGeometry(held, k, column)) continue;
-      along.push_back(inputs_.pairTangent(held, k, column));
-      lane_of.push_back(lane);
-    }
-    if (!along.empty()) {
-      const auto dJ = held.is_first ? scene_.geometry->jacobianRates(scene_.body, held.with, held.features, own_,
-                                                                    scene_.with[k], along)
-                                    : scene_.geometry->jacobianRates(held.with, scene_.body, held.features,
-                                                                    scene_.with[k], own_, along);
-      for (std::size_t i = 0; i < along.size(); ++i) {
-        const auto at = static_cast<std::size_t>(lane_of[i]);
-        Eigen::Matrix<double, 7, 1> d = J.pose * along[i].pose;
-        if (J.size_a.cols() > 0) d += J.size_a * along[i].size_a;
-        if (J.size_b.cols() > 0) d += J.size_b * along[i].size_b;
-        gap.rate[at] = d[0];
-        setRates(c.n, Vec3(sign * d.segment<3>(1)), at);
-        setRates(point, Vec3(d.tail<3>()), at);
-        const Eigen::Matrix<double, 7, 1> bent = dJ[i].pose.middleCols<6>(own) * rate;
-        for (int j = 0; j < 3; ++j) {
-          c.normal_rate[j].rate[at] += sign * bent[1 + j];
-          c.point_rate[j].rate[at] += bent[4 + j];
-        }
-      }
-    }
-    c.r = point - out.x;
-    c.slip = slip_[k].cast<Number>();
-    if (held.mode == HeldMode::slides && slip_[k].isZero(0)) {
-      const V3<Number> u = body.velocityAt(c.r), along_face = u - c.n * c.n.dot(u);
-      const Number speed = sqrt(along_face.squaredNorm());
-      if (speed.value > 0) c.slip = along_face / speed;
-    }
-    out.contacts.push_back(std::move(c));
-    out.gap.push_back(gap);
+}
+
+ContactInstant<HeldLanes::Number> HeldRates::contactLanes(const HeldLanes& of, std::size_t k, int first, int count,
+                                                          HeldLanes::Number& gap) const {
+  using Number = HeldLanes::Number;
+  const HeldContact& held = contacts_[k];
+  const ContactInstant<double>& now = now_.contacts[k];
+  const double sign = held.is_first ? 1 : -1;
+  const int own = held.is_first ? 0 : 6;
+  ContactInstant<Number> c;
+  c.mode = held.mode;
+  c.n = now.n.cast<Number>(), c.normal_rate = now.normal_rate.cast<Number>();
+  c.point_rate = now.point_rate.cast<Number>();
+  V3<Number> point = Vec3(now.r + state_.x).cast<Number>();
+  c.friction = held.friction;
+  for (int lane = 0; lane < count; ++lane) {
+    const auto at = static_cast<std::size_t>(lane);
+    if (first + lane == inputs_.friction + static_cast<int>(k)) c.friction.rate[at] = 1;
+    // J q', where q' changes
+    Eigen::Matrix<double, 6, 1> drate;
+    drate << ratesOf(of.body.v, at), ratesOf(of.body.omega, at);
+    const Eigen::Matrix<double, 7, 1> d = jacobians_[k].pose.middleCols<6>(own) * drate;
+    setRates(c.normal_rate, Vec3(sign * d.segment<3>(1)), at);
+    setRates(c.point_rate, Vec3(d.tail<3>()), at);
   }
-  return out;
+  addGeometry(c, point, gap, k, first, count);
+  c.r = point - of.x;
+  c.slip = slip_[k].cast<Number>();
+  if (held.mode == HeldMode::slides && slip_[k].isZero(0)) {
+    const V3<Number> u = of.body.velocityAt(c.r), along_face = u - c.n * c.n.dot(u);
+    const Number speed = sqrt(along_face.squaredNorm());
+    if (speed.value > 0) c.slip = along_face / speed;
+  }
+  return c;
+}
+
+// Where columns move the pair: the gap, the normal and the point, and J q', where J changes.
+void HeldRates::addGeometry(ContactInstant<HeldLanes::Number>& c, V3<HeldLanes::Number>& point, HeldLanes::Number& gap,
+                            std::size_t k, int first, int count) const {
+  const HeldContact& held = contacts_[k];
+  const ContactJacobian& J = jacobians_[k];
+  const double sign = held.is_first ? 1 : -1;
+  const int own = held.is_first ? 0 : 6;
+  Eigen::Matrix<double, 6, 1> rate;
+  rate << state_.v, now_.body.omega;
+  std::vector<PairTangent> along;
+  std::vector<int> lane_of;
+  for (int lane = 0; lane < count; ++lane) {
+    if (!inputs_.movesGeometry(held, k, first + lane)) continue;
+    along.push_back(inputs_.pairTangent(held, k, first + lane));
+    lane_of.push_back(lane);
+  }
+  if (along.empty()) return;
+  const auto dJ = held.is_first ? scene_.geometry->jacobianRates(scene_.body, held.with, held.features, own_, scene_.with[k], along)
+                                : scene_.geometry->jacobianRates(held.with, scene_.body, held.features, scene_.with[k], own_, along);
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const auto at = static_cast<std::size_t>(lane_of[i]);
+    Eigen::Matrix<double, 7, 1> d = J.pose * along[i].pose;
+    if (J.size_a.cols() > 0) d += J.size_a * along[i].size_a;
+    if (J.size_b.cols() > 0) d += J.size_b * along[i].size_b;
+    gap.rate[at] = d[0];
+    setRates(c.n, Vec3(sign * d.segment<3>(1)), at);
+    setRates(point, Vec3(d.tail<3>()), at);
+    const Eigen::Matrix<double, 7, 1> bent = dJ[i].pose.middleCols<6>(own) * rate;
+    for (int j = 0; j < 3; ++j) {
+      c.normal_rate[j].rate[at] += sign * bent[1 + j];
+      c.point_rate[j].rate[at] += bent[4 + j];
+    }
+  }
 }
 
 }  // namespace carom::adjoint_detail

@@ -33,6 +33,11 @@ class HeldRates {
 
  private:
   HeldLanes lanes(int first, int count) const;
+  void fillBody(HeldLanes& out, int first, int count) const;
+  ContactInstant<HeldLanes::Number> contactLanes(const HeldLanes& of, std::size_t k, int first, int count,
+                                                 HeldLanes::Number& gap) const;
+  void addGeometry(ContactInstant<HeldLanes::Number>& c, V3<HeldLanes::Number>& point, HeldLanes::Number& gap, std::size_t k,
+                   int first, int count) const;
 
   const HeldScene& scene_;
   const std::vector<HeldContact>& contacts_;

@@ -260,7 +260,7 @@ class Follower {
     const Participant& p = was.participants[participant];
     const Arc& like = like_.world_lines[index(p.body)].arcs[index(p.arc) + 1];
     FollowedPath& held = held_[index(p.body)];
-    if (like.integrated()) return heldAfter(was, p, after);
+    if (like.integrated()) return heldAfter(p, after);
     held = {};
     if (!like.path()) return builder_.flight(p.body, event_.time, after);
     State start = after;
@@ -278,27 +278,15 @@ class Follower {
   }
 
   // A path on which the contacts of the event hold a body, and those that held it before.
-  Arc heldAfter(const Event& was, const Participant& p, const State& after) {
-    const WorldLine& line = like_.world_lines[index(p.body)];
-    const auto next = index(p.arc) + 1;
-    FollowedPath& held = held_[index(p.body)];
-    std::vector<Contact> contacts;
-    const auto add = [&](const Contact& c) {
-      if (c.a == p.body || c.b == p.body) contacts.push_back(c);
-    };
-    std::ranges::for_each(event_.contacts, add);
-    std::ranges::for_each(held.contacts, add);
+  Arc heldAfter(const Participant& p, const State& after) {
     const auto now = [&](int body) { return arcOf(body).kinematicsOf(body == p.body ? after : arcOf(body).startState()); };
+    FollowedPath& held = held_[index(p.body)];
+    std::vector<Contact> contacts = held.contactsAt(event_, p.body);
     for (Contact& c : contacts) {
       builder_.place(c, now(c.a), now(c.b));
       c.pair = builder_.pairOf(c.a, c.b);
     }
-    const bool ends = next < line.events.size() &&
-                      like_.events[index(line.events[next])].kind == EventKind::transition;
-    const auto& like = static_cast<const HeldPath&>(*line.arcs[next].integrated());
-    PathArc made = heldAlong(motion_, like, HeldEnds::all, after, contacts, event_.time);
-    held = {made.held, made.transition, &like, ends};
-    return std::move(made.arc);
+    return held.follow(motion_, like_, p, after, contacts, event_.time);
   }
 
   void orderByTime() {
