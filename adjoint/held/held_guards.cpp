@@ -47,7 +47,7 @@ std::vector<HeldGuard> guardsOf(const HeldScene& scene, const std::vector<HeldCo
 }
 
 double guardValue(const HeldGuard& guard, const HeldScene& scene, const std::vector<HeldContact>& contacts,
-                  const Pose& own, const HeldInstant& now, const HeldDynamics<double>& forces) {
+                  const Pose& own, const HeldInstant& now, const HeldForces& forces) {
   const auto k = static_cast<std::size_t>(guard.contact);
   const ContactInstant<double>& c = now.contacts[k];
   switch (guard.cause) {

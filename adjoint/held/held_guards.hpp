@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "adjoint/held/held_step.hpp"
+#include "adjoint/held/held_forces.hpp"
 #include "adjoint/motion/body_geometry.h"
 #include "adjoint/motion/motion.h"
 
@@ -26,7 +26,7 @@ std::vector<HeldGuard> guardsOf(const HeldScene& scene, const std::vector<HeldCo
 ///   lifts   n.f / (m a);    slips   (mu n.f - |f_t|) / (m a);    sticks   t.u / c;    leaves   see FeatureLimit
 /// with the units of force m a and speed c of the scene.
 double guardValue(const HeldGuard& guard, const HeldScene& scene, const std::vector<HeldContact>& contacts,
-                  const Pose& own, const HeldInstant& now, const HeldDynamics<double>& forces);
+                  const Pose& own, const HeldInstant& now, const HeldForces& forces);
 double guardRounding(const HeldGuard& guard);
 
 }  // namespace carom::adjoint_detail

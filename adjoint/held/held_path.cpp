@@ -5,19 +5,36 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
-
 
 // A slip that ends goes straight from this share of the unit of speed on; what is left of it across is rounding.
 constexpr double kStraight = 1e-8;
 // A slip slower than this has no direction of its own.
 constexpr double kNoDirection = 1e-7;
+// A slip goes straight where it changes across its direction by no more than this share.
+constexpr double kTurns = 1e-4;
 // The first step turns the body by about so much, rad, and steps are never longer than this share of the first guess.
 constexpr double kFirstTurn = 0.3;
+// See lengthBeforeEnd.
+constexpr double kLeftOutOfSlip = 3e-13;
 constexpr int kTries = 200;
 constexpr std::size_t kMostSteps = 200'000;
+
+// By which a step may be longer, or has to be shorter.
+double factorFor(double error) {
+  return std::clamp(0.9 * elementary::pow(std::max(error, 1e-12), -1.0 / 11), 0.2, 2.0);
+}
+
+// How far before its end a slip can be followed in one step, as a share of the time that is left of it: polynomials
+// through the nodes converge like 1/R^12 on the ellipse of axes R + 1/R that reaches to the end, and what they leave out
+// counts by the share that the slip has of the unit of speed.
+double lengthBeforeEnd(double share) {
+  const double R = elementary::pow(share / kLeftOutOfSlip, 1.0 / Gauss::kNodes);
+  return 2.6 / (0.5 * (R + 1 / R) + 1);
+}
 
 std::vector<Vec3> slipAtNode(const HeldStep& step, int node) {
   std::vector<Vec3> slip;
@@ -26,6 +43,33 @@ std::vector<Vec3> slipAtNode(const HeldStep& step, int node) {
 }
 
 }  // namespace
+
+// The values of all guards at times of one step.
+struct HeldPath::Values {
+  const HeldPath& path;
+  const HeldStep& step;
+  HeldInstant now;
+  HeldForces forces;
+  std::vector<double> values;
+
+  Values(const HeldPath& of, const HeldStep& in) : path(of), step(in), values(of.guards_.size()) {}
+
+  const std::vector<double>& at(double t, const std::vector<Vec3>& slip) {
+    const State s = step.stateAt(t);
+    const Mat3 R = s.q.toRotationMatrix();
+    placeInstant(path.scene_, path.contacts_, s, R, now);
+    for (std::size_t k = 0; k < slip.size(); ++k) {
+      ContactInstant<double>& c = now.contacts[k];
+      c.slip = slip[k];
+      if (c.mode == HeldMode::slides && c.friction > 0) c.slip = (c.slip - c.n.dot(c.slip) * c.n).normalized();
+    }
+    forces.solve(now, path.redundant_);
+    const Pose own{s.x, path.scene_.model->shapeToWorld(R)};
+    for (std::size_t g = 0; g < values.size(); ++g)
+      values[g] = guardValue(path.guards_[g], path.scene_, path.contacts_, own, now, forces);
+    return values;
+  }
+};
 
 HeldPath::HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redundant, std::vector<HeldGuard> guards,
                    const State& start, double time, double until)
@@ -41,7 +85,8 @@ HeldPath::HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redu
   const HeldInstant now = instantOf(scene_, contacts_, start, slipAfter());
   const double spin = now.body.omega.norm() + std::sqrt(scene_.gravity.norm() / scene_.length);
   next_length_ = kFirstTurn / spin;
-  const HeldDynamics<double> forces(now.body, now.contacts, redundant_);
+  HeldForces forces;
+  forces.solve(now, redundant_);
   bounds_.acceleration = forces.acceleration();
   bounds_.straight = false;
   for (const ContactInstant<double>& c : now.contacts)
@@ -64,87 +109,110 @@ std::vector<Vec3> HeldPath::slipAfter() const {
   return slip;
 }
 
-// Which slips are about to end: they are slow, and become slower.
-std::vector<char> HeldPath::endingSlips(const State& from, const std::vector<Vec3>& slip) const {
-  std::vector<char> ending(contacts_.size(), 0);
-  const HeldInstant now = instantOf(scene_, contacts_, from, slip);
-  std::optional<HeldDynamics<double>> forces;
+// Looks at the slips with which a step starts: those that are about to end, as they are slow and become slower, are
+// frozen. Gives how long the step may be as they come to an end or turn.
+double HeldPath::lookAtSlips(HeldStepper::Start& start) const {
+  double longest = kInfinity;
+  if (!slides()) return longest;
+  const HeldInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+  HeldForces forces;
+  forces.solve(now, redundant_);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (contacts_[k].mode != HeldMode::slides || !(contacts_[k].friction > 0)) continue;
     if (contacts_[k].begins && steps_.empty()) continue;
-    if (!(now.slipAt(k).norm() < kStraight * scene_.speed)) continue;
-    if (!forces) forces.emplace(now.body, now.contacts, redundant_);
-    ending[k] = slip[k].dot(forces->slipRate(k)) < 0;
+    const ContactInstant<double>& c = now.contacts[k];
+    const double slip = now.slipAt(k).norm(), share = slip / scene_.speed;
+    Vec3 rate = forces.slipRate(k);
+    rate -= c.n.dot(rate) * c.n;
+    const double along = start.slip[k].dot(rate);
+    if (share < kStraight) {
+      start.frozen[k] = along < 0;
+    } else if ((rate - along * start.slip[k]).norm() > kTurns * rate.norm()) {
+      longest = std::min(longest, slip / rate.norm() * lengthBeforeEnd(share));
+    }
   }
-  return ending;
+  return longest;
 }
 
 void HeldPath::extend() {
   if (end_ || !(known_ < until_)) return;
   if (steps_.size() >= kMostSteps) throw NotComputable("its path in contact takes more than 200000 steps");
-  take(stepFrom(last_));
+  take(nextStep());
 }
 
 // The longest step that is as good as is asked for, or that ends where a guard falls to 0.
-HeldStep HeldPath::stepFrom(const State& from) {
-  const HeldStepper stepper(scene_, contacts_, redundant_);
-  const std::vector<Vec3> slip = slipAfter();
-  const std::vector<char> frozen = endingSlips(from, slip);
-  const HeldStep* before = steps_.empty() ? nullptr : &steps_.back();
-  double length = next_length_;  // not only to the end of the motion: its length must not matter
-  for (int tries = 0; tries < kTries; ++tries) {
-    if (!(known_ + length > known_)) break;
-    std::optional<HeldStep> step = stepper.tried(from, known_, length, slip, frozen, before);
+HeldStep HeldPath::nextStep() {
+  HeldStepper stepper(scene_, contacts_, redundant_);
+  HeldStepper::Start start{last_, known_, slipAfter(), std::vector<char>(contacts_.size(), 0)};
+  double length = std::min(next_length_, lookAtSlips(start));  // however long the motion is: that must not matter
+  const HeldStep* like = steps_.empty() ? nullptr : &steps_.back();
+  std::optional<HeldStep> too_long;
+  for (int tries = 0; tries < kTries && known_ + length > known_; ++tries) {
+    std::optional<HeldStep> step = stepper.tried(start, length, like);
     if (!step) {
       length *= 0.4;
       continue;
     }
     std::optional<End> end = firstEnd(*step);
     const double error = stepper.errorOf(*step);
-    const double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-12), -1.0 / 11), 0.2, 2.0);
     if (!(error <= 1)) {
-      // what lies beyond an end need not be followed
-      length = end && end->time < known_ + 0.95 * length && end->time > known_ ? std::max(end->time - known_, factor * length)
-                                                                             : factor * length;
+      length = shorterLength(length, error, end);
+      too_long = std::move(step);
+      like = &*too_long;
       continue;
     }
-    next_length_ = factor * length;
+    next_length_ = factorFor(error) * length;
     if (!end) return *step;
     if (!(end->time > known_)) {  // at once
-      end_ = end;
       step->length = 0;
-      return *step;
-    }
-    // The state of an event is that at the end of a step.
-    for (int round = 0; round < 3; ++round) {
-      const double shorter = end->time - known_;
-      if (shorter == step->length) break;
-      std::optional<HeldStep> ending = stepper.tried(from, known_, shorter, slip, frozen, &*step);
-      if (!ending) break;
-      step = std::move(ending);
-      if (round == 1) break;
-      const auto which = static_cast<std::size_t>(
-          std::ranges::find_if(guards_, [&](const HeldGuard& g) { return g.isSame(end->guard); }) - guards_.begin());
-      const std::vector<Vec3> last = slipAtNode(*step, Gauss::kNodes - 1);
-      const double h = step->length, value = valuesAt(*step, known_ + h, last)[which],
-                   earlier = valuesAt(*step, known_ + 0.999 * h, last)[which];
-      const double move = -value * (0.001 * h) / (value - earlier);
-      if (!(std::abs(move) <= 1e-6 * h) || std::abs(move) <= 1e-16 * known_) break;
-      end->time += move;
-    }
-    if (end->guard.cause == TransitionCause::sticks) {
-      const auto k = static_cast<std::size_t>(end->guard.contact);
-      const HeldInstant now = instantOf(scene_, contacts_, step->stateAt(step->start + step->length), slipAtNode(*step, Gauss::kNodes - 1));
-      if (now.slipAt(k).norm() > 10 * kNoDirection * scene_.speed) {  // it passed by
+    } else {
+      endAt(stepper, start, *step, *end);
+      if (passesBy(*step, *end)) {
         length *= 0.5;
         continue;
       }
+      end->time = step->start + step->length;
     }
-    end->time = step->start + step->length;
     end_ = end;
     return *step;
   }
   throw NotComputable("its path in contact cannot be followed beyond t = " + std::to_string(known_) + " s");
+}
+
+// What lies beyond an end need not be followed.
+double HeldPath::shorterLength(double length, double error, const std::optional<End>& end) const {
+  const double shorter = factorFor(error) * length;
+  if (!end || !(end->time > known_) || !(end->time < known_ + 0.95 * length)) return shorter;
+  return std::max(end->time - known_, shorter);
+}
+
+// The state of an event is that at the end of a step: the step is made anew up to the root, which is found once more there.
+void HeldPath::endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const {
+  const auto which = static_cast<std::size_t>(
+      std::ranges::find_if(guards_, [&](const HeldGuard& g) { return g.isSame(end.guard); }) - guards_.begin());
+  for (int round = 0; round < 2; ++round) {
+    const double shorter = end.time - known_;
+    if (shorter == step.length) return;
+    std::optional<HeldStep> ending = stepper.tried(start, shorter, &step);
+    if (!ending) return;
+    step = std::move(*ending);
+    if (round == 1) return;
+    Values values(*this, step);
+    const std::vector<Vec3> last = slipAtNode(step, Gauss::kNodes - 1);
+    const double h = step.length, value = values.at(known_ + h, last)[which],
+                 earlier = values.at(known_ + 0.999 * h, last)[which];
+    const double move = -value * (0.001 * h) / (value - earlier);
+    if (!(std::abs(move) <= 1e-6 * h) || std::abs(move) <= 1e-16 * known_) return;
+    end.time += move;
+  }
+}
+
+// A slip that was expected to end has not.
+bool HeldPath::passesBy(const HeldStep& step, const End& end) const {
+  if (end.guard.cause != TransitionCause::sticks) return false;
+  const HeldInstant now = instantOf(scene_, contacts_, step.stateAt(step.start + step.length),
+                                    slipAtNode(step, Gauss::kNodes - 1));
+  return now.slipAt(static_cast<std::size_t>(end.guard.contact)).norm() > 10 * kNoDirection * scene_.speed;
 }
 
 void HeldPath::take(HeldStep step) {
@@ -163,7 +231,7 @@ void HeldPath::take(HeldStep step) {
     known_ = step.start + step.length;
     last_ = step.stateAt(known_);
   }
-  steps_.push_back(std::move(step));
+  steps_.add(std::move(step));
 }
 
 const HeldStep& HeldPath::stepAt(double t) const {
@@ -207,26 +275,11 @@ HeldInstant HeldPath::instantAt(double t) const {
 
 StateDerivative HeldPath::rateAt(double t) const {
   const HeldInstant now = instantAt(t);
-  const HeldDynamics<double> forces(now.body, now.contacts, redundant_);
+  HeldForces forces;
+  forces.solve(now, redundant_);
   StateDerivative rate;
   rate.x = now.body.v, rate.theta = now.body.omega, rate.v = forces.acceleration(), rate.L = forces.moment();
   return rate;
-}
-
-std::vector<double> HeldPath::valuesAt(const HeldStep& step, double t, const std::vector<Vec3>& slip) const {
-  const State s = step.stateAt(t);
-  HeldInstant now = instantOf(scene_, contacts_, s, slip);
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    ContactInstant<double>& c = now.contacts[k];
-    if (c.mode != HeldMode::slides || !(c.friction > 0)) continue;
-    c.slip = (c.slip - c.n.dot(c.slip) * c.n).normalized();
-  }
-  const HeldDynamics<double> forces(now.body, now.contacts, redundant_);
-  const Pose own{s.x, scene_.model->shapeToWorld(s.q.toRotationMatrix())};
-  std::vector<double> values;
-  values.reserve(guards_.size());
-  for (const HeldGuard& guard : guards_) values.push_back(guardValue(guard, scene_, contacts_, own, now, forces));
-  return values;
 }
 
 // The first guard that falls through 0, looked for at the nodes and at both ends.
@@ -239,16 +292,16 @@ std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step) const {
   if (steps_.empty())
     for (std::size_t k = 0; k < contacts_.size(); ++k)
       if (!contacts_[k].slip.isZero(0)) slip[k] = contacts_[k].slip;
-  std::vector<double> last = valuesAt(step, before, slip);
+  Values values(*this, step);
+  std::vector<double> last = values.at(before, slip);
   for (int i = 0; i <= Gauss::kNodes; ++i) {
     const double t = i < Gauss::kNodes ? step.start + gauss.node[i] * step.length : step.start + step.length;
     const std::vector<Vec3> here = slipAtNode(step, std::min(i, Gauss::kNodes - 1));
-    const std::vector<double> now = valuesAt(step, t, here);
+    const std::vector<double> now = values.at(t, here);
     std::optional<End> first;
     for (std::size_t g = 0; g < guards_.size(); ++g) {
-      const double rounding = guardRounding(guards_[g]);
-      if (!(now[g] < -rounding) || !(now[g] < last[g])) continue;
-      const double root = last[g] <= 0 ? before : rootOf(step, g, before, t, slip);
+      if (!(now[g] < -guardRounding(guards_[g])) || !(now[g] < last[g])) continue;
+      const double root = last[g] <= 0 ? before : rootOf(values, g, before, t, slip);
       if (!first || root < first->time) first = End{root, guards_[g]};
     }
     if (first) return first;
@@ -257,17 +310,17 @@ std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step) const {
   return std::nullopt;
 }
 
-double HeldPath::rootOf(const HeldStep& step, std::size_t guard, double above, double below,
+double HeldPath::rootOf(Values& values, std::size_t guard, double above, double below,
                         const std::vector<Vec3>& slip) const {
-  const auto value = [&](double t) { return valuesAt(step, t, slip)[guard]; };
-  double high = value(above), low = value(below);
+  const double length = below - above;
+  double high = values.at(above, slip)[guard], low = values.at(below, slip)[guard];
   if (!(high > 0)) return above;
   int side = 0;
   for (int k = 0; k < 100 && std::nextafter(above, below) < below && low < 0; ++k) {
     // the chord, drawn towards the end that has not moved (Illinois), with halving where it does not help
     double t = k % 8 == 7 ? 0.5 * (above + below) : above + (below - above) * (high / (high - low));
     t = std::clamp(t, std::nextafter(above, below), std::nextafter(below, above));
-    const double now = value(t);
+    const double now = values.at(t, slip)[guard];
     if (now > 0) {
       above = t, high = now;
       if (side == 1) low *= 0.5;
@@ -277,7 +330,7 @@ double HeldPath::rootOf(const HeldStep& step, std::size_t guard, double above, d
       if (side == -1) high *= 0.5;
       side = -1;
     }
-    if (below - above <= 4e-16 * std::max(std::abs(below), step.length) || now == 0) break;
+    if (below - above <= 4e-16 * std::max(std::abs(below), length) || now == 0) break;
   }
   return below;
 }

@@ -45,20 +45,22 @@ class HeldPath final : public IntegratedPath {
   const std::vector<HeldContact>& contacts() const { return contacts_; }
   const std::vector<HeldGuard>& guards() const { return guards_; }
   bool redundant() const { return redundant_; }
-  const std::vector<HeldStep>& allSteps() const { return steps_; }
+  const HeldSteps& allSteps() const { return steps_; }
   double start() const { return start_; }
   /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node.
   HeldInstant instantAt(double t) const;
 
  private:
+  struct Values;
   const HeldStep& stepAt(double t) const;
-  HeldStep stepFrom(const State& from);
-  double lengthTo(double t) const { return t - known_; }
+  HeldStep nextStep();
   std::vector<Vec3> slipAfter() const;
-  std::vector<char> endingSlips(const State& from, const std::vector<Vec3>& slip) const;
+  double lookAtSlips(HeldStepper::Start& start) const;
+  double shorterLength(double length, double error, const std::optional<End>& end) const;
   std::optional<End> firstEnd(const HeldStep& step) const;
-  double rootOf(const HeldStep& step, std::size_t guard, double above, double below, const std::vector<Vec3>& slip) const;
-  std::vector<double> valuesAt(const HeldStep& step, double t, const std::vector<Vec3>& slip) const;
+  double rootOf(Values& values, std::size_t guard, double above, double below, const std::vector<Vec3>& slip) const;
+  void endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
+  bool passesBy(const HeldStep& step, const End& end) const;
   void take(HeldStep step);
 
   HeldScene scene_;
@@ -67,7 +69,7 @@ class HeldPath final : public IntegratedPath {
   std::vector<HeldGuard> guards_;
   State start_state_, last_;
   double start_, until_, known_, next_length_;
-  std::vector<HeldStep> steps_;
+  HeldSteps steps_;
   std::optional<End> end_;
   PathBounds bounds_;
   bool rolls_ = false;

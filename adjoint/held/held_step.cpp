@@ -4,20 +4,47 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/held/held_forces.hpp"
 #include "adjoint/numeric/so3.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
+constexpr int kNodes = Gauss::kNodes;
 
 // Rounds of one step, and what the slopes may change by in the last, as a share of the scales.
 constexpr int kStageRounds = 40;
 constexpr double kStagesSettled = 2e-15, kStagesStalled = 1e-12;
 // What polynomials may leave out.
 constexpr double kLeftOut = 3e-14;
+// Directions that turn by no more than this, rad, in the last round.
+constexpr double kTurned = 1e-6;
+// How much further than it is long another step is good for a guess.
+constexpr double kGuessed = 1.5;
+// Directions are worked out anew where a round leaves more than this share of what they turned by.
+constexpr double kSlowTurns = 0.05;
 
 // Perpendicular to n, unit.
 Vec3 inPlane(const Vec3& d, const Vec3& n) { return (d - n.dot(d) * n).normalized(); }
+
+// d(theta)/dt at angular velocity w.
+Vec3 rotationRate(const Vec3& theta, const Vec3& w) {
+  const double a2 = theta.squaredNorm(), a = std::sqrt(a2);
+  double c = (1 + a2 / 60 * (1 + a2 / 42 * (1 + a2 / 40))) / 12;
+  if (a >= kSmallRotation) {
+    const auto [sine, cosine] = elementary::sincos(a / 2);
+    c = (1 - a / 2 * cosine / sine) / a2;
+  }
+  const Vec3 across = theta.cross(w);
+  return w - 0.5 * across + c * theta.cross(across);
+}
+
+HeldVector scaleOf(const HeldScene& scene, double of_x, double of_theta) {
+  HeldVector scale;
+  scale << Vec3::Constant(of_x), Vec3::Constant(of_theta), Vec3::Constant(scene.speed),
+      Vec3::Constant(scene.speed * scene.length * scene.model->mass);
+  return scale;
+}
 
 }  // namespace
 
@@ -27,176 +54,185 @@ State HeldStep::moved(const State& from, const HeldVector& change) {
           from.v + change.segment<3>(6), from.L + change.tail<3>()};
 }
 
-HeldInstant instantOf(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state,
-                      const std::vector<Vec3>& slip) {
-  HeldInstant now;
-  const BodyModel& model = *scene.model;
-  const Mat3 R = state.q.toRotationMatrix();
-  BodyInstant<double>& body = now.body;
-  body.v = state.v, body.L = state.L, body.gravity = scene.gravity;
-  body.A = model.inverseInertiaWorld(R);
-  body.omega = body.A * state.L;
-  body.inverse_mass = model.inverse_mass;
-  const Pose pose{state.x, model.shapeToWorld(R)};
-  now.contacts.resize(contacts.size());
-  now.gap_rate.resize(contacts.size());
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const HeldContact& held = contacts[k];
-    const ContactMotion m = scene.contact(held, k, pose, state.v, body.omega);
-    const double sign = held.is_first ? 1 : -1;
-    ContactInstant<double>& c = now.contacts[k];
-    c.mode = held.mode;
-    c.n = sign * m.at.normal, c.normal_rate = sign * m.normal_rate;
-    c.r = m.at.point - state.x, c.point_rate = m.point_rate;
-    c.friction = held.friction;
-    c.slip = slip[k];
-    now.gap_rate[k] = m.gap_rate;
-  }
-  return now;
-}
-
-// Everything at the nodes of one round.
+// Everything at the nodes of one round, and what it is worked out with.
 struct HeldStepper::Nodes {
-  std::array<HeldInstant, Gauss::kNodes> at;
-  HeldSlopes slopes;
+  using OfSlip = Eigen::Matrix<double, 3, kNodes>;
+  HeldForces forces;
+  HeldInstant start;
+  std::array<HeldInstant, kNodes> at;
   // of each sliding contact with friction: its place in the list of contacts
   std::vector<std::size_t> turning;
-  std::vector<Eigen::Matrix<double, 3, Gauss::kNodes>> slip_rate;  // of these
-  // how slopes of v and L, and the slip rates of all of these, answer to a turn of a direction: by node and contact
-  std::vector<std::array<Eigen::Matrix<double, 6, 1>, Gauss::kNodes>> slope_by_turn;
-  std::vector<std::vector<std::array<Vec3, Gauss::kNodes>>> rate_by_turn;  // [of][by][node]
+  std::vector<OfSlip> slip_rate;  // of these
+  // How slopes of v and L answer to a turn of the direction of each of these, and the slip rates of all: [of][by].
+  std::vector<Eigen::Matrix<double, 6, kNodes>> slope_by_turn;
+  std::vector<std::vector<OfSlip>> rate_by_turn;
+  Eigen::PartialPivLU<Eigen::MatrixXd> turns;
+  Eigen::MatrixXd M;
+  Eigen::VectorXd turn;
 };
 
-// Slopes as they are at the start, or as they went on before.
-HeldSlopes HeldStepper::guess(HeldStep& step, const HeldInstant& start, const HeldStep* before) const {
-  const HeldDynamics<double> forces(start.body, start.contacts, redundant_);
-  HeldVector slope;
-  slope << step.from.v, start.body.omega, forces.acceleration(), forces.moment();
-  HeldSlopes F = slope.replicate<1, Gauss::kNodes>();
-  if (!before || step.length > 1.5 * before->length) return F;
-  for (int i = 0; i < Gauss::kNodes; ++i)
-    F.col(i).tail<6>() = before->slopeAt(step.start + Gauss::get().node[i] * step.length).tail<6>();
-  return F;
-}
+HeldStepper::HeldStepper(const HeldScene& scene, const std::vector<HeldContact>& contacts, bool redundant)
+    : scene_(scene), contacts_(contacts), redundant_(redundant), nodes_(std::make_unique<Nodes>()) {}
 
-std::optional<HeldStep> HeldStepper::tried(const State& from, double start, double length,
-                                           const std::vector<Vec3>& slip, const std::vector<char>& frozen,
-                                           const HeldStep* before) const {
+HeldStepper::~HeldStepper() = default;
+
+std::optional<HeldStep> HeldStepper::tried(const Start& start, double length, const HeldStep* like) {
+  Nodes& nodes = *nodes_;
   HeldStep step;
-  step.start = start, step.length = length, step.from = from, step.frozen = frozen;
+  step.start = start.time, step.length = length, step.from = start.state, step.frozen = start.frozen;
   step.slip.resize(contacts_.size());
-  for (std::size_t k = 0; k < contacts_.size(); ++k) step.slip[k].fill(slip[k]);
-  const HeldInstant at_start = instantOf(scene_, contacts_, from, slip);
-  HeldSlopes F = guess(step, at_start, before);
-  if (!solve(step, F, at_start)) return std::nullopt;
+  placeInstant(scene_, contacts_, start.state, start.state.q.toRotationMatrix(), nodes.start);
+  nodes.turning.clear();
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    step.slip[k].fill(start.slip[k]);
+    nodes.start.contacts[k].slip = start.slip[k];
+    if (contacts_[k].mode == HeldMode::slides && contacts_[k].friction > 0 && !step.frozen[k]) nodes.turning.push_back(k);
+  }
+  const std::size_t turning = nodes.turning.size();
+  nodes.slip_rate.resize(turning), nodes.slope_by_turn.resize(turning);
+  nodes.rate_by_turn.resize(turning);
+  for (auto& row : nodes.rate_by_turn) row.resize(turning);
+  HeldSlopes F = guess(step, like);
+  if (!solve(step, F)) return std::nullopt;
   step.slopes = F * Gauss::get().coefficients.transpose();
   return step;
 }
 
-bool HeldStepper::solve(HeldStep& step, HeldSlopes& F, const HeldInstant& start) const {
-  const Gauss& gauss = Gauss::get();
-  const double h = step.length;
-  Nodes nodes;
-  for (std::size_t k = 0; k < contacts_.size(); ++k)
-    if (contacts_[k].mode == HeldMode::slides && contacts_[k].friction > 0 && !step.frozen[k]) nodes.turning.push_back(k);
-  const std::size_t turning = nodes.turning.size();
-  nodes.slip_rate.resize(turning);
-  nodes.slope_by_turn.resize(turning);
-  nodes.rate_by_turn.assign(turning, std::vector<std::array<Vec3, Gauss::kNodes>>(turning));
-  HeldVector scale;
-  scale << Vec3::Constant(scene_.speed), Vec3::Constant(scene_.speed / scene_.length), Vec3::Constant(scene_.speed),
-      Vec3::Constant(scene_.speed * scene_.length * scene_.model->mass);
-  const HeldVector weight = h * scale.cwiseInverse();
-  double before = kInfinity;
-  std::vector<Vec3> slip(contacts_.size());
-  for (int round = 0; round < kStageRounds; ++round) {
-    const HeldSlopes change = h * F * gauss.integral.transpose();
-    if (!change.allFinite() || change.middleRows<3>(3).cwiseAbs().maxCoeff() > 2) return false;
-    HeldSlopes next;
-    for (int i = 0; i < Gauss::kNodes; ++i) {
-      const auto ii = static_cast<std::size_t>(i);
-      const State s = HeldStep::moved(step.from, change.col(i));
-      for (std::size_t k = 0; k < contacts_.size(); ++k) slip[k] = step.slip[k][ii];
-      HeldInstant& now = nodes.at[ii] = instantOf(scene_, contacts_, s, slip);
-      for (std::size_t k = 0; k < contacts_.size(); ++k) {
-        ContactInstant<double>& c = now.contacts[k];
-        if (c.mode == HeldMode::slides && c.friction > 0) c.slip = step.slip[k][ii] = inPlane(step.slip[k][ii], c.n);
-      }
-      const HeldDynamics<double> forces(now.body, now.contacts, redundant_);
-      next.col(i) << s.v, leftJacobianInverse(Vec3(change.col(i).segment<3>(3))) * now.body.omega, forces.acceleration(),
-          forces.moment();
-      for (std::size_t a = 0; a < turning; ++a) {
-        nodes.slip_rate[a].col(i) = forces.slipRate(nodes.turning[a]);
-        const std::vector<Vec3> answer = forces.answerToTurn(nodes.turning[a], redundant_);
-        auto& slope = nodes.slope_by_turn[a][ii];
-        slope.setZero();
-        for (std::size_t k = 0; k < answer.size(); ++k) {
-          slope.head<3>() += answer[k] * now.body.inverse_mass;
-          slope.tail<3>() += now.contacts[k].r.cross(answer[k]);
-        }
-        for (std::size_t b = 0; b < turning; ++b) {
-          Vec3 d = Vec3::Zero();
-          for (std::size_t k = 0; k < answer.size(); ++k)
-            d += forces.responseAt(now.contacts[nodes.turning[b]].r, k, answer[k]);
-          nodes.rate_by_turn[b][a][ii] = d;
-        }
-      }
+// Slopes as they are at the start, or as another step has them here.
+HeldSlopes HeldStepper::guess(HeldStep& step, const HeldStep* like) {
+  Nodes& nodes = *nodes_;
+  HeldSlopes F;
+  if (like && step.start + step.length <= like->start + (1 + kGuessed) * like->length) {
+    extrapolate(step, *like, F);
+    return F;
+  }
+  nodes.forces.solve(nodes.start, redundant_);
+  HeldVector slope;
+  slope << step.from.v, nodes.start.body.omega, nodes.forces.acceleration(), nodes.forces.moment();
+  return slope.replicate<1, kNodes>();
+}
+
+void HeldStepper::extrapolate(HeldStep& step, const HeldStep& like, HeldSlopes& F) {
+  Nodes& nodes = *nodes_;
+  const Quat back = step.from.q.conjugate();
+  for (int i = 0; i < kNodes; ++i) {
+    const auto ii = static_cast<std::size_t>(i);
+    const State s = like.stateAt(step.start + Gauss::get().node[i] * step.length);
+    HeldInstant& now = nodes.at[ii];
+    placeInstant(scene_, contacts_, s, s.q.toRotationMatrix(), now);
+    for (const std::size_t k : nodes.turning) {
+      const Vec3 u = now.slipAt(k);
+      if (u.dot(step.slip[k][ii]) > 0.5 * u.norm()) step.slip[k][ii] = u.normalized();
     }
+    slopesAt(ii, step, s, logSO3(s.q * back), F);
+  }
+}
+
+// Of the instant that is placed at a node.
+void HeldStepper::slopesAt(std::size_t node, const HeldStep& step, const State& state, const Vec3& theta,
+                           HeldSlopes& F) {
+  HeldInstant& now = nodes_->at[node];
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    ContactInstant<double>& c = now.contacts[k];
+    c.slip = step.slip[k][node];
+    if (c.mode == HeldMode::slides && c.friction > 0) c.slip = inPlane(c.slip, c.n);
+  }
+  nodes_->forces.solve(now, redundant_);
+  F.col(static_cast<Eigen::Index>(node)) << state.v, rotationRate(theta, now.body.omega), nodes_->forces.acceleration(),
+      nodes_->forces.moment();
+}
+
+// The slopes at the nodes, where the state has changed by so much since the start.
+HeldSlopes HeldStepper::evaluate(HeldStep& step, const HeldSlopes& change) {
+  Nodes& nodes = *nodes_;
+  HeldSlopes F;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const State s = HeldStep::moved(step.from, change.col(column));
+    HeldInstant& now = nodes.at[i];
+    placeInstant(scene_, contacts_, s, s.q.toRotationMatrix(), now);
+    slopesAt(i, step, s, change.block<3, 1>(3, column), F);
+    for (std::size_t a = 0; a < nodes.turning.size(); ++a) {
+      step.slip[nodes.turning[a]][i] = now.contacts[nodes.turning[a]].slip;
+      nodes.slip_rate[a].col(column) = nodes.forces.slipRate(nodes.turning[a]);
+      const HeldForces::Vec6 answer = nodes.forces.answerToTurn(nodes.turning[a]);
+      nodes.slope_by_turn[a].col(column) << answer.head<3>() * now.body.inverse_mass, answer.tail<3>();
+      for (std::size_t b = 0; b < nodes.turning.size(); ++b)
+        nodes.rate_by_turn[b][a].col(column) = nodes.forces.responseAt(answer, nodes.turning[b]);
+    }
+  }
+  return F;
+}
+
+// A step of Newton's method on (n x d).u = 0 for the directions d at all nodes; gives the largest turn, rad.
+double HeldStepper::turnSlips(HeldStep& step, HeldSlopes& next, bool anew) {
+  Nodes& nodes = *nodes_;
+  const Gauss& gauss = Gauss::get();
+  const auto turning = static_cast<Eigen::Index>(nodes.turning.size());
+  nodes.turn.resize(turning * kNodes);
+  if (anew) nodes.M.resize(turning * kNodes, turning * kNodes);
+  for (Eigen::Index a = 0; a < turning; ++a) {
+    const auto of = static_cast<std::size_t>(a);
+    const Nodes::OfSlip u = (step.length * nodes.slip_rate[of] * gauss.integral.transpose()).colwise() +
+                            nodes.start.velocityAt(nodes.turning[of]);
+    for (int i = 0; i < kNodes; ++i) {
+      const ContactInstant<double>& c = nodes.at[static_cast<std::size_t>(i)].contacts[nodes.turning[of]];
+      const Vec3 across = c.n.cross(c.slip);
+      const Eigen::Index row = a * kNodes + i;
+      nodes.turn[row] = -across.dot(u.col(i));
+      if (!anew) continue;
+      const Vec3 by = step.length * across;
+      for (Eigen::Index b = 0; b < turning; ++b)
+        nodes.M.row(row).segment<kNodes>(b * kNodes) =
+            gauss.integral.row(i).cwiseProduct(by.transpose() * nodes.rate_by_turn[of][static_cast<std::size_t>(b)]);
+      nodes.M(row, row) -= c.slip.dot(u.col(i));
+    }
+  }
+  if (anew) nodes.turns.compute(nodes.M);
+  nodes.turn = nodes.turns.solve(nodes.turn);
+  const double most = nodes.turn.cwiseAbs().maxCoeff();
+  if (!nodes.turn.allFinite()) return kInfinity;
+  if (most > 1) nodes.turn *= 1 / most;
+  for (Eigen::Index a = 0; a < turning; ++a)
+    for (int i = 0; i < kNodes; ++i) {
+      const auto of = static_cast<std::size_t>(a), ii = static_cast<std::size_t>(i);
+      const double by = nodes.turn[a * kNodes + i];
+      const ContactInstant<double>& c = nodes.at[ii].contacts[nodes.turning[of]];
+      const auto [sine, cosine] = elementary::sincos(by);
+      step.slip[nodes.turning[of]][ii] = (cosine * c.slip + sine * c.n.cross(c.slip)).normalized();
+      next.col(i).tail<6>() += by * nodes.slope_by_turn[of].col(i);
+    }
+  return most;
+}
+
+bool HeldStepper::solve(HeldStep& step, HeldSlopes& F) {
+  const HeldVector weight =
+      step.length * scaleOf(scene_, scene_.speed, scene_.speed / scene_.length).cwiseInverse();
+  double moved_before = kInfinity, turned_before = kInfinity;
+  for (int round = 0; round < kStageRounds; ++round) {
+    const HeldSlopes change = step.length * F * Gauss::get().integral.transpose();
+    if (!change.allFinite() || change.middleRows<3>(3).cwiseAbs().maxCoeff() > 2) return false;
+    HeldSlopes next = evaluate(step, change);
     double turned = 0;
-    if (turning > 0) {
-      const auto size = static_cast<Eigen::Index>(turning) * Gauss::kNodes;
-      Eigen::MatrixXd M(size, size);
-      Eigen::VectorXd residual(size);
-      for (std::size_t a = 0; a < turning; ++a) {
-        const std::size_t k = nodes.turning[a];
-        const Vec3 u0 = start.velocityAt(k);
-        const Eigen::Matrix<double, 3, Gauss::kNodes> u =
-            (h * nodes.slip_rate[a] * gauss.integral.transpose()).colwise() + u0;
-        for (int i = 0; i < Gauss::kNodes; ++i) {
-          const auto ii = static_cast<std::size_t>(i);
-          const ContactInstant<double>& c = nodes.at[ii].contacts[k];
-          const Vec3 across = c.n.cross(c.slip);
-          const auto row = static_cast<Eigen::Index>(a) * Gauss::kNodes + i;
-          residual[row] = across.dot(u.col(i));
-          for (std::size_t b = 0; b < turning; ++b)
-            for (int j = 0; j < Gauss::kNodes; ++j)
-              M(row, static_cast<Eigen::Index>(b) * Gauss::kNodes + j) =
-                  h * gauss.integral(i, j) * across.dot(nodes.rate_by_turn[a][b][static_cast<std::size_t>(j)]);
-          M(row, row) -= c.slip.dot(u.col(i));
-        }
-      }
-      Eigen::VectorXd turn = -M.partialPivLu().solve(residual);
-      if (!turn.allFinite()) return false;
-      const double most = turn.cwiseAbs().maxCoeff();
-      if (most > 1) turn *= 1 / most;
-      turned = most;
-      for (std::size_t a = 0; a < turning; ++a)
-        for (int i = 0; i < Gauss::kNodes; ++i) {
-          const auto ii = static_cast<std::size_t>(i);
-          const double by = turn[static_cast<Eigen::Index>(a) * Gauss::kNodes + i];
-          const ContactInstant<double>& c = nodes.at[ii].contacts[nodes.turning[a]];
-          const auto [sine, cosine] = elementary::sincos(by);
-          step.slip[nodes.turning[a]][ii] = (cosine * c.slip + sine * c.n.cross(c.slip)).normalized();
-          next.col(i).tail<6>() += by * nodes.slope_by_turn[a][ii];
-        }
+    if (!nodes_->turning.empty()) {
+      turned = turnSlips(step, next, round < 2 || turned_before > kTurned);
+      if (!std::isfinite(turned)) return false;
     }
     const double moved = ((next - F).cwiseAbs().array().colwise() * weight.array()).maxCoeff();
     F = next;
     if (!std::isfinite(moved)) return false;
-    if (moved <= kStagesSettled && turned <= 1e-6) return true;
-    if (round >= 3 && moved >= 0.5 * before && moved <= kStagesStalled && turned <= 1e-6) return true;
-    if (round >= 12 && moved > 0.9 * before && moved > 1e-3) return false;
-    before = moved;
+    if (moved <= kStagesSettled && turned <= kTurned) return true;
+    if (round >= 3 && moved >= 0.5 * moved_before && moved <= kStagesStalled && turned <= kTurned) return true;
+    if (round >= 12 && moved > 0.9 * moved_before && moved > 1e-3) return false;
+    moved_before = moved, turned_before = turned;
   }
   return false;
 }
 
 double HeldStepper::errorOf(const HeldStep& step) const {
-  HeldVector scale;
-  scale << Vec3::Constant(scene_.length), Vec3::Ones(), Vec3::Constant(scene_.speed),
-      Vec3::Constant(scene_.speed * scene_.length * scene_.model->mass);
-  const HeldVector last = step.slopes.col(Gauss::kNodes - 1).cwiseAbs().cwiseMax(0.1 * step.slopes.col(Gauss::kNodes - 2).cwiseAbs());
-  return step.length / (2 * (2 * Gauss::kNodes - 1)) * last.cwiseQuotient(scale).maxCoeff() / kLeftOut;
+  const HeldVector last =
+      step.slopes.col(kNodes - 1).cwiseAbs().cwiseMax(0.1 * step.slopes.col(kNodes - 2).cwiseAbs());
+  return step.length / (2 * (2 * kNodes - 1)) * last.cwiseQuotient(scaleOf(scene_, scene_.length, 1)).maxCoeff() / kLeftOut;
 }
 
 }  // namespace carom::adjoint_detail

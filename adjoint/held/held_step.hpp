@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "adjoint/held/gauss.hpp"
-#include "adjoint/held/held_dynamics.hpp"
+#include "adjoint/held/held_instant.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -29,45 +31,66 @@ struct HeldStep {
   static State moved(const State& from, const HeldVector& change);
 };
 
-/// The body and its contacts at one instant of a path, in doubles.
-struct HeldInstant {
-  BodyInstant<double> body;
-  std::vector<ContactInstant<double>> contacts;
-  std::vector<double> gap_rate;
+/// The steps of a path one after the other, which its copies share.
+class HeldSteps {
+ public:
+  class Iterator {
+   public:
+    explicit Iterator(const std::shared_ptr<const HeldStep>* at) : at_(at) {}
+    const HeldStep& operator*() const { return **at_; }
+    Iterator& operator++() { return ++at_, *this; }
+    bool operator==(const Iterator&) const = default;
 
-  Vec3 velocityAt(std::size_t k) const { return body.velocityAt(contacts[k].r); }
-  Vec3 slipAt(std::size_t k) const {
-    const Vec3 u = velocityAt(k), &n = contacts[k].n;
-    return u - n.dot(u) * n;
-  }
+   private:
+    const std::shared_ptr<const HeldStep>* at_;
+  };
+
+  bool empty() const { return steps_.empty(); }
+  std::size_t size() const { return steps_.size(); }
+  const HeldStep& operator[](std::size_t i) const { return *steps_[i]; }
+  const HeldStep& front() const { return *steps_.front(); }
+  const HeldStep& back() const { return *steps_.back(); }
+  Iterator begin() const { return Iterator(steps_.data()); }
+  Iterator end() const { return Iterator(steps_.data() + steps_.size()); }
+  void add(HeldStep step) { steps_.push_back(std::make_shared<const HeldStep>(std::move(step))); }
+
+ private:
+  std::vector<std::shared_ptr<const HeldStep>> steps_;
 };
-
-/// `slip`: a direction for each contact.
-HeldInstant instantOf(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state,
-                      const std::vector<Vec3>& slip);
 
 /// Steps of one path, by Gauss collocation with the directions of slip at the nodes as unknowns: where slip begins or
 /// ends they decide everything, and a slope that had them follow the velocity would be stiff there.
 class HeldStepper {
  public:
-  HeldStepper(const HeldScene& scene, const std::vector<HeldContact>& contacts, bool redundant)
-      : scene_(scene), contacts_(contacts), redundant_(redundant) {}
+  HeldStepper(const HeldScene& scene, const std::vector<HeldContact>& contacts, bool redundant);
+  ~HeldStepper();
 
-  /// A step of a given length; nothing where its equations were not solved. `slip`: of each contact its direction at the
-  /// start; `before`: the step that ends where this one begins.
-  std::optional<HeldStep> tried(const State& from, double start, double length, const std::vector<Vec3>& slip,
-                                const std::vector<char>& frozen, const HeldStep* before) const;
+  /// Where a step begins.
+  struct Start {
+    State state;
+    double time = 0;
+    std::vector<Vec3> slip;      ///< of each contact its direction
+    std::vector<char> frozen;    ///< see HeldStep
+  };
+  /// A step of a given length; nothing where its equations were not solved. `like`: a step that begins or ends where this
+  /// one begins, from which it is guessed; or none.
+  std::optional<HeldStep> tried(const Start& start, double length, const HeldStep* like);
   /// What its polynomials leave out, as a share of what may be left out.
   double errorOf(const HeldStep& step) const;
 
  private:
   struct Nodes;
-  HeldSlopes guess(HeldStep& step, const HeldInstant& start, const HeldStep* before) const;
-  bool solve(HeldStep& step, HeldSlopes& F, const HeldInstant& start) const;
+  HeldSlopes guess(HeldStep& step, const HeldStep* like);
+  void extrapolate(HeldStep& step, const HeldStep& like, HeldSlopes& F);
+  bool solve(HeldStep& step, HeldSlopes& F);
+  HeldSlopes evaluate(HeldStep& step, const HeldSlopes& change);
+  void slopesAt(std::size_t node, const HeldStep& step, const State& state, const Vec3& theta, HeldSlopes& F);
+  double turnSlips(HeldStep& step, HeldSlopes& next, bool anew);
 
   const HeldScene& scene_;
   const std::vector<HeldContact>& contacts_;
   bool redundant_;
+  std::unique_ptr<Nodes> nodes_;
 };
 
 }  // namespace carom::adjoint_detail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/held/held_contact.hpp"
+#include "adjoint/held/held_dynamics.hpp"
+
+namespace carom::adjoint_detail {
+
+/// The body and its contacts at one instant of a path, in doubles.
+struct HeldInstant {
+  BodyInstant<double> body;
+  std::vector<ContactInstant<double>> contacts;
+  std::vector<double> gap_rate;
+
+  Vec3 velocityAt(std::size_t k) const { return body.velocityAt(contacts[k].r); }
+  Vec3 slipAt(std::size_t k) const {
+    const Vec3 u = velocityAt(k), &n = contacts[k].n;
+    return u - n.dot(u) * n;
+  }
+};
+
+/// All but the directions of slip, in the storage that `now` has. R: of the state.
+void placeInstant(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state, const Mat3& R,
+                  HeldInstant& now);
+/// `slip`: a direction for each contact.
+HeldInstant instantOf(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state,
+                      const std::vector<Vec3>& slip);
+
+}  // namespace carom::adjoint_detail
