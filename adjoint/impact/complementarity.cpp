@@ -227,6 +227,17 @@ std::vector<int> pushingContactsOf(const Matrix<T>& A, const Vector<T>& b, Vecto
   return list;
 }
 
+template <class T>
+bool followsFrom(const Matrix<T>& A, const Contacts& contacts, int k) {
+  if (contacts.empty()) return false;
+  const Vector<T> a = A(contacts, k);
+  const LeastNormSolveOf<T> solve(A(contacts, contacts), a);
+  const T rest = A(k, k) + a.dot(solve.y);
+  return rest <= T(Precision<T>::kNull) * A(k, k);
+}
+
+template bool followsFrom(const Matrix<double>&, const Contacts&, int);
+template bool followsFrom(const Matrix<Wide>&, const Contacts&, int);
 template std::vector<int> pushingContactsOf(const Matrix<double>&, const Vector<double>&, Vector<double>,
                                             const std::vector<char>&);
 template std::vector<int> pushingContactsOf(const Matrix<Wide>&, const Vector<Wide>&, Vector<Wide>,

@@ -41,4 +41,9 @@ std::vector<int> pushingContactsOf(const Eigen::Matrix<T, Eigen::Dynamic, Eigen:
                                    const Eigen::Matrix<T, Eigen::Dynamic, 1>& b, Eigen::Matrix<T, Eigen::Dynamic, 1> y,
                                    const std::vector<char>& held);
 
+/// Whether the velocity of contact k is a combination of those of `contacts`, as A has it for impulses: where theirs are
+/// 0, it is 0 too.
+template <class T>
+bool followsFrom(const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>& A, const std::vector<int>& contacts, int k);
+
 }  // namespace carom::adjoint_detail

@@ -58,7 +58,23 @@ struct JointLaw {  // 4.4
       const bool plastic = p.pair[static_cast<std::size_t>(k)].elasticity == S(0) || Branch<S>::isHeld(p, k);
       solution.closed.push_back(keeps && plastic);
     }
+    closeRedundant(p, solution.closed);
     return solution;
+  }
+  // What the closed contacts of a face hold is closed without an impulse of its own.
+  template <class S>
+  static void closeRedundant(const ImpactProblemOf<S>& p, std::vector<char>& closed) {
+    Contacts holding, all;
+    for (int k = 0; k < p.contacts(); ++k) {
+      all.push_back(k);
+      if (closed[static_cast<std::size_t>(k)]) holding.push_back(k);
+    }
+    if (holding.empty() || holding.size() == all.size()) return;
+    const MatrixOf<S> N = normalsOf<S>(p, all);
+    const auto A = valuesOf(MatrixOf<S>(N.transpose() * p.K * N));
+    for (const int k : all)
+      if (p.pair[static_cast<std::size_t>(k)].elasticity == S(0) && followsFrom<Value<S>>(A, holding, k))
+        closed[static_cast<std::size_t>(k)] = 1;
   }
   template <class S>
   static void pullback(const ImpactProblemOf<S>& p, const VectorOf<S>& P_bar, ImpactProblemDerivativeOf<S>& bar) {

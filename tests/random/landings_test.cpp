@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a box comes to while contacts hold it, against a look at it all along: the first impact besides the contacts that
-// hold it is where it first comes to overlap, and nowhere else.
+// hold it is where it first comes to overlap, and nowhere else. CAROM_TEST_SCALE=15 looks at 10^4 paths.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,9 @@ namespace {
 using namespace test;
 
 constexpr int kSamples = 120;
-constexpr Real kLandingOverlap = 1e-11L;  // m: beyond the rounding of a gap that is held
-constexpr double kLook = 1e-3;     // s, that an arc is followed beyond its end
+constexpr Real kLandingOverlap = 1e-13L;  // m: beyond the rounding of a gap that is held
+constexpr double kSlowest = 1e-5;         // m/s, at which gravity does not matter until the overlap is seen
+constexpr double kLook = 1e-3;            // s, that an arc is followed beyond its end
 
 // A box that falls without a rebound onto a plane, near the border of a box, or onto the corner of a box that juts out.
 Scene randomFall(std::uint64_t seed) {
@@ -87,7 +88,7 @@ class Look {
     const double beyond = std::min(end + kLook, path.knownUntil());
     // it overlaps soon after: at the latest where twice the allowed overlap is reached at half its speed
     const double soon = end + 4 * static_cast<double>(kLandingOverlap) / approach + 1e-12;
-    if (!(soon < beyond) || !(approach > 1e-4)) {
+    if (!(soon < beyond) || !(approach > kSlowest)) {
       ++landings_.close;
       return;
     }
@@ -116,7 +117,7 @@ class Look {
 TEST(Landings, AreWhereBodiesFirstComeToOverlap) {
   Landings landings;
   int unfinished = 0;
-  const auto count = static_cast<std::uint64_t>(scaled(600));
+  const auto count = static_cast<std::uint64_t>(scaled(40));
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Scene scene = randomFall(seed);

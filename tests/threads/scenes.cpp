@@ -38,13 +38,26 @@ Case pen(int side, bool boxes, double elasticity, double friction, std::size_t i
 
 Case thrown(std::uint64_t seed) { return {"thrown " + std::to_string(seed), randomScene(seed), 1.5, 200}; }
 
+// Lands on corners, edges and a face, and comes to rest.
+Case die(std::uint64_t seed, double elasticity, double friction) {
+  Random random(seed);
+  Body body = makeBox("die", Vec3::Constant(0.016), {0, 0, 0.08});
+  body.orientation = random.rotation();
+  body.velocity = random.vec(1);
+  body.angular_velocity = random.vec(30);
+  return {"die " + std::to_string(seed),
+          makeScene(kDown, elasticity, friction, {body, makePlane("floor", Vec3::UnitZ(), 0)}), 10, 20000};
+}
+
 std::vector<Case> makeCases() {
   return {thrown(11),
           thrown(12),
           thrown(13),
           pen(2, true, 0.9, 0.2, 100),
           pen(4, true, 0.95, 0.3, 150),
-          pen(5, false, 1, 0, 1500)};
+          pen(5, false, 1, 0, 1500),
+          die(1, 0.5, 0.4),
+          die(2, 0.2, 0.1)};
 }
 
 }  // namespace
