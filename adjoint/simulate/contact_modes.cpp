@@ -153,7 +153,13 @@ class Chooser {
       const double inertia = form == PathForm::roll_ball ? ballInertia(path.inputs)
                                                          : path.inputs.axis.dot(path.inputs.J * path.inputs.axis);
       const double k = inertia / (path.inputs.mass * reach * reach);
-      path.inputs.v -= k / (1 + k) * body_.slipOf(*body_.pressed().front());
+      // below the centre of mass: at contacts beside it a spin about the normal is part of their slip
+      Vec3 spin = body_.spin();
+      if (form == PathForm::roll_axle) {
+        const Vec3 axis = state_.q * path.inputs.axis;
+        spin = axis.dot(spin) * axis;
+      }
+      path.inputs.v -= k / (1 + k) * alongFace(path.inputs.normal, Vec3(state_.v - reach * spin.cross(path.inputs.normal)));
     }
     path.body = index_;
     path.face = body_.otherOf(*body_.pressed().front());
