@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A rod that stands on the edge of its end falls over. Its foot holds, then slips: which friction makes it come to lie at
+// A rod that stands on the rim of its end falls over. Its foot holds, then slips: which friction makes it come to lie at
 // a place?
 #include <cstdio>
 
