@@ -207,7 +207,7 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
 
 void OdeContacts::State::keepVaried(int body, const Arc& arc) {
   if (arc.accelerationVariation() > 0) {
-    varied.insert_or_assign(body, arc);
+    varied.insert_or_assign(body, arc.view());
   } else {
     varied.erase(body);
   }

@@ -69,7 +69,7 @@ V3<S> slipDirectionAt(PathForm form, const PathInputs<S>& in, const S& elapsed) 
 /// Of a closed form.
 PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until);
 
-/// Its own copy of an integrated path.
+/// Its own copy of an integrated path, but for what `shared` gives.
 class OwnPath {
  public:
   OwnPath() = default;
@@ -78,16 +78,22 @@ class OwnPath {
   OwnPath& operator=(const OwnPath& o) { return *this = OwnPath(o); }
   OwnPath(OwnPath&&) noexcept = default;
   OwnPath& operator=(OwnPath&&) noexcept = default;
+  /// The same path, which grows there as it grows here.
+  OwnPath shared() const {
+    OwnPath same;
+    same.path_ = path_;
+    return same;
+  }
   IntegratedPath* operator->() const { return path_.get(); }
   IntegratedPath* get() const { return path_.get(); }
   explicit operator bool() const { return path_ != nullptr; }
 
  private:
-  std::unique_ptr<IntegratedPath> path_;
+  std::shared_ptr<IntegratedPath> path_;
 };
 
-/// A path as an arc keeps it, with what its derivative needs of the scene.
-struct ContactPath {
+/// A path as an arc keeps it, with what its derivative needs of the scene; but for what is integrated.
+struct PathSetting {
   PathForm form = PathForm::rest;
   PathInputs<double> inputs;
   PathBounds bounds;  ///< over the whole arc
@@ -97,10 +103,21 @@ struct ContactPath {
   double start = 0;   ///< s
   /// Elapsed at the end of slip, where the slip is exactly 0; infinite where there is none.
   double slip_end = std::numeric_limits<double>::infinity();
-  OwnPath integrated;  ///< of PathForm::held
 
   /// At that end, start + slip_end, exactly slip_end.
   double elapsedAt(double t) const { return t < start + slip_end ? t - start : slip_end; }
+};
+
+struct ContactPath : PathSetting {
+  OwnPath integrated;  ///< of PathForm::held
+
+  /// With the same integrated path.
+  ContactPath view() const {
+    ContactPath same;
+    static_cast<PathSetting&>(same) = *this;
+    same.integrated = integrated.shared();
+    return same;
+  }
   /// `turning`: with the orientation; else it stays that of the start.
   State stateAt(const State& start_state, double t, bool turning = true) const;
   /// Until then a number of series carry the orientation.

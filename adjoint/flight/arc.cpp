@@ -131,7 +131,14 @@ std::optional<Vec3> Arc::steadyAxis() const {
   return model_->has_offset ? Vec3(model_->R_BG.transpose() * axis) : axis;
 }
 
-Arc::Arc(const Arc& o)
+Arc::Arc(const Arc& o) : Arc(o, o.path_ ? std::make_unique<ContactPath>(*o.path_) : nullptr) {}
+
+Arc Arc::view() const {
+  if (!integrated()) return *this;
+  return Arc(*this, std::make_unique<ContactPath>(path_->view()));
+}
+
+Arc::Arc(const Arc& o, std::unique_ptr<ContactPath> path)
     : model_(o.model_),
       tier_(o.tier_),
       symmetry_axis_(o.symmetry_axis_),
@@ -139,7 +146,7 @@ Arc::Arc(const Arc& o)
       spin_bound_(o.spin_bound_),
       spin_rate_bound_(o.spin_rate_bound_),
       triaxial_(o.triaxial_ ? std::make_unique<TriaxialRotation>(*o.triaxial_) : nullptr),
-      path_(o.path_ ? std::make_unique<ContactPath>(*o.path_) : nullptr),
+      path_(std::move(path)),
       acceleration_(o.acceleration_),
       state_(o.state_) {}
 

@@ -50,6 +50,9 @@ class Arc {
   Arc& operator=(Arc&&) noexcept;    ///< the same
   ~Arc();
 
+  /// A copy that has an integrated path in common with this one: that grows in both. A path of many steps is dear to copy.
+  Arc view() const;
+
   ArcKind kind() const;                                     ///< flight, or how the body stays in contact
   /// Of a body in lasting contact; null for a flight.
   const adjoint_detail::ContactPath* path() const { return path_.get(); }
@@ -104,6 +107,7 @@ class Arc {
   RotationSensitivity rotationSensitivity(double t, Tier tier, bool products = false) const;
 
  private:
+  Arc(const Arc& other, std::unique_ptr<adjoint_detail::ContactPath> path);
   Quat rotationAt(double elapsed) const;
   void takeBounds();
 

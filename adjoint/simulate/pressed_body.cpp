@@ -20,6 +20,9 @@ using Eigen::Index;
 constexpr double kSameNormal = 1e-9;
 // Acceleration left by the forces of rest, as a share of gravity.
 constexpr double kAtRest = 1e-9;
+// What is left in rounding of forces and moments that cancel, as a share of them: a body that hardly resists a turn would
+// not rest for it.
+constexpr double kCancelled = 1e-13;
 // A spin across the axis that is a smaller share of the whole is none.
 constexpr double kNoTilting = 1e-9;
 
@@ -32,7 +35,6 @@ PressedBody::PressedBody(const Motion& motion, int body, const State& state, con
       state_(state),
       gravity_(model_.gravity_factor * motion.scene->gravity),
       R_(state.q.toRotationMatrix()),
-      A_(model_.mobilityWorld(R_)),
       omega_(model_.inverseInertiaWorld(R_) * state.L) {
   for (const Contact* c : closed) reach_ = std::max(reach_, armOf(*c).norm());
   findPressed(closed);
@@ -57,21 +59,26 @@ void PressedBody::findPressed(const std::vector<const Contact*>& closed) {
   const NormalContacts pressing(model_, state_, body_, pressed_);
   const LeastNormSolve forces(pressing.mobility(), alpha(active));
   push(pressing.moved * forces.y);
-  const Eigen::VectorXd left = alpha + along.rows.transpose() * (pressing.moved * forces.y);
-  pressed_ = wholeFaces(closed, active, left);
+  const Eigen::MatrixXd answers = along.rows.transpose() * pressing.moved * forces.y.asDiagonal();
+  std::vector<char> stays;  // closed, as far as can be told
+  for (Index k = 0; k < alpha.size(); ++k) {
+    const double left = alpha[k] + answers.row(k).sum(), size = std::abs(alpha[k]) + answers.row(k).cwiseAbs().sum();
+    stays.push_back(std::abs(left) <= kAtRest * gravity_.norm() + kCancelled * size);
+  }
+  pressed_ = wholeFaces(closed, active, stays);
 }
 
-std::vector<const Contact*> PressedBody::wholeFaces(const std::vector<const Contact*>& closed, const std::vector<int>& active,
-                                                    const Eigen::VectorXd& acceleration) const {
+std::vector<const Contact*> PressedBody::wholeFaces(const std::vector<const Contact*>& closed,
+                                                    const std::vector<int>& active,
+                                                    const std::vector<char>& stays) const {
   std::vector<const Contact*> pressed;
   for (std::size_t k = 0; k < closed.size(); ++k) {
-    const bool is_active = std::ranges::find(active, static_cast<int>(k)) != active.end();
-    const bool stays = std::abs(acceleration[static_cast<Index>(k)]) <= kAtRest * gravity_.norm();
     const bool on_face = std::ranges::any_of(active, [&](int i) {
       const Contact& c = *closed[asIndex(i)];
       return otherOf(c) == otherOf(*closed[k]) && (normalOf(c) - normalOf(*closed[k])).norm() <= kSameNormal;
     });
-    if (is_active || (stays && on_face)) pressed.push_back(closed[k]);
+    const bool is_active = std::ranges::binary_search(active, static_cast<int>(k));
+    if (is_active || (stays[k] && on_face)) pressed.push_back(closed[k]);
   }
   return pressed;
 }
@@ -119,16 +126,17 @@ bool PressedBody::isOneFace() const {
   return true;
 }
 
+// A matter of statics: how the body resists a turn has no part in it, and so as if its mass were at its contacts.
 bool PressedBody::canRest() const {
   const auto n = static_cast<Index>(pressed_.size());
+  const auto arm = [&](Index k) -> Vec3 { return armOf(*pressed_[static_cast<std::size_t>(k)]) / reach_; };
   ConeProgramOf<double> q;
   q.K.resize(3 * n, 3 * n);
   q.b.resize(3 * n);
   for (Index k = 0; k < n; ++k) {
     const Contact& c = *pressed_[static_cast<std::size_t>(k)];
     for (Index l = 0; l < n; ++l)
-      q.K.block<3, 3>(3 * k, 3 * l) = model_.inverse_mass * Mat3::Identity() -
-                                      skew(armOf(c)) * A_ * skew(armOf(*pressed_[static_cast<std::size_t>(l)]));
+      q.K.block<3, 3>(3 * k, 3 * l) = model_.inverse_mass * (Mat3::Identity() - skew(arm(k)) * skew(arm(l)));
     q.b.segment<3>(3 * k) = gravity_;
     q.normal.push_back(normalOf(c));
     q.friction.push_back(c.pair.friction);
@@ -143,10 +151,10 @@ bool PressedBody::canRest() const {
     if (at.state[k] == ConeState::slides)
       f = at.pressure[k] * (q.normal[k] + q.friction[k] * at.direction[k]);
     force += f;
-    moment += armOf(*pressed_[k]).cross(f);
+    moment += arm(static_cast<Index>(k)).cross(f);
   }
   const double most = kAtRest * gravity_.norm();
-  return (gravity_ + model_.inverse_mass * force).norm() <= most && (A_ * moment).norm() * reach_ <= most;
+  return (gravity_ + model_.inverse_mass * force).norm() <= most && (model_.inverse_mass * moment).norm() <= most;
 }
 
 PathInputs<double> PressedBody::inputs(double reach) const {

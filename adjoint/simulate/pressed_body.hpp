@@ -18,7 +18,7 @@ class PressedBody {
   const Vec3& gravity() const { return gravity_; }
   const Vec3& spin() const { return omega_; }
   double reach() const { return reach_; }  ///< the longest arm of a contact, m
-  /// Of the closed contacts, those that a force without friction has to keep closed.
+  /// Of the closed contacts, those that a force without friction has to keep closed, and what stands with them.
   const std::vector<const Contact*>& pressed() const { return pressed_; }
   /// These press instead.
   void hold(const std::vector<const Contact*>& contacts) { pressed_ = contacts; }
@@ -51,9 +51,10 @@ class PressedBody {
  private:
   const Shape& shape() const { return motion_.scene->bodies[asIndex(body_)].shape; }
   void findPressed(const std::vector<const Contact*>& closed);
-  // A face stands on all of its corners, also on those without force, if they do not lift: without them it could tilt.
+  /// A face stands on all of its corners, also on those that have no force, if they do not lift: without them it could
+  /// tilt.
   std::vector<const Contact*> wholeFaces(const std::vector<const Contact*>& closed, const std::vector<int>& active,
-                                         const Eigen::VectorXd& acceleration) const;
+                                         const std::vector<char>& stays) const;
   double freeGapAcceleration(const Contact& c) const;
   void push(const Eigen::Matrix<double, 6, 1>& acceleration);
 
@@ -62,7 +63,7 @@ class PressedBody {
   const BodyModel& model_;
   const State& state_;
   Vec3 gravity_;
-  Mat3 R_, A_;
+  Mat3 R_;
   Vec3 omega_;
   double reach_ = 0;
   std::vector<const Contact*> pressed_;

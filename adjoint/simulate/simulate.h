@@ -28,8 +28,9 @@ struct SimulateOptions {
   /// coordinates of bodies and their sizes.
   std::optional<double> lowest_bounce = {};
   /// Steps of work, after which the motion ends with MotionStatus::step_limit. A step is one of a search for an impact,
-  /// one pair of bodies that is looked at, one impact (of n contacts at once n + n^3 / 10) or one series of a rotation: a
-  /// microsecond or some each, but the same number on every machine. Motion::steps says how many were taken.
+  /// one pair of bodies that is looked at, one impact (of n contacts at once n + n^3 / 10) or one series of a rotation, and
+  /// 100 are a step along a path in contact without a closed form: a microsecond or some each, but the same number on
+  /// every machine. Motion::steps says how many were taken.
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();
   /// Once a stop is requested, from any thread, the motion ends with MotionStatus::stopped.
   std::stop_token stop = {};

@@ -33,6 +33,8 @@ inline constexpr double kFurthest = 1e60;
 inline constexpr long kMostSearches = 5'000'000;
 /// An angle of which a sine has no digit left, rad.
 inline constexpr double kMostTurn = 1e15;
+/// Steps of work that a step along a path in contact without a closed form counts for.
+inline constexpr std::size_t kHeldStep = 100;
 /// Steps of work in which a motion that was ended may bring what it knows into order.
 inline constexpr std::size_t kStepsToEnd = 100'000;
 
@@ -183,6 +185,8 @@ class Simulator {
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   Arc& arcOf(int body) { return *arc_[index(body)]; }
+  /// Steps of work that went into what is known of an arc.
+  static std::size_t workIn(const Arc& arc) { return arc.series() * (arc.integrated() ? kHeldStep : 1); }
   // Whether impacts move a body. They neither join through one that they do not move nor change its path.
   bool isFixed(int body) const { return scene_.bodies[index(body)].fixed; }
   bool isMoved(int body) const {

@@ -158,6 +158,7 @@ void Simulator::chooseArc(std::size_t participant) {
     endBeyond(*choice.contacts.front(), "how they hold on to each other changes more than 8 times in one instant");
     return;
   }
+  if (choice.path->form == PathForm::held) work_.step(kHeldStep);
   Onward& onward = draft_.onward[participant];
   PathArc made = [&]() -> PathArc {
     try {

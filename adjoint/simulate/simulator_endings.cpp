@@ -148,9 +148,9 @@ void Simulator::extendAll() {
 void Simulator::extend(Arc& arc, double until) {
   if (!(arc.availableUntil() < until)) return;
   work_.step();
-  const std::size_t series = arc.series();
+  const std::size_t before = workIn(arc);
   arc.extendTo(until);
-  work_.step(arc.series() - series);
+  work_.step(workIn(arc) - before);
 }
 
 void Simulator::endWith(const Arc& arc) {

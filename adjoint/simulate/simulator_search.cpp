@@ -55,7 +55,7 @@ void Simulator::followHeld(int body, double from) {
   if (in_draft_[index(body)] >= 0) return;
   Arc& arc = pathOf(body);
   if (!arc.integrated()->ended() && !(from < arc.knownUntil())) {
-    work_.step();
+    work_.step(kHeldStep);
     try {
       arc.extendTo(std::nextafter(arc.knownUntil(), kInfinity));
     } catch (const NotComputable& error) {
@@ -81,7 +81,7 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
     if (!parted) return std::nullopt;
     from = std::max(from, *parted);
   }
-  const std::size_t series = arc_a.series() + arc_b.series();
+  const std::size_t before = workIn(arc_a) + workIn(arc_b);
   std::optional<PredictedImpact> impact;
   if (arc_a.path() || arc_b.path()) {
     const auto stays = [](const Arc& arc) { return !arc.moving() || arc.kind() == ArcKind::rest; };
@@ -90,7 +90,7 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
   } else {
     impact = contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
   }
-  work_.step(1 + arc_a.series() + arc_b.series() - series);
+  work_.step(1 + workIn(arc_a) + workIn(arc_b) - before);
   return impact;
 }
 
