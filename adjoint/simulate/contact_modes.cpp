@@ -46,7 +46,7 @@ class Chooser {
     if (body_.pressed().empty()) return {};
     if (isSlow(state_.v) && isSlow(body_.reach() * body_.spin()) && body_.canRest()) return stays(PathForm::rest, 1);
     ContactChoice closed_form;
-    if (body_.isOneFace()) {
+    if (body_.isOneFace() && frictionPressesNoOther()) {
       if (body_.isBall()) {
         if (body_.pressed().size() == 1) closed_form = ball();
       } else if (body_.isAxle()) {
@@ -89,6 +89,17 @@ class Chooser {
   void begin(ContactChoice& choice) const {
     choice.start = heldStart(choice.scene, choice.modes.contacts, state_);
     choice.path->inputs.x = choice.start.x, choice.path->inputs.v = choice.start.v, choice.path->inputs.L = choice.start.L;
+  }
+
+  // Whether contacts that gravity does not press, as of a ball that spins beside a wall, are not pressed by friction.
+  bool frictionPressesNoOther() const {
+    if (body_.pressed().size() == closed_.size()) return true;
+    std::vector<HeldContact> candidates;
+    for (const Contact* c : closed_) candidates.push_back(body_.candidate(*c));
+    const HeldModes modes = chooseModes(body_.heldScene(closed_), candidates, state_, {}, no_slip_);
+    return modes.unresolved.empty() && std::ranges::all_of(modes.held, [&](std::size_t k) {
+             return std::ranges::find(body_.pressed(), closed_[k]) != body_.pressed().end();
+           });
   }
 
   // Any contacts, in the modes that forces allow.
