@@ -93,8 +93,8 @@ TEST(HeldDerivativesOf, WhereFrictionIsAtItsLimitWithoutSlipTheyAreRefused) {
 // Central differences at h to 4h, weighted so that the error is of order h^8; where they go through the same events.
 TEST_P(HeldDerivatives, AreLimitsOfDifferences) { expectLimits(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, HeldDerivatives, ::testing::ValuesIn(heldScenes()), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(Scenes, HeldDerivatives, ::testing::ValuesIn(heldScenes()), [](const auto& row) {
+  std::string name = row.param.name;
   std::ranges::replace(name, ' ', '_');
   return name;
 });
