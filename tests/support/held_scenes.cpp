@@ -64,7 +64,7 @@ std::vector<HeldCase> heldScenes() {
       {"box over an edge", makeScene(kDownward, 0.2, 0.3, {pushed, tableTop(), floorAt(-0.75)}), 0.6},
       {"ball spins in a V", makeScene(kDownward, 0, 0.3, {in_v, makePlane("left", left, 0), makePlane("right", right, 0)}), 0.14, 0.045},
       {"dropped", makeScene(kDownward, 0.2, 0.4, {dropped, floorAt()}), 3},
-      {"hull", makeScene(kDownward, 0.2, 0.4, {stone, floorAt()}), 0.6},
+      {"hull", makeScene(kDownward, 0, 0.4, {stone, floorAt()}), 0.8},
   };
 }
 
