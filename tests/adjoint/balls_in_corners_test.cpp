@@ -189,5 +189,28 @@ TEST(BallsInCorners, ABallThatSpinsAcrossAVRollsAlongIt) {
   }
 }
 
+// A ball rolls straight at a wall, climbs a little and lands with some spin: nothing but the friction of the floor presses
+// it against the wall. It slips on both, with N_floor (1 + mu^2) = m g and N_wall = mu N_floor, until its spin is used up.
+TEST(BallsInCorners, FrictionPressesABallAgainstAWall) {
+  constexpr double kFriction = 0.1;
+  Body ball = makeBall("ball", kRadius, {0, 0, kRadius}, {0.35, 0, 0});
+  ball.angular_velocity = {0, 9, 0};
+  const Scene scene = makeScene(kDown, 0, kFriction, {ball, makePlane("floor", Vec3::UnitZ(), 0),
+                                                      makePlane("wall", -Vec3::UnitX(), -2 * kRadius)});
+  const Motion m = playLasting(scene, 3);
+  ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
+  const std::vector<Arc>& arcs = m.world_lines[0].arcs;
+  ASSERT_EQ(arcs.back().kind(), ArcKind::rest);
+  const Arc& slips = arcs[arcs.size() - 2];
+  const double slowing = 2.5 * kFriction * (1 + kFriction) * kGravity / ((1 + kFriction * kFriction) * kRadius);
+  const Vec3 spin = slips.kinematicsAt(slips.start()).w;
+  EXPECT_GT(spin.y(), 1);
+  expectEntries(arcs.back().start() - slips.start(), spin.y() / slowing, kState, "time to rest");
+  const double half = 0.5 * (slips.start() + arcs.back().start());
+  const Kinematics middle = slips.kinematicsAt(half);
+  expectEntries(middle.w, Vec3(0, 0.5 * spin.y(), 0), kState, "spin halfway");
+  expectEntries(middle.x, Vec3(kRadius, 0, kRadius), kState, "place");
+}
+
 }  // namespace
 }  // namespace carom::balls_in_corners
