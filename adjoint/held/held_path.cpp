@@ -20,6 +20,8 @@ constexpr double kTurns = 1e-4;
 constexpr double kFirstTurn = 0.3;
 // See lengthBeforeEnd.
 constexpr double kLeftOutOfSlip = 3e-13;
+// Guards that fall to 0 nearer to one another than this share of the time do so at once.
+constexpr double kAtOnce = 1e-13;
 constexpr int kTries = 200;
 constexpr std::size_t kMostSteps = 200'000;
 
@@ -302,7 +304,8 @@ std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step) const {
     for (std::size_t g = 0; g < guards_.size(); ++g) {
       if (!(now[g] < -guardRounding(guards_[g])) || !(now[g] < last[g])) continue;
       const double root = last[g] <= 0 ? before : rootOf(values, g, before, t, slip);
-      if (!first || root < first->time) first = End{root, guards_[g]};
+      // what comes at one instant comes in the order of the guards, whatever the rounding
+      if (!first || root < first->time - kAtOnce * std::abs(root)) first = End{root, guards_[g]};
     }
     if (first) return first;
     before = t, last = now, slip = here;

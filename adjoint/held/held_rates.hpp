@@ -5,9 +5,10 @@
 
 namespace carom::adjoint_detail {
 
-/// An instant of a path in numbers that carry the rates along four of its inputs.
+/// An instant of a path in numbers that carry the rates along some of its inputs.
 struct HeldLanes {
-  using Number = Dual<4>;
+  static constexpr int kColumns = 12;  ///< at a time
+  using Number = Dual<kColumns>;
   V3<Number> x;
   M3<Number> R;  // shape axes to world
   BodyInstant<Number> body;
@@ -24,8 +25,8 @@ class HeldRates {
 
   template <class Visit>
   void each(const Visit& visit) {
-    for (int first = 0; first < inputs_.count; first += 4) {
-      const int count = std::min(4, inputs_.count - first);
+    for (int first = 0; first < inputs_.count; first += HeldLanes::kColumns) {
+      const int count = std::min(HeldLanes::kColumns, inputs_.count - first);
       visit(lanes(first, count), first, count);
     }
   }
