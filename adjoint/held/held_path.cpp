@@ -23,7 +23,7 @@ constexpr double kLeftOutOfSlip = 3e-13;
 // Guards that fall to 0 nearer to one another than this share of the time do so at once.
 constexpr double kAtOnce = 1e-13;
 constexpr int kTries = 200;
-constexpr std::size_t kMostSteps = 200'000;
+constexpr std::size_t kMostSteps = 20'000;
 
 // By which a step may be longer, or has to be shorter.
 double factorFor(double error) {
@@ -138,7 +138,7 @@ double HeldPath::lookAtSlips(HeldStepper::Start& start) const {
 
 void HeldPath::extend() {
   if (end_ || !(known_ < until_)) return;
-  if (steps_.size() >= kMostSteps) throw NotComputable("its path in contact takes more than 200000 steps");
+  if (steps_.size() >= kMostSteps) throw NotComputable("its path in contact takes more than 20000 steps: it turns too fast");
   take(nextStep());
 }
 

@@ -122,7 +122,7 @@ SessionJournal recordedInAStudio() {
   pebble.name = "pebble", pebble.position.x() = 4;
   content.scene.bodies.push_back(pebble);
   content.duration = 2.5;
-  content.nails.push_back({NailId(), heldConstraint("pebble", 2.1, {.velocity = Vec3(1, any, any)})});
+  content.nails.push_back({NailId(), heldConstraint("pebble", 0.4, {.velocity = Vec3(1, any, any)})});
   session.setContent(content, "velocity.y of 'box'");
   session.grab("pebble", 0.3, {}, {velocity("pebble")});
   session.dragTo(session.grabbedPlace() + Vec3(0.1, 0, 0));
