@@ -22,6 +22,9 @@ constexpr double kFirstTurn = 0.3;
 constexpr double kLeftOutOfSlip = 3e-13;
 // Guards that fall to 0 nearer to one another than this share of the time do so at once.
 constexpr double kAtOnce = 1e-13;
+// Rounds of a step to its end, and by which share of it the end may still move.
+constexpr int kEndings = 6;
+constexpr double kSameEnd = 1e-15;
 constexpr int kTries = 200;
 constexpr std::size_t kMostSteps = 20'000;
 
@@ -44,6 +47,20 @@ std::vector<Vec3> slipAtNode(const HeldStep& step, int node) {
   return slip;
 }
 
+// The directions of slip at the nodes as polynomials; those that are frozen, or of contacts that stick, are the same at all.
+void placeSlips(const HeldStep& step, double t, std::vector<Vec3>& slip) {
+  const Gauss& gauss = Gauss::get();
+  const Gauss::Row weights = Gauss::values((t - step.start) / step.length) * gauss.coefficients;
+  slip.resize(step.slip.size());
+  for (std::size_t k = 0; k < slip.size(); ++k) {
+    const auto& nodes = step.slip[k];
+    slip[k] = nodes.front();
+    if (nodes.front() == nodes.back()) continue;
+    slip[k].setZero();
+    for (std::size_t i = 0; i < nodes.size(); ++i) slip[k] += weights[static_cast<Eigen::Index>(i)] * nodes[i];
+  }
+}
+
 }  // namespace
 
 // The values of all guards at times of one step.
@@ -52,11 +69,27 @@ struct HeldPath::Values {
   const HeldStep& step;
   HeldInstant now;
   HeldForces forces;
+  std::vector<Vec3> slip;
   std::vector<double> values;
 
   Values(const HeldPath& of, const HeldStep& in) : path(of), step(in), values(of.guards_.size()) {}
 
-  const std::vector<double>& at(double t, const std::vector<Vec3>& slip) {
+  const std::vector<double>& at(double t) {
+    placeSlips(step, t, slip);
+    return withSlips(t);
+  }
+
+  const std::vector<double>& atStart() {
+    slip.clear();
+    for (std::size_t k = 0; k < step.slip.size(); ++k) {
+      const Vec3& first = path.contacts_[k].slip;
+      slip.push_back(path.steps_.empty() && !first.isZero(0) ? first : step.slip[k].front());
+    }
+    return withSlips(step.start);
+  }
+
+ private:
+  const std::vector<double>& withSlips(double t) {
     const State s = step.stateAt(t);
     const Mat3 R = s.q.toRotationMatrix();
     placeInstant(path.scene_, path.contacts_, s, R, now);
@@ -168,8 +201,7 @@ HeldStep HeldPath::nextStep() {
     if (!(end->time > known_)) {  // at once
       step->length = 0;
     } else {
-      endAt(stepper, start, *step, *end);
-      if (passesBy(*step, *end)) {
+      if (!endAt(stepper, start, *step, *end) || passesBy(*step, *end)) {
         length *= 0.5;
         continue;
       }
@@ -189,24 +221,25 @@ double HeldPath::shorterLength(double length, double error, const std::optional<
 }
 
 // The state of an event is that at the end of a step: the step is made anew up to the root, which is found once more there.
-void HeldPath::endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const {
+bool HeldPath::endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const {
   const auto which = static_cast<std::size_t>(
       std::ranges::find_if(guards_, [&](const HeldGuard& g) { return g.isSame(end.guard); }) - guards_.begin());
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < kEndings; ++round) {
     const double shorter = end.time - known_;
-    if (shorter == step.length) return;
+    if (shorter == step.length) return true;
     std::optional<HeldStep> ending = stepper.tried(start, shorter, &step);
-    if (!ending) return;
+    if (!ending) return false;
     step = std::move(*ending);
-    if (round == 1) return;
     Values values(*this, step);
-    const std::vector<Vec3> last = slipAtNode(step, Gauss::kNodes - 1);
-    const double h = step.length, value = values.at(known_ + h, last)[which],
-                 earlier = values.at(known_ + 0.999 * h, last)[which];
+    const double h = step.length, value = values.at(known_ + h)[which], earlier = values.at(known_ + 0.999 * h)[which];
     const double move = -value * (0.001 * h) / (value - earlier);
-    if (!(std::abs(move) <= 1e-6 * h) || std::abs(move) <= 1e-16 * known_) return;
+    if (std::abs(move) <= std::max(kSameEnd * h, 1e-16 * known_)) return true;
+    const bool is_rounding = std::abs(value) <= guardRounding(guards_[which]);  // of a guard that hardly moves
+    if (is_rounding && (round > 0 || !(value < earlier))) return true;
+    if (!(std::abs(move) <= 0.5 * h)) return false;
     end.time += move;
   }
+  return false;
 }
 
 // A slip that was expected to end has not.
@@ -289,53 +322,45 @@ std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step) const {
   if (guards_.empty()) return std::nullopt;
   const Gauss& gauss = Gauss::get();
   double before = step.start;
-  std::vector<Vec3> slip;
-  for (const auto& of : step.slip) slip.push_back(of.front());
-  if (steps_.empty())
-    for (std::size_t k = 0; k < contacts_.size(); ++k)
-      if (!contacts_[k].slip.isZero(0)) slip[k] = contacts_[k].slip;
   Values values(*this, step);
-  std::vector<double> last = values.at(before, slip);
+  std::vector<double> last = values.atStart();
   for (int i = 0; i <= Gauss::kNodes; ++i) {
-    const double t = i < Gauss::kNodes ? step.start + gauss.node[i] * step.length : step.start + step.length;
-    const std::vector<Vec3> here = slipAtNode(step, std::min(i, Gauss::kNodes - 1));
-    const std::vector<double> now = values.at(t, here);
+    const double t = step.start + (i < Gauss::kNodes ? gauss.node[i] : 1) * step.length;
+    const std::vector<double> now = values.at(t);
     std::optional<End> first;
     for (std::size_t g = 0; g < guards_.size(); ++g) {
       if (!(now[g] < -guardRounding(guards_[g])) || !(now[g] < last[g])) continue;
-      const double root = last[g] <= 0 ? before : rootOf(values, g, before, t, slip);
+      const double root = last[g] <= 0 ? before : rootOf(values, g, {before, t, last[g], now[g]});
       // what comes at one instant comes in the order of the guards, whatever the rounding
       if (!first || root < first->time - kAtOnce * std::abs(root)) first = End{root, guards_[g]};
     }
     if (first) return first;
-    before = t, last = now, slip = here;
+    before = t, last = now;
   }
   return std::nullopt;
 }
 
-double HeldPath::rootOf(Values& values, std::size_t guard, double above, double below,
-                        const std::vector<Vec3>& slip) const {
-  const double length = below - above;
-  double high = values.at(above, slip)[guard], low = values.at(below, slip)[guard];
-  if (!(high > 0)) return above;
+double HeldPath::rootOf(Values& values, std::size_t guard, Bracket in) const {
+  const double length = in.below - in.above;
   int side = 0;
-  for (int k = 0; k < 100 && std::nextafter(above, below) < below && low < 0; ++k) {
+  for (int k = 0; k < 100 && std::nextafter(in.above, in.below) < in.below && in.low < 0; ++k) {
     // the chord, drawn towards the end that has not moved (Illinois), with halving where it does not help
-    double t = k % 8 == 7 ? 0.5 * (above + below) : above + (below - above) * (high / (high - low));
-    t = std::clamp(t, std::nextafter(above, below), std::nextafter(below, above));
-    const double now = values.at(t, slip)[guard];
+    double t = k % 8 == 7 ? 0.5 * (in.above + in.below)
+                          : in.above + (in.below - in.above) * (in.high / (in.high - in.low));
+    t = std::clamp(t, std::nextafter(in.above, in.below), std::nextafter(in.below, in.above));
+    const double now = values.at(t)[guard];
     if (now > 0) {
-      above = t, high = now;
-      if (side == 1) low *= 0.5;
+      in.above = t, in.high = now;
+      if (side == 1) in.low *= 0.5;
       side = 1;
     } else {
-      below = t, low = now;
-      if (side == -1) high *= 0.5;
+      in.below = t, in.low = now;
+      if (side == -1) in.high *= 0.5;
       side = -1;
     }
-    if (below - above <= 4e-16 * std::max(std::abs(below), length) || now == 0) break;
+    if (in.below - in.above <= 4e-16 * std::max(std::abs(in.below), length) || now == 0) break;
   }
-  return below;
+  return in.below;
 }
 
 }  // namespace carom::adjoint_detail

@@ -52,14 +52,18 @@ class HeldPath final : public IntegratedPath {
 
  private:
   struct Values;
+  struct Bracket {
+    double above, below;  ///< times, between which a guard falls through 0
+    double high, low;     ///< its values there
+  };
   const HeldStep& stepAt(double t) const;
   HeldStep nextStep();
   std::vector<Vec3> slipAfter() const;
   double lookAtSlips(HeldStepper::Start& start) const;
   double shorterLength(double length, double error, const std::optional<End>& end) const;
   std::optional<End> firstEnd(const HeldStep& step) const;
-  double rootOf(Values& values, std::size_t guard, double above, double below, const std::vector<Vec3>& slip) const;
-  void endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
+  double rootOf(Values& values, std::size_t guard, Bracket in) const;
+  bool endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
   bool passesBy(const HeldStep& step, const End& end) const;
   void take(HeldStep step);
 
