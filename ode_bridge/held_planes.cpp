@@ -19,7 +19,7 @@ namespace {
 constexpr double kInPlane = 10;
 // Normals that differ by less are one.
 constexpr double kSamePlane = 1e-9;
-constexpr int kMostPlaneSteps = 1'000'000;
+constexpr int kMostPlaneSteps = 20'000;
 
 const Piece& pieceOf(const Placed& body, int piece) { return body.solid->pieces[static_cast<std::size_t>(piece)]; }
 

@@ -26,6 +26,8 @@ constexpr double kSmallChange = 0.1;
 constexpr std::size_t kPart = 4;
 /// So many impacts leave few other ways.
 constexpr int kFewImpacts = 3;
+/// Steps of a motion from which on a landing takes so long that few can be made.
+constexpr std::size_t kManySteps = 2000;
 /// A step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 1.5;
 /// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
@@ -70,8 +72,10 @@ bool SequenceSearch::hasSmallChangeInside() const {
   return isBestInside() && solutions_.front()->objective < kSmallChange && impactsOfBest() <= kFewImpacts;
 }
 
+bool SequenceSearch::isLong() const { return start_->motion.steps > kManySteps; }
+
 std::size_t SequenceSearch::landings() const {
-  return hasSmallChangeInside() ? (plan_.landings + kPart - 1) / kPart : plan_.landings;
+  return hasSmallChangeInside() || isLong() ? (plan_.landings + kPart - 1) / kPart : plan_.landings;
 }
 
 std::size_t SequenceSearch::wanted() const {

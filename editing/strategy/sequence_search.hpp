@@ -43,6 +43,8 @@ class SequenceSearch {
   /// Whether the best is a small change within the sequence of the start, of few impacts: seldom is another one
   /// smaller, so rounds do a part of the work.
   bool hasSmallChangeInside() const;
+  /// Whether motions take so many steps, as those of bodies that come to rest in contact, that rounds do a part of the work.
+  bool isLong() const;
   /// Whether the best keeps the sequence of the start.
   bool isBestInside() const;
   /// Of the best, up to the last that a constraint holds; 0 without one.

@@ -38,6 +38,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, OnScene, testing::ValuesIn(sceneNames()), nam
 Names scenesQuickToEdit() {
   Names names = sceneNames();
   std::erase(names, "pen_500");
+  std::erase(names, "die-at-rest");
   return names;
 }
 
@@ -136,8 +137,8 @@ TEST_P(OnScene, GradientByAdjointIsThatOfTheLibraryAndThatByTangent) {
   }
   EXPECT_EQ(membersOf(by_adjoint["columns"][0]), (Names{"component", "control", "value"}));
   ASSERT_EQ(by_adjoint["jacobian"].size(), by_adjoint["rows"].size());
-  // of a row that rest on a face fixes rounding is left, of what is as large as the others
-  const double rounding = 0x1p-52 * expected.jacobian.cwiseAbs().maxCoeff();
+  // of a row that rest on a face fixes only rounding is left
+  const double rounding = 0x1p-52 * std::max(1.0, expected.jacobian.cwiseAbs().maxCoeff());
   for (int i = 0; i < problem.constraints.size(); ++i) {
     const auto row = static_cast<std::size_t>(i);
     EXPECT_EQ(by_adjoint["rows"][row]["component"], problem.constraints.rows()[row].name);
@@ -165,7 +166,9 @@ TEST_P(OnScene, CheckPasses) {
 
 TEST_P(OnScene, EditMeetsEveryConstraintAndWritesTheScene) {
   const std::string before = readText(path()), edited = temporaryPath(GetParam() + ".json");
-  const json answer = runJson({"edit", path(), "-o", edited});
+  Names command{"edit", path(), "-o", edited};
+  if (GetParam() == "die-at-rest") command.insert(command.end(), {"--effort", "fast"});
+  const json answer = runJson(command);
   EXPECT_EQ(readText(path()), before);
   EXPECT_EQ(membersOf(answer),
             (Names{"alternatives",    "certificate",      "changed",           "growth",   "iterations",
