@@ -10,8 +10,12 @@ HeldRates::HeldRates(const HeldScene& scene, const std::vector<HeldContact>& con
       own_{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())} {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const HeldContact& c = contacts[k];
-    jacobians_.push_back(c.is_first ? scene.geometry->jacobian(scene.body, c.with, c.features, own_, scene.with[k])
-                                    : scene.geometry->jacobian(c.with, scene.body, c.features, scene.with[k], own_));
+    const int a = c.is_first ? scene.body : c.with, b = c.is_first ? c.with : scene.body;
+    const Pose &A = c.is_first ? own_ : scene.with[k], &B = c.is_first ? scene.with[k] : own_;
+    jacobians_.push_back(scene.geometry->jacobian(a, b, c.features, A, B));
+    PairTangent way;
+    way.pose.segment<6>(c.is_first ? 0 : 6) << state.v, now_.body.omega;
+    jacobian_rates_.push_back(scene.geometry->jacobianRates(a, b, c.features, A, B, std::span(&way, 1)).front());
   }
 }
 
@@ -98,34 +102,32 @@ ContactInstant<HeldLanes::Number> HeldRates::contactLanes(const HeldLanes& of, s
   return c;
 }
 
-// Where columns move the pair: the gap, the normal and the point, and J q', where J changes.
+// Where columns move the pair: the gap, the normal and the point, and J q', where J changes. Second derivatives are
+// symmetric, so that is J' along each column, with J' along the way of the body; but for turns: the change of J q' as the
+// body turns by a is J' a + J (omega x a).
 void HeldRates::addGeometry(ContactInstant<HeldLanes::Number>& c, V3<HeldLanes::Number>& point, HeldLanes::Number& gap,
                             std::size_t k, int first, int count) const {
   const HeldContact& held = contacts_[k];
-  const ContactJacobian& J = jacobians_[k];
   const double sign = held.is_first ? 1 : -1;
-  const int own = held.is_first ? 0 : 6;
-  Eigen::Matrix<double, 6, 1> rate;
-  rate << state_.v, now_.body.omega;
-  std::vector<PairTangent> along;
-  std::vector<int> lane_of;
+  const int own_turn = held.is_first ? 3 : 9;
+  const auto times = [](const ContactJacobian& J, const PairTangent& along) {
+    Eigen::Matrix<double, 7, 1> d = J.pose * along.pose;
+    if (J.size_a.cols() > 0) d += J.size_a * along.size_a;
+    if (J.size_b.cols() > 0) d += J.size_b * along.size_b;
+    return d;
+  };
   for (int lane = 0; lane < count; ++lane) {
-    if (!inputs_.movesGeometry(held, k, first + lane)) continue;
-    along.push_back(inputs_.pairTangent(held, k, first + lane));
-    lane_of.push_back(lane);
-  }
-  if (along.empty()) return;
-  const auto dJ = held.is_first ? scene_.geometry->jacobianRates(scene_.body, held.with, held.features, own_, scene_.with[k], along)
-                                : scene_.geometry->jacobianRates(held.with, scene_.body, held.features, scene_.with[k], own_, along);
-  for (std::size_t i = 0; i < along.size(); ++i) {
-    const auto at = static_cast<std::size_t>(lane_of[i]);
-    Eigen::Matrix<double, 7, 1> d = J.pose * along[i].pose;
-    if (J.size_a.cols() > 0) d += J.size_a * along[i].size_a;
-    if (J.size_b.cols() > 0) d += J.size_b * along[i].size_b;
+    const int column = first + lane;
+    if (!inputs_.movesGeometry(held, k, column)) continue;
+    const auto at = static_cast<std::size_t>(lane);
+    const PairTangent along = inputs_.pairTangent(held, k, column);
+    const Eigen::Matrix<double, 7, 1> d = times(jacobians_[k], along);
     gap.rate[at] = d[0];
     setRates(c.n, Vec3(sign * d.segment<3>(1)), at);
     setRates(point, Vec3(d.tail<3>()), at);
-    const Eigen::Matrix<double, 7, 1> bent = dJ[i].pose.middleCols<6>(own) * rate;
+    Eigen::Matrix<double, 7, 1> bent = times(jacobian_rates_[k], along);
+    if (column >= 3 && column < 6)
+      bent += jacobians_[k].pose.middleCols<3>(own_turn) * now_.body.omega.cross(Vec3(Vec3::Unit(column - 3)));
     for (int j = 0; j < 3; ++j) {
       c.normal_rate[j].rate[at] += sign * bent[1 + j];
       c.point_rate[j].rate[at] += bent[4 + j];

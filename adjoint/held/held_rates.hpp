@@ -48,6 +48,7 @@ class HeldRates {
   HeldInstant now_;
   Pose own_;
   std::vector<ContactJacobian> jacobians_;
+  std::vector<ContactJacobian> jacobian_rates_;  // as the body goes its way
 };
 
 /// The value of a guard up to a factor, with its rates (see guardValue).

@@ -103,22 +103,35 @@ MatrixXd slopeRates(const HeldPath& path, const HeldInputs& inputs, const State&
 }
 
 // Takes the tangent from one time of a step to another. `straight`: of each contact the direction that its slip keeps.
+// As x' = v, only the slopes F of theta, v and L are unknowns: with the tangent D of the start, A the integrals from it to the
+// nodes, and G the slopes by x, by the others and by the other inputs,
+//   F = G_x (D_x + h node D_v + h^2 A^2 F_v) + G_others (D + h A F) + G_inputs.
 void through(const HeldPath& path, const HeldInputs& inputs, const HeldStep& step, double from, double to,
              const std::vector<Vec3>& straight, MatrixXd& D) {
-  constexpr int n = Gauss::kNodes;
+  constexpr int n = Gauss::kNodes, kUnknown = 9;
   const Gauss& gauss = Gauss::get();
+  const Gauss::Square twice = gauss.integral * gauss.integral;
   const double h = to - from;
   const Eigen::Index columns = inputs.count;
-  MatrixXd M = MatrixXd::Identity(12 * n, 12 * n), F(12 * n, columns);
+  MatrixXd M = MatrixXd::Identity(kUnknown * n, kUnknown * n), F(kUnknown * n, columns), moved = D;
   for (int i = 0; i < n; ++i) {
-    const MatrixXd G = slopeRates(path, inputs, step.stateAt(from + gauss.node[i] * h), straight);
-    F.middleRows<12>(12 * i) = G.leftCols<12>() * D;
-    F.middleRows<12>(12 * i).rightCols(columns - 12) += G.rightCols(columns - 12);
-    for (int j = 0; j < n; ++j) M.block<12, 12>(12 * i, 12 * j) -= h * gauss.integral(i, j) * G.leftCols<12>();
+    const MatrixXd G = slopeRates(path, inputs, step.stateAt(from + gauss.node[i] * h), straight).bottomRows<kUnknown>();
+    moved.topRows<3>() = D.topRows<3>() + gauss.node[i] * h * D.middleRows<3>(6);
+    F.middleRows<kUnknown>(kUnknown * i) = G.leftCols<12>() * moved;
+    F.middleRows<kUnknown>(kUnknown * i).rightCols(columns - 12) += G.rightCols(columns - 12);
+    for (int j = 0; j < n; ++j) {
+      auto block = M.block<kUnknown, kUnknown>(kUnknown * i, kUnknown * j);
+      block -= h * gauss.integral(i, j) * G.middleCols<kUnknown>(3);
+      block.middleCols<3>(3) -= h * h * twice(i, j) * G.leftCols<3>();
+    }
   }
   F = M.partialPivLu().solve(F);
-  const Gauss::Row weight = Gauss::integrals(1) * gauss.coefficients;
-  for (int j = 0; j < n; ++j) D += h * weight[j] * F.middleRows<12>(12 * j);
+  const Gauss::Row weight = Gauss::integrals(1) * gauss.coefficients, weight_twice = weight * gauss.integral;
+  D.topRows<3>() += h * D.middleRows<3>(6);
+  for (int j = 0; j < n; ++j) {
+    D.topRows<3>() += h * h * weight_twice[j] * F.middleRows<3>(kUnknown * j + 3);
+    D.bottomRows<kUnknown>() += h * weight[j] * F.middleRows<kUnknown>(kUnknown * j);
+  }
 }
 
 // A stretch of a step that tangents are taken over in one go, and of each contact the direction that its slip keeps: what
