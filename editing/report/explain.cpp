@@ -162,6 +162,7 @@ struct Explanation {
 };
 
 void tryHelp(const Scene& written, const EditSearch& search, WhyNot& why) {
+  if (search.iterationsLeft() <= 0) return;  // what is asked for first then is more of them
   const EditProblem& problem = search.problem();
   std::vector<Control> controls;
   for (const BoundControl& bound : problem.controls.controls()) controls.push_back(bound.control);
