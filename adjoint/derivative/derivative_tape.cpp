@@ -10,6 +10,7 @@
 #include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/derivative/single_impact.hpp"
+#include "adjoint/held/held_path.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 #include "adjoint/motion/time_argument.hpp"
@@ -144,12 +145,25 @@ void Reliability::passArc(const Motion& motion, int body, int k) {
   const std::size_t b = checkedIndex("Reliability::passArc", "body", body, motion.world_lines.size());
   const std::vector<Arc>& arcs = motion.world_lines[b].arcs;
   const Arc& arc = arcs[checkedIndex("Reliability::passArc", "arc", k, arcs.size())];
+  if (arc.integrated() && reliable) passHeld(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
   if (arc.kind() != ArcKind::slide || arc.path()->form != PathForm::glide_block) return;
   if (std::find(sliding.begin(), sliding.end(), body) != sliding.end()) return;
   sliding.push_back(body);
   if (!sliding_message.empty()) return;
   sliding_message = textOf(6, "'", motion.scene->bodies[b].name, "' slides without turning from t = ", arc.start(),
                            " s on: its derivative by its spin leaves out the turn that friction would make of it");
+}
+
+void Reliability::passHeld(const Motion& motion, int body, const Arc& arc, double until) {
+  const auto& path = static_cast<const HeldPath&>(*arc.integrated());
+  const HeldPath::NearMiss miss = path.nearestMiss(until);
+  smallest_margin = std::min(smallest_margin, miss.margin);
+  if (!reliable || !(miss.margin < kReliableMargin)) return;
+  reliable = false;
+  const auto nameOfBody = [&](int b) { return "'" + motion.scene->bodies[static_cast<std::size_t>(b)].name + "'"; };
+  message = textOf(6, "at t = ", miss.time, " s the contact of ", nameOfBody(body), " with ",
+                   nameOfBody(path.contacts()[static_cast<std::size_t>(miss.guard.contact)].with), " nearly ",
+                   nameOf(miss.guard.cause), " (margin ", miss.margin, ")");
 }
 
 namespace {

@@ -78,12 +78,17 @@ struct Reliability {
   void pass(const Motion& motion, int event);
   /// `margin`: EventLinearization::frictionFromZero.
   void passFriction(const Motion& motion, int event, double margin);
-  /// Counts an arc of a body that the derivative passes through.
+  /// Counts an arc of a body that the derivative passes through. Where corners, edges and faces hold the body, the margin is
+  /// how near a contact comes to lifting, slipping, sticking or leaving its feature, and does not: as a share of the forces,
+  /// speeds and lengths of the path.
   void passArc(const Motion& motion, int body, int arc);
   /// The derivative by the friction of a material is asked for, too.
   void askFriction(int material);
   /// The derivative by the spin of a body is asked for, too.
   void askSpin(int body);
+
+ private:
+  void passHeld(const Motion& motion, int body, const Arc& arc, double until);
 };
 
 /// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.

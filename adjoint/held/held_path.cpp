@@ -340,6 +340,26 @@ std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step) const {
   return std::nullopt;
 }
 
+HeldPath::NearMiss HeldPath::nearestMiss(double until) const {
+  NearMiss nearest;
+  std::vector<double> last, before;  // values at the two times looked at last
+  double at = start_;
+  const auto look = [&](double t, const std::vector<double>& now) {
+    for (std::size_t g = 0; g < guards_.size() && !before.empty(); ++g)
+      if (last[g] < before[g] && last[g] <= now[g] && last[g] < nearest.margin) nearest = {std::abs(last[g]), at, guards_[g]};
+    before = std::move(last), last = now, at = t;
+  };
+  for (const HeldStep& step : steps_) {
+    if (!(step.length > 0) || !(step.start < until)) break;
+    Values values(*this, step);
+    for (const double node : Gauss::get().node) {
+      const double t = step.start + node * step.length;
+      if (t <= until) look(t, values.at(t));
+    }
+  }
+  return nearest;
+}
+
 double HeldPath::rootOf(Values& values, std::size_t guard, Bracket in) const {
   const double length = in.below - in.above;
   int side = 0;

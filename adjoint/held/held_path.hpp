@@ -50,6 +50,15 @@ class HeldPath final : public IntegratedPath {
   /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node.
   HeldInstant instantAt(double t) const;
 
+  /// Where a guard comes nearest to 0 and turns away from it: a little change lets it end the path there.
+  struct NearMiss {
+    double margin = kInfinity;  ///< the value of the guard
+    double time = 0;
+    HeldGuard guard;
+  };
+  /// The nearest, up to a time, as nodes and ends of steps show it.
+  NearMiss nearestMiss(double until) const;
+
  private:
   struct Values;
   struct Bracket {

@@ -20,7 +20,7 @@ const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip_ends", 
 const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 
 const char* nameOf(MotionStatus status) {
-  return nameIn({"complete", "impact_limit", "cascade", "unresolved_impact", "not_computable", "step_limit", "stopped"},
+  return nameIn({"complete", "impact_limit", "cascade", "unresolved_impact", "unresolved_contact", "not_computable", "step_limit", "stopped"},
                 status);
 }
 

@@ -112,9 +112,11 @@ struct WorldLine {
 enum class MotionStatus {
   complete,          ///< known up to the asked duration
   impact_limit,      ///< stopped after the allowed number of events
-  cascade,           ///< impacts accumulate: infinitely many in finite time, or bodies stay in contact
+  cascade,           ///< impacts accumulate: infinitely many in finite time
   unresolved_impact,  ///< an impulse that does not separate the bodies (a tilt beyond the direction of approach), or a
                       ///< contact without a normal
+  unresolved_contact,  ///< bodies stay in contact in a way of which no path is known: on one that moves, or under forces
+                       ///< that no mode of all its contacts allows
   not_computable,     ///< numbers beyond the range of doubles, or more steps than can be made: see NotComputable
   step_limit,         ///< the allowed number of steps of work was done
   stopped             ///< it was asked to stop

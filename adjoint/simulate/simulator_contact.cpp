@@ -258,7 +258,7 @@ bool Simulator::placeAtStart() {
     if (event.contacts.empty()) continue;
     solvePlaced(body);
     if (draft_.beyond.empty()) continue;
-    finish(MotionStatus::cascade, 0, draft_.beyond);
+    finish(MotionStatus::unresolved_contact, 0, draft_.beyond);
     return false;
   }
   return true;

@@ -73,7 +73,7 @@ bool Simulator::stalls(int body) const {
 bool Simulator::accumulates() {
   const Event& event = draft_.event;
   if (!draft_.beyond.empty()) {
-    finish(MotionStatus::cascade, event.time, draft_.beyond);
+    finish(MotionStatus::unresolved_contact, event.time, draft_.beyond);
     return true;
   }
   for (const Contact& c : event.contacts) {
@@ -91,6 +91,15 @@ bool Simulator::accumulates() {
            textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.time + (e < 1 ? gap / (1 - e) : gap),
                   " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
                   impactsWithDraft(), "; no contact lasts where the lowest bounce is 0, so the motion ends there"));
+    return true;
+  }
+  for (const Participant& p : event.participants) {
+    const auto& arcs = motion_.world_lines[index(p.body)].arcs;
+    if (event.kind != EventKind::transition || arcs.size() < kMostAtOnce) continue;
+    if (arcs[arcs.size() - kMostAtOnce].start() < event.time) continue;
+    finish(MotionStatus::unresolved_contact, event.time,
+           textOf(6, "the contacts of '", scene_.bodies[index(p.body)].name, "' change ", kMostAtOnce, " times at t = ", event.time,
+                  " s; the motion ends there"));
     return true;
   }
   for (const Participant& p : event.participants) {

@@ -58,7 +58,7 @@ std::string wordsOf(const Constraint& constraint) {
 std::string earlyEnd(const Motion& motion) {
   if (motion.status == MotionStatus::complete) return "";
   // of contact that is not modelled the motion tells place, time and number of impacts, with all digits
-  const bool contact = motion.status == MotionStatus::cascade;
+  const bool contact = motion.status == MotionStatus::cascade || motion.status == MotionStatus::unresolved_contact;
   const std::string why = motion.message.substr(0, contact ? motion.message.find(" from t = ") : std::string::npos);
   return "The motion ends at " + brief(motion.end) + " s: " + why + ".";
 }

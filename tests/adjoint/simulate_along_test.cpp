@@ -116,7 +116,8 @@ TEST(MotionAlong, BesideItIsWhatSimulateGives) {
     const Scene scene = randomScene(seed);
     const Scene other = nudged(scene, random, 1e-3);
     const Motion like = play(scene, 1, 3), expected = play(other, 1, 3);
-    if (like.signature() != expected.signature() || like.status == MotionStatus::cascade) continue;
+    const bool ends_in_contact = like.status == MotionStatus::unresolved_contact;
+    if (like.signature() != expected.signature() || ends_in_contact) continue;
     const MotionAlong r = along(like, other, 1);
     ASSERT_TRUE(r.complete) << r.why_not;
     EXPECT_EQ(r.motion.signature(), expected.signature());

@@ -125,7 +125,7 @@ TEST(Summary, HowAMotionEndsIsSaid) {
   const std::string path = writeTemporary("stacked.json", scene.dump());
   const CommandRun run = runCommand({"simulate", path});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("; the motion ends there (cascade): "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("; the motion ends there (unresolved_contact): "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("Impacts by mode"), std::string::npos) << run.out;
 }
 
