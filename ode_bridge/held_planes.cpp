@@ -51,6 +51,16 @@ void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& 
   }
 }
 
+// Whether a line of the side of a capsule, cylinder or cone ends at this vertex or rim: where the line lies in a plane it
+// does, too.
+bool endsAt(const Solid& solid, int edge, const Feature& end) {
+  const SolidEdge& side = solid.edges[static_cast<std::size_t>(edge)];
+  if (!isSwept(side) || side.part != end.part) return false;
+  const Vec3 half = side.half_length * side.direction;
+  const double room = kSamePlane * (side.half_length + side.radius);
+  return std::min((side.point + half - end.point).norm(), (side.point - half - end.point).norm()) <= room;
+}
+
 }  // namespace
 
 // A plane, and what is known to lie in it: of each body, in the axes of its solid.
@@ -123,9 +133,6 @@ void HeldPlanes::fixTo(Laid& laid) const {
     goesWith(Frame::body_b, b_, laid.of_b);
   } else if (laid.of_a.isPlane()) {
     goesWith(Frame::body_a, a_, laid.of_a);
-  } else {
-    const Vec3 across = (a_.k.R * plane.edge_a.direction).cross(b_.k.R * plane.edge_b.direction);
-    plane.sign = across.dot(plane.n) < 0 ? -1 : 1;
   }
 }
 
@@ -150,7 +157,9 @@ void HeldPlanes::addFollowers(Plane& plane) {
         if (feature.mark) continue;
         const bool is_held = std::ranges::any_of(plane.held, [&](const FeaturePair& f) {
           const auto kind = static_cast<GapKind>(f.kind);
-          return (of_a ? familyOfFirst(kind) : familyOfSecond(kind)) == family && (of_a ? f.a : f.b) == i;
+          const Family held = of_a ? familyOfFirst(kind) : familyOfSecond(kind);
+          const int which = of_a ? f.a : f.b;
+          return (held == family && which == i) || (held == Family::edge && endsAt(solid, which, feature));
         });
         if (!is_held) plane.followers.push_back({of_a, feature, family == Family::rim});
       }
@@ -193,24 +202,36 @@ bool HeldPlanes::keepApart(int piece_a, int piece_b) const {
 struct HeldPlanes::Lying {
   Vec3 n, dn, point, arm, velocity;
   double n1 = 0, n2 = 0;
+  double beyond = 0;  // m: how far along n the plane lies beyond that point
   const Placed* with = nullptr;
   double holds_for = std::numeric_limits<double>::infinity();  ///< s, the bounds
 };
 
+// With D = n.(e_a x e_b), where n.e_a and n.e_b stay what they are (0, but of a cone): n.dn = 0, e_a.dn = -n.de_a and
+// e_b.dn = -n.de_b. D^2 changes by no more than 4 times the spin, of edges that do not taper D itself by the spin.
+std::optional<HeldPlanes::Lying> HeldPlanes::crossing(const Plane& plane, const Placed& a, const Placed& b) const {
+  const double spin = a.spin + b.spin;
+  const Vec3 ea = a.k.R * plane.edge_a.direction, eb = b.k.R * plane.edge_b.direction;
+  Lying p;
+  p.n = contactAt(a, b, plane.held.front()).normal;
+  const double D = p.n.dot(ea.cross(eb)), sine = std::abs(D);
+  if (!(sine > 0)) return std::nullopt;
+  p.dn = -(p.n.dot(a.k.w.cross(ea)) * eb.cross(p.n) + p.n.dot(b.k.w.cross(eb)) * p.n.cross(ea)) / D;
+  p.n1 = spin / (0.5 * sine), p.n2 = (spin * spin + a.spin_rate + b.spin_rate) / (0.5 * sine) + 3 * p.n1 * p.n1;
+  const bool tapers = plane.edge_a.apex > 0 || plane.edge_b.apex > 0;
+  if (spin > 0) p.holds_for = tapers ? 0.1875 * sine * sine / spin : 0.5 * sine / spin;
+  p.point = b.world(plane.edge_b.point + plane.edge_b.apex * plane.edge_b.direction);
+  p.beyond = plane.edge_b.radius;
+  p.with = &b;
+  return p;
+}
+
 std::optional<HeldPlanes::Lying> HeldPlanes::lie(const Plane& plane, const Placed& a, const Placed& b) const {
   Lying p;
   if (plane.frame == Frame::crossed) {
-    const double spin = a.spin + b.spin;
-    const Vec3 ea = a.k.R * plane.edge_a.direction, eb = b.k.R * plane.edge_b.direction;
-    const Vec3 c = ea.cross(eb), dc = a.k.w.cross(ea).cross(eb) + ea.cross(b.k.w.cross(eb));
-    const double sine = c.norm();
-    if (!(sine > 0)) return std::nullopt;
-    p.n = plane.sign / sine * c;
-    p.dn = plane.sign / sine * (dc - p.n * p.n.dot(dc));
-    p.n1 = spin / (0.5 * sine), p.n2 = (spin * spin + a.spin_rate + b.spin_rate) / (0.5 * sine) + 3 * p.n1 * p.n1;
-    if (spin > 0) p.holds_for = 0.5 * sine / spin;
-    p.point = b.world(plane.edge_b.point);
-    p.with = &b;
+    const std::optional<Lying> crossed = crossing(plane, a, b);
+    if (!crossed) return std::nullopt;
+    p = *crossed;
   } else {
     p.with = plane.frame == Frame::body_a ? &a : &b;
     p.n = p.with->k.R * plane.normal, p.dn = p.with->k.w.cross(p.n);
@@ -236,7 +257,7 @@ HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plan
   const Vec3 w = body.world(f.feature.point), r = w - body.k.x, d = w - p.point;
   const Vec3 dd = body.k.v + body.k.w.cross(r) - p.velocity;
   Approach out;
-  out.gap = sign * p.n.dot(d) - f.feature.radius, out.rate = sign * (p.dn.dot(d) + p.n.dot(dd));
+  out.gap = sign * (p.n.dot(d) - p.beyond) - f.feature.radius, out.rate = sign * (p.dn.dot(d) + p.n.dot(dd));
   const auto pull = [](const Placed& of, double arm) {
     return of.acceleration.norm() + of.variation + (of.spin * of.spin + of.spin_rate) * arm;
   };

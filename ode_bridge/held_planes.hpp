@@ -51,7 +51,6 @@ class HeldPlanes {
     std::vector<FeaturePair> held;
     Vec3 normal = Vec3::Zero(), point = Vec3::Zero();  // in the axes of its body, where it goes with one
     Feature edge_a, edge_b;           // crossed
-    double sign = 1;                  // of edge_a x edge_b
     std::vector<Follower> followers;
   };
   struct Reach {
@@ -68,6 +67,7 @@ class HeldPlanes {
   void addFollowers(Plane& plane);
   bool holds(const Plane& plane, bool of_a, int piece) const;
   bool staysBeyond(const Plane& plane, bool of_a, int piece) const;
+  std::optional<Lying> crossing(const Plane& plane, const Placed& a, const Placed& b) const;
   std::optional<Lying> lie(const Plane& plane, const Placed& a, const Placed& b) const;
   Approach approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a, const Placed& b,
                       double window) const;
