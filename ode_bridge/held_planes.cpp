@@ -113,10 +113,9 @@ void HeldPlanes::layThrough(const FeaturePair& f, std::vector<Laid>& laid) const
     same = laid.insert(laid.end(), std::move(fresh));
   }
   same->plane.held.push_back(f);
-  if (of_a == Family::edge && of_b == Family::edge && same->plane.held.size() == 1) {
-    same->plane.edge_a = a_.solid->edges[static_cast<std::size_t>(f.a)];
-    same->plane.edge_b = b_.solid->edges[static_cast<std::size_t>(f.b)];
-  }
+  const auto isCurve = [](Family family) { return family == Family::edge || family == Family::rim; };
+  if (isCurve(of_a) && isCurve(of_b) && same->plane.held.size() == 1)
+    same->plane.edge_a = a_.solid->feature(of_a, f.a), same->plane.edge_b = b_.solid->feature(of_b, f.b);
   addPointsInPlane(*a_.solid, of_a, f.a, a_.k.R.transpose() * (c.point - a_.k.x), same->of_a);
   addPointsInPlane(*b_.solid, of_b, f.b, b_.k.R.transpose() * (c.point - b_.k.x), same->of_b);
 }
@@ -133,6 +132,9 @@ void HeldPlanes::fixTo(Laid& laid) const {
     goesWith(Frame::body_b, b_, laid.of_b);
   } else if (laid.of_a.isPlane()) {
     goesWith(Frame::body_a, a_, laid.of_a);
+  } else if (isRimOf(plane.edge_a) != isRimOf(plane.edge_b)) {
+    plane.frame = Frame::rim;
+    if (plane.held.size() == 1) plane.side = sideOfCap(plane);
   }
 }
 
@@ -185,7 +187,8 @@ bool HeldPlanes::staysBeyond(const Plane& plane, bool of_a, int piece) const {
   const PlacedPiece p{&body, &pieceOf(body, piece)};
   if (p.halfSpace()) return false;
   const bool rigid = plane.frame == (of_a ? Frame::body_a : Frame::body_b);
-  const bool stands = !(body.spin > 0) && plane.frame != Frame::crossed && !((of_a ? b_ : a_).spin > 0);
+  const bool turns = plane.frame == Frame::crossed || plane.frame == Frame::rim;
+  const bool stands = !(body.spin > 0) && !turns && !((of_a ? b_ : a_).spin > 0);
   if (!rigid && !stands) return false;
   const Vec3 n = of_a ? plane.n : Vec3(-plane.n);
   const double level = of_a ? plane.level + plane.n.dot(b_.k.x - a_.k.x) : -plane.level;
@@ -197,58 +200,6 @@ bool HeldPlanes::keepApart(int piece_a, int piece_b) const {
     return staysBeyond(plane, true, piece_a) && staysBeyond(plane, false, piece_b);
   });
 }
-
-// A plane at an instant: its normal with the bounds |n'| <= n1, |n''| <= n2, and a point of it that goes with a body.
-struct HeldPlanes::Lying {
-  Vec3 n, dn, point, arm, velocity;
-  double n1 = 0, n2 = 0;
-  double beyond = 0;  // m: how far along n the plane lies beyond that point
-  const Placed* with = nullptr;
-  double holds_for = std::numeric_limits<double>::infinity();  ///< s, the bounds
-};
-
-// With D = n.(e_a x e_b), where n.e_a and n.e_b stay what they are (0, but of a cone): n.dn = 0, e_a.dn = -n.de_a and
-// e_b.dn = -n.de_b. D^2 changes by no more than 4 times the spin, of edges that do not taper D itself by the spin.
-std::optional<HeldPlanes::Lying> HeldPlanes::crossing(const Plane& plane, const Placed& a, const Placed& b) const {
-  const double spin = a.spin + b.spin;
-  const Vec3 ea = a.k.R * plane.edge_a.direction, eb = b.k.R * plane.edge_b.direction;
-  Lying p;
-  p.n = contactAt(a, b, plane.held.front()).normal;
-  const double D = p.n.dot(ea.cross(eb)), sine = std::abs(D);
-  if (!(sine > 0)) return std::nullopt;
-  p.dn = -(p.n.dot(a.k.w.cross(ea)) * eb.cross(p.n) + p.n.dot(b.k.w.cross(eb)) * p.n.cross(ea)) / D;
-  p.n1 = spin / (0.5 * sine), p.n2 = (spin * spin + a.spin_rate + b.spin_rate) / (0.5 * sine) + 3 * p.n1 * p.n1;
-  const bool tapers = plane.edge_a.apex > 0 || plane.edge_b.apex > 0;
-  if (spin > 0) p.holds_for = tapers ? 0.1875 * sine * sine / spin : 0.5 * sine / spin;
-  p.point = b.world(plane.edge_b.point + plane.edge_b.apex * plane.edge_b.direction);
-  p.beyond = plane.edge_b.radius;
-  p.with = &b;
-  return p;
-}
-
-std::optional<HeldPlanes::Lying> HeldPlanes::lie(const Plane& plane, const Placed& a, const Placed& b) const {
-  Lying p;
-  if (plane.frame == Frame::crossed) {
-    const std::optional<Lying> crossed = crossing(plane, a, b);
-    if (!crossed) return std::nullopt;
-    p = *crossed;
-  } else {
-    p.with = plane.frame == Frame::body_a ? &a : &b;
-    p.n = p.with->k.R * plane.normal, p.dn = p.with->k.w.cross(p.n);
-    p.n1 = p.with->spin, p.n2 = p.with->spin * p.with->spin + p.with->spin_rate;
-    p.point = p.with->world(plane.point);
-  }
-  p.arm = p.point - p.with->k.x;
-  p.velocity = p.with->k.v + p.with->k.w.cross(p.arm);
-  return p;
-}
-
-// How far a follower is from the plane, how fast that changes, and what bounds the second derivative for some time.
-struct HeldPlanes::Approach {
-  double gap = 0, rate = 0, bend = 0;
-  double speed = 0;    // against which the rate is rounded
-  RimGap rim;         // where it is one
-};
 
 HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a,
                                             const Placed& b, double window) const {
@@ -291,22 +242,27 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
   const double tolerance = touchTolerance(a, b), spin = a.spin + b.spin;
   Reach reach{until - t, false};
   if (spin > 0) reach.step = std::min(reach.step, 0.5 / spin);
+  const auto look = [&](const Approach& to, bool is_rim) {
+    const bool there = to.gap <= tolerance;
+    if (there && to.rate < -kStill * to.speed) {
+      reach.touches = true;
+      reach.step = std::min(reach.step, timeTo(tolerance, -to.rate, to.bend));
+      return;
+    }
+    const double room = std::max(to.gap, 0.0) + tolerance * (there ? 1 : 0);
+    reach.step = std::min(reach.step, is_rim ? to.rim.timeTo(room, to.rate + to.rim.belowRate(), to.bend, reach.step)
+                                             : timeTo(room, -to.rate, to.bend));
+  };
   for (const Plane& plane : planes_) {
+    if (plane.frame == Frame::rim && plane.side != 0) {
+      Approach to = levelOfCap(plane, a, b);
+      to.gap *= plane.side, to.rate *= plane.side;
+      look(to, false);
+    }
     const std::optional<Lying> p = lie(plane, a, b);
     if (!p) continue;
     reach.step = std::min(reach.step, p->holds_for);
-    for (const Follower& f : plane.followers) {
-      const Approach to = approachOf(f, plane, *p, a, b, reach.step);
-      const bool there = to.gap <= tolerance;
-      if (there && to.rate < -kStill * to.speed) {
-        reach.touches = true;
-        reach.step = std::min(reach.step, timeTo(tolerance, -to.rate, to.bend));
-        continue;
-      }
-      const double room = std::max(to.gap, 0.0) + tolerance * (there ? 1 : 0);
-      reach.step = std::min(reach.step, f.is_rim ? to.rim.timeTo(room, to.rate + to.rim.belowRate(), to.bend, reach.step)
-                                                 : timeTo(room, -to.rate, to.bend));
-    }
+    for (const Follower& f : plane.followers) look(approachOf(f, plane, *p, a, b, reach.step), f.is_rim);
   }
   return reach;
 }
