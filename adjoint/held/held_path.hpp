@@ -61,6 +61,7 @@ class HeldPath final : public IntegratedPath {
   double rootOf(Values& values, std::size_t guard, double above, double below, const std::vector<Vec3>& slip) const;
   void endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
   bool passesBy(const HeldStep& step, const End& end) const;
+  State stayingOn(const State& state) const;
   void take(HeldStep step);
 
   HeldScene scene_;
