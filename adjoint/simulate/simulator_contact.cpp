@@ -113,10 +113,12 @@ ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
     return hint;
   }
   hint.cause = event.cause;
-  for (std::size_t k = 0; k < closed.size(); ++k)
+  for (std::size_t k = 0; k < closed.size(); ++k) {
+    if (!closed[k].held) hint.idle.push_back(k);
     if (closed[k].features == event.contacts[0].features && closed[k].a == event.contacts[0].a &&
         closed[k].b == event.contacts[0].b)
       hint.contact = static_cast<int>(k);
+  }
   return hint;
 }
 
@@ -194,14 +196,14 @@ std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, dou
   return contactsAt(from, time, later, reach);
 }
 
-// What of the pairs that are held touches at `when`, as it is at `time`.
+// What of the pairs that are held touches at `when`, to within `reach` or, where that is 0, to rounding, as it is at `time`.
 std::vector<Contact> Simulator::contactsAt(const Onward& from, double time, double when, double reach) {
   std::vector<Contact> contacts;
   for (const Contact& h : from.held) {
     if (std::ranges::any_of(contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b; })) continue;
     for (const FeaturePair& f : contacts_.touching(h.a, h.b, arcOf(h.a), arcOf(h.b), when, reach)) {
       Contact c = makeContact(time, h.a, h.b, f);
-      if (std::abs(c.at.gap) <= reach) contacts.push_back(std::move(c));
+      if (!(reach > 0) || std::abs(c.at.gap) <= reach) contacts.push_back(std::move(c));
     }
   }
   return contacts;
@@ -257,7 +259,7 @@ void Simulator::resolveTransition(int body) {
 // hold it.
 void Simulator::addBeside(const Onward& from) {
   std::vector<Contact>& contacts = draft_.event.contacts;
-  for (Contact& c : contactsAt(from, draft_.event.time, draft_.event.time, kTouching * motion_.lowest_bounce)) {
+  for (Contact& c : contactsAt(from, draft_.event.time, draft_.event.time, 0)) {
     if (inDraft(c.a, c.b, c.features) || c.approach > kLowestBounce || strikes(c)) continue;
     c.counted = false;
     c.lasts = true;
