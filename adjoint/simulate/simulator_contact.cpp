@@ -185,13 +185,19 @@ void Simulator::chooseArc(std::size_t participant) {
 
 // What touches a body where a contact of it leaves its feature: what it has a little later on the same path.
 std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, double time) {
-  const Arc& arc = arcOf(body);
-  double size = 1, arm = kInfinity;
+  const Kinematics now = arcOf(body).kinematicsAt(time);
+  double size = 1, arm = kInfinity, speed = now.v.norm();
   for (const Contact& c : from.held) {
     size = std::max(size, c.at.point.norm());
-    arm = std::min(arm, (c.at.point - arc.startState().x).norm());
+    arm = std::min(arm, (c.at.point - arcOf(body).startState().x).norm());
+    // the place of a contact goes round a rim or along an edge, faster than the body
+    const Kinematics other = arcOf(c.a == body ? c.b : c.a).kinematicsAt(time);
+    const Kinematics &a = c.a == body ? now : other, &b = c.a == body ? other : now;
+    const ContactMotion moves =
+        motion_.geometry->motion(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}, {a.v, a.w}, {b.v, b.w});
+    speed = std::max(speed, moves.point_rate.norm());
   }
-  const double further = kBeyond * size, later = time + further / arc.velocityAt(time).norm();
+  const double further = kBeyond * size, later = time + further / speed;
   const double reach = kTouching * motion_.lowest_bounce + further * further / arm;
   return contactsAt(from, time, later, reach);
 }
