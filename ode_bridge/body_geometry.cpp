@@ -19,6 +19,7 @@ struct Limits {
   const Solid& solid;
   double sign;
   int body;
+  int other;  // dimension of what the feature of the other body has in the plane of the contact
   std::vector<FeatureLimit>& out;
 
   // weight . (p - border) >= 0; the border moves with the part that `of` belongs to
@@ -34,12 +35,14 @@ struct Limits {
     out.push_back(std::move(limit));
   }
 
-  // weight . outward >= 0
-  void normal(const Vec3& weight, std::string beyond, const Eigen::Matrix3Xd& rates = {}) const {
+  // weight . outward >= 0; at 0 what lies beside, a line or a face, is in the plane of the contact. Two lines there, or a
+  // point and anything, have a point in common as before; else more of the bodies comes into touch.
+  void normal(const Vec3& weight, int beside, std::string beyond, const Eigen::Matrix3Xd& rates = {}) const {
     FeatureLimit limit;
     limit.body = body;
     limit.normal_weight = sign * weight;
     limit.normal_rates = sign * rates;
+    limit.rolls_over = beside + other <= 2;
     limit.beyond = std::move(beyond);
     out.push_back(std::move(limit));
   }
@@ -61,7 +64,7 @@ void ofSideOfCone(const Limits& limits, const SolidEdge& side, const Vec3& u, do
   const Vec3 along = side.rim * u - 2 * side.apex * side.direction, w = along.normalized();
   const FeatureRates by_size = ratesOf(limits.solid, side);
   const Eigen::Matrix3Xd rates = u * by_size.rim - 2 * side.direction * by_size.apex;
-  limits.normal(way * w, std::move(beyond), way / along.norm() * (rates - w * (w.transpose() * rates)));
+  limits.normal(way * w, 1, std::move(beyond), way / along.norm() * (rates - w * (w.transpose() * rates)));
 }
 
 // The lines of the side fall back from the apex; the one towards which the normal leans is the first that does not.
@@ -81,7 +84,7 @@ void ofVertex(const Limits& limits, int v) {
   for (int i = solid.neighbour_first[at]; i < solid.neighbour_first[at + 1]; ++i) {
     const int other = solid.neighbours[static_cast<std::size_t>(i)];
     const Vec3 to = limits.vertexAt(other).point - limits.vertexAt(v).point;
-    if (to.norm() > 0) limits.normal(-to.normalized(), nameOf(solid, Family::vertex, other));
+    if (to.norm() > 0) limits.normal(-to.normalized(), 1, nameOf(solid, Family::vertex, other));
   }
 }
 
@@ -95,7 +98,7 @@ void ofEdge(const Limits& limits, int e) {
   const auto face = [&](int f, double along) {
     if (f < 0) return;
     const Vec3 into = along * solid.faces[static_cast<std::size_t>(f)].direction.cross(edge.direction);
-    limits.normal(-into.normalized(), nameOf(solid, Family::face, f));
+    limits.normal(-into.normalized(), 2, nameOf(solid, Family::face, f));
   };
   face(edge.left, 1);
   face(edge.right, -1);
@@ -127,20 +130,17 @@ void ofRim(const Limits& limits, int r, const Vec3& point) {
   const Vec3 to = point - rim.point, across = to - rim.direction.dot(to) * rim.direction;
   const SolidEdge* side = sideOfCone(limits.solid, rim.part);
   if (!side || across.norm() == 0) {
-    limits.normal(rim.direction, "the side of " + name);
+    limits.normal(rim.direction, 1, "the side of " + name);
   } else {
     ofSideOfCone(limits, *side, across.normalized(), 1, "the side of " + name);
   }
-  if (across.norm() > 0) limits.normal(across.normalized(), "the cap of " + name);
+  if (across.norm() > 0) limits.normal(across.normalized(), 2, "the cap of " + name);
 }
 
 // Adds the conditions under which a contact stays with one feature of a solid (see FeatureLimit). `point` and `n` are
-// those of the contact in the solid's axes; `sign` is 1 where the normal points out of this solid (it is body b
-// of the pair) and -1 where it points into it (body a).
-void addFeatureLimits(const Solid& solid, Family family, int index, const Vec3& point, const Vec3& n, double sign,
-                      int body, std::vector<FeatureLimit>& out) {
-  const Limits limits{solid, sign, body, out};
-  if (family == Family::vertex) ofVertex(limits, index), ofApex(limits, index, sign * n);
+// those of the contact in the solid's axes.
+void addFeatureLimits(const Limits& limits, Family family, int index, const Vec3& point, const Vec3& n) {
+  if (family == Family::vertex) ofVertex(limits, index), ofApex(limits, index, limits.sign * n);
   if (family == Family::edge) ofEdge(limits, index);
   if (family == Family::face) ofFace(limits, index, point);
   if (family == Family::rim) ofRim(limits, index, point);
@@ -162,18 +162,13 @@ std::vector<FeatureLimit> FeatureGeometry::limits(int a, int b, const FeaturePai
   std::vector<FeatureLimit> limits;
   const ContactPoint at = contact(a, b, f, A, B);
   const auto kind = static_cast<GapKind>(f.kind);
-  const auto isRound = [&](int body, Family family, int index) {
-    return family != Family::face && isSwept(solid(body).feature(family, index));
-  };
-  const bool round_a = isRound(a, familyOfFirst(kind), f.a), round_b = isRound(b, familyOfSecond(kind), f.b);
-  const auto add = [&](int body, Family family, int index, const Pose& pose, double sign) {
-    const std::size_t before = limits.size();
-    addFeatureLimits(solid(body), family, index, pose.R.transpose() * (at.point - pose.x),
-                     pose.R.transpose() * at.normal, sign, body, limits);
-    for (std::size_t i = before; i < limits.size(); ++i) limits[i].rolls_over = body == a ? round_b : round_a;
-  };
-  add(a, familyOfFirst(kind), f.a, A, -1);
-  add(b, familyOfSecond(kind), f.b, B, 1);
+  const auto dimensionOf = [](Family family) { return family == Family::face ? 2 : family == Family::edge ? 1 : 0; };
+  const Family of_a = familyOfFirst(kind), of_b = familyOfSecond(kind);
+  // the normal points out of b
+  addFeatureLimits({solid(a), -1, a, dimensionOf(of_b), limits}, of_a, f.a, A.R.transpose() * (at.point - A.x),
+                   A.R.transpose() * at.normal);
+  addFeatureLimits({solid(b), 1, b, dimensionOf(of_a), limits}, of_b, f.b, B.R.transpose() * (at.point - B.x),
+                   B.R.transpose() * at.normal);
   return limits;
 }
 

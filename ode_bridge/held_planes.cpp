@@ -51,6 +51,16 @@ void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& 
   }
 }
 
+// Whether a line of the side of a capsule, cylinder or cone ends at this vertex or rim: where the line lies in a plane it
+// does, too.
+bool endsAt(const Solid& solid, int edge, const Feature& end) {
+  const SolidEdge& side = solid.edges[static_cast<std::size_t>(edge)];
+  if (!isSwept(side) || side.part != end.part) return false;
+  const Vec3 half = side.half_length * side.direction;
+  const double room = kSamePlane * (side.half_length + side.radius);
+  return std::min((side.point + half - end.point).norm(), (side.point - half - end.point).norm()) <= room;
+}
+
 }  // namespace
 
 // A plane, and what is known to lie in it: of each body, in the axes of its solid.
@@ -103,10 +113,9 @@ void HeldPlanes::layThrough(const FeaturePair& f, std::vector<Laid>& laid) const
     same = laid.insert(laid.end(), std::move(fresh));
   }
   same->plane.held.push_back(f);
-  if (of_a == Family::edge && of_b == Family::edge && same->plane.held.size() == 1) {
-    same->plane.edge_a = a_.solid->edges[static_cast<std::size_t>(f.a)];
-    same->plane.edge_b = b_.solid->edges[static_cast<std::size_t>(f.b)];
-  }
+  const auto isCurve = [](Family family) { return family == Family::edge || family == Family::rim; };
+  if (isCurve(of_a) && isCurve(of_b) && same->plane.held.size() == 1)
+    same->plane.edge_a = a_.solid->feature(of_a, f.a), same->plane.edge_b = b_.solid->feature(of_b, f.b);
   addPointsInPlane(*a_.solid, of_a, f.a, a_.k.R.transpose() * (c.point - a_.k.x), same->of_a);
   addPointsInPlane(*b_.solid, of_b, f.b, b_.k.R.transpose() * (c.point - b_.k.x), same->of_b);
 }
@@ -123,9 +132,9 @@ void HeldPlanes::fixTo(Laid& laid) const {
     goesWith(Frame::body_b, b_, laid.of_b);
   } else if (laid.of_a.isPlane()) {
     goesWith(Frame::body_a, a_, laid.of_a);
-  } else {
-    const Vec3 across = (a_.k.R * plane.edge_a.direction).cross(b_.k.R * plane.edge_b.direction);
-    plane.sign = across.dot(plane.n) < 0 ? -1 : 1;
+  } else if (isRimOf(plane.edge_a) != isRimOf(plane.edge_b)) {
+    plane.frame = Frame::rim;
+    if (plane.held.size() == 1) plane.side = sideOfCap(plane);
   }
 }
 
@@ -150,7 +159,9 @@ void HeldPlanes::addFollowers(Plane& plane) {
         if (feature.mark) continue;
         const bool is_held = std::ranges::any_of(plane.held, [&](const FeaturePair& f) {
           const auto kind = static_cast<GapKind>(f.kind);
-          return (of_a ? familyOfFirst(kind) : familyOfSecond(kind)) == family && (of_a ? f.a : f.b) == i;
+          const Family held = of_a ? familyOfFirst(kind) : familyOfSecond(kind);
+          const int which = of_a ? f.a : f.b;
+          return (held == family && which == i) || (held == Family::edge && endsAt(solid, which, feature));
         });
         if (!is_held) plane.followers.push_back({of_a, feature, family == Family::rim});
       }
@@ -176,7 +187,8 @@ bool HeldPlanes::staysBeyond(const Plane& plane, bool of_a, int piece) const {
   const PlacedPiece p{&body, &pieceOf(body, piece)};
   if (p.halfSpace()) return false;
   const bool rigid = plane.frame == (of_a ? Frame::body_a : Frame::body_b);
-  const bool stands = !(body.spin > 0) && plane.frame != Frame::crossed && !((of_a ? b_ : a_).spin > 0);
+  const bool turns = plane.frame == Frame::crossed || plane.frame == Frame::rim;
+  const bool stands = !(body.spin > 0) && !turns && !((of_a ? b_ : a_).spin > 0);
   if (!rigid && !stands) return false;
   const Vec3 n = of_a ? plane.n : Vec3(-plane.n);
   const double level = of_a ? plane.level + plane.n.dot(b_.k.x - a_.k.x) : -plane.level;
@@ -189,46 +201,6 @@ bool HeldPlanes::keepApart(int piece_a, int piece_b) const {
   });
 }
 
-// A plane at an instant: its normal with the bounds |n'| <= n1, |n''| <= n2, and a point of it that goes with a body.
-struct HeldPlanes::Lying {
-  Vec3 n, dn, point, arm, velocity;
-  double n1 = 0, n2 = 0;
-  const Placed* with = nullptr;
-  double holds_for = std::numeric_limits<double>::infinity();  ///< s, the bounds
-};
-
-std::optional<HeldPlanes::Lying> HeldPlanes::lie(const Plane& plane, const Placed& a, const Placed& b) const {
-  Lying p;
-  if (plane.frame == Frame::crossed) {
-    const double spin = a.spin + b.spin;
-    const Vec3 ea = a.k.R * plane.edge_a.direction, eb = b.k.R * plane.edge_b.direction;
-    const Vec3 c = ea.cross(eb), dc = a.k.w.cross(ea).cross(eb) + ea.cross(b.k.w.cross(eb));
-    const double sine = c.norm();
-    if (!(sine > 0)) return std::nullopt;
-    p.n = plane.sign / sine * c;
-    p.dn = plane.sign / sine * (dc - p.n * p.n.dot(dc));
-    p.n1 = spin / (0.5 * sine), p.n2 = (spin * spin + a.spin_rate + b.spin_rate) / (0.5 * sine) + 3 * p.n1 * p.n1;
-    if (spin > 0) p.holds_for = 0.5 * sine / spin;
-    p.point = b.world(plane.edge_b.point);
-    p.with = &b;
-  } else {
-    p.with = plane.frame == Frame::body_a ? &a : &b;
-    p.n = p.with->k.R * plane.normal, p.dn = p.with->k.w.cross(p.n);
-    p.n1 = p.with->spin, p.n2 = p.with->spin * p.with->spin + p.with->spin_rate;
-    p.point = p.with->world(plane.point);
-  }
-  p.arm = p.point - p.with->k.x;
-  p.velocity = p.with->k.v + p.with->k.w.cross(p.arm);
-  return p;
-}
-
-// How far a follower is from the plane, how fast that changes, and what bounds the second derivative for some time.
-struct HeldPlanes::Approach {
-  double gap = 0, rate = 0, bend = 0;
-  double speed = 0;    // against which the rate is rounded
-  RimGap rim;         // where it is one
-};
-
 HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a,
                                             const Placed& b, double window) const {
   const Placed& body = f.of_a ? a : b;
@@ -236,7 +208,7 @@ HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plan
   const Vec3 w = body.world(f.feature.point), r = w - body.k.x, d = w - p.point;
   const Vec3 dd = body.k.v + body.k.w.cross(r) - p.velocity;
   Approach out;
-  out.gap = sign * p.n.dot(d) - f.feature.radius, out.rate = sign * (p.dn.dot(d) + p.n.dot(dd));
+  out.gap = sign * (p.n.dot(d) - p.beyond) - f.feature.radius, out.rate = sign * (p.dn.dot(d) + p.n.dot(dd));
   const auto pull = [](const Placed& of, double arm) {
     return of.acceleration.norm() + of.variation + (of.spin * of.spin + of.spin_rate) * arm;
   };
@@ -270,22 +242,27 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
   const double tolerance = touchTolerance(a, b), spin = a.spin + b.spin;
   Reach reach{until - t, false};
   if (spin > 0) reach.step = std::min(reach.step, 0.5 / spin);
+  const auto look = [&](const Approach& to, bool is_rim) {
+    const bool there = to.gap <= tolerance;
+    if (there && to.rate < -kStill * to.speed) {
+      reach.touches = true;
+      reach.step = std::min(reach.step, timeTo(tolerance, -to.rate, to.bend));
+      return;
+    }
+    const double room = std::max(to.gap, 0.0) + tolerance * (there ? 1 : 0);
+    reach.step = std::min(reach.step, is_rim ? to.rim.timeTo(room, to.rate + to.rim.belowRate(), to.bend, reach.step)
+                                             : timeTo(room, -to.rate, to.bend));
+  };
   for (const Plane& plane : planes_) {
+    if (plane.frame == Frame::rim && plane.side != 0) {
+      Approach to = levelOfCap(plane, a, b);
+      to.gap *= plane.side, to.rate *= plane.side;
+      look(to, false);
+    }
     const std::optional<Lying> p = lie(plane, a, b);
     if (!p) continue;
     reach.step = std::min(reach.step, p->holds_for);
-    for (const Follower& f : plane.followers) {
-      const Approach to = approachOf(f, plane, *p, a, b, reach.step);
-      const bool there = to.gap <= tolerance;
-      if (there && to.rate < -kStill * to.speed) {
-        reach.touches = true;
-        reach.step = std::min(reach.step, timeTo(tolerance, -to.rate, to.bend));
-        continue;
-      }
-      const double room = std::max(to.gap, 0.0) + tolerance * (there ? 1 : 0);
-      reach.step = std::min(reach.step, f.is_rim ? to.rim.timeTo(room, to.rate + to.rim.belowRate(), to.bend, reach.step)
-                                                 : timeTo(room, -to.rate, to.bend));
-    }
+    for (const Follower& f : plane.followers) look(approachOf(f, plane, *p, a, b, reach.step), f.is_rim);
   }
   return reach;
 }

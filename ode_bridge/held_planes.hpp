@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "ode_bridge/first_impact.hpp"
+#include "ode_bridge/rim_gap.hpp"
 
 namespace carom::ode_bridge_detail {
 
 /// The planes of the contacts that hold two bodies to each other. Two convex pieces in contact lie on the two sides of
 /// the plane through the contact across its normal: on the plane itself, what is held; all else of them can meet the other
 /// piece only once it has come to the plane. A plane goes with the body that has three held points in it, as it has where
-/// a face is held; or, of two edges that cross, with both of them.
+/// a face is held; or, of two edges that cross, with both of them. Of a rim that an edge crosses the cap alone can come to
+/// the edge: what else comes to the plane goes on from the same point (FeatureLimit::rolls_over).
 class HeldPlanes {
  public:
   /// The bodies are placed at the start of the search.
@@ -37,7 +39,7 @@ class HeldPlanes {
   }
 
  private:
-  enum class Frame { body_a, body_b, crossed };
+  enum class Frame { body_a, body_b, crossed, rim };
   // A vertex or a rim that may come to the plane; of a or of b.
   struct Follower {
     bool of_a;
@@ -50,8 +52,8 @@ class HeldPlanes {
     double level, room;               // of n.(p - x_b) at the start
     std::vector<FeaturePair> held;
     Vec3 normal = Vec3::Zero(), point = Vec3::Zero();  // in the axes of its body, where it goes with one
-    Feature edge_a, edge_b;           // crossed
-    double sign = 1;                  // of edge_a x edge_b
+    Feature edge_a, edge_b;           // crossed; one is a rim in a frame of that name
+    double side = 0;                  // rim: the side of the cap that the edge is on; 0 where it lies in it
     std::vector<Follower> followers;
   };
   struct Reach {
@@ -59,15 +61,31 @@ class HeldPlanes {
     bool touches = false;
   };
 
+  // A plane at an instant: its normal with the bounds |n'| <= n1, |n''| <= n2, and a point of it that goes with a body.
+  struct Lying {
+    Vec3 n, dn, point, arm, velocity;
+    double n1 = 0, n2 = 0;
+    double beyond = 0;  // m: how far along n the plane lies beyond that point
+    const Placed* with = nullptr;
+    double holds_for = std::numeric_limits<double>::infinity();  ///< s, the bounds
+  };
+  // How far a follower is from the plane, how fast that changes, and what bounds the second derivative for some time.
+  struct Approach {
+    double gap = 0, rate = 0, bend = 0;
+    double speed = 0;    // against which the rate is rounded
+    RimGap rim;         // where it is one
+  };
   struct Laid;
-  struct Lying;
-  struct Approach;
 
   void layThrough(const FeaturePair& f, std::vector<Laid>& laid) const;
   void fixTo(Laid& laid) const;
   void addFollowers(Plane& plane);
   bool holds(const Plane& plane, bool of_a, int piece) const;
   bool staysBeyond(const Plane& plane, bool of_a, int piece) const;
+  static bool isRimOf(const Feature& f) { return f.rim > 0 && f.apex == 0; }
+  static Approach levelOfCap(const Plane& plane, const Placed& a, const Placed& b);
+  double sideOfCap(const Plane& plane) const;
+  std::optional<Lying> crossing(const Plane& plane, const Placed& a, const Placed& b) const;
   std::optional<Lying> lie(const Plane& plane, const Placed& a, const Placed& b) const;
   Approach approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a, const Placed& b,
                       double window) const;

@@ -37,6 +37,7 @@ class ModeSearch {
   HeldModes run(const ModeHint& hint) {
     std::vector<Way> ways;
     for (std::size_t k = 0; k < candidates_.size(); ++k) ways.push_back(closedWay(k));
+    for (const std::size_t k : hint.idle) ways[k] = Way::off;
     if (hint.contact >= 0) {
       const auto at = static_cast<std::size_t>(hint.contact);
       if (hint.cause == TransitionCause::lifts) ways[at] = Way::off, lifted_ = hint.contact;

@@ -23,6 +23,7 @@ struct ModeHint {
   TransitionCause cause = TransitionCause::none;
   int contact = -1;  ///< of the candidates: the one that a transition is about
   double no_slip = 0;  ///< m/s: slips that are slower count as none, too
+  std::vector<std::size_t> idle;  ///< of the candidates: they did not hold the body, and come to it only if they fall
 };
 
 /// N >= 0 and alpha >= 0, complementary, for all candidates, with Coulomb's law: (11.23). A slip slower than `no_slip`

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/held/held_start.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
@@ -250,6 +251,13 @@ bool HeldPath::passesBy(const HeldStep& step, const End& end) const {
   return now.slipAt(static_cast<std::size_t>(end.guard.contact)).norm() > 10 * kNoDirection * scene_.speed;
 }
 
+// What steps leave out adds up: gaps and speeds that are 0 are taken back to it, as at the start, by as little as rounding.
+State HeldPath::stayingOn(const State& state) const {
+  std::vector<HeldContact> contacts = contacts_;
+  for (HeldContact& c : contacts) c.begins = false;
+  return heldStart(scene_, contacts, state, 1);
+}
+
 void HeldPath::take(HeldStep step) {
   const HeldSlopes& c = step.slopes;
   if (step.length > 0) {
@@ -264,7 +272,7 @@ void HeldPath::take(HeldStep step) {
     bounds_.spin = std::max(bounds_.spin, spin);
     bounds_.spin_rate = std::max(bounds_.spin_rate, bend + spin * spin);
     known_ = step.start + step.length;
-    last_ = step.stateAt(known_);
+    last_ = stayingOn(step.stateAt(known_));
   }
   steps_.add(std::move(step));
 }

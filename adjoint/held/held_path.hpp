@@ -74,6 +74,7 @@ class HeldPath final : public IntegratedPath {
   double rootOf(Values& values, std::size_t guard, Bracket in) const;
   bool endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
   bool passesBy(const HeldStep& step, const End& end) const;
+  State stayingOn(const State& state) const;
   void take(HeldStep step);
 
   HeldScene scene_;

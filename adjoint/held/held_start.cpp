@@ -44,9 +44,9 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> undoing(const HeldInstant& now, const R
   return moved * LeastNormSolve(K, Eigen::VectorXd::Zero(K.rows())).inverse;
 }
 
-State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state) {
+State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state, int rounds) {
   const std::vector<Vec3> none(contacts.size(), Vec3::Zero());
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const HeldInstant now = instantOf(scene, contacts, state, none);
     Eigen::VectorXd gaps(contacts.size());
     const Pose own{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())};
@@ -57,7 +57,7 @@ State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts
     state.x += move.head<3>();
     if (turn.norm() > 0) state.q = (expSO3(turn) * state.q).normalized();
   }
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const HeldInstant now = instantOf(scene, contacts, state, none);
     const Rows C = heldRows(now, contacts);
     Eigen::Matrix<double, 6, 1> velocity;

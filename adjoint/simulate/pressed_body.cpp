@@ -110,8 +110,11 @@ bool PressedBody::isAxle() const {
   const Vec3 axis = R_ * this->axis(), n = normalOf(*pressed_.front());
   if (pressed_.size() < 2 || std::abs(axis.dot(n)) > kSameNormal) return false;
   if (!(omega_ - axis.dot(omega_) * axis).isZero(kNoTilting * omega_.norm())) return false;
+  // a side that crosses an edge is held at another place of its line all the time, where it may begin to tip
+  const Vec3 ahead = axis.cross(n);
   return std::ranges::all_of(pressed_, [&](const Contact* c) {
-    return std::abs(armOf(*c).dot(n) + radius) <= kSameNormal * radius;
+    const Mat3 follows = jacobianOf(*c).pose.block<3, 3>(4, c->a == body_ ? 0 : 6);
+    return std::abs(armOf(*c).dot(n) + radius) <= kSameNormal * radius && (follows * ahead - ahead).norm() <= kSameNormal;
   });
 }
 

@@ -85,8 +85,8 @@ bool Simulator::follow() {
     } else {
       if (!isExplained(next)) return false;
       resolve(next);
-      if (!separates()) return false;
     }
+    if (draft_.event.kind != EventKind::transition && !separates()) return false;
     const bool last = accumulates();
     commit();
     if (last) return false;

@@ -131,7 +131,11 @@ class Simulator {
   bool placeAtStart();
   void solvePlaced(int body);
   void resolveTransition(int body);
+  void resolveLanding(const std::vector<Contact>& on);
   std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
+  std::vector<Contact> contactsAt(const Onward& from, double time, double when, double reach);
+  bool strikes(const Contact& contact);
+  void addBeside(const Onward& from);
   void addHeld();
   void chooseArcs();
   void fly(std::size_t participant);

@@ -14,6 +14,10 @@ namespace {
 
 // What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
 constexpr double kBeyond = 2e-7;
+// What touches: to so many times the lowest bounce.
+constexpr double kTouching = 10;
+// No contact approaches with a smaller share of its speed.
+constexpr double kSlowest = 1e-10;
 // An impulse makes contacts slip no faster than so many times as fast as it stops bodies.
 constexpr double kOwnSlip = 4;
 // Changes of contact this close in time are in one instant, s.
@@ -109,10 +113,12 @@ ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
     return hint;
   }
   hint.cause = event.cause;
-  for (std::size_t k = 0; k < closed.size(); ++k)
+  for (std::size_t k = 0; k < closed.size(); ++k) {
+    if (!closed[k].held) hint.idle.push_back(k);
     if (closed[k].features == event.contacts[0].features && closed[k].a == event.contacts[0].a &&
         closed[k].b == event.contacts[0].b)
       hint.contact = static_cast<int>(k);
+  }
   return hint;
 }
 
@@ -179,21 +185,41 @@ void Simulator::chooseArc(std::size_t participant) {
 
 // What touches a body where a contact of it leaves its feature: what it has a little later on the same path.
 std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, double time) {
-  const Arc& arc = arcOf(body);
-  double size = 1, arm = kInfinity;
+  const Kinematics now = arcOf(body).kinematicsAt(time);
+  double size = 1, arm = kInfinity, speed = now.v.norm();
   for (const Contact& c : from.held) {
     size = std::max(size, c.at.point.norm());
-    arm = std::min(arm, (c.at.point - arc.startState().x).norm());
+    arm = std::min(arm, (c.at.point - arcOf(body).startState().x).norm());
+    // the place of a contact goes round a rim or along an edge, faster than the body
+    const Kinematics other = arcOf(c.a == body ? c.b : c.a).kinematicsAt(time);
+    const Kinematics &a = c.a == body ? now : other, &b = c.a == body ? other : now;
+    const ContactMotion moves =
+        motion_.geometry->motion(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}, {a.v, a.w}, {b.v, b.w});
+    speed = std::max(speed, moves.point_rate.norm());
   }
-  const double further = kBeyond * size, later = time + further / arc.velocityAt(time).norm();
-  const double reach = 10 * motion_.lowest_bounce + further * further / arm;
+  const double further = kBeyond * size, later = time + further / speed;
+  const double reach = kTouching * motion_.lowest_bounce + further * further / arm;
+  return contactsAt(from, time, later, reach);
+}
+
+// What of the pairs that are held touches at `when`, to within `reach` or, where that is 0, to rounding, as it is at `time`.
+std::vector<Contact> Simulator::contactsAt(const Onward& from, double time, double when, double reach) {
   std::vector<Contact> contacts;
   for (const Contact& h : from.held) {
     if (std::ranges::any_of(contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b; })) continue;
-    for (const FeaturePair& f : contacts_.touching(h.a, h.b, arcOf(h.a), arcOf(h.b), later, reach))
-      contacts.push_back(makeContact(time, h.a, h.b, f));
+    for (const FeaturePair& f : contacts_.touching(h.a, h.b, arcOf(h.a), arcOf(h.b), when, reach)) {
+      Contact c = makeContact(time, h.a, h.b, f);
+      if (!(reach > 0) || std::abs(c.at.gap) <= reach) contacts.push_back(std::move(c));
+    }
   }
   return contacts;
+}
+
+// Whether what comes into touch strikes, so that it is an impact: it would bounce higher than the lowest bounce.
+bool Simulator::strikes(const Contact& c) {
+  const double speed = std::max(kSlowest * arcOf(isMoved(c.a) ? c.a : c.b).velocityAt(draft_.event.time).norm(),
+                                std::sqrt(2 * motion_.lowest_bounce * scene_.gravity.norm()));
+  return c.approach < -speed;
 }
 
 // The body of a path whose time has come goes on otherwise, from the state that it has.
@@ -214,21 +240,50 @@ void Simulator::resolveTransition(int body) {
     c.lasts = lasts;
   };
   if (event.cause == TransitionCause::leaves) {
+    const std::vector<Contact> beyond = contactsBeyond(from, body, event.time);
+    if (std::ranges::any_of(beyond, [&](const Contact& c) { return strikes(c); })) return resolveLanding(beyond);
     add(from.held[index(from.why.contact)], false);
-    for (const Contact& c : contactsBeyond(from, body, event.time))
+    for (const Contact& c : beyond)
       if (!(c.features == event.contacts[0].features)) add(c, true);
   } else {
     const int first = from.why.contact;  // none of a body that slides without turning
     if (first >= 0) add(from.held[index(first)], event.cause != TransitionCause::lifts);
     for (std::size_t k = 0; k < from.held.size(); ++k)
       if (static_cast<int>(k) != first) add(from.held[k], true);
+    if (arcOf(body).integrated()) addBeside(from);
   }
   bodies_ = {body};
   event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
                                 snapshots_[0].state});
   draft_.after = {snapshots_[0].state};
   chooseArcs();
+  std::erase_if(event.contacts, [](const Contact& c) { return !c.held && !c.lasts; });
   predictDraft();
+}
+
+// What touches beside the contacts that hold a body, as corners of a face that lies flat without pressing, may come to
+// hold it.
+void Simulator::addBeside(const Onward& from) {
+  std::vector<Contact>& contacts = draft_.event.contacts;
+  for (Contact& c : contactsAt(from, draft_.event.time, draft_.event.time, 0)) {
+    if (inDraft(c.a, c.b, c.features) || c.approach > kLowestBounce || strikes(c)) continue;
+    c.counted = false;
+    c.lasts = true;
+    contacts.push_back(std::move(c));
+  }
+}
+
+// What a body rolls over to may come down on it instead: an impact like others.
+void Simulator::resolveLanding(const std::vector<Contact>& on) {
+  const double time = draft_.event.time;
+  draft_.event = {};
+  draft_.event.time = time;
+  for (const Contact& c : on)
+    if (strikes(c)) draft_.event.contacts.push_back(c);
+  do {
+    solveDraft();
+    predictDraft();
+  } while (joinInstant());
 }
 
 // Bodies that the scene starts in contact: those that neither part nor approach go on from an event of their own.
