@@ -11,8 +11,9 @@
 namespace carom::adjoint_detail {
 namespace {
 
-// A slip that ends goes straight from this share of the unit of speed on; what is left of it across is rounding.
-constexpr double kStraight = 1e-8;
+// A slip that ends goes straight from this share of the unit of speed on, if what is left of it across is rounding, or from
+// the lesser one.
+constexpr double kStraight = 1e-8, kStraightAnyway = 1e-11;
 // A slip slower than this has no direction of its own.
 constexpr double kNoDirection = 1e-7;
 // A slip goes straight where it changes across its direction by no more than this share.
@@ -160,10 +161,10 @@ double HeldPath::lookAtSlips(HeldStepper::Start& start) const {
     const double slip = now.slipAt(k).norm(), share = slip / scene_.speed;
     Vec3 rate = forces.slipRate(k);
     rate -= c.n.dot(rate) * c.n;
-    const double along = start.slip[k].dot(rate);
-    if (share < kStraight) {
+    const double along = start.slip[k].dot(rate), across = (rate - along * start.slip[k]).norm();
+    if (share < kStraightAnyway || (share < kStraight && share * across < kLeftOutOfSlip * rate.norm())) {
       start.frozen[k] = along < 0;
-    } else if ((rate - along * start.slip[k]).norm() > kTurns * rate.norm()) {
+    } else if (across > kTurns * rate.norm()) {
       longest = std::min(longest, slip / rate.norm() * lengthBeforeEnd(share));
     }
   }
