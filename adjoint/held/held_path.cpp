@@ -67,6 +67,7 @@ struct HeldPath::Values {
       if (c.mode == HeldMode::slides && c.friction > 0) c.slip = (c.slip - c.n.dot(c.slip) * c.n).normalized();
     }
     forces.solve(now, path.redundant_);
+    forces.share();
     const Pose own{s.x, path.scene_.model->shapeToWorld(R)};
     for (std::size_t g = 0; g < values.size(); ++g)
       values[g] = guardValue(path.guards_[g], path.scene_, path.contacts_, own, now, forces);
