@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/held/held_rates.hpp"
+#include "adjoint/held/held_share.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -46,6 +47,28 @@ Number borderRate(const HeldGuard& guard, const HeldPath& path, const HeldInputs
   return value + normal_weight.dot(V3<Number>(R.transpose() * n));
 }
 
+Number roomOf(const ContactInstant<Number>& c, const V3<Number>& force) {
+  const Number pressing = c.n.dot(force);
+  return c.friction * pressing - sqrt(V3<Number>(force - c.n * pressing).squaredNorm());
+}
+
+// At the best share the room that is least does not change with what the two push; where both have that room, it is that
+// mean of them which does not.
+Number sharedRate(const HeldShare& share, const std::vector<ContactInstant<Number>>& contacts,
+                  const HeldDynamics<Number>& forces, std::size_t k, bool slips) {
+  const std::array<std::size_t, 2>& pair = share.contact;
+  const V3<Number> between = contacts[pair[1]].r - contacts[pair[0]].r;
+  const V3<Number> push = between * (Number(share.push) / sqrt(between.squaredNorm()));
+  const std::array<V3<Number>, 2> force{forces.force(pair[0]) - push, forces.force(pair[1]) + push};
+  const std::size_t own = k == pair[0] ? 0 : 1;
+  if (!slips) return contacts[k].n.dot(force[own]);
+  if (!(share.weight[own] > 0)) return roomOf(contacts[k], force[own]);
+  Number room = 0;
+  for (const std::size_t i : {0u, 1u})
+    if (share.weight[i] > 0) room += Number(share.weight[i]) * roomOf(contacts[pair[i]], force[i]);
+  return room;
+}
+
 }  // namespace
 
 Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs, const HeldLanes& lanes,
@@ -55,10 +78,11 @@ Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInput
   if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count);
   if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.velocityAt(c.r));
   const HeldDynamics<Number> forces(lanes.body, lanes.contacts, path.redundant());
-  const Number pressing = forces.pressing(k);
-  if (guard.cause == TransitionCause::lifts) return pressing;
-  const V3<Number> along = forces.force(k) - c.n * pressing;
-  return c.friction * pressing - sqrt(along.squaredNorm());
+  const bool slips = guard.cause == TransitionCause::slips;
+  if (const auto share = shareOf<Number>(lanes.contacts, forces);
+      share && (k == share->contact[0] || k == share->contact[1]))
+    return sharedRate(*share, lanes.contacts, forces, k, slips);
+  return slips ? roomOf(c, forces.force(k)) : forces.pressing(k);
 }
 
 }  // namespace carom::adjoint_detail

@@ -2,6 +2,7 @@
 #include "adjoint/held/held_forces.hpp"
 
 #include "adjoint/base/errors.h"
+#include "adjoint/held/held_share.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -60,6 +61,12 @@ void HeldForces::solve(const HeldInstant& now, bool redundant) {
     force_[k] = now.contacts[k].mode == HeldMode::sticks ? Vec3(y_[i], y_[i + 1], y_[i + 2])
                                                          : Vec3(y_[i] * wrenches_[i].head<3>());
   }
+}
+
+void HeldForces::share() {
+  const std::optional<HeldShare> share = shareOf<double>(now_->contacts, *this);
+  if (!share) return;
+  for (const std::size_t i : {0u, 1u}) force_[share->contact[i]] += share->pushOn(i);
 }
 
 void HeldForces::assemble() {

@@ -18,6 +18,9 @@ class HeldForces {
   /// least norm.
   void solve(const HeldInstant& now, bool redundant);
 
+  /// Two contacts that stick share what they push against each other so that most room is left (HeldShare).
+  void share();
+
   /// On the body.
   const Vec3& force(std::size_t k) const { return force_[k]; }
   double pressing(std::size_t k) const { return now_->contacts[k].n.dot(force_[k]); }

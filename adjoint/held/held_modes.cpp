@@ -6,6 +6,7 @@
 #include <set>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/held/held_share.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
@@ -64,6 +65,9 @@ class ModeSearch {
     std::vector<ContactInstant<double>> contacts;
     bool redundant = false;
     std::optional<HeldDynamics<double>> forces;
+    std::vector<Vec3> force;  // of the best share
+
+    double pressing(std::size_t i) const { return contacts[i].n.dot(force[i]); }
   };
 
   bool rubs(std::size_t k) const { return candidates_[k].friction > 0; }
@@ -82,6 +86,10 @@ class ModeSearch {
       solved.contacts.push_back(c);
     }
     solved.forces.emplace(now_.body, solved.contacts, true);
+    solved.force.clear();
+    for (std::size_t i = 0; i < solved.on.size(); ++i) solved.force.push_back(solved.forces->force(i));
+    if (const std::optional<HeldShare> share = shareOf<double>(solved.contacts, *solved.forces))
+      for (const std::size_t i : {0u, 1u}) solved.force[share->contact[i]] += share->pushOn(i);
     solved.redundant = false;
     if (unknowns > 1) {
       Eigen::FullPivLU<Eigen::MatrixXd> rank(solved.forces->matrix());
@@ -96,7 +104,7 @@ class ModeSearch {
     for (std::size_t i = 0; i < found_.on.size(); ++i) {
       const std::size_t k = found_.on[i];
       if (ways[k] != Way::sticks) continue;
-      const Vec3 &n = now_.contacts[k].n, f = found_.forces->force(i);
+      const Vec3 &n = now_.contacts[k].n, f = found_.force[i];
       const double pressing = n.dot(f), room = now_.contacts[k].friction * pressing - (f - pressing * n).norm();
       if (k == first || room <= kAtLimit * force_) ways[k] = Way::begins;
     }
@@ -118,7 +126,7 @@ class ModeSearch {
     for (std::size_t i = 0; i < solved.on.size(); ++i) {
       const std::size_t k = solved.on[i];
       if (ways[k] != Way::begins) continue;
-      const Vec3 &n = now_.contacts[k].n, f = solved.forces->force(i), along = f - n.dot(f) * n;
+      const Vec3 &n = now_.contacts[k].n, f = solved.force[i], along = f - n.dot(f) * n;
       if (!(along.norm() > 0)) return false;
       direction[k] = -along.normalized();
     }
@@ -179,16 +187,16 @@ class ModeSearch {
     double most = 0;
     std::optional<Change> change;
     for (std::size_t i = 0; i < solved.on.size(); ++i) {
-      const double share = -solved.forces->pressing(i) / force_;
+      const double share = -solved.pressing(i) / force_;
       if (share > std::max(most, kModeRounding)) most = share, change = {solved.on[i], Way::off};
     }
     if (change) return change;
     for (std::size_t i = 0; i < solved.on.size(); ++i) {
       const std::size_t k = solved.on[i];
-      const double pressing = solved.forces->pressing(i);
+      const double pressing = solved.pressing(i);
       if (ways[k] == Way::sticks) {
         const double share =
-            ((solved.forces->force(i) - pressing * now_.contacts[k].n).norm() - now_.contacts[k].friction * pressing) / force_;
+            ((solved.force[i] - pressing * now_.contacts[k].n).norm() - now_.contacts[k].friction * pressing) / force_;
         if (share > std::max(most, kModeRounding)) most = share, change = {k, Way::begins};
       }
     }

@@ -21,8 +21,8 @@ struct FeatureLimit {
   Eigen::Matrix3Xd normal_rates;  ///< of `normal_weight` likewise; none where it keeps its direction
   double radius = 0;         ///< m, of a border that is a circle: its weight turns as the contact point goes round; or 0
   Vec3 axis = Vec3::Zero();  ///< of that circle, a unit vector
-  /// What the contact meets is round, so that it goes over to the features beside without a jump. Else, of a limit by the
-  /// normal, another place of the bodies comes into touch there.
+  /// The contact goes over to the features beside without a jump. Else, of a limit by the normal, another place of the
+  /// bodies comes into touch there.
   bool rolls_over = false;
   std::string beyond;             ///< what the contact moves to: "the border of face +z"
 };

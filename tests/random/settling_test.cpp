@@ -22,8 +22,8 @@ using namespace test;
 
 constexpr std::array<double, 4> kElasticities = {0, 0.2, 0.5, 0.85};
 constexpr std::array<double, 3> kFrictions = {0.1, 0.4, 1};
-constexpr int kSamples = 40;
-constexpr double kDepth = 1e-9, kEnergy = 1e-12, kGap = 1e-12;
+constexpr int kSettlingLooks = 40;
+constexpr double kSettlingDepth = 1e-9, kEnergy = 1e-12, kGap = 1e-12;
 
 // Thrown onto a plane, or onto a box as large as a table.
 Scene thrown(Random& random, Body body, double size) {
@@ -83,10 +83,10 @@ void settle(Tally& tally, const Scene& scene, double size, std::uint64_t seed) {
     return Pose{k.x, k.R};
   };
   const double until = m.events.empty() ? m.end : m.events.back().time;
-  for (int i = 0; i <= kSamples; ++i) {
-    const double t = until * i / kSamples, depth = geometry.overlap(0, 1, poseAt(0, t), poseAt(1, t));
+  for (int i = 0; i <= kSettlingLooks; ++i) {
+    const double t = until * i / kSettlingLooks, depth = geometry.overlap(0, 1, poseAt(0, t), poseAt(1, t));
     tally.worst_depth = std::max(tally.worst_depth, depth);
-    EXPECT_TRUE(depth <= kDepth) << depth << " at " << t;
+    EXPECT_TRUE(depth <= kSettlingDepth) << depth << " at " << t;
   }
   if (m.status != MotionStatus::complete) {
     EXPECT_FALSE(m.message.empty());
