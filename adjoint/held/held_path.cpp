@@ -215,7 +215,8 @@ bool HeldPath::passesBy(const HeldStep& step, const End& end) const {
   if (end.guard.cause != TransitionCause::sticks) return false;
   const HeldInstant now = instantOf(scene_, contacts_, step.stateAt(step.start + step.length),
                                     slipAtNode(step, Gauss::kNodes - 1));
-  return now.slipAt(static_cast<std::size_t>(end.guard.contact)).norm() > 10 * kNoDirection * scene_.speed;
+  const auto k = static_cast<std::size_t>(end.guard.contact);
+  return now.slipAt(k).norm() > (step.frozen[k] ? 10 * kNoDirection : kStraightAnyway) * scene_.speed;
 }
 
 void HeldPath::take(HeldStep step) {
