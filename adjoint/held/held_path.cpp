@@ -21,8 +21,8 @@ constexpr double kTurns = 1e-4;
 constexpr double kFirstTurn = 0.3;
 // See lengthBeforeEnd.
 constexpr double kLeftOutOfSlip = 3e-13;
-// Guards that fall to 0 nearer to one another than this share of the time do so at once.
-constexpr double kAtOnce = 1e-13;
+// One that is nearer than this share of a step to its start, and cannot be come to by a step, is there at once.
+constexpr double kAtOnceOfStep = 1e-6;
 constexpr int kTries = 200;
 constexpr std::size_t kMostSteps = 20'000;
 
@@ -39,40 +39,7 @@ double lengthBeforeEnd(double share) {
   return 2.6 / (0.5 * (R + 1 / R) + 1);
 }
 
-std::vector<Vec3> slipAtNode(const HeldStep& step, int node) {
-  std::vector<Vec3> slip;
-  for (const auto& of : step.slip) slip.push_back(of[static_cast<std::size_t>(node)]);
-  return slip;
-}
-
 }  // namespace
-
-// The values of all guards at times of one step.
-struct HeldPath::Values {
-  const HeldPath& path;
-  const HeldStep& step;
-  HeldInstant now;
-  HeldForces forces;
-  std::vector<double> values;
-
-  Values(const HeldPath& of, const HeldStep& in) : path(of), step(in), values(of.guards_.size()) {}
-
-  const std::vector<double>& at(double t, const std::vector<Vec3>& slip) {
-    const State s = step.stateAt(t);
-    const Mat3 R = s.q.toRotationMatrix();
-    placeInstant(path.scene_, path.contacts_, s, R, now);
-    for (std::size_t k = 0; k < slip.size(); ++k) {
-      ContactInstant<double>& c = now.contacts[k];
-      c.slip = slip[k];
-      if (c.mode == HeldMode::slides && c.friction > 0) c.slip = (c.slip - c.n.dot(c.slip) * c.n).normalized();
-    }
-    forces.solve(now, path.redundant_);
-    const Pose own{s.x, path.scene_.model->shapeToWorld(R)};
-    for (std::size_t g = 0; g < values.size(); ++g)
-      values[g] = guardValue(path.guards_[g], path.scene_, path.contacts_, own, now, forces);
-    return values;
-  }
-};
 
 HeldPath::HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redundant, std::vector<HeldGuard> guards,
                    const State& start, double time, double until)
@@ -106,7 +73,7 @@ void HeldPath::extendTo(double t) {
 }
 
 std::vector<Vec3> HeldPath::slipAfter() const {
-  if (!steps_.empty()) return slipAtNode(steps_.back(), Gauss::kNodes - 1);
+  if (!steps_.empty()) return steps_.back().slipAtNode(Gauss::kNodes - 1);
   std::vector<Vec3> slip;
   for (const HeldContact& c : contacts_) slip.push_back(c.slip);
   return slip;
@@ -169,7 +136,16 @@ HeldStep HeldPath::nextStep() {
     if (!(end->time > known_)) {  // at once
       step->length = 0;
     } else {
-      endAt(stepper, start, *step, *end);
+      const double left = end->time - known_;
+      if (!endAt(stepper, start, *step, *end)) {
+        if (left > kAtOnceOfStep * length) {
+          length *= 0.5;
+          continue;
+        }
+        step->length = 0, end->time = known_;
+        end_ = end;
+        return *step;
+      }
       if (passesBy(*step, *end)) {
         length *= 0.5;
         continue;
@@ -187,36 +163,6 @@ double HeldPath::shorterLength(double length, double error, const std::optional<
   const double shorter = factorFor(error) * length;
   if (!end || !(end->time > known_) || !(end->time < known_ + 0.95 * length)) return shorter;
   return std::max(end->time - known_, shorter);
-}
-
-// The state of an event is that at the end of a step: the step is made anew up to the root, which is found once more there.
-void HeldPath::endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const {
-  const auto which = static_cast<std::size_t>(
-      std::ranges::find_if(guards_, [&](const HeldGuard& g) { return g.isSame(end.guard); }) - guards_.begin());
-  for (int round = 0; round < 2; ++round) {
-    const double shorter = end.time - known_;
-    if (shorter == step.length) return;
-    std::optional<HeldStep> ending = stepper.tried(start, shorter, &step);
-    if (!ending) return;
-    step = std::move(*ending);
-    if (round == 1) return;
-    Values values(*this, step);
-    const std::vector<Vec3> last = slipAtNode(step, Gauss::kNodes - 1);
-    const double h = step.length, value = values.at(known_ + h, last)[which],
-                 earlier = values.at(known_ + 0.999 * h, last)[which];
-    const double move = -value * (0.001 * h) / (value - earlier);
-    if (!(std::abs(move) <= 1e-6 * h) || std::abs(move) <= 1e-16 * known_) return;
-    end.time += move;
-  }
-}
-
-// A slip that was expected to end has not.
-bool HeldPath::passesBy(const HeldStep& step, const End& end) const {
-  if (end.guard.cause != TransitionCause::sticks) return false;
-  const HeldInstant now = instantOf(scene_, contacts_, step.stateAt(step.start + step.length),
-                                    slipAtNode(step, Gauss::kNodes - 1));
-  const auto k = static_cast<std::size_t>(end.guard.contact);
-  return now.slipAt(k).norm() > (step.frozen[k] ? 10 * kNoDirection : kStraightAnyway) * scene_.speed;
 }
 
 void HeldPath::take(HeldStep step) {
@@ -264,7 +210,7 @@ HeldInstant HeldPath::instantAt(double t) const {
     slip = slipAfter();
   } else {
     const HeldStep& step = stepAt(t);
-    slip = slipAtNode(step, t - step.start < 0.5 * step.length ? 0 : Gauss::kNodes - 1);
+    slip = step.slipAtNode(t - step.start < 0.5 * step.length ? 0 : Gauss::kNodes - 1);
     if (!(t > start_))
       for (std::size_t k = 0; k < contacts_.size(); ++k) slip[k] = contacts_[k].slip;
   }
@@ -284,60 +230,6 @@ StateDerivative HeldPath::rateAt(double t) const {
   StateDerivative rate;
   rate.x = now.body.v, rate.theta = now.body.omega, rate.v = forces.acceleration(), rate.L = forces.moment();
   return rate;
-}
-
-// The first guard that falls through 0, looked for at the nodes and at both ends.
-std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step) const {
-  if (guards_.empty()) return std::nullopt;
-  const Gauss& gauss = Gauss::get();
-  double before = step.start;
-  std::vector<Vec3> slip;
-  for (const auto& of : step.slip) slip.push_back(of.front());
-  if (steps_.empty())
-    for (std::size_t k = 0; k < contacts_.size(); ++k)
-      if (!contacts_[k].slip.isZero(0)) slip[k] = contacts_[k].slip;
-  Values values(*this, step);
-  std::vector<double> last = values.at(before, slip);
-  for (int i = 0; i <= Gauss::kNodes; ++i) {
-    const double t = i < Gauss::kNodes ? step.start + gauss.node[i] * step.length : step.start + step.length;
-    const std::vector<Vec3> here = slipAtNode(step, std::min(i, Gauss::kNodes - 1));
-    const std::vector<double> now = values.at(t, here);
-    std::optional<End> first;
-    for (std::size_t g = 0; g < guards_.size(); ++g) {
-      if (!(now[g] < -guardRounding(guards_[g])) || !(now[g] < last[g])) continue;
-      const double root = last[g] <= 0 ? before : rootOf(values, g, before, t, slip);
-      // what comes at one instant comes in the order of the guards, whatever the rounding
-      if (!first || root < first->time - kAtOnce * std::abs(root)) first = End{root, guards_[g]};
-    }
-    if (first) return first;
-    before = t, last = now, slip = here;
-  }
-  return std::nullopt;
-}
-
-double HeldPath::rootOf(Values& values, std::size_t guard, double above, double below,
-                        const std::vector<Vec3>& slip) const {
-  const double length = below - above;
-  double high = values.at(above, slip)[guard], low = values.at(below, slip)[guard];
-  if (!(high > 0)) return above;
-  int side = 0;
-  for (int k = 0; k < 100 && std::nextafter(above, below) < below && low < 0; ++k) {
-    // the chord, drawn towards the end that has not moved (Illinois), with halving where it does not help
-    double t = k % 8 == 7 ? 0.5 * (above + below) : above + (below - above) * (high / (high - low));
-    t = std::clamp(t, std::nextafter(above, below), std::nextafter(below, above));
-    const double now = values.at(t, slip)[guard];
-    if (now > 0) {
-      above = t, high = now;
-      if (side == 1) low *= 0.5;
-      side = 1;
-    } else {
-      below = t, low = now;
-      if (side == -1) high *= 0.5;
-      side = -1;
-    }
-    if (below - above <= 4e-16 * std::max(std::abs(below), length) || now == 0) break;
-  }
-  return below;
 }
 
 }  // namespace carom::adjoint_detail

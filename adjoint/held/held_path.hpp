@@ -58,8 +58,9 @@ class HeldPath final : public IntegratedPath {
   double lookAtSlips(HeldStepper::Start& start) const;
   double shorterLength(double length, double error, const std::optional<End>& end) const;
   std::optional<End> firstEnd(const HeldStep& step) const;
-  double rootOf(Values& values, std::size_t guard, double above, double below, const std::vector<Vec3>& slip) const;
-  void endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
+  double rootOf(Values& values, std::size_t guard, double above, double below, const std::vector<Vec3>& slip_above,
+                const std::vector<Vec3>& slip_below) const;
+  bool endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
   bool passesBy(const HeldStep& step, const End& end) const;
   void take(HeldStep step);
 

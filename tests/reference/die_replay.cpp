@@ -84,7 +84,6 @@ void DieReplay::takeOver(const State& s, const BodyModel& model, const Real& at_
   }
   start_ = at_time;
   state_ = {RVec(s.x), rotationOf(s.q), RVec(s.v), RVec(toBodyState(model, s).angular_velocity)};
-  if (std::getenv("DUMP")) printf("place %zu t %.12f: off %.2g m %.2g m/s, t %.2g\n", places_.size(), static_cast<double>(at_time), static_cast<double>(norm(state_.x - led.x)), static_cast<double>(norm(state_.v - led.v)), static_cast<double>(at_time - time));
   worst_position = std::max<Real>(worst_position, norm(state_.x - led.x));
   worst_velocity = std::max<Real>(worst_velocity, norm(state_.v - led.v));
   places_.push_back({start_, time, state_, led});
