@@ -48,6 +48,12 @@ HeldVector scaleOf(const HeldScene& scene, double of_x, double of_theta) {
 
 }  // namespace
 
+std::vector<Vec3> HeldStep::slipAtNode(int node) const {
+  std::vector<Vec3> at;
+  for (const auto& of : slip) at.push_back(of[static_cast<std::size_t>(node)]);
+  return at;
+}
+
 State HeldStep::moved(const State& from, const HeldVector& change) {
   const Vec3 theta = change.segment<3>(3);
   return {from.x + change.head<3>(), theta.isZero(0) ? from.q : Quat((expSO3(theta) * from.q).normalized()),

@@ -27,6 +27,7 @@ struct HeldStep {
   HeldVector changeAt(double t) const { return length * slopes * Gauss::integrals((t - start) / length).transpose(); }
   HeldVector slopeAt(double t) const { return slopes * Gauss::values((t - start) / length).transpose(); }
   State stateAt(double t) const { return moved(from, changeAt(t)); }
+  std::vector<Vec3> slipAtNode(int node) const;
 
   static State moved(const State& from, const HeldVector& change);
 };

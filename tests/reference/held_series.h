@@ -50,7 +50,7 @@ class HeldSeries {
   /// How long the series is good for.
   const Real& longest() const { return longest_; }
   HeldState at(const Real& t) const;
-  RVec force(std::size_t k, const Real& t) const;  ///< at a corner, axes of the body
+  RVec force(std::size_t k, const Real& t) const { return sum(f_[k], t); }  ///< at a corner, axes of the body
   Real pressing(std::size_t k, const Real& t) const { return dot(force(k, t), sum(normal_[k], t)); }
   RVec slip(std::size_t k, const Real& t) const { return sum(u_[k], t); }  ///< axes of the body
   RVec direction(std::size_t k, const Real& t) const { return sum(d_[k], t); }
