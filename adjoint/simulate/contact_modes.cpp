@@ -116,7 +116,14 @@ class Chooser {
     ContactChoice choice = onHeldPath();
     choice.modes = std::move(modes);
     begin(choice);
-    return choice;
+    return comesToRest(choice) ? stays(PathForm::rest, 1) : choice;
+  }
+
+  // Whether contacts that came to hold it leave the body no motion.
+  bool comesToRest(const ContactChoice& choice) const {
+    const State& start = choice.start;
+    const Vec3 spin = choice.scene.model->inverseInertiaWorld(start.q.toRotationMatrix()) * start.L;
+    return isSlow(start.v) && isSlow(body_.reach() * spin) && body_.canRest();
   }
 
   ContactChoice ball() {
