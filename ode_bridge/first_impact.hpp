@@ -4,20 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "ode_bridge/narrow_phase.hpp"
-#include "ode_bridge/separation.hpp"
+#include "ode_bridge/pair_motion.hpp"
 
 namespace carom::ode_bridge_detail {
-
-/// The two bodies of a search, their solids and motions.
-struct PairMotion {
-  int a, b;
-  const FeatureGeometry& geometry;
-  const NarrowPhase& narrow_phase;
-  Arc& arc_a;
-  Arc& arc_b;
-  WorkCount* work = nullptr;  ///< where steps are counted
-};
 
 /// First impact of the pair in [from, until]: steps that provably cannot pass a contact, over balls that hold ever
 /// fewer pieces, then over pieces, up to contact within rounding; then Newton on the smooth gap of each touching

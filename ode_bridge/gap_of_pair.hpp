@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ode_bridge/first_impact.hpp"
+#include "ode_bridge/pair_motion.hpp"
 #include "ode_bridge/rounding.hpp"
 #include "ode_bridge/touching.hpp"
 
@@ -82,8 +82,9 @@ class GapOfPair {
   bool risesBefore(double t) const {
     for (double h = 0.125 * (t - from_); from_ + h > from_; h *= 0.125) {
       const State then = stateAt(from_ + h);
-      if (then.rate > then.still) return true;
-      if (std::abs(then.rate) <= then.still) break;
+      const double still = std::max(then.still, kAtRest);
+      if (then.rate > still) return true;
+      if (std::abs(then.rate) <= still) break;
     }
     return false;
   }

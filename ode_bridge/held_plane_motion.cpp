@@ -36,7 +36,7 @@ HeldPlanes::Approach HeldPlanes::levelOfCap(const Plane& plane, const Placed& a,
   const Placed &disc = of_a ? a : b, &other = of_a ? b : a;
   const Vec3 d = disc.k.R * rim.direction, e = other.k.R * line.direction;
   const double across = 2 * rim.rim, spin = a.spin + b.spin;
-  const double slope = line.apex > 0 ? line.rim / std::hypot(line.rim, 2 * line.apex) : 0;
+  const double slope = line.apex > 0 ? line.rim / std::sqrt(line.rim * line.rim + 4 * line.apex * line.apex) : 0;
   Approach out;
   out.gap = across * (d.dot(e) + slope);
   out.rate = across * (disc.k.w - other.k.w).dot(d.cross(e));

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ode_bridge/first_impact.hpp"
+#include "ode_bridge/pair_motion.hpp"
 #include "ode_bridge/rim_gap.hpp"
 
 namespace carom::ode_bridge_detail {
