@@ -56,7 +56,7 @@ class HeldPath final : public IntegratedPath {
     double time = 0;
     HeldGuard guard;
   };
-  /// The nearest, up to a time, as nodes and ends of steps show it.
+  /// The nearest, up to a time, of those that the nodes of steps show.
   NearMiss nearestMiss(double until) const;
 
  private:
@@ -73,6 +73,8 @@ class HeldPath final : public IntegratedPath {
   std::optional<End> firstEnd(const HeldStep& step) const;
   double rootOf(Values& values, std::size_t guard, Bracket in) const;
   bool endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
+  double guardAt(std::size_t guard, double t) const;
+  double leastOf(std::size_t guard, double from, double to) const;
   bool passesBy(const HeldStep& step, const End& end) const;
   State stayingOn(const State& state) const;
   void take(HeldStep step);

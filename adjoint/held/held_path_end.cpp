@@ -14,6 +14,8 @@ constexpr double kAtOnce = 1e-13;
 // Rounds of a step to its end, and by which share of it the end may still move.
 constexpr int kEndings = 6;
 constexpr double kSameEnd = 1e-15;
+// How well the time of a least value is known, s, or as a share of the time: values are flat there.
+constexpr double kLeastWithin = 1e-9;
 // What a slip that ends may have across its direction, as a share of the unit of speed: one that goes straight, and one
 // that still turns.
 constexpr double kStraightLeft = 1e-6, kNothingLeft = 1e-11;
@@ -132,21 +134,47 @@ std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step) const {
   return std::nullopt;
 }
 
+double HeldPath::guardAt(std::size_t guard, double t) const {
+  Values values(*this, stepAt(t));
+  return values.at(t)[guard];
+}
+
+// By golden sections.
+double HeldPath::leastOf(std::size_t guard, double from, double to) const {
+  constexpr double kGolden = 0.6180339887498949;
+  double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
+  double at_left = guardAt(guard, left), at_right = guardAt(guard, right);
+  while (to - from > kLeastWithin * std::max(to, 1.0)) {
+    if (at_left < at_right) {
+      to = right, right = left, at_right = at_left;
+      at_left = guardAt(guard, left = to - kGolden * (to - from));
+    } else {
+      from = left, left = right, at_left = at_right;
+      at_right = guardAt(guard, right = from + kGolden * (to - from));
+    }
+  }
+  return 0.5 * (from + to);
+}
+
 HeldPath::NearMiss HeldPath::nearestMiss(double until) const {
   NearMiss nearest;
   std::vector<double> last, before;  // values at the two times looked at last
-  double at = start_;
+  double at = start_, earlier = start_;
   const auto look = [&](double t, const std::vector<double>& now) {
-    for (std::size_t g = 0; g < guards_.size() && !before.empty(); ++g)
-      if (last[g] < before[g] && last[g] <= now[g] && last[g] < nearest.margin) nearest = {std::abs(last[g]), at, guards_[g]};
-    before = std::move(last), last = now, at = t;
+    for (std::size_t g = 0; g < guards_.size() && !before.empty(); ++g) {
+      if (!(last[g] < before[g]) || !(last[g] <= now[g])) continue;
+      const double time = leastOf(g, earlier, t), margin = std::abs(guardAt(g, time));
+      if (time <= until && margin < nearest.margin) nearest = {margin, time, guards_[g]};
+    }
+    before = std::move(last), last = now, earlier = at, at = t;
   };
   for (const HeldStep& step : steps_) {
     if (!(step.length > 0) || !(step.start < until)) break;
     Values values(*this, step);
     for (const double node : Gauss::get().node) {
       const double t = step.start + node * step.length;
-      if (t <= until) look(t, values.at(t));
+      look(t, values.at(t));
+      if (t > until) return nearest;
     }
   }
   return nearest;
