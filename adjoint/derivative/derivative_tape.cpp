@@ -145,7 +145,7 @@ void Reliability::passArc(const Motion& motion, int body, int k) {
   const std::size_t b = checkedIndex("Reliability::passArc", "body", body, motion.world_lines.size());
   const std::vector<Arc>& arcs = motion.world_lines[b].arcs;
   const Arc& arc = arcs[checkedIndex("Reliability::passArc", "arc", k, arcs.size())];
-  if (arc.integrated() && reliable) passHeld(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
+  if (arc.integrated()) passHeld(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
   if (arc.kind() != ArcKind::slide || arc.path()->form != PathForm::glide_block) return;
   if (std::find(sliding.begin(), sliding.end(), body) != sliding.end()) return;
   sliding.push_back(body);

@@ -80,7 +80,8 @@ struct HeldPath::Values {
   }
 };
 
-// The state of an event is that at the end of a step: the step is made anew up to the root, which is found once more there. False: there is no such step.
+// The state of an event is that at the end of a step: the step is made anew up to the root, which is found once more
+// there. False: there is no such step.
 bool HeldPath::endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const {
   const auto which = static_cast<std::size_t>(
       std::ranges::find_if(guards_, [&](const HeldGuard& g) { return g.isSame(end.guard); }) - guards_.begin());

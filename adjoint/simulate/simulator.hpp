@@ -26,8 +26,6 @@ inline constexpr int kRattles = 8;
 /// As many impacts of one body as this within kStall seconds are a cascade, whichever bodies it meets.
 inline constexpr std::size_t kStallEvents = 64;
 inline constexpr double kStall = 1e-9;  // s
-/// Contacts of a body that change so often at one instant would go on to.
-inline constexpr std::size_t kMostAtOnce = 8;
 
 /// A body further away or faster than this (m, m/s) cannot be computed with: fourth powers of it would overflow.
 inline constexpr double kFurthest = 1e60;

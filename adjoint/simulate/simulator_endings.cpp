@@ -94,15 +94,6 @@ bool Simulator::accumulates() {
     return true;
   }
   for (const Participant& p : event.participants) {
-    const auto& arcs = motion_.world_lines[index(p.body)].arcs;
-    if (event.kind != EventKind::transition || arcs.size() < kMostAtOnce) continue;
-    if (arcs[arcs.size() - kMostAtOnce].start() < event.time) continue;
-    finish(MotionStatus::unresolved_contact, event.time,
-           textOf(6, "the contacts of '", scene_.bodies[index(p.body)].name, "' change ", kMostAtOnce, " times at t = ", event.time,
-                  " s; the motion ends there"));
-    return true;
-  }
-  for (const Participant& p : event.participants) {
     if (!isMoved(p.body) || !stalls(p.body)) continue;
     finish(MotionStatus::cascade, event.time,
            textOf(6, "impacts accumulate at t = ", event.time, " s, at (", event.contacts[0].at.point.transpose(),

@@ -123,6 +123,14 @@ Errors compared(std::uint64_t seed, std::size_t stride) {
   return worst;
 }
 
+// Throws that the replay does not know are left out; of the first ones, which it follows, none may come to be among them.
+constexpr int kKnownThrows = 3;
+
+void notCompared(int seed, const char* why) {
+  if (seed <= kKnownThrows) FAIL() << why;
+  GTEST_SKIP() << why;
+}
+
 class SettledDice : public ::testing::TestWithParam<int> {};
 
 TEST_P(SettledDice, GradientsOfTheirPlaces) {
@@ -134,15 +142,15 @@ TEST_P(SettledDice, GradientsOfTheirPlaces) {
     EXPECT_TRUE(errors.place <= 1e-14 && errors.velocity <= 1e-12);
     EXPECT_TRUE(errors.own <= kColumn);
   } catch (const UnknownTransition& error) {
-    GTEST_SKIP() << error.what();
+    notCompared(GetParam(), error.what());
   } catch (const Unsettled& error) {
-    GTEST_SKIP() << error.what();
+    notCompared(GetParam(), error.what());
   } catch (const SlipsTogether& error) {
-    GTEST_SKIP() << error.what();
+    notCompared(GetParam(), error.what());
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SettledDice, ::testing::Range(1, 1 + test::scaled(3)));
+INSTANTIATE_TEST_SUITE_P(Seeds, SettledDice, ::testing::Range(1, 1 + test::scaled(kKnownThrows)));
 
 }  // namespace
 }  // namespace carom::reference::dice
