@@ -5,91 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 
-#include "adjoint/held/held_path.hpp"
-#include "tests/reference/held_series.h"
+#include "tests/reference/held_along.h"
+#include "tests/reference/held_boxes.h"
 #include "tests/support/compare.h"
-#include "tests/support/held_scenes.h"
 #include "tests/support/lasting_scenes.h"
-#include "tests/support/scaled.h"
 
 namespace carom::reference::held {
 namespace {
 
 using adjoint_detail::HeldContact;
-using adjoint_detail::HeldInstant;
 using adjoint_detail::HeldMode;
 using adjoint_detail::HeldPath;
-using test::expectEntries;
-using test::makeBox;
-using test::makePlane;
-using test::makeScene;
 using test::playLasting;
 using test::Random;
 
 constexpr int kOrder = 34;
 const Real kTolerance("1e-32");
-const Real kNothing("1e-16");  // s: what is left of a slip then
-
-HeldState stateOf(const BodyModel& model, const State& s) {
-  const BodyState b = toBodyState(model, s);
-  return {RVec(s.x), rotationOf(s.q), RVec(s.v), RVec(b.angular_velocity)};
-}
-
-// The corners of a box that a path holds, to all digits.
-std::vector<HeldCorner> cornersOf(const HeldPath& path, const Vec3& size) {
-  const State start = path.stateAt(path.start());
-  const HeldInstant now = path.instantAt(path.start());
-  std::vector<HeldCorner> corners;
-  for (std::size_t k = 0; k < path.contacts().size(); ++k) {
-    const HeldContact& c = path.contacts()[k];
-    const Vec3 arm = start.q.conjugate() * now.contacts[k].r;
-    HeldCorner corner;
-    for (int i = 0; i < 3; ++i) {
-      EXPECT_TRUE(std::abs(std::abs(arm[i]) - size[i] / 2) <= 1e-9) << "not a corner: " << arm.transpose();
-      corner.at[i] = Real(arm[i] > 0 ? 1 : -1) * Real(size[i]) / 2;
-    }
-    corner.normal = unit(RVec(now.contacts[k].n));
-    corner.offset = dot(corner.normal, RVec(start.x) + rotationOf(start.q) * corner.at);
-    corner.friction = c.friction;
-    corner.sticks = c.mode == HeldMode::sticks, corner.begins = c.begins, corner.slip = RVec(c.slip);
-    corners.push_back(corner);
-  }
-  return corners;
-}
-
-// Of a path from its start on: states at times that grow.
-class Along {
- public:
-  explicit Along(const HeldPath& path, const Vec3& size) : path_(path) {
-    const BodyModel& model = *path.scene().model;
-    const HeldBody body{Real(model.mass), RVec(model.inertia), RVec(path.scene().gravity)};
-    std::vector<HeldCorner> corners = cornersOf(path, size);
-    const HeldState start = projected(body, corners, stateOf(model, path.stateAt(path.start())));
-    series_ = std::make_unique<HeldSeries>(body, std::move(corners), start, kOrder, kTolerance);
-  }
-  HeldState at(double time) {
-    Real left = Real(time) - path_.start() - elapsed_;
-    for (Real step = next(); step < left && step > kNothing; step = next()) series_->advance(step), elapsed_ += step, left -= step;
-    return series_->at(std::min<Real>(left, next()));
-  }
-
- private:
-  // No more than a third of a slip that comes to its end: what converges about its middle may not do so at its end.
-  Real next() const {
-    Real longest = series_->longest();
-    for (std::size_t k = 0; k < series_->corners().size(); ++k) {
-      const RVec u = series_->slip(k, 0), rate = series_->slipRate(k);
-      if (!series_->corners()[k].sticks && dot(u, rate) < 0) longest = std::min<Real>(longest, norm(u) / norm(rate) / 3);
-    }
-    return longest;
-  }
-
-  const HeldPath& path_;
-  std::unique_ptr<HeldSeries> series_;
-  Real elapsed_ = 0;
-};
 
 // `count` times in the steps of a path, none at their ends, against the series.
 double worstOf(const HeldPath& path, double until, const Vec3& size, int count, Random& random) {
@@ -99,8 +31,8 @@ double worstOf(const HeldPath& path, double until, const Vec3& size, int count, 
     for (const auto& step : path.allSteps())
       if (step.start < end && step.length > 0) times.push_back(step.start + random.in(0, std::min(step.length, end - step.start)));
   std::sort(times.begin(), times.end());
-  Along exact(path, size);
   const BodyModel& model = *path.scene().model;
+  HeldAlong exact(bodyOf(path), cornersOf(path, size), stateOf(model, path.stateAt(path.start())), path.start(), kOrder, kTolerance);
   double worst = 0;
   for (const double t : times) {
     const State found = path.stateAt(t);
@@ -108,7 +40,7 @@ double worstOf(const HeldPath& path, double until, const Vec3& size, int count, 
     const HeldState f = stateOf(model, found);
     const double errors[] = {(f.x - s.x).rounded().norm() / l, (rounded(f.R) - rounded(s.R)).norm(),
                              (f.v - s.v).rounded().norm() / c, (f.spin - s.spin).rounded().norm() / (c / l)};
-      for (const double error : errors)
+    for (const double error : errors)
       if (!(error <= worst)) worst = error;
   }
   return worst;
@@ -130,7 +62,7 @@ Seen expectPaths(const Scene& scene, double duration, std::uint64_t seed) {
     const auto* path = static_cast<const HeldPath*>(arcs[a].integrated());
     if (!path || path->allSteps().empty() || !(path->allSteps().front().length > 0)) continue;
     const double until = a + 1 < arcs.size() ? arcs[a + 1].start() : m.end;
-      double worst = 0;
+    double worst = 0;
     try {
       worst = worstOf(*path, until, size, 100, random);
     } catch (const SlipsTogether&) {
@@ -149,17 +81,6 @@ Seen expectPaths(const Scene& scene, double duration, std::uint64_t seed) {
   }
   return seen;
 }
-
-// On its lowest corner.
-Scene onCorner(const Quat& q, double friction, const Vec3& v, const Vec3& spin) {
-  const Vec3 size(0.1, 0.2, 0.3);
-  const double height = 0.5 * q.toRotationMatrix().row(2).cwiseAbs().dot(size);
-  Body box = makeBox("box", size, {0, 0, height}, v);
-  box.orientation = q, box.angular_velocity = spin;
-  return makeScene({0, 0, -9.81}, 0, friction, {box, makePlane("floor", Vec3::UnitZ(), 0)});
-}
-
-const Quat kLeaning(Eigen::AngleAxisd(0.9, Vec3(1, 0.8, 0.3).normalized()));
 
 TEST(HeldSeries, ACornerSticks) {
   const Seen seen = expectPaths(onCorner(kLeaning, 0.9, Vec3::Zero(), Vec3::Zero()), 0.15, 1);
@@ -188,12 +109,7 @@ TEST(HeldSeries, RandomBoxes) {
   for (int i = 1; i <= test::scaled(4); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Random random(seed);
-    const double friction = random.in(0.05, 0.9);
-    Scene scene = onCorner(random.rotation(), friction, random.vec(0.5), random.vec(6));
-    scene.bodies[0].position.z() += random.in(0, 0.05);
-    scene.materials[0].elasticity = random.below(2) * random.in(0, 0.6);
-    const Seen seen = expectPaths(scene, 1.5, seed);
+    const Seen seen = expectPaths(droppedBox(seed), 1.5, seed);
     all.paths += seen.paths, all.begin += seen.begin, all.stop += seen.stop, all.stick += seen.stick;
     all.many += seen.many, all.unknown += seen.unknown, all.worst = std::max(all.worst, seen.worst);
   }

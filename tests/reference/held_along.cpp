@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "tests/reference/held_along.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace carom::reference {
+
+using adjoint_detail::HeldContact;
+using adjoint_detail::HeldInstant;
+using adjoint_detail::HeldMode;
+using adjoint_detail::HeldPath;
+
+namespace {
+const Real kNothing("1e-16");  // s: what is left of a slip then
+}
+
+HeldState stateOf(const BodyModel& model, const State& s) {
+  const BodyState b = toBodyState(model, s);
+  return {RVec(s.x), rotationOf(s.q), RVec(s.v), RVec(b.angular_velocity)};
+}
+
+HeldBody bodyOf(const HeldPath& path) {
+  const BodyModel& model = *path.scene().model;
+  return {Real(model.mass), RVec(model.inertia), RVec(path.scene().gravity)};
+}
+
+std::vector<HeldCorner> cornersOf(const HeldPath& path, const Vec3& size) {
+  const State start = path.stateAt(path.start());
+  const HeldInstant now = path.instantAt(path.start());
+  std::vector<HeldCorner> corners;
+  for (std::size_t k = 0; k < path.contacts().size(); ++k) {
+    const HeldContact& c = path.contacts()[k];
+    const Vec3 arm = start.q.conjugate() * now.contacts[k].r;
+    HeldCorner corner;
+    for (int i = 0; i < 3; ++i) {
+      if (!(std::abs(std::abs(arm[i]) - size[i] / 2) <= 1e-9)) throw std::runtime_error("what holds a box is not its corner");
+      corner.at[i] = Real(arm[i] > 0 ? 1 : -1) * Real(size[i]) / 2;
+    }
+    corner.normal = unit(RVec(now.contacts[k].n));
+    corner.offset = dot(corner.normal, RVec(start.x) + rotationOf(start.q) * corner.at);
+    corner.friction = c.friction;
+    corner.sticks = c.mode == HeldMode::sticks, corner.begins = c.begins, corner.slip = RVec(c.slip);
+    corners.push_back(corner);
+  }
+  return corners;
+}
+
+HeldAlong::HeldAlong(const HeldBody& body, std::vector<HeldCorner> corners, const HeldState& start, const Real& time,
+                     int order, const Real& tolerance)
+    : series_(body, corners, projected(body, corners, start), order, tolerance), time_(time) {}
+
+// No more than a third of a slip that comes to its end: what converges about its middle may not do so at its end.
+Real HeldAlong::next() const {
+  Real longest = series_.longest();
+  for (std::size_t k = 0; k < series_.corners().size(); ++k) {
+    const RVec u = series_.slip(k, 0), rate = series_.slipRate(k);
+    if (!series_.corners()[k].sticks && dot(u, rate) < 0) longest = std::min<Real>(longest, norm(u) / norm(rate) / 3);
+  }
+  return longest;
+}
+
+HeldState HeldAlong::at(const Real& time) {
+  Real left = time - time_;
+  for (Real step = next(); step < left && step > kNothing; step = next())
+    series_.advance(step), time_ += step, left -= step;
+  return series_.at(std::min<Real>(left, next()));
+}
+
+}  // namespace carom::reference

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "adjoint/held/held_path.hpp"
+#include "tests/reference/held_series.h"
+
+namespace carom::reference {
+
+HeldState stateOf(const BodyModel& model, const State& s);
+HeldBody bodyOf(const adjoint_detail::HeldPath& path);
+
+/// The corners of a box that a path holds, to all digits. Throws std::runtime_error where it holds something else.
+std::vector<HeldCorner> cornersOf(const adjoint_detail::HeldPath& path, const Vec3& size);
+
+/// Series after series from a start on, as it is projected: states at times that grow.
+class HeldAlong {
+ public:
+  HeldAlong(const HeldBody& body, std::vector<HeldCorner> corners, const HeldState& start, const Real& time, int order,
+            const Real& tolerance);
+
+  HeldState at(const Real& time);
+
+ private:
+  Real next() const;
+
+  HeldSeries series_;
+  Real time_;
+};
+
+}  // namespace carom::reference
