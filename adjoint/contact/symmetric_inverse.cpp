@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/contact/symmetric_inverse.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/numeric/symmetric_eigen.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -46,8 +46,8 @@ MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units, Spe
   const MatrixOf<T> even = S.asDiagonal() * M * S.asDiagonal();
   if (!even.unaryExpr([](const T& x) { return rounded(x); }).allFinite())
     throw NotComputable("the effective masses of its contacts are beyond the range of doubles");
-  const Eigen::SelfAdjointEigenSolver<MatrixOf<T>> eigen(even);
-  VectorOf<T> values = eigen.eigenvalues();
+  const SymmetricEigen<T> eigen(even);
+  VectorOf<T> values = eigen.values;
   T most = T(0);
   for (Index i = 0; i < values.size(); ++i) most = std::max({most, values[i], T(-values[i])});
   const T least = T(kNull<T>) * most;
@@ -61,7 +61,7 @@ MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units, Spe
     values[i] = counts ? T(T(1) / values[i]) : T(0);
   }
   if (spectrum != nullptr) *spectrum = found;
-  const MatrixOf<T> scaled = S.asDiagonal() * eigen.eigenvectors();
+  const MatrixOf<T> scaled = S.asDiagonal() * eigen.vectors;
   return scaled * values.asDiagonal() * scaled.transpose();
 }
 

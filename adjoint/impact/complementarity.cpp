@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/impact/complementarity.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/numeric/symmetric_eigen.hpp"
 #include "adjoint/numeric/wide.hpp"
 
 namespace carom::adjoint_detail {
@@ -80,9 +80,9 @@ LeastNormSolveOf<T>::LeastNormSolveOf(const Matrix& A, const Vector& b) {
   }
   const Vector D = scaleOf<T>(A);
   const bool alike = (D.array() == T(1)).all();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(alike ? A : Matrix(D.asDiagonal() * A * D.asDiagonal()));
-  const Vector& values = eigen.eigenvalues();  // in increasing order
-  const Matrix& vectors = eigen.eigenvectors();
+  const SymmetricEigen<T> eigen(alike ? A : Matrix(D.asDiagonal() * A * D.asDiagonal()));
+  const Vector& values = eigen.values;  // in increasing order
+  const Matrix& vectors = eigen.vectors;
   Index null = 0;
   while (null < values.size() && values[null] <= T(Precision<T>::kNull) * values[values.size() - 1]) ++null;
   const Matrix range = vectors.rightCols(values.size() - null);

@@ -17,7 +17,7 @@ using adjoint_detail::Wide;
 // What the series leave out varies with the numbers no more than they do.
 constexpr int kHeldOrder = 16;
 const Real kHeldTolerance("1e-17");
-const Real kLineFrom("1e-10");  // of its time: what is left of a slip then goes along a line
+const Real kLineFrom("1e-13");  // of its time: what is left of a slip then goes along a line
 
 Wide wide(const Real& x) {
   const double high = static_cast<double>(x);
@@ -155,16 +155,16 @@ Real DieReplay::gap(const RVec& corner, const HeldState& s) const {
   return dot(n_.normal(), s.x + s.R * corner - n_.floor);
 }
 
-// Of the corners that meet.
+// Of the corners that meet, weighted by their impulses.
 std::array<Real, 2> DieReplay::meanGap(const Event& event, const HeldState& s) const {
-  Real sum = 0, rate = 0;
-  int count = 0;
+  Real sum = 0, rate = 0, total = 0;
   for (const Contact& c : event.contacts) {
-    if (c.held) continue;
+    const Real weight = Real(c.impulse_normal.dot(c.impulse));
+    if (c.held || !(weight > 0)) continue;
     const RVec corner = cornerAt(rounded(s.R).transpose() * (c.at.point - s.x.rounded()), n_.size);
-    sum += gap(corner, s), rate += dot(n_.normal(), s.v + cross(s.spin, s.R * corner)), ++count;
+    sum += weight * gap(corner, s), rate += weight * dot(n_.normal(), s.v + cross(s.spin, s.R * corner)), total += weight;
   }
-  return {sum / count, rate / count};
+  return {sum / total, rate / total};
 }
 
 // When the mean gap is that.
@@ -268,10 +268,40 @@ Real DieReplay::endSlip(std::size_t k) {
   throw std::runtime_error("a slip does not end");
 }
 
+// Of two corners that stick, with the push between them that leaves most: min(room_1, room_2) is concave in it (11.25).
+Real DieReplay::sharedRoom(std::size_t a, std::size_t b, const Real& s) const {
+  const std::array<std::size_t, 2> corner{a, b};
+  std::array<RVec, 2> f, n, along;
+  along[1] = unit(held_->corners()[b].at - held_->corners()[a].at), along[0] = -along[1];
+  for (std::size_t i = 0; i < 2; ++i) f[i] = held_->force(corner[i], s), n[i] = held_->normal(corner[i], s);
+  const auto rooms = [&](const Real& push) {
+    std::array<Real, 2> room, slope;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const RVec g = f[i] + push * along[i];
+      const Real pressing = dot(n[i], g), by = dot(n[i], along[i]);
+      const RVec side = g - pressing * n[i];
+      room[i] = n_.friction * pressing - norm(side), slope[i] = n_.friction * by - dot(side, along[i] - by * n[i]) / norm(side);
+    }
+    return std::pair(room, slope);
+  };
+  Real high = 10 * (norm(f[0]) + norm(f[1])), low = -high;
+  for (int i = 0; i < 170; ++i) {
+    const Real middle = (low + high) / 2;
+    const auto [room, slope] = rooms(middle);
+    (room[0] < room[1] ? slope[0] : slope[1]) > 0 ? low = middle : high = middle;
+  }
+  const auto room = rooms(low).first;
+  return std::min(room[0], room[1]);
+}
+
 Real DieReplay::value(TransitionCause cause, std::size_t k, const Real& time) {
   at(time);
   const Real s = time - start_, pressing = held_->pressing(k, s);
   if (cause == TransitionCause::lifts) return pressing;
+  std::vector<std::size_t> stick;
+  for (std::size_t i = 0; i < held_->corners().size(); ++i)
+    if (held_->corners()[i].sticks) stick.push_back(i);
+  if (stick.size() == 2) return sharedRoom(stick[0], stick[1], s);
   const RVec f = held_->force(k, s);
   return n_.friction * pressing - sqrt(dot(f, f) - pressing * pressing);
 }

@@ -42,7 +42,6 @@ class DieReplay {
   std::vector<HeldState> before;  ///< just before them
   Real worst_position = 0, worst_velocity = 0;  ///< of the motion, from one place to the next
 
-
  private:
   void follow(const Event& event, const Arc& before, const DieReplay* near);
   void startArc(const Arc& arc, const Event* after);
@@ -55,6 +54,7 @@ class DieReplay {
   Real endSlip(std::size_t corner);
   Real root(const Event& event, const Arc& arc, const Real& guess);
   Real value(TransitionCause cause, std::size_t corner, const Real& time);
+  Real sharedRoom(std::size_t a, std::size_t b, const Real& s) const;
   Real gap(const RVec& corner, const HeldState& s) const;
   RVec cornerOf(const Contact& contact) const;
   std::vector<HeldCorner> cornersOf(const Arc& arc, const Event& after) const;

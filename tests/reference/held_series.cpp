@@ -50,6 +50,7 @@ void HeldSeries::start(const HeldState& s) {
   for (auto* curves : {&normal_, &free_, &d_, &push_, &f_}) curves->assign(n, Curve(order_));
   u_.assign(n, Curve(size));
   length_.assign(n, Line(order_));
+  round_.resize(n);
   moved_.assign(m, std::vector<Curve>(n, Curve(order_)));
   B_.assign(m, std::vector<Line>(m, Line(order_)));
   for (auto* lines : {&right_, &y_, &lambda_}) lines->assign(m, Line(order_));
@@ -114,6 +115,27 @@ void HeldSeries::direct(std::size_t j, std::size_t k) {
   d_[k][j] = (1 / length[0]) * rest;
 }
 
+// Where one other corner sticks: a slip that begins goes round that one, whatever pushes it.
+std::optional<std::size_t> HeldSeries::pivot() const {
+  std::optional<std::size_t> found;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    if (!corners_[k].sticks) continue;
+    if (found) return std::nullopt;
+    found = k;
+  }
+  return found;
+}
+
+void HeldSeries::directAround(std::size_t j, std::size_t k, std::size_t pivot) {
+  const RVec arm = unit(corners_[k].at - corners_[pivot].at);
+  if (j == 0) {
+    RVec slip;
+    for (int a = 0; a < 3; ++a) slip = slip + corners_[k].slip[a] * row_[static_cast<std::size_t>(a)][0];
+    round_[k] = dot(slip, cross(normal_[k][0], arm)) > 0 ? 1 : -1;
+  }
+  d_[k][j] = Real(round_[k]) * cross(normal_[k][j], arm);
+}
+
 // |d| = 1 and n.d = 0, turned about the normal by `turn`.
 void HeldSeries::directFromRest(std::size_t j, std::size_t k, const Real& turn) {
   Curve& d = d_[k];
@@ -137,6 +159,10 @@ Real HeldSeries::across(std::size_t j, std::size_t k) const {
 
 // The residual answers to a turn of order j by what that does to the direction, and to u, which is less by j + 1.
 void HeldSeries::beginSlips(std::size_t j, const std::vector<std::size_t>& which) {
+  if (const auto about = pivot()) {
+    for (std::size_t k : which) directAround(j, k, *about);
+    return push(j), go(j);
+  }
   if (j == 0) return findFirstDirections(which);
   const std::size_t m = which.size();
   const auto residual = [&](std::size_t turned) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tests/reference/held_solve.h"
@@ -51,7 +52,8 @@ class HeldSeries {
   const Real& longest() const { return longest_; }
   HeldState at(const Real& t) const;
   RVec force(std::size_t k, const Real& t) const { return sum(f_[k], t); }  ///< at a corner, axes of the body
-  Real pressing(std::size_t k, const Real& t) const { return dot(force(k, t), sum(normal_[k], t)); }
+  Real pressing(std::size_t k, const Real& t) const { return dot(force(k, t), normal(k, t)); }
+  RVec normal(std::size_t k, const Real& t) const { return sum(normal_[k], t); }  ///< axes of the body
   RVec slip(std::size_t k, const Real& t) const { return sum(u_[k], t); }  ///< axes of the body
   RVec direction(std::size_t k, const Real& t) const { return sum(d_[k], t); }
   RVec slipRate(std::size_t k) const { return u_[k][1] + cross(w_[0], u_[k][0]); }
@@ -73,6 +75,8 @@ class HeldSeries {
   bool rubs(std::size_t k) const { return !corners_[k].sticks && corners_[k].friction != 0; }
   bool begins(std::size_t k) const { return first_ && rubs(k) && corners_[k].begins; }
   void direct(std::size_t j, std::size_t k);
+  std::optional<std::size_t> pivot() const;
+  void directAround(std::size_t j, std::size_t k, std::size_t pivot);
   void directFromRest(std::size_t j, std::size_t k, const Real& turn);
   void beginSlips(std::size_t j, const std::vector<std::size_t>& which);
   void findFirstDirections(const std::vector<std::size_t>& which);
@@ -98,6 +102,7 @@ class HeldSeries {
   Curve x_, v_, w_, Iw_, gravity_, gyro_, force_, moment_;  // v, w, ...: axes of the body
   std::array<Curve, 3> row_;                                // of R
   std::vector<Curve> normal_, u_, free_, d_, push_, f_;            // of the corners
+  std::vector<int> round_;                                          // about the pivot: 1 or -1
   std::vector<Line> length_;                                        // of the slips
   std::vector<std::vector<Curve>> moved_;  // of every unknown, at every corner
   std::vector<std::vector<Line>> B_;

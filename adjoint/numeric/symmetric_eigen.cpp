@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/numeric/symmetric_eigen.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "adjoint/numeric/wide.hpp"
+
+namespace carom::adjoint_detail {
+
+template <class T>
+SymmetricEigen<T>::SymmetricEigen(const MatrixOf<T>& A) {
+  const Eigen::SelfAdjointEigenSolver<MatrixOf<T>> solver(A);
+  values = solver.eigenvalues();
+  vectors = solver.eigenvectors();
+}
+
+template struct SymmetricEigen<double>;
+template struct SymmetricEigen<Wide>;
+
+}  // namespace carom::adjoint_detail
