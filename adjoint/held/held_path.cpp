@@ -16,6 +16,9 @@ namespace {
 constexpr double kStraight = 1e-8, kStraightAnyway = 1e-11;
 // A slip slower than this has no direction of its own.
 constexpr double kNoDirection = 1e-7;
+// Its direction at its end is found in so many rounds, if it is not further than this from that at a node, rad.
+constexpr int kAlignRounds = 3;
+constexpr double kMostAlign = 0.01;
 // A slip goes straight where it changes across its direction by no more than this share.
 constexpr double kTurns = 1e-4;
 // The first step turns the body by about so much, rad, and steps are never longer than this share of the first guess.
@@ -205,6 +208,25 @@ Vec3 HeldPath::velocityAt(double t) const {
   return step.from.v + step.changeAt(t).segment<3>(6);
 }
 
+// Where a slip is 0 it goes along its acceleration, u' = -|u'| d, which the direction at a node comes near to: Newton's
+// method on (n x d).u' = 0.
+void HeldPath::alignStop(HeldInstant& now) const {
+  if (!end_ || end_->guard.cause != TransitionCause::sticks) return;
+  const auto k = static_cast<std::size_t>(end_->guard.contact);
+  ContactInstant<double>& c = now.contacts[k];
+  if (!(c.friction > 0) || now.slipAt(k).norm() > kStraightAnyway * scene_.speed) return;
+  for (int round = 0; round < kAlignRounds; ++round) {
+    const HeldDynamics<double> forces(now.body, now.contacts, redundant_);
+    const std::vector<Vec3> push = forces.answerToTurn(k, redundant_);
+    const Vec3 rate = forces.slipRate(k), across = c.n.cross(c.slip);
+    Vec3 turned = Vec3::Zero();
+    for (std::size_t l = 0; l < push.size(); ++l) turned += forces.responseAt(c.r, l, push[l]);
+    const double turn = -across.dot(rate) / (across.dot(turned) - c.slip.dot(rate));
+    if (!(std::abs(turn) < kMostAlign)) return;
+    c.slip = (c.slip + turn * across).normalized();
+  }
+}
+
 HeldInstant HeldPath::instantAt(double t) const {
   std::vector<Vec3> slip;
   if (steps_.empty() || !(steps_.front().length > 0)) {
@@ -221,6 +243,7 @@ HeldInstant HeldPath::instantAt(double t) const {
     const Vec3 u = now.slipAt(k);
     if (u.norm() > kNoDirection * scene_.speed) now.contacts[k].slip = u.normalized();
   }
+  if (t > start_) alignStop(now);
   return now;
 }
 

@@ -68,6 +68,7 @@ class HeldPath final : public IntegratedPath {
   const HeldStep& stepAt(double t) const;
   HeldStep nextStep();
   std::vector<Vec3> slipAfter() const;
+  void alignStop(HeldInstant& now) const;
   double lookAtSlips(HeldStepper::Start& start) const;
   double shorterLength(double length, double error, const std::optional<End>& end) const;
   std::optional<End> firstEnd(const HeldStep& step) const;

@@ -19,6 +19,9 @@ constexpr double kNoStart = 1e-9;
 // is straight.
 constexpr double kReach = 0.7, kNoSlip = 1e-8, kNeverSlips = 1e-13;
 
+// Of the acceleration by a force: what turns a slip less than that does not turn it.
+constexpr double kNoTurn = 1e-9;
+
 HeldVector asColumn(const StateDerivative& d) { return (HeldVector() << d.x, d.theta, d.v, d.L).finished(); }
 
 // The derivative of the start, 12 rows, and that of its time. Slips that begin with an acceleration u' are 0 at the start,
@@ -173,6 +176,35 @@ void throughStep(const HeldPath& path, const HeldInputs& inputs, const HeldStep&
   }
 }
 
+// At its end a slip has no tangent across its way: whichever way it came, it goes to 0 as a power of |u|. Where it is
+// straight, what is left is taken back by a turn of its friction, which is all that turns it there.
+void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixXd& D) {
+  if (!path.end() || path.end()->guard.cause != TransitionCause::sticks) return;
+  const auto k = static_cast<std::size_t>(path.end()->guard.contact);
+  const HeldInstant now = path.instantAt(t);
+  if (!(now.slipAt(k).norm() <= kNoSlip * path.scene().speed) || !(path.contacts()[k].friction > 0)) return;
+  const Vec3 across = now.contacts[k].n.cross(now.contacts[k].slip);
+  HeldRow row(inputs.count);
+  HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), followSlips(path));
+  rates.each([&](const HeldLanes& lanes, int first, int count) {
+    const auto u = lanes.body.velocityAt(lanes.contacts[k].r);
+    for (int lane = 0; lane < count; ++lane) row[first + lane] = across.dot(ratesOf(u, static_cast<std::size_t>(lane)));
+  });
+  HeldRow left = row.leftCols<12>() * D;
+  left.rightCols(inputs.count - 12) += row.rightCols(inputs.count - 12);
+  const HeldDynamics<double> forces(now.body, now.contacts, path.redundant());
+  const std::vector<Vec3> push = forces.answerToTurn(k, path.redundant());
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero(), turned = Vec3::Zero();
+  for (std::size_t l = 0; l < push.size(); ++l) {
+    force += push[l], moment += now.contacts[l].r.cross(push[l]);
+    turned += forces.responseAt(now.contacts[k].r, l, push[l]);
+  }
+  if (!(std::abs(across.dot(turned)) > kNoTurn * now.body.inverse_mass * push[k].norm())) return;  // it goes round another
+  left /= across.dot(turned);
+  D.middleRows<3>(6) -= now.body.inverse_mass * force * left;
+  D.bottomRows<3>() -= moment * left;
+}
+
 // Where supports are redundant, friction may be at its limit without any slip that begins.
 void requireSlips(const HeldPath& path) {
   const HeldStep& first = path.allSteps().front();
@@ -197,6 +229,7 @@ MatrixXd heldSensitivity(const HeldPath& path, const HeldInputs& inputs, double 
     const bool last = &step == &path.allSteps().back();
     throughStep(path, inputs, step, last ? t : std::min(t, step.start + step.length), D);
   }
+  endAcross(path, inputs, t, D);
   if (!start.time.isZero(0)) D -= asColumn(path.rateAt(t)) * start.time;
   return D;
 }
