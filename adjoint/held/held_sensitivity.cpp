@@ -15,9 +15,9 @@ std::vector<Vec3> followSlips(const HeldPath& path) { return std::vector<Vec3>(p
 // Below this share of gravity a slip that begins has no acceleration: the contact came to the limit of friction there.
 constexpr double kNoStart = 1e-9;
 
-// Tangents are taken on in one go while a slip changes by so much of itself; slower than this share of the unit of speed it
-// is straight.
-constexpr double kReach = 0.7, kNoSlip = 1e-8, kNeverSlips = 1e-13;
+// Tangents are taken on in one go while a slip changes by so much of itself. Slower than kNoSlip of the unit of speed it is
+// straight, if its acceleration has no more than kTurns of itself across it, and slower than kNoDirection in any case.
+constexpr double kReach = 0.7, kNoSlip = 1e-8, kTurns = 1e-6, kNoDirection = 1e-11, kNeverSlips = 1e-13;
 
 // Of the acceleration by a force: what turns a slip less than that does not turn it.
 constexpr double kNoTurn = 1e-9;
@@ -155,12 +155,17 @@ Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, dou
     const double slip = now.slipAt(k).norm();
     if (step.frozen[k]) {
       out.straight[k] = now.contacts[k].slip;
-    } else if (c.begins && !(from > path.start())) {
       continue;
-    } else if (!(slip > kNoSlip * path.scene().speed)) {
-      out.straight[k] = now.contacts[k].slip;
+    }
+    if (c.begins && !(from > path.start())) continue;
+    const Vec3 rate = forces.slipRate(k);
+    const bool turns = rate.cross(now.slipAt(k)).norm() > kTurns * rate.norm() * slip;
+    if (!(slip > (turns ? kNoDirection : kNoSlip) * path.scene().speed)) {
+      const bool stops = path.end() && path.end()->guard.cause == TransitionCause::sticks &&
+                         path.end()->guard.contact == static_cast<int>(k);
+      out.straight[k] = (stops ? path.instantAt(path.end()->time) : now).contacts[k].slip;
     } else {
-      const double reach = kReach * slip / forces.slipRate(k).norm();
+      const double reach = kReach * slip / rate.norm();
       if (from + 1.2 * reach < out.until) out.until = from + reach;
     }
   }
@@ -182,7 +187,7 @@ void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixX
   if (!path.end() || path.end()->guard.cause != TransitionCause::sticks) return;
   const auto k = static_cast<std::size_t>(path.end()->guard.contact);
   const HeldInstant now = path.instantAt(t);
-  if (!(now.slipAt(k).norm() <= kNoSlip * path.scene().speed) || !(path.contacts()[k].friction > 0)) return;
+  if (!(now.slipAt(k).norm() <= kNoDirection * path.scene().speed) || !(path.contacts()[k].friction > 0)) return;
   const Vec3 across = now.contacts[k].n.cross(now.contacts[k].slip);
   HeldRow row(inputs.count);
   HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), followSlips(path));
