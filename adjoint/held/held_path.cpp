@@ -46,7 +46,7 @@ double lengthBeforeEnd(double share) {
 }  // namespace
 
 HeldPath::HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redundant, std::vector<HeldGuard> guards,
-                   const State& start, double time, double until)
+                   const State& start, double time, double until, std::vector<Vec3> stopped)
     : scene_(std::move(scene)),
       contacts_(std::move(contacts)),
       redundant_(redundant),
@@ -55,7 +55,8 @@ HeldPath::HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redu
       last_(start),
       start_(time),
       until_(until),
-      known_(time) {
+      known_(time),
+      stopped_(std::move(stopped)) {
   const HeldInstant now = instantOf(scene_, contacts_, start, slipAfter());
   const double spin = now.body.omega.norm() + std::sqrt(scene_.gravity.norm() / scene_.length);
   next_length_ = kFirstTurn / spin;

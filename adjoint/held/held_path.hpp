@@ -18,9 +18,9 @@ class HeldPath final : public IntegratedPath {
     HeldGuard guard;
   };
 
-  /// `until`: nothing later is asked for. Throws NotComputable where not even a first step can be made.
+  /// `until`: nothing later is asked for. `stopped`: see heldStart. Throws NotComputable where not even a first step can be made.
   HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redundant, std::vector<HeldGuard> guards,
-           const State& start, double time, double until);
+           const State& start, double time, double until, std::vector<Vec3> stopped = {});
 
   std::unique_ptr<IntegratedPath> clone() const override { return std::make_unique<HeldPath>(*this); }
   void extendTo(double t) override;
@@ -47,6 +47,8 @@ class HeldPath final : public IntegratedPath {
   bool redundant() const { return redundant_; }
   const HeldSteps& allSteps() const { return steps_; }
   double start() const { return start_; }
+  /// The impulses, N s, by which the contacts took away what was left of speeds at its start; empty: none.
+  const std::vector<Vec3>& stopped() const { return stopped_; }
   /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node.
   HeldInstant instantAt(double t) const;
 
@@ -86,6 +88,7 @@ class HeldPath final : public IntegratedPath {
   std::vector<HeldGuard> guards_;
   State start_state_, last_;
   double start_, until_, known_, next_length_;
+  std::vector<Vec3> stopped_;
   HeldSteps steps_;
   std::optional<End> end_;
   PathBounds bounds_;

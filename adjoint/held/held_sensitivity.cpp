@@ -45,6 +45,26 @@ Eigen::VectorXd rateOfBeginningSlips(const HeldPath& path, Eigen::Index rows) {
   return rate;
 }
 
+// What the impulses that took away what was left of speeds do to v and L: they turn with the normals of contacts that
+// slide, and act where the contacts are. How large they are follows from the speeds, which stay 0.
+struct Stopped {
+  V3<HeldLanes::Number> v = V3<HeldLanes::Number>::Zero(), L = V3<HeldLanes::Number>::Zero();
+};
+
+Stopped stoppedBy(const HeldPath& path, const HeldLanes& lanes) {
+  Stopped sum;
+  for (std::size_t k = 0; k < path.stopped().size(); ++k) {
+    const HeldContact& c = path.contacts()[k];
+    const Vec3& p = path.stopped()[k];
+    const auto& n = lanes.contacts[k].n;
+    V3<HeldLanes::Number> impulse = p.cast<HeldLanes::Number>();
+    if (c.mode != HeldMode::sticks && !c.begins) impulse = n * HeldLanes::Number(p.dot(n.unaryExpr([](const auto& x) { return x.value; })));
+    sum.v += impulse * lanes.body.inverse_mass;
+    sum.L += lanes.contacts[k].r.cross(impulse);
+  }
+  return sum;
+}
+
 // Of the start as it is projected (held_start.cpp).
 StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) {
   const std::vector<HeldContact>& contacts = path.contacts();
@@ -52,10 +72,12 @@ StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) 
   HeldRates rates(path.scene(), contacts, inputs, start, followSlips(path));
   const HeldInstant& now = rates.now();
   const auto C = heldRows(now, contacts);
-  MatrixXd gaps(contacts.size(), inputs.count), speeds(C.rows(), inputs.count);
+  MatrixXd gaps(contacts.size(), inputs.count), speeds(C.rows(), inputs.count), stopped(6, inputs.count);
   rates.each([&](const HeldLanes& lanes, int first, int count) {
+    const auto taken = stoppedBy(path, lanes);
     for (int lane = 0; lane < count; ++lane) {
       const auto at = static_cast<std::size_t>(lane);
+      stopped.col(first + lane) << ratesOf(taken.v, at), ratesOf(taken.L, at);
       Eigen::Index row = 0;
       for (std::size_t k = 0; k < contacts.size(); ++k) {
         gaps(static_cast<Eigen::Index>(k), first + lane) = lanes.gap[k].rate[at];
@@ -79,6 +101,9 @@ StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) 
     D += asColumn(path.rateAt(path.start())) * out.time;
   }
   D.topRows<6>() -= undoing(now, gapRows(now)) * gaps;
+  const MatrixXd before = D;
+  D.bottomRows<6>() += stopped.leftCols<12>() * before;
+  D.bottomRows<6>().rightCols(inputs.count - 12) += stopped.rightCols(inputs.count - 12);
   MatrixXd change = speeds.leftCols<12>() * D;
   change.rightCols(inputs.count - 12) += speeds.rightCols(inputs.count - 12);
   const MatrixXd undone = undoing(now, C) * change;

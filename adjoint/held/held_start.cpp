@@ -17,8 +17,32 @@ Rows gapRows(const HeldInstant& now) {
   return G;
 }
 
+namespace {
+
+bool stands(const HeldContact& c) { return c.mode == HeldMode::sticks || c.begins; }
+
+// (C M^-1 C^T)^+ and M^-1 C^T.
+Eigen::MatrixXd inverseMass(const HeldInstant& now, const Rows& C, Eigen::Matrix<double, 6, Eigen::Dynamic>& moved) {
+  moved = C.transpose();
+  moved.topRows<3>() *= now.body.inverse_mass;
+  moved.bottomRows<3>() = now.body.A * C.transpose().bottomRows<3>();
+  const Eigen::MatrixXd K = C * moved;
+  return LeastNormSolve(K, Eigen::VectorXd::Zero(K.rows())).inverse;
+}
+
+// Of each contact, of the impulses in the rows of heldRows.
+void addImpulses(const HeldInstant& now, const std::vector<HeldContact>& contacts, const Eigen::VectorXd& rows,
+                 std::vector<Vec3>& sum) {
+  Eigen::Index at = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    sum[k] += stands(contacts[k]) ? Vec3(rows.segment<3>(at)) : Vec3(rows[at] * now.contacts[k].n);
+    at += stands(contacts[k]) ? 3 : 1;
+  }
+}
+
+}  // namespace
+
 Rows heldRows(const HeldInstant& now, const std::vector<HeldContact>& contacts) {
-  const auto stands = [](const HeldContact& c) { return c.mode == HeldMode::sticks || c.begins; };
   Eigen::Index rows = 0;
   for (const HeldContact& c : contacts) rows += stands(c) ? 3 : 1;
   Rows C(rows, 6);
@@ -37,15 +61,15 @@ Rows heldRows(const HeldInstant& now, const std::vector<HeldContact>& contacts) 
 }
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> undoing(const HeldInstant& now, const Rows& C) {
-  Eigen::Matrix<double, 6, Eigen::Dynamic> moved = C.transpose();
-  moved.topRows<3>() *= now.body.inverse_mass;
-  moved.bottomRows<3>() = now.body.A * C.transpose().bottomRows<3>();
-  const Eigen::MatrixXd K = C * moved;
-  return moved * LeastNormSolve(K, Eigen::VectorXd::Zero(K.rows())).inverse;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> moved;
+  const Eigen::MatrixXd inverse = inverseMass(now, C, moved);
+  return moved * inverse;
 }
 
-State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state, int rounds) {
+State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state, int rounds,
+                std::vector<Vec3>* stopped) {
   const std::vector<Vec3> none(contacts.size(), Vec3::Zero());
+  if (stopped) *stopped = none;
   for (int round = 0; round < rounds; ++round) {
     const HeldInstant now = instantOf(scene, contacts, state, none);
     Eigen::VectorXd gaps(contacts.size());
@@ -62,7 +86,10 @@ State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts
     const Rows C = heldRows(now, contacts);
     Eigen::Matrix<double, 6, 1> velocity;
     velocity << now.body.v, now.body.omega;
-    const Eigen::Matrix<double, 6, 1> change = -undoing(now, C) * (C * velocity);
+    Eigen::Matrix<double, 6, Eigen::Dynamic> moved;
+    const Eigen::VectorXd impulse = -(inverseMass(now, C, moved) * (C * velocity));
+    const Eigen::Matrix<double, 6, 1> change = moved * impulse;
+    if (stopped) addImpulses(now, contacts, impulse, *stopped);
     const Mat3 R = state.q.toRotationMatrix();
     state.v += change.head<3>();
     state.L += R * scene.model->inertia.cwiseProduct(R.transpose() * change.tail<3>());

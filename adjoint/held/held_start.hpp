@@ -6,8 +6,9 @@
 namespace carom::adjoint_detail {
 
 /// The state with all gaps 0, no speed along the normals, and none at contacts that stick or begin to slip: moved as little as possible,
-/// as measured by the mass (11.13, 11.24).
-State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state, int rounds = 2);
+/// as measured by the mass (11.13, 11.24). `stopped`: gets the impulses on the body that do that, N s, of each contact.
+State heldStart(const HeldScene& scene, const std::vector<HeldContact>& contacts, State state, int rounds = 2,
+                std::vector<Vec3>* stopped = nullptr);
 
 /// Rows of n.u of each contact, or of u where there is no slip at the start, by (v, omega).
 Eigen::Matrix<double, Eigen::Dynamic, 6> heldRows(const HeldInstant& now, const std::vector<HeldContact>& contacts);

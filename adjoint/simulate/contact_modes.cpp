@@ -87,7 +87,7 @@ class Chooser {
     return choice;
   }
   void begin(ContactChoice& choice) const {
-    choice.start = heldStart(choice.scene, choice.modes.contacts, state_);
+    choice.start = heldStart(choice.scene, choice.modes.contacts, state_, 2, &choice.stopped);
     choice.path->inputs.x = choice.start.x, choice.path->inputs.v = choice.start.v, choice.path->inputs.L = choice.start.L;
   }
 

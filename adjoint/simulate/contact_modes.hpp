@@ -26,6 +26,7 @@ struct ContactChoice {
   std::string beyond;                    ///< what the path would have to be, as the end of a sentence
   HeldScene scene;                       ///< of a path that is held
   HeldModes modes;                       ///< of that: one of each of `contacts`
+  std::vector<Vec3> stopped;             ///< N s: of each, see heldStart
 };
 
 /// The same where contacts keep the body from what they are with; `closed` are those with n.u = 0, and

@@ -15,7 +15,7 @@ PathArc makeHeldArc(const Motion& motion, const ContactChoice& choice, double ti
   const int body = choice.path->body;
   choice.path->start = time;
   auto path = std::make_unique<HeldPath>(choice.scene, choice.modes.contacts, choice.modes.redundant, std::move(guards),
-                                         choice.start, time, motion.duration);
+                                         choice.start, time, motion.duration, choice.stopped);
   PathArc made{Arc((*motion.models)[asIndex(body)], motion.plan.bodies[asIndex(body)].tier, [&] {
                      ContactPath own = *choice.path;
                      own.integrated = OwnPath(std::move(path));
