@@ -72,7 +72,7 @@ Pass passOf(const Motion& motion, const Event& event) {
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
     const Arc& next = arcs[static_cast<std::size_t>(p.arc) + 1];
     rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rateAt(event.time, p.before));
-    rate_after.push_back(next.rateAt(event.time, next.startState()));
+    rate_after.push_back(next.startRate());
   }
   return {event,
           usesWide(event, *motion.models),

@@ -257,4 +257,20 @@ StateDerivative HeldPath::rateAt(double t) const {
   return rate;
 }
 
+// The impulses act where the contacts are, and those of contacts that slide along their normals.
+StateDerivative HeldPath::startRate() const {
+  StateDerivative rate = rateAt(start_);
+  if (stopped_.empty()) return rate;
+  const HeldInstant now = instantAt(start_);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const ContactInstant<double>& c = now.contacts[k];
+    rate.L -= Vec3(c.point_rate - now.body.v).cross(stopped_[k]);
+    if (contacts_[k].mode == HeldMode::sticks || contacts_[k].begins) continue;
+    const Vec3 turned = c.n.dot(stopped_[k]) * c.normal_rate;
+    rate.v -= now.body.inverse_mass * turned;
+    rate.L -= c.r.cross(turned);
+  }
+  return rate;
+}
+
 }  // namespace carom::adjoint_detail

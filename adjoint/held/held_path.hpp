@@ -32,6 +32,7 @@ class HeldPath final : public IntegratedPath {
   Vec3 positionAt(double t) const override { return stateAt(t).x; }
   Vec3 velocityAt(double t) const override;
   StateDerivative rateAt(double t) const override;
+  StateDerivative startRate() const override;
   PathBounds bounds() const override { return bounds_; }
   bool slides() const override;
   bool rolls() const override { return rolls_; }
