@@ -95,17 +95,23 @@ StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) 
   StartDerivative out{MatrixXd::Zero(12, inputs.count), HeldRow::Zero(inputs.count)};
   MatrixXd& D = out.state;
   D.leftCols<12>().setIdentity();
+  D.topRows<6>() -= undoing(now, gapRows(now)) * gaps;
+  // At its own time: HeldPath::startRate takes along what a later start does to it.
+  MatrixXd taken = stopped.leftCols<12>() * D;
+  taken.rightCols(inputs.count - 12) += stopped.rightCols(inputs.count - 12);
+  D.bottomRows<6>() += taken;
+  const auto changeOf = [&](const MatrixXd& tangent) {
+    MatrixXd change = speeds.leftCols<12>() * tangent;
+    change.rightCols(inputs.count - 12) += speeds.rightCols(inputs.count - 12);
+    return change;
+  };
+  MatrixXd change = changeOf(D);
   const Eigen::VectorXd slip_rate = rateOfBeginningSlips(path, C.rows());
   if (slip_rate.norm() > kNoStart * path.scene().gravity.norm()) {
-    out.time = -(slip_rate.transpose() * speeds) / slip_rate.squaredNorm();
+    out.time = -(slip_rate.transpose() * change) / slip_rate.squaredNorm();
     D += asColumn(path.rateAt(path.start())) * out.time;
+    change = changeOf(D);
   }
-  D.topRows<6>() -= undoing(now, gapRows(now)) * gaps;
-  const MatrixXd before = D;
-  D.bottomRows<6>() += stopped.leftCols<12>() * before;
-  D.bottomRows<6>().rightCols(inputs.count - 12) += stopped.rightCols(inputs.count - 12);
-  MatrixXd change = speeds.leftCols<12>() * D;
-  change.rightCols(inputs.count - 12) += speeds.rightCols(inputs.count - 12);
   const MatrixXd undone = undoing(now, C) * change;
   const Mat3 R = start.q.toRotationMatrix(), J = R * path.scene().model->inertia.asDiagonal() * R.transpose();
   D.middleRows<3>(6) -= undone.topRows<3>();

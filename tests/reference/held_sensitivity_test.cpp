@@ -90,6 +90,19 @@ Numbers nudged(Numbers n, const HeldPath& path, const HeldInputs& inputs, int co
   return n;
 }
 
+// What was left of speeds at the start is taken away where the corners are now, and along their normals where they slide.
+void stopAgain(Numbers& n, const Numbers& known, const std::vector<Vec3>& stopped) {
+  RVec L = momentumOf(n.body, n.start);
+  for (std::size_t k = 0; k < stopped.size(); ++k) {
+    const HeldCorner &c = n.corners[k], &was = known.corners[k];
+    const RVec before(stopped[k]);
+    const RVec now = c.sticks || c.begins ? before : dot(was.normal, before) * c.normal;
+    n.start.v = n.start.v + (1 / n.body.mass) * now - (1 / known.body.mass) * before;
+    L = L + cross(n.start.R * c.at, now) - cross(known.start.R * was.at, before);
+  }
+  giveMomentum(n, L);
+}
+
 // The unit of a column: that much of the input moves the state by about as much as it is.
 double unitOf(const HeldPath& path, const HeldInputs& inputs, int column) {
   const BodyModel& model = *path.scene().model;
@@ -181,6 +194,8 @@ double worstOf(const HeldPath& path, const Vec3& size, const std::vector<double>
   for (int column = static_cast<int>(first % static_cast<std::size_t>(stride)); column < inputs.count; column += stride) {
     std::vector<Column> expected;
     Numbers there = nudged(known, path, inputs, column, kNudge);
+    there.start = withoutGaps(there.body, there.corners, there.start);
+    stopAgain(there, known, path.stopped());
     moveStart(there, known, series);
     const std::vector<HeldState> after = statesOf(there, at);
     const double input = unitOf(path, inputs, column);
