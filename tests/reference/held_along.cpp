@@ -16,6 +16,17 @@ namespace {
 const Real kNothing("1e-16");  // s: what is left of a slip then
 }
 
+std::vector<HeldSpan> heldPathsOf(const Motion& motion) {
+  std::vector<HeldSpan> paths;
+  const auto& arcs = motion.world_lines[0].arcs;
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    const auto* path = static_cast<const HeldPath*>(arcs[a].integrated());
+    if (!path || path->allSteps().empty() || !(path->allSteps().front().length > 0)) continue;
+    paths.push_back({path, a, std::min(a + 1 < arcs.size() ? arcs[a + 1].start() : motion.end, path->knownUntil())});
+  }
+  return paths;
+}
+
 HeldState stateOf(const BodyModel& model, const State& s) {
   const BodyState b = toBodyState(model, s);
   return {RVec(s.x), rotationOf(s.q), RVec(s.v), RVec(b.angular_velocity)};

@@ -5,9 +5,18 @@
 #include <vector>
 
 #include "adjoint/held/held_path.hpp"
+#include "adjoint/motion/motion.h"
 #include "tests/reference/held_series.h"
 
 namespace carom::reference {
+
+/// The held paths of the first body that go on for a while, and how far.
+struct HeldSpan {
+  const adjoint_detail::HeldPath* path;
+  std::size_t arc;
+  double until;
+};
+std::vector<HeldSpan> heldPathsOf(const Motion& motion);
 
 HeldState stateOf(const BodyModel& model, const State& s);
 HeldBody bodyOf(const adjoint_detail::HeldPath& path);

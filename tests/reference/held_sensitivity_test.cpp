@@ -227,11 +227,10 @@ Seen expectPaths(const Scene& scene, double duration, std::uint64_t seed, int st
   const Vec3 size = std::get<Box>(scene.bodies[0].shape).size;
   Random random(seed);
   Seen seen;
-  const auto& arcs = m.world_lines[0].arcs;
-  for (std::size_t a = 0; a < arcs.size(); ++a) {
-    const auto* path = static_cast<const HeldPath*>(arcs[a].integrated());
-    if (!path || path->allSteps().empty() || !(path->allSteps().front().length > 0)) continue;
-    const double until = std::min(a + 1 < arcs.size() ? arcs[a + 1].start() : m.end, path->knownUntil());
+  for (const HeldSpan& span : heldPathsOf(m)) {
+    const HeldPath* path = span.path;
+    const std::size_t a = span.arc;
+    const double until = span.until;
     std::vector<double> at;
     for (int i = 0; i < kTimes; ++i) at.push_back(random.in(path->start(), until));
     std::sort(at.begin(), at.end());

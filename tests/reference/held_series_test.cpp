@@ -25,7 +25,7 @@ const Real kTolerance("1e-32");
 
 // `count` times in the steps of a path, none at their ends, against the series.
 double worstOf(const HeldPath& path, double until, const Vec3& size, int count, Random& random) {
-  const double end = std::min(until, path.knownUntil()), l = path.scene().length, c = path.scene().speed;
+  const double end = until, l = path.scene().length, c = path.scene().speed;
   std::vector<double> times;
   while (static_cast<int>(times.size()) < count)
     for (const auto& step : path.allSteps())
@@ -57,11 +57,10 @@ Seen expectPaths(const Scene& scene, double duration, std::uint64_t seed) {
   const Vec3 size = std::get<Box>(scene.bodies[0].shape).size;
   Random random(seed);
   Seen seen;
-  const auto& arcs = m.world_lines[0].arcs;
-  for (std::size_t a = 0; a < arcs.size(); ++a) {
-    const auto* path = static_cast<const HeldPath*>(arcs[a].integrated());
-    if (!path || path->allSteps().empty() || !(path->allSteps().front().length > 0)) continue;
-    const double until = a + 1 < arcs.size() ? arcs[a + 1].start() : m.end;
+  for (const HeldSpan& span : heldPathsOf(m)) {
+    const HeldPath* path = span.path;
+    const std::size_t a = span.arc;
+    const double until = span.until;
     double worst = 0;
     try {
       worst = worstOf(*path, until, size, 100, random);
