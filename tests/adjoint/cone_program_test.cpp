@@ -119,7 +119,7 @@ Program reversed(const Program& q) {
 
 TEST(ConeProgram, MeetsTheConditionsInAnyOrder) {
   int solved = 0, refused = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(scaled(5000)); ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(scaled(3000)); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Program q = randomProgram(seed), r = reversed(q);
     try {

@@ -109,7 +109,7 @@ void expectLawful(const Impact& i, const ImpactSolution& s) {
 TEST(JointLaw, IsLawfulAndKnowsNoOrder) {
   int refused = 0;
   double worst = 0;
-  const int impacts = scaled(10000);
+  const int impacts = scaled(6000);
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(impacts); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Impact i = randomImpact(seed);

@@ -103,7 +103,7 @@ TEST(SceneFuzz, onlyFormatErrorsEscape) {
   std::cout << "seed " << seed << '\n';
   Mutator mutator(seed);
   int read = 0, refused = 0;
-  for (int round = 0; round < 600; ++round) {
+  for (int round = 0; round < 300; ++round) {
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const std::string text = mutator.mutated(texts[i], texts[(i + 1) % texts.size()]);
       try {
