@@ -19,6 +19,9 @@ struct HeldContact {
   double friction = 0;     ///< coefficient
   bool begins = false;     ///< it slides from no slip on
   Vec3 slip = Vec3::Zero();  ///< unit, the direction of its slip at the start of the path; 0 where it sticks
+
+  /// It has no slip at the start.
+  bool stands() const { return mode == HeldMode::sticks || begins; }
 };
 
 /// What a path depends on besides its start, as far as it stays the same all the time.

@@ -146,6 +146,12 @@ class HeldDynamics {
     const V3<S> spin = body_.A * contacts_[l].r.cross(f);
     return f * body_.inverse_mass + spin.cross(r);
   }
+  /// The same to forces at all contacts.
+  V3<S> responseAt(const V3<S>& r, const std::vector<V3<S>>& forces) const {
+    V3<S> sum = V3<S>::Zero();
+    for (std::size_t l = 0; l < forces.size(); ++l) sum += responseAt(r, l, forces[l]);
+    return sum;
+  }
 
  private:
   static V3<S> pushOf(const ContactInstant<S>& c) { return c.n - c.friction * c.slip; }

@@ -159,9 +159,7 @@ class ModeSearch {
         const std::size_t i = turning[static_cast<std::size_t>(a)];
         const ContactInstant<double>& c = solved.contacts[i];
         const Vec3 across = c.n.cross(c.slip), rate = solved.forces->slipRate(i);
-        Vec3 by = Vec3::Zero();
-        for (std::size_t k = 0; k < answer.size(); ++k) by += solved.forces->responseAt(c.r, k, answer[k]);
-        J(a, b) = across.dot(by) - (a == b ? c.slip.dot(rate) : 0.0);
+        J(a, b) = across.dot(solved.forces->responseAt(c.r, answer)) - (a == b ? c.slip.dot(rate) : 0.0);
         r[a] = across.dot(rate);
       }
     }

@@ -209,19 +209,23 @@ Vec3 HeldPath::velocityAt(double t) const {
   return step.from.v + step.changeAt(t).segment<3>(6);
 }
 
+std::optional<std::size_t> HeldPath::contactThatStops() const {
+  if (!end_ || end_->guard.cause != TransitionCause::sticks) return std::nullopt;
+  return static_cast<std::size_t>(end_->guard.contact);
+}
+
 // Where a slip is 0 it goes along its acceleration, u' = -|u'| d, which the direction at a node comes near to: Newton's
 // method on (n x d).u' = 0.
 void HeldPath::alignStop(HeldInstant& now) const {
-  if (!end_ || end_->guard.cause != TransitionCause::sticks) return;
-  const auto k = static_cast<std::size_t>(end_->guard.contact);
+  const std::optional<std::size_t> stops = contactThatStops();
+  if (!stops) return;
+  const std::size_t k = *stops;
   ContactInstant<double>& c = now.contacts[k];
   if (!(c.friction > 0) || now.slipAt(k).norm() > kStraightAnyway * scene_.speed) return;
   for (int round = 0; round < kAlignRounds; ++round) {
     const HeldDynamics<double> forces(now.body, now.contacts, redundant_);
-    const std::vector<Vec3> push = forces.answerToTurn(k, redundant_);
     const Vec3 rate = forces.slipRate(k), across = c.n.cross(c.slip);
-    Vec3 turned = Vec3::Zero();
-    for (std::size_t l = 0; l < push.size(); ++l) turned += forces.responseAt(c.r, l, push[l]);
+    const Vec3 turned = forces.responseAt(c.r, forces.answerToTurn(k, redundant_));
     const double turn = -across.dot(rate) / (across.dot(turned) - c.slip.dot(rate));
     if (!(std::abs(turn) < kMostAlign)) return;
     c.slip = (c.slip + turn * across).normalized();
@@ -265,7 +269,7 @@ StateDerivative HeldPath::startRate() const {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactInstant<double>& c = now.contacts[k];
     rate.L -= Vec3(c.point_rate - now.body.v).cross(stopped_[k]);
-    if (contacts_[k].mode == HeldMode::sticks || contacts_[k].begins) continue;
+    if (contacts_[k].stands()) continue;
     const Vec3 turned = c.n.dot(stopped_[k]) * c.normal_rate;
     rate.v -= now.body.inverse_mass * turned;
     rate.L -= c.r.cross(turned);

@@ -50,7 +50,10 @@ class HeldPath final : public IntegratedPath {
   double start() const { return start_; }
   /// The impulses, N s, by which the contacts took away what was left of speeds at its start; empty: none.
   const std::vector<Vec3>& stopped() const { return stopped_; }
-  /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node.
+  /// That whose slip ends it.
+  std::optional<std::size_t> contactThatStops() const;
+  /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node, and at
+  /// its end that of its acceleration.
   HeldInstant instantAt(double t) const;
 
   /// Where a guard comes nearest to 0 and turns away from it: a little change lets it end the path there.

@@ -40,7 +40,7 @@ Eigen::VectorXd rateOfBeginningSlips(const HeldPath& path, Eigen::Index rows) {
   for (std::size_t k = 0; k < path.contacts().size(); ++k) {
     const HeldContact& c = path.contacts()[k];
     if (c.begins) rate.segment<3>(row) = forces.slipRate(k);
-    row += c.mode == HeldMode::sticks || c.begins ? 3 : 1;
+    row += c.stands() ? 3 : 1;
   }
   return rate;
 }
@@ -58,7 +58,7 @@ Stopped stoppedBy(const HeldPath& path, const HeldLanes& lanes) {
     const Vec3& p = path.stopped()[k];
     const auto& n = lanes.contacts[k].n;
     V3<HeldLanes::Number> impulse = p.cast<HeldLanes::Number>();
-    if (c.mode != HeldMode::sticks && !c.begins) impulse = n * HeldLanes::Number(p.dot(n.unaryExpr([](const auto& x) { return x.value; })));
+    if (!c.stands()) impulse = n * HeldLanes::Number(p.dot(valuesOf(n)));
     sum.v += impulse * lanes.body.inverse_mass;
     sum.L += lanes.contacts[k].r.cross(impulse);
   }
@@ -83,7 +83,7 @@ StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) 
         gaps(static_cast<Eigen::Index>(k), first + lane) = lanes.gap[k].rate[at];
         const auto& c = lanes.contacts[k];
         const auto u = lanes.body.velocityAt(c.r);
-        if (contacts[k].mode == HeldMode::sticks || contacts[k].begins) {
+        if (contacts[k].stands()) {
           speeds.block<3, 1>(row, first + lane) = ratesOf(u, at);
           row += 3;
         } else {
@@ -192,9 +192,7 @@ Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, dou
     const Vec3 rate = forces.slipRate(k);
     const bool turns = rate.cross(now.slipAt(k)).norm() > kTurns * rate.norm() * slip;
     if (!(slip > (turns ? kNoDirection : kNoSlip) * path.scene().speed)) {
-      const bool stops = path.end() && path.end()->guard.cause == TransitionCause::sticks &&
-                         path.end()->guard.contact == static_cast<int>(k);
-      out.straight[k] = (stops ? path.instantAt(path.end()->time) : now).contacts[k].slip;
+      out.straight[k] = (path.contactThatStops() == k ? path.instantAt(path.end()->time) : now).contacts[k].slip;
     } else {
       const double reach = kReach * slip / rate.norm();
       if (from + 1.2 * reach < out.until) out.until = from + reach;
@@ -215,8 +213,9 @@ void throughStep(const HeldPath& path, const HeldInputs& inputs, const HeldStep&
 // At its end a slip has no tangent across its way: whichever way it came, it goes to 0 as a power of |u|. Where it is
 // straight, what is left is taken back by a turn of its friction, which is all that turns it there.
 void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixXd& D) {
-  if (!path.end() || path.end()->guard.cause != TransitionCause::sticks) return;
-  const auto k = static_cast<std::size_t>(path.end()->guard.contact);
+  const std::optional<std::size_t> stops = path.contactThatStops();
+  if (!stops) return;
+  const std::size_t k = *stops;
   const HeldInstant now = path.instantAt(t);
   if (!(now.slipAt(k).norm() <= kNoDirection * path.scene().speed) || !(path.contacts()[k].friction > 0)) return;
   const Vec3 across = now.contacts[k].n.cross(now.contacts[k].slip);
@@ -230,11 +229,9 @@ void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixX
   left.rightCols(inputs.count - 12) += row.rightCols(inputs.count - 12);
   const HeldDynamics<double> forces(now.body, now.contacts, path.redundant());
   const std::vector<Vec3> push = forces.answerToTurn(k, path.redundant());
-  Vec3 force = Vec3::Zero(), moment = Vec3::Zero(), turned = Vec3::Zero();
-  for (std::size_t l = 0; l < push.size(); ++l) {
-    force += push[l], moment += now.contacts[l].r.cross(push[l]);
-    turned += forces.responseAt(now.contacts[k].r, l, push[l]);
-  }
+  const Vec3 turned = forces.responseAt(now.contacts[k].r, push);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (std::size_t l = 0; l < push.size(); ++l) force += push[l], moment += now.contacts[l].r.cross(push[l]);
   if (!(std::abs(across.dot(turned)) > kNoTurn * now.body.inverse_mass * push[k].norm())) return;  // it goes round another
   left /= across.dot(turned);
   D.middleRows<3>(6) -= now.body.inverse_mass * force * left;

@@ -19,8 +19,6 @@ Rows gapRows(const HeldInstant& now) {
 
 namespace {
 
-bool stands(const HeldContact& c) { return c.mode == HeldMode::sticks || c.begins; }
-
 // (C M^-1 C^T)^+ and M^-1 C^T.
 Eigen::MatrixXd inverseMass(const HeldInstant& now, const Rows& C, Eigen::Matrix<double, 6, Eigen::Dynamic>& moved) {
   moved = C.transpose();
@@ -35,8 +33,8 @@ void addImpulses(const HeldInstant& now, const std::vector<HeldContact>& contact
                  std::vector<Vec3>& sum) {
   Eigen::Index at = 0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    sum[k] += stands(contacts[k]) ? Vec3(rows.segment<3>(at)) : Vec3(rows[at] * now.contacts[k].n);
-    at += stands(contacts[k]) ? 3 : 1;
+    sum[k] += contacts[k].stands() ? Vec3(rows.segment<3>(at)) : Vec3(rows[at] * now.contacts[k].n);
+    at += contacts[k].stands() ? 3 : 1;
   }
 }
 
@@ -44,12 +42,12 @@ void addImpulses(const HeldInstant& now, const std::vector<HeldContact>& contact
 
 Rows heldRows(const HeldInstant& now, const std::vector<HeldContact>& contacts) {
   Eigen::Index rows = 0;
-  for (const HeldContact& c : contacts) rows += stands(c) ? 3 : 1;
+  for (const HeldContact& c : contacts) rows += c.stands() ? 3 : 1;
   Rows C(rows, 6);
   Eigen::Index at = 0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ContactInstant<double>& c = now.contacts[k];
-    if (stands(contacts[k])) {
+    if (contacts[k].stands()) {
       C.block<3, 3>(at, 0).setIdentity();
       C.block<3, 3>(at, 3) = -skew(c.r);
       at += 3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
+#include <algorithm>
 #include <vector>
 
 #include "adjoint/held/held_path.hpp"
@@ -15,6 +15,8 @@ struct HeldSpan {
   const adjoint_detail::HeldPath* path;
   std::size_t arc;
   double until;
+
+  bool any(auto what) const { return std::ranges::any_of(path->contacts(), what); }
 };
 std::vector<HeldSpan> heldPathsOf(const Motion& motion);
 

@@ -228,25 +228,21 @@ Seen expectPaths(const Scene& scene, double duration, std::uint64_t seed, int st
   Random random(seed);
   Seen seen;
   for (const HeldSpan& span : heldPathsOf(m)) {
-    const HeldPath* path = span.path;
-    const std::size_t a = span.arc;
-    const double until = span.until;
     std::vector<double> at;
-    for (int i = 0; i < kTimes; ++i) at.push_back(random.in(path->start(), until));
+    for (int i = 0; i < kTimes; ++i) at.push_back(random.in(span.path->start(), span.until));
     std::sort(at.begin(), at.end());
     try {
-      const std::string which = "seed " + std::to_string(seed) + ", path " + std::to_string(a);
-      keepWorst(seen.worst, worstOf(*path, size, at, stride, a, which));
+      const std::string which = "seed " + std::to_string(seed) + ", path " + std::to_string(span.arc);
+      keepWorst(seen.worst, worstOf(*span.path, size, at, stride, span.arc, which));
     } catch (const SlipsTogether&) {
       ++seen.unknown;
       continue;
     }
-    const auto any = [&](auto what) { return std::ranges::any_of(path->contacts(), what); };
     ++seen.paths;
-    seen.begin += any([](const HeldContact& c) { return c.begins; });
-    seen.slide += any([](const HeldContact& c) { return c.mode == HeldMode::slides && !c.begins; });
-    seen.stick += any([](const HeldContact& c) { return c.mode == HeldMode::sticks; });
-    seen.redundant += path->redundant();
+    seen.begin += span.any([](const HeldContact& c) { return c.begins; });
+    seen.slide += span.any([](const HeldContact& c) { return c.mode == HeldMode::slides && !c.begins; });
+    seen.stick += span.any([](const HeldContact& c) { return c.mode == HeldMode::sticks; });
+    seen.redundant += span.path->redundant();
   }
   std::printf("seed %llu: %d paths, worst %.2g of a column\n", static_cast<unsigned long long>(seed), seen.paths, seen.worst);
   return seen;

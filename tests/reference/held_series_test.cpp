@@ -24,8 +24,8 @@ constexpr int kOrder = 34;
 const Real kTolerance("1e-32");
 
 // `count` times in the steps of a path, none at their ends, against the series.
-double worstOf(const HeldPath& path, double until, const Vec3& size, int count, Random& random) {
-  const double end = until, l = path.scene().length, c = path.scene().speed;
+double worstOf(const HeldPath& path, double end, const Vec3& size, int count, Random& random) {
+  const double l = path.scene().length, c = path.scene().speed;
   std::vector<double> times;
   while (static_cast<int>(times.size()) < count)
     for (const auto& step : path.allSteps())
@@ -58,25 +58,21 @@ Seen expectPaths(const Scene& scene, double duration, std::uint64_t seed) {
   Random random(seed);
   Seen seen;
   for (const HeldSpan& span : heldPathsOf(m)) {
-    const HeldPath* path = span.path;
-    const std::size_t a = span.arc;
-    const double until = span.until;
     double worst = 0;
     try {
-      worst = worstOf(*path, until, size, 100, random);
+      worst = worstOf(*span.path, span.until, size, 100, random);
     } catch (const SlipsTogether&) {
       ++seen.unknown;
       continue;
     }
-    EXPECT_TRUE(worst <= 1e-12) << "seed " << seed << ", path " << a << " from " << path->start() << " to " << until << ": " << worst;
+    EXPECT_TRUE(worst <= 1e-12) << "seed " << seed << ", path " << span.arc << " from " << span.path->start() << " to " << span.until << ": " << worst;
     test::recordShare(worst / 1e-12);
     seen.worst = std::max(seen.worst, worst);
-    const auto any = [&](auto what) { return std::ranges::any_of(path->contacts(), what); };
     ++seen.paths;
-    seen.begin += any([](const HeldContact& c) { return c.begins; });
-    seen.stick += any([](const HeldContact& c) { return c.mode == HeldMode::sticks; });
-    seen.stop += path->end() && path->end()->guard.cause == TransitionCause::sticks;
-    seen.many += path->contacts().size() > 1;
+    seen.begin += span.any([](const HeldContact& c) { return c.begins; });
+    seen.stick += span.any([](const HeldContact& c) { return c.mode == HeldMode::sticks; });
+    seen.stop += span.path->contactThatStops().has_value();
+    seen.many += span.path->contacts().size() > 1;
   }
   return seen;
 }
