@@ -142,7 +142,8 @@ std::vector<Vec3> mousePath(const Vec3& start, double wide, double seconds, std:
     const double t = frame / kRate;
     if (t >= end + rest) {
       from = to;
-      to = start + Vec3(random.within(-wide, wide), 0, random.within(-0.6 * wide, wide));
+      const double up = random.within(-0.6 * wide, wide), aside = random.within(-wide, wide);
+      to = start + Vec3(aside, 0, up);
       to.z() = std::max(to.z(), 0.25);
       const double far = (to - from).norm();
       begin = t, end = t + 0.25 + 0.25 * std::log2(1 + far / 0.02);  // Fitts' law, for a target of 2 cm

@@ -17,7 +17,7 @@
 namespace carom {
 
 namespace editing_detail {
-class EditProblem;
+struct EditProblem;
 }
 
 /// Finds the smallest weighted change of some numbers of a scene such that its motion meets constraints:

@@ -14,7 +14,7 @@ namespace carom {
 namespace adjoint_detail {
 class EventLinearization;
 class SingleImpact;
-struct PathLinearization;
+class PathLinearization;
 }
 
 /// How the state of a body at the end of a stretch of an arc varies with its start and the scene.

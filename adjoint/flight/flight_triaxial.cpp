@@ -13,7 +13,7 @@
 namespace carom::adjoint_detail {
 namespace {
 
-constexpr std::size_t K = TriaxialRotation::kOrder;
+constexpr std::size_t kOrder = TriaxialRotation::kOrder;
 
 // Truncated to ten binary digits, so that a sum of steps is exact.
 double shortBinary(double h) {
@@ -25,7 +25,7 @@ double shortBinary(double h) {
 using SeriesLanes = std::array<double, 4>;
 
 // Logarithm of the radius of convergence seen from the last two coefficients of u and psi, which are of size 1.
-double logRadius(const std::array<SeriesLanes, K + 1>& c) {
+double logRadius(const std::array<SeriesLanes, kOrder + 1>& c) {
   const auto from = [&](std::size_t k) {
     const double size = c[k][0] * c[k][0] + c[k][1] * c[k][1] + c[k][2] * c[k][2] + c[k][3] * c[k][3];
     if (size > 1e-290 && size < 1e300) return -0.5 * elementary::log(size) / static_cast<double>(k);
@@ -33,7 +33,7 @@ double logRadius(const std::array<SeriesLanes, K + 1>& c) {
     for (double x : c[k]) largest = std::max(largest, std::abs(x));
     return largest > 0 ? -elementary::log(largest) / static_cast<double>(k) : 50.0;
   };
-  return std::min(from(K), from(K - 1));
+  return std::min(from(kOrder), from(kOrder - 1));
 }
 
 }  // namespace
@@ -83,9 +83,9 @@ TriaxialRotation::Segment TriaxialRotation::makeSegment(double start, const Quat
   const Vec3 Du0 = D_.cwiseProduct(u0);
   const double a = u0.dot(Du0);
   const SeriesLanes rate{l * (D_[2] - D_[1]), l * (D_[0] - D_[2]), l * (D_[1] - D_[0]), l};
-  std::array<SeriesLanes, K> left, right;
+  std::array<SeriesLanes, kOrder> left, right;
   s.u_psi[0] = {u0[0], u0[1], u0[2], 0};
-  for (std::size_t k = 0; k < K; ++k) {
+  for (std::size_t k = 0; k < kOrder; ++k) {
     const SeriesLanes& u = s.u_psi[k];
     const double first = k == 0 ? 1.0 : 0.0;
     left[k] = {u[1], u[2], u[0], first + u0[0] * u[0] + u0[1] * u[1] + u0[2] * u[2]};
@@ -104,8 +104,8 @@ TriaxialRotation::Segment TriaxialRotation::makeSegment(double start, const Quat
 
 Quat TriaxialRotation::orientationIn(const Segment& s, double h) {
   if (h == 0) return s.q;
-  SeriesLanes sum = s.u_psi[K];
-  for (std::size_t k = K; k-- > 0;)
+  SeriesLanes sum = s.u_psi[kOrder];
+  for (std::size_t k = kOrder; k-- > 0;)
     for (std::size_t i = 0; i < 4; ++i) sum[i] = sum[i] * h + s.u_psi[k][i];
   const Vec3 u0(s.u_psi[0][0], s.u_psi[0][1], s.u_psi[0][2]), u(sum[0], sum[1], sum[2]);
   const auto [sine, cosine] = elementary::sincos(0.5 * sum[3]);

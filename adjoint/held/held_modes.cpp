@@ -23,7 +23,7 @@ enum class Way : char { off, sticks, slides, begins };  // begins: from no slip
 class ModeSearch {
  public:
   ModeSearch(const HeldScene& scene, const std::vector<HeldContact>& candidates, const State& state, double no_slip)
-      : scene_(scene), candidates_(candidates) {
+      : candidates_(candidates) {
     std::vector<Vec3> none(candidates.size(), Vec3::Zero());
     now_ = instantOf(scene, candidates, state, none);
     pull_ = scene.speed * scene.speed / scene.length;
@@ -272,7 +272,6 @@ class ModeSearch {
     return modes;
   }
 
-  const HeldScene& scene_;
   const std::vector<HeldContact>& candidates_;
   HeldInstant now_;
   double pull_ = 0, force_ = 0;

@@ -87,7 +87,7 @@ ContactInstant<HeldLanes::Number> HeldRates::contactLanes(const HeldLanes& of, s
     // J q', where q' changes
     Eigen::Matrix<double, 6, 1> drate;
     drate << ratesOf(of.body.v, at), ratesOf(of.body.omega, at);
-    const Eigen::Matrix<double, 7, 1> d = jacobians_[k].pose.middleCols<6>(own) * drate;
+    const Eigen::Matrix<double, 7, 1> d = timesByRows(jacobians_[k].pose.middleCols<6>(own), drate);
     setRates(c.normal_rate, Vec3(sign * d.segment<3>(1)), at);
     setRates(c.point_rate, Vec3(d.tail<3>()), at);
   }
@@ -111,7 +111,7 @@ void HeldRates::addGeometry(ContactInstant<HeldLanes::Number>& c, V3<HeldLanes::
   const double sign = held.is_first ? 1 : -1;
   const int own_turn = held.is_first ? 3 : 9;
   const auto times = [](const ContactJacobian& J, const PairTangent& along) {
-    Eigen::Matrix<double, 7, 1> d = J.pose * along.pose;
+    Eigen::Matrix<double, 7, 1> d = timesByRows(J.pose, along.pose);
     if (J.size_a.cols() > 0) d += J.size_a * along.size_a;
     if (J.size_b.cols() > 0) d += J.size_b * along.size_b;
     return d;

@@ -16,8 +16,8 @@ std::vector<Vec3> followSlips(const HeldPath& path) { return std::vector<Vec3>(p
 constexpr double kNoStart = 1e-9;
 
 // Tangents are taken on in one go while a slip changes by so much of itself. Slower than kNoSlip of the unit of speed it is
-// straight, if its acceleration has no more than kTurns of itself across it, and slower than kNoDirection in any case.
-constexpr double kReach = 0.7, kNoSlip = 1e-8, kTurns = 1e-6, kNoDirection = 1e-11, kNeverSlips = 1e-13;
+// straight, if its acceleration has no more than kStillTurns of itself across it, and slower than kNoDirectionLeft in any case.
+constexpr double kReach = 0.7, kNoSlip = 1e-8, kStillTurns = 1e-6, kNoDirectionLeft = 1e-11, kNeverSlips = 1e-13;
 
 // Of the acceleration by a force: what turns a slip less than that does not turn it.
 constexpr double kNoTurn = 1e-9;
@@ -190,8 +190,8 @@ Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, dou
     }
     if (c.begins && !(from > path.start())) continue;
     const Vec3 rate = forces.slipRate(k);
-    const bool turns = rate.cross(now.slipAt(k)).norm() > kTurns * rate.norm() * slip;
-    if (!(slip > (turns ? kNoDirection : kNoSlip) * path.scene().speed)) {
+    const bool turns = rate.cross(now.slipAt(k)).norm() > kStillTurns * rate.norm() * slip;
+    if (!(slip > (turns ? kNoDirectionLeft : kNoSlip) * path.scene().speed)) {
       out.straight[k] = (path.contactThatStops() == k ? path.instantAt(path.end()->time) : now).contacts[k].slip;
     } else {
       const double reach = kReach * slip / rate.norm();
@@ -217,7 +217,7 @@ void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixX
   if (!stops) return;
   const std::size_t k = *stops;
   const HeldInstant now = path.instantAt(t);
-  if (!(now.slipAt(k).norm() <= kNoDirection * path.scene().speed) || !(path.contacts()[k].friction > 0)) return;
+  if (!(now.slipAt(k).norm() <= kNoDirectionLeft * path.scene().speed) || !(path.contacts()[k].friction > 0)) return;
   const Vec3 across = now.contacts[k].n.cross(now.contacts[k].slip);
   HeldRow row(inputs.count);
   HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), followSlips(path));

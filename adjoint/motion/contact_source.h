@@ -78,7 +78,7 @@ class ContactGeometry {
                                const PoseRate& of_b) const {
     Eigen::Matrix<double, 12, 1> rate;
     rate << of_a.v, of_a.w, of_b.v, of_b.w;
-    const Eigen::Matrix<double, 7, 1> d = jacobian(a, b, f, A, B).pose * rate;
+    const Eigen::Matrix<double, 7, 1> d = timesByRows(jacobian(a, b, f, A, B).pose, rate);
     return {contact(a, b, f, A, B), d[0], d.segment<3>(1), d.segment<3>(4)};
   }
   /// Gap, normal and point of bodies a and b at these poses.

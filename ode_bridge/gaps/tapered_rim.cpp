@@ -48,7 +48,7 @@ double chosenTheta(const RimBeforeTaper<double>& rim, int sign) {
 }
 
 template <class S>
-typename RimBeforeTaper<S>::Place nearest(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
+typename RimBeforeTaper<S>::Place placeOn(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
   const WorldFeature &rim = valueOf(f), &cone = valueOf(g);
   const Vec3 across = rim.direction.unitOrthogonal();
   const double theta = chosenTheta(RimBeforeTaper<double>(rim, cone, across), sign);
@@ -60,7 +60,7 @@ typename RimBeforeTaper<S>::Place nearest(const FeatureOf<S>& f, const FeatureOf
 }  // namespace
 
 ContactPoint rimTapered(const WorldFeature& f, const WorldFeature& g, int sign) {
-  const auto at = nearest<double>(f, g, sign);
+  const auto at = placeOn<double>(f, g, sign);
   const BeforeTaper<double> before(at.point, Taper<double>(g));
   return {before.n.allFinite() ? before.phi : before.n.x(), before.n, at.point};
 }
@@ -68,7 +68,7 @@ ContactPoint rimTapered(const WorldFeature& f, const WorldFeature& g, int sign) 
 // (n.t_1)' = 0 gives how far the point moves along the rim.
 template <class S>
 JacobianOf<S> rimTaperedJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, int sign) {
-  const auto at = nearest<S>(f, g, sign);
+  const auto at = placeOn<S>(f, g, sign);
   const Taper<S> cone(g);
   const BeforeTaper<S> before(at.point, cone);
   const V3<S>&d = f.direction, &n = before.n, &t = at.tangent;

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/impact/laws.hpp"
+#include "adjoint/impact/impact_pass.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 #include "tests/support/scaled.h"

@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, SecondOrderSymmetry, ::testing::ValuesIn(dotProdu
 std::vector<ReadingDirection> sparseDirections(const Scene& scene, Eigen::Index seeds, Random& random) {
   const SceneTangent full = randomDirection(scene, random);
   std::vector<ReadingDirection> out;
-  const auto add = [&]() -> SceneTangent& { return out.emplace_back(SceneTangent(scene), Eigen::VectorXd()).scene; };
+  const auto add = [&]() -> SceneTangent& { return out.emplace_back(ReadingDirection{SceneTangent(scene), {}}).scene; };
   add().gravity = full.gravity;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) add().materials[m] = full.materials[m];
   for (std::size_t t = 0; t < scene.tilts.size(); ++t) add().tilts[t] = full.tilts[t];

@@ -106,7 +106,7 @@ TEST(Edit, TheChangeIsTheSmallest) {
   const auto problem = edit.problem();
   Eigen::VectorXd values(problem.controls.size()), changes(values.size());
   for (int i = 0; i < values.size(); ++i) {
-    const Variable& v = problem.controls.variables()[i];
+    const editing_detail::Variable& v = problem.controls.variables()[i];
     values[i] = r.changed[i].after;
     changes[i] = v.logarithmic ? std::log(values[i] / v.start) / v.scale : (values[i] - v.start) / v.scale;
   }

@@ -46,9 +46,9 @@ std::vector<Json> goodDocuments() {
 }
 
 /// One place of a document, chosen at random, given another value, taken away, or joined by another.
-class Mutator {
+class DocumentMutator {
  public:
-  Mutator(unsigned seed, const std::vector<Json>& documents) : random_(seed), documents_(documents) {}
+  DocumentMutator(unsigned seed, const std::vector<Json>& documents) : random_(seed), documents_(documents) {}
 
   Json mutated() {
     Json document = documents_[below(documents_.size())];
@@ -119,7 +119,7 @@ TEST(SchemaAcceptance, AgreesWithTheLibraryOnChangedDocuments) {
   const Json schema = sceneSchema();
   const Judge judge(schema);
   const std::vector<Json> documents = goodDocuments();
-  Mutator mutator(20261122, documents);
+  DocumentMutator mutator(20261122, documents);
   int accepted = 0, refused = 0, doubts = 0;
   for (int k = 0; k < 500; ++k) {
     const Json document = mutator.mutated();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
 #include <sstream>
 
 #include "adjoint/base/errors.h"
@@ -266,7 +267,7 @@ std::string judge(const Drop& drop, DropTally& tally) {
   const auto lasting = std::ranges::find_if(motion.events, [](const Event& event) {
     return std::ranges::any_of(event.contacts, [](const Contact& c) { return c.lasts; });
   });
-  for (const Event& event : std::ranges::subrange(motion.events.begin(), lasting))
+  for (const Event& event : std::span(motion.events.begin(), lasting))
     for (const Contact& c : event.contacts) {
       if (!c.at.point.allFinite()) return "a contact is no point";
       for (int body : {0, 1}) {

@@ -26,8 +26,10 @@ Shape randomShape(Random& random) {
       return Cylinder{size, random.in(0.1, 0.5)};
     case 3:
       return Cone{1.2 * size, random.in(0.1, 0.4)};
-    default:
-      return Box{Vec3(size, random.in(0.1, 0.4), random.in(0.1, 0.4))};
+    default: {
+      const double height = random.in(0.1, 0.4), depth = random.in(0.1, 0.4);
+      return Box{Vec3(size, depth, height)};
+    }
   }
 }
 

@@ -117,9 +117,17 @@ Body randomBody(Scene& scene, Dice& dice, bool fixed, double half, bool aimed) {
     body.mass = dice.logUniform(0.1, 10);
   else
     body.density = dice.logUniform(200, 5000);
-  body.velocity = dice.uniform(0, 5) * dice.direction();
-  if (aimed) body.velocity = -dice.uniform(1, 5) * (body.position + 0.15 * dice.inCube(1)).normalized();
-  if (dice.chance(0.8)) body.angular_velocity = dice.uniform(0, 20) * dice.direction();
+  // one draw after the other: the order within an expression is the compiler's
+  const Vec3 direction = dice.direction();
+  body.velocity = dice.uniform(0, 5) * direction;
+  if (aimed) {
+    const Vec3 from = (body.position + 0.15 * dice.inCube(1)).normalized();
+    body.velocity = -dice.uniform(1, 5) * from;
+  }
+  if (dice.chance(0.8)) {
+    const Vec3 axis = dice.direction();
+    body.angular_velocity = dice.uniform(0, 20) * axis;
+  }
   return body;
 }
 

@@ -23,7 +23,8 @@ inline const Quat kLeaning(Eigen::AngleAxisd(0.9, Vec3(1, 0.8, 0.3).normalized()
 inline Scene droppedBox(std::uint64_t seed) {
   test::Random random(seed);
   const double friction = random.in(0.05, 0.9);
-  Scene scene = onCorner(random.rotation(), friction, random.vec(0.5), random.vec(6));
+  const Vec3 spin = random.vec(6), velocity = random.vec(0.5);
+  Scene scene = onCorner(random.rotation(), friction, velocity, spin);
   scene.bodies[0].position.z() += random.in(0, 0.05);
   scene.materials[0].elasticity = random.below(2) * random.in(0, 0.6);
   return scene;

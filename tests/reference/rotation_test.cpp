@@ -37,14 +37,16 @@ Spinner randomSpinner(std::mt19937& generator) {
   };
   Spinner s;
   // a box's moments always obey the triangle inequality; sometimes two or three are nearly equal
-  Vec3 size = Vec3::Constant(0.3) + 0.7 * Vec3(one(generator), one(generator), one(generator));
+  const double z = one(generator), y = one(generator), x = one(generator);
+  Vec3 size = Vec3::Constant(0.3) + 0.7 * Vec3(x, y, z);
   const double kind = one(generator);
   if (kind < 0.2) size.y() = size.x() * (1 + 1e-6 * one(generator));
   if (kind < 0.1) size.z() = size.x() * (1 + 1e-7 * one(generator));
   const double mass = std::exp(2 * normal(generator));
   const Vec3 square = size.cwiseAbs2();
   s.inertia = mass / 12 * Vec3(square.y() + square.z(), square.z() + square.x(), square.x() + square.y());
-  const Vec3 w_body = vector() * std::exp(normal(generator));
+  const double faster = std::exp(normal(generator));
+  const Vec3 w_body = vector() * faster;
   const Vec3 v = vector();
   s.q = Quat(normal(generator), v.x(), v.y(), v.z()).normalized();
   s.L = s.q * s.inertia.cwiseProduct(w_body);

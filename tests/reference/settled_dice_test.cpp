@@ -33,7 +33,8 @@ constexpr double kEdge = 0.016, kSpeed = 0.4;  // m; m/s, of a fall from so high
 Scene thrown(std::uint64_t seed) {
   constexpr double size = kEdge;
   Random random(seed);
-  Body die = makeBox("die", Vec3::Constant(size), {0, 0, size * random.in(2, 8)}, random.vec(1));
+  const Vec3 velocity = random.vec(1);
+  Body die = makeBox("die", Vec3::Constant(size), {0, 0, size * random.in(2, 8)}, velocity);
   die.orientation = random.rotation(), die.angular_velocity = random.vec(0.5) / size;
   const double elasticities[] = {0.2, 0.5, 0.3}, frictions[] = {0.1, 0.4, 1};
   const double e = elasticities[random.below(3)], mu = frictions[random.below(3)];

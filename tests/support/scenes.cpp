@@ -77,7 +77,10 @@ Vec3 Random::unit() {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-Quat Random::rotation() { return Quat(Eigen::AngleAxisd(in(0, std::numbers::pi), unit())); }
+Quat Random::rotation() {
+  const Vec3 axis = unit();
+  return Quat(Eigen::AngleAxisd(in(0, std::numbers::pi), axis));
+}
 
 Eigen::VectorXd Random::vector(Eigen::Index n) {
   Eigen::VectorXd v(n);
@@ -90,15 +93,17 @@ Scene randomScene(std::uint64_t seed, const RandomScene& o) {
   Scene s;
   s.gravity = o.gravity ? Vec3(0.4, -0.3, -9.81) : Vec3::Zero();
   const auto material = [&](const char* name) {
-    return makeMaterial(name, random.in(o.lowest_elasticity, 1), o.friction ? random.in(0.02, 0.9) : 0,
-                        o.friction ? random.in(-o.tangential, o.tangential) : 0);
+    // arguments of a call are made in an order that the compiler chooses
+    const double tangential = o.friction ? random.in(-o.tangential, o.tangential) : 0;
+    const double friction = o.friction ? random.in(0.02, 0.9) : 0;
+    return makeMaterial(name, random.in(o.lowest_elasticity, 1), friction, tangential);
   };
   s.materials = {material("m"), material("other")};
   for (int i = 0; i < o.bodies; ++i) {
     // cells of a grid that is wider than any of the bodies, so that none overlap
     const Vec3 cell(i % 2, i / 2 % 2, i / 4), at = 0.8 * cell + random.vec(0.04) + Vec3(0, 0, 0.6);
     const Vec3 centre(0.4, 0.4, 0.6);
-    const Vec3 velocity = random.in(1, 3) * (centre - at) + random.vec(0.4);
+    const Vec3 aside = random.vec(0.4), velocity = random.in(1, 3) * (centre - at) + aside;
     const std::string name = "body" + std::to_string(i);
     Body b = random.in(0, 1) < 0.3 ? makeBall(name, random.in(0.1, 0.3), at, velocity)
                                    : makeBox(name, Vec3(0.25, 0.25, 0.25) + random.vec(0.13), at, velocity);

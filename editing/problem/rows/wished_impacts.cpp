@@ -14,7 +14,7 @@ namespace carom::editing_detail {
 namespace {
 
 /// Pairs that may meet next of which the nearest is looked for, at most.
-constexpr std::size_t kMostPairs = 16;
+constexpr std::size_t kMostLackingPairs = 16;
 /// Between the two features of a contact, in words.
 constexpr std::string_view kOn = " on ";
 
@@ -222,7 +222,7 @@ LackingImpact BoundSequence::lacking(const Motion& motion) const {
   if (next == entries_.size()) return lacking;
   const Entry& entry = entries_[next];
   for (std::size_t a = 0; a < entry.a.size(); ++a)
-    for (std::size_t b = 0; b < entry.b.size() && lacking.pairs.size() < kMostPairs; ++b)
+    for (std::size_t b = 0; b < entry.b.size() && lacking.pairs.size() < kMostLackingPairs; ++b)
       if (entry.a[a] && entry.b[b] && a != b) lacking.pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
   const auto timeOf = [&](int event) { return motion.events[static_cast<std::size_t>(event)].time; };
   lacking.from = match.last >= 0 ? timeOf(match.last) : 0;

@@ -20,9 +20,9 @@ struct Chebyshev {
   Square integrate;
 
   Chebyshev() {
-    const int N = kDegree;
+    constexpr int N = kDegree;
     Square coefficients, integrals;  // values -> a_m of sum a_m T_m; a_m -> integral of T_m from -1 to x_k
-    const auto T = [N](int m, int k) { return std::cos(pi() * (m % (2 * N)) * (N - k) / N); };
+    const auto T = [](int m, int k) { return std::cos(pi() * (m % (2 * N)) * (N - k) / N); };
     for (int k = 0; k <= N; ++k) {
       x[k] = T(1, k);
       for (int m = 0; m <= N; ++m) {
