@@ -47,7 +47,8 @@ Scene randomWorld(std::uint64_t seed) {
     if (random.below(2) == 0) body.center_of_mass = random.vec(0.05);
   }
   if (random.below(3) == 0) {  // far off, a crate lands flat, half on a lift and half on a ledge
-    Body crate = makeBox("crate", {0.4, 0.3, 0.2}, {5, random.in(-0.2, 0.2), 0.6}, {0, 0, -random.in(0, 2)});
+    const double falls = random.in(0, 2);
+    Body crate = makeBox("crate", {0.4, 0.3, 0.2}, {5, random.in(-0.2, 0.2), 0.6}, {0, 0, -falls});
     Body lift = makeBox("lift", {1, 2, 0.2}, {4.5, 0, 0.1}, {-random.in(0, 0.1), random.in(-0.3, 0.3), 0});
     if (random.below(2) == 0) lift.velocity.z() = random.in(-0.2, 0.3);
     lift.kinematic = true;
@@ -56,7 +57,8 @@ Scene randomWorld(std::uint64_t seed) {
   if (random.below(2) == 0) s.bodies.push_back(fixedBody(makeBox("step", {0.6, 0.5, 0.3}, {0.4, 0.3, 0.1})));
   if (random.below(2) == 0) {  // one body into another
     Body& moved = s.bodies[static_cast<std::size_t>(random.below(options.bodies))];
-    moved.position = s.bodies[static_cast<std::size_t>(random.below(options.bodies))].position + random.vec(0.15);
+    const Vec3 off = random.vec(0.15);
+    moved.position = s.bodies[static_cast<std::size_t>(random.below(options.bodies))].position + off;
   }
   return s;
 }
