@@ -34,6 +34,10 @@ if(CAROM_SANITIZE_THREADS)
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
   add_link_options(-fsanitize=thread)
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")  # GCC says by itself what it instruments; oneTBB and parallel.cpp ask for it
+  add_compile_definitions($<$<BOOL:${CAROM_SANITIZE}>:__SANITIZE_ADDRESS__>
+    $<$<BOOL:${CAROM_SANITIZE_THREADS}>:__SANITIZE_THREAD__>)
+endif()
 if(CAROM_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)  # the fuzz targets link its main program
 endif()
