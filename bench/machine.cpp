@@ -18,13 +18,13 @@ std::string today() {
   return text;
 }
 
-}  // namespace
-
 #ifdef __clang__
 constexpr const char* kCompiler = "clang " __clang_version__;
 #else
 constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
+
+}  // namespace
 
 std::string machineLine() {
   std::ifstream info("/proc/cpuinfo");
@@ -34,7 +34,8 @@ std::string machineLine() {
     processor = line.substr(line.find(':') + 2);
     break;
   }
-  return processor + "; " + std::to_string(std::thread::hardware_concurrency()) + " cores; " + kCompiler + "; Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+  return processor + "; " + std::to_string(std::thread::hardware_concurrency()) + " cores; " + kCompiler +
+         "; Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
          std::to_string(EIGEN_MINOR_VERSION) + "; ODE " CAROM_BENCH_ODE "; Ipopt " CAROM_BENCH_IPOPT "; carom " +
          kVersion + "; " + today();
 }

@@ -13,8 +13,6 @@
 namespace carom::adjoint_detail {
 namespace {
 
-constexpr std::size_t kOrder = TriaxialRotation::kOrder;
-
 // Truncated to ten binary digits, so that a sum of steps is exact.
 double shortBinary(double h) {
   int exponent = 0;
@@ -25,7 +23,7 @@ double shortBinary(double h) {
 using SeriesLanes = std::array<double, 4>;
 
 // Logarithm of the radius of convergence seen from the last two coefficients of u and psi, which are of size 1.
-double logRadius(const std::array<SeriesLanes, kOrder + 1>& c) {
+double logRadius(const std::array<SeriesLanes, TriaxialRotation::kOrder + 1>& c) {
   const auto from = [&](std::size_t k) {
     const double size = c[k][0] * c[k][0] + c[k][1] * c[k][1] + c[k][2] * c[k][2] + c[k][3] * c[k][3];
     if (size > 1e-290 && size < 1e300) return -0.5 * elementary::log(size) / static_cast<double>(k);
@@ -33,7 +31,7 @@ double logRadius(const std::array<SeriesLanes, kOrder + 1>& c) {
     for (double x : c[k]) largest = std::max(largest, std::abs(x));
     return largest > 0 ? -elementary::log(largest) / static_cast<double>(k) : 50.0;
   };
-  return std::min(from(kOrder), from(kOrder - 1));
+  return std::min(from(TriaxialRotation::kOrder), from(TriaxialRotation::kOrder - 1));
 }
 
 }  // namespace
