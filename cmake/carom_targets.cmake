@@ -27,4 +27,5 @@ function(carom_library name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/carom>)
   set_target_properties(carom_${name} PROPERTIES UNITY_BUILD ${CAROM_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+  carom_precompile_headers(carom_${name})
 endfunction()

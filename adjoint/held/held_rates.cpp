@@ -110,22 +110,16 @@ void HeldRates::addGeometry(ContactInstant<HeldLanes::Number>& c, V3<HeldLanes::
   const HeldContact& held = contacts_[k];
   const double sign = held.is_first ? 1 : -1;
   const int own_turn = held.is_first ? 3 : 9;
-  const auto times = [](const ContactJacobian& J, const PairTangent& along) {
-    Eigen::Matrix<double, 7, 1> d = timesByRows(J.pose, along.pose);
-    if (J.size_a.cols() > 0) d += J.size_a * along.size_a;
-    if (J.size_b.cols() > 0) d += J.size_b * along.size_b;
-    return d;
-  };
   for (int lane = 0; lane < count; ++lane) {
     const int column = first + lane;
     if (!inputs_.movesGeometry(held, k, column)) continue;
     const auto at = static_cast<std::size_t>(lane);
     const PairTangent along = inputs_.pairTangent(held, k, column);
-    const Eigen::Matrix<double, 7, 1> d = times(jacobians_[k], along);
+    const Eigen::Matrix<double, 7, 1> d = jacobians_[k].along(along);
     gap.rate[at] = d[0];
     setRates(c.n, Vec3(sign * d.segment<3>(1)), at);
     setRates(point, Vec3(d.tail<3>()), at);
-    Eigen::Matrix<double, 7, 1> bent = times(jacobian_rates_[k], along);
+    Eigen::Matrix<double, 7, 1> bent = jacobian_rates_[k].along(along);
     if (column >= 3 && column < 6)
       bent += jacobians_[k].pose.middleCols<3>(own_turn) * now_.body.omega.cross(Vec3(Vec3::Unit(column - 3)));
     for (int j = 0; j < 3; ++j) {

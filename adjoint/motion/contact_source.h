@@ -39,20 +39,28 @@ struct ContactPoint {
   Vec3 point = Vec3::Zero();    ///< m
 };
 
-/// d(gap, normal, point), 7 rows: by (x_a, theta_a, x_b, theta_b), theta a world rotation vector, and by the dimensions
-/// of both shapes at fixed poses (a centre of mass that moves in the shape counts here).
-struct ContactJacobian {
-  Eigen::Matrix<double, 7, 12> pose = Eigen::Matrix<double, 7, 12>::Zero();  ///< by the poses
-  Eigen::Matrix<double, 7, Eigen::Dynamic> size_a;                           ///< by the dimensions of a
-  Eigen::Matrix<double, 7, Eigen::Dynamic> size_b;                           ///< by the dimensions of b
-};
-
 /// A direction in which poses and dimensions of two shapes change: rates of (x_a, theta_a, x_b, theta_b), theta a world
 /// rotation vector, and of the dimensions; no dimensions given: they stay.
 struct PairTangent {
   Eigen::Matrix<double, 12, 1> pose = Eigen::Matrix<double, 12, 1>::Zero();  ///< of the poses
   Eigen::VectorXd size_a;                                                    ///< of the dimensions of a
   Eigen::VectorXd size_b;                                                    ///< of the dimensions of b
+};
+
+/// d(gap, normal, point), 7 rows: by (x_a, theta_a, x_b, theta_b), theta a world rotation vector, and by the dimensions
+/// of both shapes at fixed poses (a centre of mass that moves in the shape counts here).
+struct ContactJacobian {
+  Eigen::Matrix<double, 7, 12> pose = Eigen::Matrix<double, 7, 12>::Zero();  ///< by the poses
+  Eigen::Matrix<double, 7, Eigen::Dynamic> size_a;                           ///< by the dimensions of a
+  Eigen::Matrix<double, 7, Eigen::Dynamic> size_b;                           ///< by the dimensions of b
+
+  /// d(gap, normal, point) along a direction.
+  Eigen::Matrix<double, 7, 1> along(const PairTangent& direction) const {
+    Eigen::Matrix<double, 7, 1> d = timesByRows(pose, direction.pose);
+    if (size_a.cols() > 0 && direction.size_a.size() > 0) d += size_a * direction.size_a;
+    if (size_b.cols() > 0 && direction.size_b.size() > 0) d += size_b * direction.size_b;
+    return d;
+  }
 };
 
 /// How fast a pose changes.
@@ -76,9 +84,9 @@ class ContactGeometry {
   /// The contact and its rates, where the poses change at these rates.
   virtual ContactMotion motion(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B, const PoseRate& of_a,
                                const PoseRate& of_b) const {
-    Eigen::Matrix<double, 12, 1> rate;
-    rate << of_a.v, of_a.w, of_b.v, of_b.w;
-    const Eigen::Matrix<double, 7, 1> d = timesByRows(jacobian(a, b, f, A, B).pose, rate);
+    PairTangent rate;
+    rate.pose << of_a.v, of_a.w, of_b.v, of_b.w;
+    const Eigen::Matrix<double, 7, 1> d = jacobian(a, b, f, A, B).along(rate);
     return {contact(a, b, f, A, B), d[0], d.segment<3>(1), d.segment<3>(4)};
   }
   /// Gap, normal and point of bodies a and b at these poses.

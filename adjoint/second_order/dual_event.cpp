@@ -134,10 +134,7 @@ class EventMaker {
       setRates(part.pose, dJ[lane].pose, lane);
       setRates(part.size_a, dJ[lane].size_a, lane);
       setRates(part.size_b, dJ[lane].size_b, lane);
-      Eigen::Matrix<double, 7, 1> d = timesByRows(J.pose, along[lane].pose);
-      if (J.size_a.cols() > 0) d += J.size_a * along[lane].size_a;
-      if (J.size_b.cols() > 0) d += J.size_b * along[lane].size_b;
-      setRates(at, d, lane);
+      setRates(at, J.along(along[lane]), lane);
     }
     part.gap = at[0];
     part.gap.value = 0;

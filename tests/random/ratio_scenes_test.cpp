@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-const int kStacks = test::scaled(400);
+const int kStacks = test::scaled(250);
 
 struct Stack {
   Scene scene;
