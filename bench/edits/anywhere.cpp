@@ -32,7 +32,8 @@ void moveAway(Scene& scene, const Control& c, bool planar, Dice& dice) {
   }
   Body& body = scene.bodies[static_cast<std::size_t>(bodyIndex(scene, c.body))];
   if (c.vary == "velocity") {
-    const double angle = (dice.chance(0.5) ? 1 : -1) * dice.logIn(kSmallestTurn, kLargestTurn);
+    const double side = dice.chance(0.5) ? 1 : -1;
+    const double angle = side * dice.logIn(kSmallestTurn, kLargestTurn);
     const Vec3 axis = planar ? Vec3(Vec3::UnitZ()) : dice.direction();
     const Vec3 before = body.velocity;
     body.velocity = dice.logIn(kSlower, kFaster) * (Eigen::AngleAxisd(angle, axis) * body.velocity);

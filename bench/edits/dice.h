@@ -33,6 +33,12 @@ class Dice {
     const double x = in(-half, half), y = in(-half, half), z = in(-half, half);
     return {x, y, z};
   }
+  /// Each coordinate in its own range. Drawn from the last on: the tasks whose smallest changes are known were.
+  Vec3 inBox(const Vec3& low, const Vec3& high) {
+    Vec3 v;
+    for (const int i : {2, 1, 0}) v[i] = in(low[i], high[i]);
+    return v;
+  }
   Vec3 direction() {
     for (;;) {
       const Vec3 v = inCube(1);

@@ -145,7 +145,7 @@ Body targetAt(const Vec3& place, const Vec3& velocity, double reach, Dice& dice)
   if (dice.chance(0.5)) {
     target.shape = Sphere{size / 2};
   } else {
-    target.shape = Box{size * Vec3(dice.in(0.5, 1), dice.in(0.5, 1), dice.in(0.5, 1))};
+    target.shape = Box{size * dice.inBox(Vec3::Constant(0.5), Vec3::Ones())};
     target.orientation = dice.rotation();
   }
   target.position = place + (reach + 0.4 * size) * (velocity.normalized() + 0.4 * dice.inCube(1)).normalized();

@@ -35,8 +35,9 @@ void addSurroundings(Scene& scene, Dice& dice) {
     if (dice.chance(0.5)) scene.bodies.push_back(fixedBody("side", Plane{-Vec3::UnitY(), -dice.in(0.4, 0.8)}));
   }
   if (dice.chance(0.3)) {
-    Body block = fixedBody("block", Box{Vec3(dice.in(0.1, 0.4), dice.in(0.2, 0.5), dice.in(0.1, 0.3))});
-    block.position = Vec3(dice.in(0.25, 0.45), dice.in(-0.1, 0.1), 0.1);
+    Body block = fixedBody("block", Box{dice.inBox({0.1, 0.2, 0.1}, {0.4, 0.5, 0.3})});
+    const double across = dice.in(-0.1, 0.1), along = dice.in(0.25, 0.45);
+    block.position = Vec3(along, across, 0.1);
     block.orientation = Quat(Eigen::AngleAxisd(dice.in(-0.5, 0.5), Vec3::UnitZ()));
     scene.bodies.push_back(block);
   }
@@ -93,7 +94,8 @@ Body drawBody(const std::string& name, const std::string& material, Family famil
     body.density = dice.logIn(200, 3000);
   }
   body.orientation = dice.rotation();
-  body.angular_velocity = dice.in(0, 8) * dice.direction();
+  const Vec3 axis = dice.direction();
+  body.angular_velocity = dice.in(0, 8) * axis;
   return body;
 }
 
@@ -102,8 +104,8 @@ Scene oneThrow(Family family, Dice& dice) {
   scene.materials = {drawMaterial("ground", dice), drawMaterial("stuff", dice)};
   addSurroundings(scene, dice);
   Body body = drawBody("thrown", "stuff", family, dice);
-  body.position = Vec3(dice.in(-0.6, -0.1), dice.in(-0.3, 0.3), dice.in(0.35, 1.1));
-  body.velocity = Vec3(dice.in(0.5, 3), dice.in(-0.8, 0.8), dice.in(-2, 2));
+  body.position = dice.inBox({-0.6, -0.3, 0.35}, {-0.1, 0.3, 1.1});
+  body.velocity = dice.inBox({0.5, -0.8, -2}, {3, 0.8, 2});
   scene.bodies.push_back(body);
   return scene;
 }
@@ -119,14 +121,15 @@ Scene meeting(Dice& dice) {
     scene.gravity = kGravity;
     addSurroundings(scene, dice);
   }
-  const Vec3 place(dice.in(-0.2, 0.1), dice.in(-0.1, 0.1), dice.in(0.3, 0.9));
+  const Vec3 place = dice.inBox({-0.2, -0.1, 0.3}, {0.1, 0.1, 0.9});
   const double t = dice.in(0.12, 0.35);
   for (const char* name : {"thrown", "other"}) {
     const bool first = scene.bodies.empty() || scene.bodies.back().fixed;
     const Family shape = static_cast<Family>(dice.integer(0, 2));
     Body body = drawBody(name, first ? "stuff" : "other stuff", shape, dice);
     const double side = first ? 1 : -1;
-    body.velocity = Vec3(side * dice.in(0.8, 3), dice.in(-0.8, 0.8), dice.in(-1, 2));
+    body.velocity = dice.inBox({0.8, -0.8, -1}, {3, 0.8, 2});
+    body.velocity.x() *= side;
     const double reach = kindOf(body.shape).boundingRadius(body.shape);
     const Vec3 near = place + 0.4 * reach * dice.inCube(1);
     body.position = near - t * body.velocity - 0.5 * t * t * scene.gravity;
