@@ -62,23 +62,22 @@ if(CAROM_MOLD AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_link_options(-fuse-ld=mold)
 endif()
 
-# What reads, writes and prints spends its time elsewhere: with -O1 it is as fast to use and faster to build. Tests that
-# compute for long need no more than -O2. Other tests are not optimised at all, and under the sanitizers neither is what
-# only leads from one computation to the next: clang compiles them in half the time. The bits are those of -O3.
+# What reads, writes and prints spends its time elsewhere: with -O1 it is as fast to use and faster to build, and under the
+# sanitizers it need not be optimised at all. Tests that compute for long need no more than -O2, others nothing: clang
+# compiles them in half the time. Under the sanitizers running those would take longer than that saves. The bits are
+# those of -O3.
 function(carom_optimise_well target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
 endfunction()
 function(carom_optimise_lightly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  carom_optimise_unless_sanitized(${target})
-endfunction()
-function(carom_optimise_unless_sanitized target)
   if(CAROM_SANITIZE OR CAROM_SANITIZE_THREADS)
     target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
 function(carom_do_not_optimise target)
-  target_compile_options(${target} PRIVATE -O0)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
 endfunction()
 
 # What libraries include most, compiled once for each; sources with options of their own go without.
