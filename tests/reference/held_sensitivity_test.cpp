@@ -159,19 +159,12 @@ std::vector<HeldState> statesOf(const Numbers& n, const std::vector<double>& at)
   return states;
 }
 
-// A state in doubles has the direction of a slow slip no better: at the start, and where a slip all but stops and goes on
-// another way.
+// A start in doubles has the direction of a slow slip no better.
 double directionsKnownTo(const HeldPath& path) {
-  const double start = path.start();
+  const auto now = path.instantAt(path.start());
   double slowest = kInfinity;
-  for (const auto& step : path.allSteps()) {
-    const auto now = path.instantAt(step.start);
-    for (std::size_t k = 0; k < path.contacts().size(); ++k) {
-      const HeldContact& c = path.contacts()[k];
-      if (c.mode != HeldMode::slides || c.begins || (step.start > start && path.contactThatStops() == k)) continue;
-      slowest = std::min(slowest, now.slipAt(k).norm());
-    }
-  }
+  for (std::size_t k = 0; k < path.contacts().size(); ++k)
+    if (path.contacts()[k].mode == HeldMode::slides && !path.contacts()[k].begins) slowest = std::min(slowest, now.slipAt(k).norm());
   return std::numeric_limits<double>::epsilon() * path.scene().speed / slowest;
 }
 
