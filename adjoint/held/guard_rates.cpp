@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/held/held_rates.hpp"
+#include "adjoint/held/held_force_rates.hpp"
 #include "adjoint/held/held_share.hpp"
 
 namespace carom::adjoint_detail {
@@ -55,7 +55,7 @@ Number roomOf(const ContactInstant<Number>& c, const V3<Number>& force) {
 // At the best share the room that is least does not change with what the two push; where both have that room, it is that
 // mean of them which does not.
 Number sharedRate(const HeldShare& share, const std::vector<ContactInstant<Number>>& contacts,
-                  const HeldDynamics<Number>& forces, std::size_t k, bool slips) {
+                  const ForceLanes& forces, std::size_t k, bool slips) {
   const std::array<std::size_t, 2>& pair = share.contact;
   const V3<Number> between = contacts[pair[1]].r - contacts[pair[0]].r;
   const V3<Number> push = between * (Number(share.push) / sqrt(between.squaredNorm()));
@@ -71,18 +71,18 @@ Number sharedRate(const HeldShare& share, const std::vector<ContactInstant<Numbe
 
 }  // namespace
 
-Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs, const HeldLanes& lanes,
-                   int first, int count) {
+Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs,
+                   const HeldForceRates& force_rates, const HeldLanes& lanes, int first, int count) {
   const auto k = static_cast<std::size_t>(guard.contact);
   const ContactInstant<Number>& c = lanes.contacts[k];
   if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count);
   if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.velocityAt(c.r));
-  const HeldDynamics<Number> forces(lanes.body, lanes.contacts, path.redundant());
+  const ForceLanes forces = force_rates.in(lanes);
   const bool slips = guard.cause == TransitionCause::slips;
   if (const auto share = shareOf<Number>(lanes.contacts, forces);
       share && (k == share->contact[0] || k == share->contact[1]))
     return sharedRate(*share, lanes.contacts, forces, k, slips);
-  return slips ? roomOf(c, forces.force(k)) : forces.pressing(k);
+  return slips ? roomOf(c, forces.force(k)) : c.n.dot(forces.force(k));
 }
 
 }  // namespace carom::adjoint_detail

@@ -27,24 +27,16 @@ HeldInputs::HeldInputs(const HeldScene& scene, const std::vector<HeldContact>& c
   count += static_cast<int>(contacts.size());
 }
 
-bool HeldInputs::movesGeometry(const HeldContact&, std::size_t k, int column) const {
+std::optional<Eigen::Matrix<double, 7, 1>> HeldInputs::columnOf(const ContactJacobian& J, const HeldContact& contact,
+                                                                std::size_t k, int column) const {
   const Partner& p = partners[partner_of[k]];
-  return column < 6 || (column >= kSizes && column < kSizes + size_count) ||
-         (column >= p.pose && column < p.sizes + p.size_count);
-}
-
-PairTangent HeldInputs::pairTangent(const HeldContact& contact, std::size_t k, int column) const {
-  const Partner& p = partners[partner_of[k]];
-  PairTangent t;
-  Eigen::VectorXd own = Eigen::VectorXd::Zero(size_count), other = Eigen::VectorXd::Zero(p.size_count);
-  const int first = contact.is_first ? 0 : 6, second = 6 - first;
-  if (column < 6) t.pose[first + column] = 1;
-  if (column >= kSizes && column < kSizes + size_count) own[column - kSizes] = 1;
-  if (column >= p.pose && column < p.sizes) t.pose[second + column - p.pose] = 1;
-  if (column >= p.sizes && column < p.sizes + p.size_count) other[column - p.sizes] = 1;
-  t.size_a = contact.is_first ? own : other;
-  t.size_b = contact.is_first ? other : own;
-  return t;
+  const int own = contact.is_first ? 0 : 6, other = 6 - own;
+  const auto &own_sizes = contact.is_first ? J.size_a : J.size_b, &other_sizes = contact.is_first ? J.size_b : J.size_a;
+  if (column < 6) return J.pose.col(own + column);
+  if (column >= kSizes && column < kSizes + size_count) return own_sizes.col(column - kSizes);
+  if (column >= p.pose && column < p.sizes) return J.pose.col(other + column - p.pose);
+  if (column >= p.sizes && column < p.sizes + p.size_count) return other_sizes.col(column - p.sizes);
+  return std::nullopt;
 }
 
 }  // namespace carom::adjoint_detail

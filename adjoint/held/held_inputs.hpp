@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "adjoint/held/held_path.hpp"
@@ -21,9 +22,9 @@ struct HeldInputs {
 
   HeldInputs(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& start);
 
-  /// The change of a pair's geometry along a column.
-  PairTangent pairTangent(const HeldContact& contact, std::size_t k, int column) const;
-  bool movesGeometry(const HeldContact& contact, std::size_t k, int column) const;
+  /// Of a derivative of a pair's geometry what belongs to a column; nothing where that does not move the pair.
+  std::optional<Eigen::Matrix<double, 7, 1>> columnOf(const ContactJacobian& J, const HeldContact& contact, std::size_t k,
+                                                      int column) const;
 };
 
 }  // namespace carom::adjoint_detail

@@ -64,7 +64,7 @@ class ModeSearch {
     std::vector<std::size_t> on;
     std::vector<ContactInstant<double>> contacts;
     bool redundant = false;
-    std::optional<HeldDynamics<double>> forces;
+    std::optional<HeldDynamics> forces;
     std::vector<Vec3> force;  // of the best share
 
     double pressing(std::size_t i) const { return contacts[i].n.dot(force[i]); }

@@ -223,7 +223,7 @@ void HeldPath::alignStop(HeldInstant& now) const {
   ContactInstant<double>& c = now.contacts[k];
   if (!(c.friction > 0) || now.slipAt(k).norm() > kStraightAnyway * scene_.speed) return;
   for (int round = 0; round < kAlignRounds; ++round) {
-    const HeldDynamics<double> forces(now.body, now.contacts, redundant_);
+    const HeldDynamics forces(now.body, now.contacts, redundant_);
     const Vec3 rate = forces.slipRate(k), across = c.n.cross(c.slip);
     const Vec3 turned = forces.responseAt(c.r, forces.answerToTurn(k, redundant_));
     const double turn = -across.dot(rate) / (across.dot(turned) - c.slip.dot(rate));

@@ -10,6 +10,7 @@ HeldRates::HeldRates(const HeldScene& scene, const std::vector<HeldContact>& con
       own_{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())} {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const HeldContact& c = contacts[k];
+    if (const double speed = now_.slipAt(k).norm(); follows(k) && speed > 0) now_.contacts[k].slip = now_.slipAt(k) / speed;
     const int a = c.is_first ? scene.body : c.with, b = c.is_first ? c.with : scene.body;
     const Pose &A = c.is_first ? own_ : scene.with[k], &B = c.is_first ? scene.with[k] : own_;
     jacobians_.push_back(scene.geometry->jacobian(a, b, c.features, A, B));
@@ -81,20 +82,22 @@ ContactInstant<HeldLanes::Number> HeldRates::contactLanes(const HeldLanes& of, s
   c.point_rate = now.point_rate.cast<Number>();
   V3<Number> point = Vec3(now.r + state_.x).cast<Number>();
   c.friction = held.friction;
-  for (int lane = 0; lane < count; ++lane) {
-    const auto at = static_cast<std::size_t>(lane);
-    if (first + lane == inputs_.friction + static_cast<int>(k)) c.friction.rate[at] = 1;
-    // J q', where q' changes
-    Eigen::Matrix<double, 6, 1> drate;
-    drate << ratesOf(of.body.v, at), ratesOf(of.body.omega, at);
-    const Eigen::Matrix<double, 7, 1> d = timesByRows(jacobians_[k].pose.middleCols<6>(own), drate);
-    setRates(c.normal_rate, Vec3(sign * d.segment<3>(1)), at);
-    setRates(c.point_rate, Vec3(d.tail<3>()), at);
+  if (const int lane = inputs_.friction + static_cast<int>(k) - first; lane >= 0 && lane < count)
+    c.friction.rate[static_cast<std::size_t>(lane)] = 1;
+  // J q', where q' changes
+  for (int i = 0; i < 3; ++i) {
+    Number normal = 0, place = 0;
+    for (int j = 0; j < 6; ++j) {
+      const Number& rate = j < 3 ? of.body.v[j] : of.body.omega[j - 3];
+      normal += rate * (sign * jacobians_[k].pose(1 + i, own + j));
+      place += rate * jacobians_[k].pose(4 + i, own + j);
+    }
+    c.normal_rate[i].rate = normal.rate, c.point_rate[i].rate = place.rate;
   }
   addGeometry(c, point, gap, k, first, count);
   c.r = point - of.x;
   c.slip = slip_[k].cast<Number>();
-  if (held.mode == HeldMode::slides && slip_[k].isZero(0)) {
+  if (follows(k)) {
     const V3<Number> u = of.body.velocityAt(c.r), along_face = u - c.n * c.n.dot(u);
     const Number speed = sqrt(along_face.squaredNorm());
     if (speed.value > 0) c.slip = along_face / speed;
@@ -112,14 +115,13 @@ void HeldRates::addGeometry(ContactInstant<HeldLanes::Number>& c, V3<HeldLanes::
   const int own_turn = held.is_first ? 3 : 9;
   for (int lane = 0; lane < count; ++lane) {
     const int column = first + lane;
-    if (!inputs_.movesGeometry(held, k, column)) continue;
+    const auto d = inputs_.columnOf(jacobians_[k], held, k, column);
+    if (!d) continue;
     const auto at = static_cast<std::size_t>(lane);
-    const PairTangent along = inputs_.pairTangent(held, k, column);
-    const Eigen::Matrix<double, 7, 1> d = jacobians_[k].along(along);
-    gap.rate[at] = d[0];
-    setRates(c.n, Vec3(sign * d.segment<3>(1)), at);
-    setRates(point, Vec3(d.tail<3>()), at);
-    Eigen::Matrix<double, 7, 1> bent = jacobian_rates_[k].along(along);
+    gap.rate[at] = (*d)[0];
+    setRates(c.n, Vec3(sign * d->segment<3>(1)), at);
+    setRates(point, Vec3(d->tail<3>()), at);
+    Eigen::Matrix<double, 7, 1> bent = *inputs_.columnOf(jacobian_rates_[k], held, k, column);
     if (column >= 3 && column < 6)
       bent += jacobians_[k].pose.middleCols<3>(own_turn) * now_.body.omega.cross(Vec3(Vec3::Unit(column - 3)));
     for (int j = 0; j < 3; ++j) {

@@ -33,6 +33,8 @@ class HeldRates {
   const HeldInstant& now() const { return now_; }
 
  private:
+  /// Whether a contact slides in the direction in which it goes.
+  bool follows(std::size_t k) const { return contacts_[k].mode == HeldMode::slides && slip_[k].isZero(0); }
   HeldLanes lanes(int first, int count) const;
   void fillBody(HeldLanes& out, int first, int count) const;
   ContactInstant<HeldLanes::Number> contactLanes(const HeldLanes& of, std::size_t k, int first, int count,
@@ -50,9 +52,5 @@ class HeldRates {
   std::vector<ContactJacobian> jacobians_;
   std::vector<ContactJacobian> jacobian_rates_;  // as the body goes its way
 };
-
-/// The value of a guard up to a factor, with its rates (see guardValue).
-HeldLanes::Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs,
-                              const HeldLanes& lanes, int first, int count);
 
 }  // namespace carom::adjoint_detail

@@ -2,6 +2,7 @@
 #include "adjoint/held/held_sensitivity.hpp"
 
 #include "adjoint/base/errors.h"
+#include "adjoint/held/held_force_rates.hpp"
 #include "adjoint/held/held_rates.hpp"
 #include "adjoint/held/held_start.hpp"
 
@@ -35,7 +36,7 @@ struct StartDerivative {
 Eigen::VectorXd rateOfBeginningSlips(const HeldPath& path, Eigen::Index rows) {
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(rows);
   const HeldInstant now = path.instantAt(path.start());
-  const HeldDynamics<double> forces(now.body, now.contacts, path.redundant());
+  const HeldDynamics forces(now.body, now.contacts, path.redundant());
   Eigen::Index row = 0;
   for (std::size_t k = 0; k < path.contacts().size(); ++k) {
     const HeldContact& c = path.contacts()[k];
@@ -123,12 +124,13 @@ StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) 
 MatrixXd slopeRates(const HeldPath& path, const HeldInputs& inputs, const State& state, const std::vector<Vec3>& slip) {
   MatrixXd G(12, inputs.count);
   HeldRates rates(path.scene(), path.contacts(), inputs, state, slip);
+  const HeldForceRates of_forces(rates.now(), path.redundant());
   rates.each([&](const HeldLanes& lanes, int first, int count) {
-    const HeldDynamics<HeldLanes::Number> forces(lanes.body, lanes.contacts, path.redundant());
-    const V3<HeldLanes::Number> a = forces.acceleration(), m = forces.moment();
+    const ForceLanes forces = of_forces.in(lanes);
     for (int lane = 0; lane < count; ++lane) {
       const auto at = static_cast<std::size_t>(lane);
-      G.col(first + lane) << ratesOf(lanes.body.v, at), ratesOf(lanes.body.omega, at), ratesOf(a, at), ratesOf(m, at);
+      G.col(first + lane) << ratesOf(lanes.body.v, at), ratesOf(lanes.body.omega, at), ratesOf(forces.acceleration, at),
+          ratesOf(forces.moment, at);
     }
   });
   // R = exp(theta) R0 turns with omega: theta' = omega x theta + d(omega)
@@ -178,7 +180,7 @@ struct Stretch {
 
 Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, double t) {
   const HeldInstant now = path.instantAt(from);
-  const HeldDynamics<double> forces(now.body, now.contacts, path.redundant());
+  const HeldDynamics forces(now.body, now.contacts, path.redundant());
   Stretch out{t, followSlips(path)};
   for (std::size_t k = 0; k < path.contacts().size(); ++k) {
     const HeldContact& c = path.contacts()[k];
@@ -227,7 +229,7 @@ void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixX
   });
   HeldRow left = row.leftCols<12>() * D;
   left.rightCols(inputs.count - 12) += row.rightCols(inputs.count - 12);
-  const HeldDynamics<double> forces(now.body, now.contacts, path.redundant());
+  const HeldDynamics forces(now.body, now.contacts, path.redundant());
   const std::vector<Vec3> push = forces.answerToTurn(k, path.redundant());
   const Vec3 turned = forces.responseAt(now.contacts[k].r, push);
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
@@ -280,8 +282,9 @@ HeldRow guardRow(const HeldPath& path, const HeldInputs& inputs, HeldGuard guard
   if (guard.cause == TransitionCause::sticks) slip[k] = end.contacts[k].slip;
   HeldRow row(inputs.count);
   HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), slip);
+  const HeldForceRates of_forces(rates.now(), path.redundant());
   rates.each([&](const HeldLanes& lanes, int first, int count) {
-    const HeldLanes::Number value = guardRateOf(guard, path, inputs, lanes, first, count);
+    const HeldLanes::Number value = guardRateOf(guard, path, inputs, of_forces, lanes, first, count);
     for (int lane = 0; lane < count; ++lane) row[first + lane] = value.rate[static_cast<std::size_t>(lane)];
   });
   return row;
