@@ -17,6 +17,9 @@ constexpr int kLeapingSteps = 5;
 constexpr double kSharesAlong[] = {1, 0.3, 0.1};
 /// A step after which more than this share of the residuals is left, or they are larger, went along bent rows.
 constexpr double kBent = 0.1;
+/// So near to the smallest change, as a share of it, steps gain less than the rounding of rows may hide in the merit: those
+/// count that leave clearly less of the way.
+constexpr double kFlat = 1e-3, kNearer = 0.5;
 /// The penalty of the merit function, in multipliers.
 constexpr double kAboveMultipliers = 2;
 
@@ -89,6 +92,21 @@ EditPointPtr stepAlong(EditSearch& search, const EditPoint& point, const Eigen::
   return nullptr;
 }
 
+/// The way along the constraints that is left, where the rows are linear.
+double leftAlong(const EditSearch& search, const EditPoint& point) {
+  return (smallestChange(search, point) - point.changes).norm();
+}
+
+/// The end of a step that leaves clearly less of the way; null where it does not.
+EditPointPtr stepToStationary(EditSearch& search, const EditPoint& point, const Eigen::VectorXd& step,
+                              const std::string* signature) {
+  const Eigen::VectorXd to = point.changes + step;
+  const EditPointPtr trial = search.evaluate(to.cwiseMax(search.lower()).cwiseMin(search.upper()));
+  if (!trial || !search.reached(*trial) || (signature && trial->signature != *signature)) return nullptr;
+  if (!search.differentiate(*trial)) return nullptr;
+  return leftAlong(search, *trial) < kNearer * leftAlong(search, point) ? trial : nullptr;
+}
+
 bool isBetter(const EditSearch& search, const EditPoint& a, const EditPoint& b) {
   if (search.reached(a) && search.reached(b)) return a.objective < b.objective;
   return a.violation < b.violation;
@@ -126,6 +144,10 @@ EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& l
     const Eigen::VectorXd along = hessian.stepAlong(point->changes, *point->row_jacobian, plain);
     penalty = std::max(penalty, kAboveMultipliers * largestMultiplier(search, *point, smallest));
     EditPointPtr next = stepAlong(search, *point, onto, along, penalty, landing.signature);
+    if (!next && search.reached(*point) && plain.norm() <= kFlat * point->changes.norm()) {
+      next = stepToStationary(search, *point, onto + along, landing.signature);
+      if (next) best = next;
+    }
     if (!next && search.halt() == Halt::none && !search.reached(*point)) {
       const int steps = std::min(leaping, last - search.iterations());
       next = projectOntoConstraints(search, point, steps, landing.signature, care);

@@ -24,6 +24,8 @@ constexpr double kStationary = 1e-9, kNearlyStationary = 1e-8;
 /// Of the objective: half a natural scale; and the part of the landings that is done for less than that.
 constexpr double kSmallChange = 0.1;
 constexpr std::size_t kPart = 4;
+/// Of the objective near its least, as a share of it: what is stationary may seem the larger by this.
+constexpr double kRounding = 1e-12;
 /// So many impacts leave few other ways.
 constexpr int kFewImpacts = 3;
 /// Steps of a motion from which on a landing takes so long that few can be made.
@@ -229,7 +231,9 @@ void SequenceSearch::polish(std::size_t count) {
     if (!stationary) end = minimiseWithin(search_, end, kPolishingIterations);
     // of the best, that has been done already
     if (!stationary && solution != smallest.front()) end = minimiseAlongBorder(search_, end, kBorderSteps);
-    if (search_.reached(*end) && end->objective < solution->objective) add(end);
+    if (end == solution || !search_.reached(*end) || !(end->objective <= (1 + kRounding) * solution->objective)) continue;
+    drop(solution);
+    add(end);
   }
 }
 
