@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/derivative/held_pass.hpp"
 #include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/impact/single_laws.hpp"
@@ -101,7 +102,9 @@ Vec7 contactTangent(const Part& part, const std::vector<StateDerivative>& before
 }  // namespace
 
 EventLinearization::EventLinearization(const Motion& motion, int index)
-    : EventPass(passOf(motion, motion.events[static_cast<std::size_t>(index)])) {}
+    : EventPass(passOf(motion, motion.events[static_cast<std::size_t>(index)])) {
+  setStart(pathStartOf(motion, event()));
+}
 
 double EventLinearization::frictionFromZero() const {
   if (event().kind == EventKind::transition || event().kind == EventKind::placed) return 1;
@@ -180,6 +183,10 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
     for (std::size_t k = 0; k < lasting.size(); ++k)
       gaps[static_cast<Eigen::Index>(k)] = contactTangent(parts()[lasting[k]], moved, dscene)[0];
     projection().apply(gaps, out.after);
+  }
+  if (start()) {
+    const std::size_t i = start()->participant;
+    out.after[i] = start()->tangent(out.after[i], dscene, dmodels[i]);
   }
   for (std::size_t i = 0; i < moved.size(); ++i) out.after[i].addScaled(-out.time, rateAfter()[i]);
   return out;

@@ -14,6 +14,26 @@ std::size_t placeOf(int i) { return static_cast<std::size_t>(i); }
 
 const HeldPath* heldPathOf(const Arc& arc) { return static_cast<const HeldPath*>(arc.integrated()); }
 
+std::shared_ptr<const PathStart> pathStartOf(const Motion& motion, const Event& event) {
+  for (std::size_t i = 0; i < event.participants.size(); ++i) {
+    const Participant& p = event.participants[i];
+    const HeldPath* path = heldPathOf(motion.world_lines[placeOf(p.body)].arcs[placeOf(p.arc) + 1]);
+    if (!path || !stopsSlips(*path)) continue;
+    const auto columns = std::make_shared<const HeldColumns>(motion, *path);
+    const auto stop = std::make_shared<const Eigen::MatrixXd>(heldStop(*path, columns->inputs()));
+    auto start = std::make_shared<PathStart>();
+    start->participant = i;
+    start->tangent = [columns, stop](const StateDerivative& d, const SceneTangent& dscene, const BodyModelDerivative& dmodel) {
+      return asState(*stop * columns->tangent(d, dscene, dmodel));
+    };
+    start->pullback = [columns, stop](const StateDerivative& bar, SceneGradient& scene_bar, BodyModelDerivative& model_bar) {
+      return columns->pullback(stop->transpose() * asVector(bar), scene_bar, model_bar);
+    };
+    return start;
+  }
+  return nullptr;
+}
+
 HeldColumns::HeldColumns(const Motion& motion, const HeldScene& held, const std::vector<HeldContact>& contacts,
                          const State& state)
     : body_(held.body), inputs_(held, contacts, state) {

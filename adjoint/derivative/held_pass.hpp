@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "adjoint/held/held_sensitivity.hpp"
+#include "adjoint/impact/event_guard.hpp"
 #include "adjoint/motion/motion.h"
 
 /// Between the inputs of a path in lasting contact and the scene, forward and reverse.
@@ -30,11 +33,6 @@ class HeldColumns {
   std::vector<Friction> friction_;
 };
 
-inline Eigen::Matrix<double, 12, 1> asVector(const StateDerivative& d) {
-  Eigen::Matrix<double, 12, 1> v;
-  v << d.x, d.theta, d.v, d.L;
-  return v;
-}
 inline StateDerivative asState(const Eigen::Matrix<double, 12, 1>& v) {
   StateDerivative d;
   d.x = v.head<3>(), d.theta = v.segment<3>(3), d.v = v.segment<3>(6), d.L = v.tail<3>();
@@ -43,5 +41,7 @@ inline StateDerivative asState(const Eigen::Matrix<double, 12, 1>& v) {
 
 /// The integrated path of an arc; null for any other arc.
 const HeldPath* heldPathOf(const Arc& arc);
+/// Of the path that starts at an event; null where it takes the state as it is.
+std::shared_ptr<const PathStart> pathStartOf(const Motion& motion, const Event& event);
 
 }  // namespace carom::adjoint_detail

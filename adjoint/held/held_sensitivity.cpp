@@ -4,17 +4,12 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/held/held_force_rates.hpp"
 #include "adjoint/held/held_rates.hpp"
-#include "adjoint/held/held_start.hpp"
+#include "adjoint/held/held_start_derivative.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
 using Eigen::MatrixXd;
-
-std::vector<Vec3> followSlips(const HeldPath& path) { return std::vector<Vec3>(path.contacts().size(), Vec3::Zero()); }
-
-// Below this share of gravity a slip that begins has no acceleration: the contact came to the limit of friction there.
-constexpr double kNoStart = 1e-9;
 
 // Tangents are taken on in one go while a slip changes by so much of itself. Slower than kNoSlip of the unit of speed it is
 // straight, if its acceleration has no more than kStillTurns of itself across it, and slower than kNoDirectionLeft in any case.
@@ -22,103 +17,6 @@ constexpr double kReach = 0.7, kNoSlip = 1e-8, kStillTurns = 1e-6, kNoDirectionL
 
 // Of the acceleration by a force: what turns a slip less than that does not turn it.
 constexpr double kNoTurn = 1e-9;
-
-HeldVector asColumn(const StateDerivative& d) { return (HeldVector() << d.x, d.theta, d.v, d.L).finished(); }
-
-// The derivative of the start, 12 rows, and that of its time. Slips that begin with an acceleration u' are 0 at the start,
-// whenever it is; what the state at a fixed time has of them tells how far the start is moved: dt = -u' . du / |u'|^2.
-struct StartDerivative {
-  MatrixXd state;
-  HeldRow time;
-};
-
-// Accelerations of slips that begin, in the rows of heldRows.
-Eigen::VectorXd rateOfBeginningSlips(const HeldPath& path, Eigen::Index rows) {
-  Eigen::VectorXd rate = Eigen::VectorXd::Zero(rows);
-  const HeldInstant now = path.instantAt(path.start());
-  const HeldDynamics forces(now.body, now.contacts, path.redundant());
-  Eigen::Index row = 0;
-  for (std::size_t k = 0; k < path.contacts().size(); ++k) {
-    const HeldContact& c = path.contacts()[k];
-    if (c.begins) rate.segment<3>(row) = forces.slipRate(k);
-    row += c.stands() ? 3 : 1;
-  }
-  return rate;
-}
-
-// What the impulses that took away what was left of speeds do to v and L: they turn with the normals of contacts that
-// slide, and act where the contacts are. How large they are follows from the speeds, which stay 0.
-struct Stopped {
-  V3<HeldLanes::Number> v = V3<HeldLanes::Number>::Zero(), L = V3<HeldLanes::Number>::Zero();
-};
-
-Stopped stoppedBy(const HeldPath& path, const HeldLanes& lanes) {
-  Stopped sum;
-  for (std::size_t k = 0; k < path.stopped().size(); ++k) {
-    const HeldContact& c = path.contacts()[k];
-    const Vec3& p = path.stopped()[k];
-    const auto& n = lanes.contacts[k].n;
-    V3<HeldLanes::Number> impulse = p.cast<HeldLanes::Number>();
-    if (!c.stands()) impulse = n * HeldLanes::Number(p.dot(valuesOf(n)));
-    sum.v += impulse * lanes.body.inverse_mass;
-    sum.L += lanes.contacts[k].r.cross(impulse);
-  }
-  return sum;
-}
-
-// Of the start as it is projected (held_start.cpp).
-StartDerivative startDerivative(const HeldPath& path, const HeldInputs& inputs) {
-  const std::vector<HeldContact>& contacts = path.contacts();
-  const State start = path.stateAt(path.start());
-  HeldRates rates(path.scene(), contacts, inputs, start, followSlips(path));
-  const HeldInstant& now = rates.now();
-  const auto C = heldRows(now, contacts);
-  MatrixXd gaps(contacts.size(), inputs.count), speeds(C.rows(), inputs.count), stopped(6, inputs.count);
-  rates.each([&](const HeldLanes& lanes, int first, int count) {
-    const auto taken = stoppedBy(path, lanes);
-    for (int lane = 0; lane < count; ++lane) {
-      const auto at = static_cast<std::size_t>(lane);
-      stopped.col(first + lane) << ratesOf(taken.v, at), ratesOf(taken.L, at);
-      Eigen::Index row = 0;
-      for (std::size_t k = 0; k < contacts.size(); ++k) {
-        gaps(static_cast<Eigen::Index>(k), first + lane) = lanes.gap[k].rate[at];
-        const auto& c = lanes.contacts[k];
-        const auto u = lanes.body.velocityAt(c.r);
-        if (contacts[k].stands()) {
-          speeds.block<3, 1>(row, first + lane) = ratesOf(u, at);
-          row += 3;
-        } else {
-          speeds(row++, first + lane) = c.n.dot(u).rate[at];
-        }
-      }
-    }
-  });
-  StartDerivative out{MatrixXd::Zero(12, inputs.count), HeldRow::Zero(inputs.count)};
-  MatrixXd& D = out.state;
-  D.leftCols<12>().setIdentity();
-  D.topRows<6>() -= undoing(now, gapRows(now)) * gaps;
-  // At its own time: HeldPath::startRate takes along what a later start does to it.
-  MatrixXd taken = stopped.leftCols<12>() * D;
-  taken.rightCols(inputs.count - 12) += stopped.rightCols(inputs.count - 12);
-  D.bottomRows<6>() += taken;
-  const auto changeOf = [&](const MatrixXd& tangent) {
-    MatrixXd change = speeds.leftCols<12>() * tangent;
-    change.rightCols(inputs.count - 12) += speeds.rightCols(inputs.count - 12);
-    return change;
-  };
-  MatrixXd change = changeOf(D);
-  const Eigen::VectorXd slip_rate = rateOfBeginningSlips(path, C.rows());
-  if (slip_rate.norm() > kNoStart * path.scene().gravity.norm()) {
-    out.time = -(slip_rate.transpose() * change) / slip_rate.squaredNorm();
-    D += asColumn(path.rateAt(path.start())) * out.time;
-    change = changeOf(D);
-  }
-  const MatrixXd undone = undoing(now, C) * change;
-  const Mat3 R = start.q.toRotationMatrix(), J = R * path.scene().model->inertia.asDiagonal() * R.transpose();
-  D.middleRows<3>(6) -= undone.topRows<3>();
-  D.bottomRows<3>() -= J * undone.bottomRows<3>();
-  return out;
-}
 
 // Slopes of the tangent at one node, by the tangent of the state there and the other inputs: 12 rows.
 MatrixXd slopeRates(const HeldPath& path, const HeldInputs& inputs, const State& state, const std::vector<Vec3>& slip) {
@@ -257,7 +155,7 @@ void requireSlips(const HeldPath& path) {
 
 MatrixXd heldSensitivity(const HeldPath& path, const HeldInputs& inputs, double t) {
   requireSlips(path);
-  StartDerivative start = startDerivative(path, inputs);
+  HeldStartDerivative start = heldStartDerivative(path, inputs);
   MatrixXd& D = start.state;
   for (const HeldStep& step : path.allSteps()) {
     if (!(step.length > 0) || !(step.start < t)) break;
@@ -265,7 +163,7 @@ MatrixXd heldSensitivity(const HeldPath& path, const HeldInputs& inputs, double 
     throughStep(path, inputs, step, last ? t : std::min(t, step.start + step.length), D);
   }
   endAcross(path, inputs, t, D);
-  if (!start.time.isZero(0)) D -= asColumn(path.rateAt(t)) * start.time;
+  if (!start.time.isZero(0)) D -= asVector(path.rateAt(t)) * start.time;
   return D;
 }
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/held/held_inputs.hpp"
+#include "adjoint/held/held_start_derivative.hpp"
 
 namespace carom::adjoint_detail {
-
-using HeldRow = Eigen::RowVectorXd;  ///< by the columns of HeldInputs, of which the first 12 are a state
 
 /// Derivative of the state (x, theta, v, L) of a path at a fixed time by its inputs, 12 rows: the collocation of its steps,
 /// differentiated, from a start whose gaps and slips stay what they are (11.24).

@@ -16,6 +16,13 @@ struct PathGuard {
   std::function<void(double sigma, SceneGradient&, BodyModelDerivative&)> pullback;
 };
 
+/// What a path that is integrated does to the state with which it starts, of one participant, at the time of the event.
+struct PathStart {
+  std::size_t participant = 0;
+  std::function<StateDerivative(const StateDerivative&, const SceneTangent&, const BodyModelDerivative&)> tangent;
+  std::function<StateDerivative(const StateDerivative& bar, SceneGradient&, BodyModelDerivative&)> pullback;
+};
+
 /// What the guard of a transition is made of beyond its contacts' gaps, normals and points:
 ///   slip_ends: t . u at the first contact, t the direction of slip there, held: u is 0 at the root;
 ///   leaves: weight . (p - x - R border), (x, R) of a body whose feature ends there (see FeatureLimit);

@@ -85,6 +85,10 @@ class EventPass {
   /// Of numbers with rates, where the event closes gaps.
   void setBends(Bends bends) { bends_ = std::move(bends); }
 
+  /// Of a path that starts here and changes the state with which it does.
+  void setStart(std::shared_ptr<const PathStart> start) { start_ = std::move(start); }
+  const PathStart* start() const { return start_.get(); }
+
   /// Adjoint of (gap, normal, point) of a contact, to the participants or to the scene.
   static void scatter(const Part& part, const Vec7& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar) {
     Bend d{part.pose.transpose() * bar, {}, {}};
@@ -134,8 +138,11 @@ class EventPass {
 
   /// Adjoint just before the event from that just after (`after_bar`), plus adjoints of the state just before
   /// (`read_bar`) and of the time of the event (`time_bar`) that are read at the event itself.
-  std::vector<StateBar> pullback(const std::vector<StateBar>& after_bar, const std::vector<StateBar>& read_bar,
+  std::vector<StateBar> pullback(const std::vector<StateBar>& fixed_bar, const std::vector<StateBar>& read_bar,
                                  const S& time_bar, SceneBar& scene_bar, std::vector<ModelBar>& model_bar) const {
+    std::vector<StateBar> started_bar;
+    const std::vector<StateBar>& after_bar = start_ ? started_bar : fixed_bar;  // at the time of the event
+    if (start_) started_bar = startPullback(fixed_bar, scene_bar, model_bar);
     std::vector<StateBar> before_bar(after_bar.size());
     const bool through = std::any_of(after_bar.begin(), after_bar.end(), [](const auto& s) { return !s.isZero(); });
     if (through && !hasLaw()) before_bar = after_bar;
@@ -170,7 +177,7 @@ class EventPass {
     S sigma = -time_bar;
     for (std::size_t i = 0; i < before_bar.size(); ++i) {
       before_bar[i] += read_bar[i];
-      sigma += after_bar[i].dot(rate_after_[i]) - before_bar[i].dot(rate_before_[i]);
+      sigma += fixed_bar[i].dot(rate_after_[i]) - before_bar[i].dot(rate_before_[i]);
     }
     sigma /= guard_rate_;
     for (const Part& part : parts_) scatter(part, Vec7(sigma * part.guard), before_bar, scene_bar);
@@ -179,6 +186,16 @@ class EventPass {
   }
 
  private:
+  std::vector<StateBar> startPullback(std::vector<StateBar> bars, SceneBar& scene_bar,
+                                      std::vector<ModelBar>& model_bar) const {
+    if constexpr (std::is_same_v<S, double>) {  // held paths have no second derivatives
+      StateBar& bar = bars[start_->participant];
+      const auto body = static_cast<std::size_t>(event_.participants[start_->participant].body);
+      bar = start_->pullback(bar, scene_bar, model_bar[body]);
+    }
+    return bars;
+  }
+
   VectorOf<S> closedGaps() const {
     const std::vector<std::size_t>& lasting = projection_.lasting();
     VectorOf<S> gaps(lasting.size());
@@ -258,6 +275,7 @@ class EventPass {
   EventGuard<S> guard_;
   PoseProjection<S> projection_;
   Bends bends_;
+  std::shared_ptr<const PathStart> start_;
   std::vector<StateBar> rate_before_, rate_after_;
   S guard_rate_ = 0;
 };

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/held/held_start_derivative.hpp"
+
+#include "adjoint/held/held_rates.hpp"
+#include "adjoint/held/held_start.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using Eigen::MatrixXd;
+
+// Below this share of gravity a slip that begins has no acceleration: the contact came to the limit of friction there.
+constexpr double kNoStart = 1e-9;
+
+// Of the unit of speed: slower than that is what rounding leaves of a slip that an impact law stops.
+constexpr double kStopped = 1e-12;
+
+// Accelerations of slips that begin, in the rows of heldRows.
+Eigen::VectorXd rateOfBeginningSlips(const HeldPath& path, Eigen::Index rows) {
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(rows);
+  const HeldInstant now = path.instantAt(path.start());
+  const HeldDynamics forces(now.body, now.contacts, path.redundant());
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < path.contacts().size(); ++k) {
+    const HeldContact& c = path.contacts()[k];
+    if (c.begins) rate.segment<3>(row) = forces.slipRate(k);
+    row += c.stands() ? 3 : 1;
+  }
+  return rate;
+}
+
+// What the impulses that took away what was left of speeds do to v and L: they turn with the normals of contacts that
+// slide, and act where the contacts are. How large they are follows from the speeds, which stay 0.
+struct Stopped {
+  V3<HeldLanes::Number> v = V3<HeldLanes::Number>::Zero(), L = V3<HeldLanes::Number>::Zero();
+};
+
+Stopped stoppedBy(const HeldPath& path, const HeldLanes& lanes) {
+  Stopped sum;
+  for (std::size_t k = 0; k < path.stopped().size(); ++k) {
+    const HeldContact& c = path.contacts()[k];
+    const Vec3& p = path.stopped()[k];
+    const auto& n = lanes.contacts[k].n;
+    V3<HeldLanes::Number> impulse = p.cast<HeldLanes::Number>();
+    if (!c.stands()) impulse = n * HeldLanes::Number(p.dot(valuesOf(n)));
+    sum.v += impulse * lanes.body.inverse_mass;
+    sum.L += lanes.contacts[k].r.cross(impulse);
+  }
+  return sum;
+}
+
+// What is 0 at a start, and what was taken away to make it so, by all inputs.
+struct StartRates {
+  MatrixXd gaps, speeds;  // of contacts, and in the rows of heldRows
+  MatrixXd stopped;       // (v, L)
+
+  // Of one of them, along the columns of a tangent of the start.
+  static MatrixXd along(const MatrixXd& rates, const MatrixXd& tangent) {
+    MatrixXd sum = rates.leftCols<12>() * tangent;
+    sum.rightCols(rates.cols() - 12) += rates.rightCols(rates.cols() - 12);
+    return sum;
+  }
+};
+
+StartRates startRates(const HeldPath& path, const HeldInputs& inputs, HeldRates& rates, Eigen::Index rows) {
+  const std::vector<HeldContact>& contacts = path.contacts();
+  StartRates out{MatrixXd(contacts.size(), inputs.count), MatrixXd(rows, inputs.count), MatrixXd(6, inputs.count)};
+  rates.each([&](const HeldLanes& lanes, int first, int count) {
+    const auto taken = stoppedBy(path, lanes);
+    for (int lane = 0; lane < count; ++lane) {
+      const auto at = static_cast<std::size_t>(lane);
+      out.stopped.col(first + lane) << ratesOf(taken.v, at), ratesOf(taken.L, at);
+      Eigen::Index row = 0;
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        out.gaps(static_cast<Eigen::Index>(k), first + lane) = lanes.gap[k].rate[at];
+        const auto& c = lanes.contacts[k];
+        const auto u = lanes.body.velocityAt(c.r);
+        if (contacts[k].stands()) {
+          out.speeds.block<3, 1>(row, first + lane) = ratesOf(u, at);
+          row += 3;
+        } else {
+          out.speeds(row++, first + lane) = c.n.dot(u).rate[at];
+        }
+      }
+    }
+  });
+  return out;
+}
+
+// Takes a change of speeds at contacts back out of v and L.
+void undoSpeeds(const HeldPath& path, const HeldInstant& now, const MatrixXd& change, MatrixXd& D) {
+  const MatrixXd undone = undoing(now, heldRows(now, path.contacts())) * change;
+  const Mat3 R = path.stateAt(path.start()).q.toRotationMatrix();
+  D.middleRows<3>(6) -= undone.topRows<3>();
+  D.bottomRows<3>() -= R * path.scene().model->inertia.asDiagonal() * R.transpose() * undone.bottomRows<3>();
+}
+
+MatrixXd startAsGiven(const HeldInputs& inputs) {
+  MatrixXd D = MatrixXd::Zero(12, inputs.count);
+  D.leftCols<12>().setIdentity();
+  return D;
+}
+
+}  // namespace
+
+HeldStartDerivative heldStartDerivative(const HeldPath& path, const HeldInputs& inputs) {
+  HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(path.start()), followSlips(path));
+  const HeldInstant& now = rates.now();
+  const Eigen::Index rows = heldRows(now, path.contacts()).rows();
+  const StartRates at_start = startRates(path, inputs, rates, rows);
+  HeldStartDerivative out{startAsGiven(inputs), HeldRow::Zero(inputs.count)};
+  MatrixXd& D = out.state;
+  D.topRows<6>() -= undoing(now, gapRows(now)) * at_start.gaps;
+  const Eigen::VectorXd slip_rate = rateOfBeginningSlips(path, rows);
+  if (slip_rate.norm() > kNoStart * path.scene().gravity.norm())
+    out.time = -(slip_rate.transpose() * StartRates::along(at_start.speeds, D)) / slip_rate.squaredNorm();
+  // At its own time: HeldPath::startRate takes along what a later start does to it.
+  D.bottomRows<6>() += StartRates::along(at_start.stopped, D);
+  if (!out.time.isZero(0)) D += asVector(path.rateAt(path.start())) * out.time;
+  undoSpeeds(path, now, StartRates::along(at_start.speeds, D), D);
+  return out;
+}
+
+bool stopsSlips(const HeldPath& path) {
+  for (std::size_t k = 0; k < path.stopped().size(); ++k)
+    if (path.contacts()[k].begins && path.stopped()[k].norm() * path.scene().model->inverse_mass > kStopped * path.scene().speed)
+      return true;
+  return false;
+}
+
+MatrixXd heldStop(const HeldPath& path, const HeldInputs& inputs) {
+  HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(path.start()), followSlips(path));
+  const HeldInstant& now = rates.now();
+  const StartRates at_start = startRates(path, inputs, rates, heldRows(now, path.contacts()).rows());
+  MatrixXd D = startAsGiven(inputs);
+  undoSpeeds(path, now, StartRates::along(at_start.speeds, D), D);
+  return D;
+}
+
+}  // namespace carom::adjoint_detail
