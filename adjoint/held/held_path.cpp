@@ -28,6 +28,8 @@ constexpr double kLeftOutOfSlip = 3e-13;
 // One that is nearer than this share of a step to its start, and cannot be come to by a step, is there at once.
 constexpr double kAtOnceOfStep = 1e-6;
 constexpr int kTries = 200;
+// Of the unit of speed: slower than that is what rounding leaves of a slip that an impact law stops.
+constexpr double kStopped = 1e-12;
 constexpr std::size_t kMostSteps = 20'000;
 
 // By which a step may be longer, or has to be shorter.
@@ -262,9 +264,15 @@ StateDerivative HeldPath::rateAt(double t) const {
 }
 
 // The impulses act where the contacts are, and those of contacts that slide along their normals.
+bool HeldPath::stopsSlips() const {
+  for (std::size_t k = 0; k < stopped_.size(); ++k)
+    if (contacts_[k].begins && stopped_[k].norm() * scene_.model->inverse_mass > kStopped * scene_.speed) return true;
+  return false;
+}
+
 StateDerivative HeldPath::startRate() const {
   StateDerivative rate = rateAt(start_);
-  if (stopped_.empty()) return rate;
+  if (stopped_.empty() || stopsSlips()) return rate;
   const HeldInstant now = instantAt(start_);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactInstant<double>& c = now.contacts[k];

@@ -12,9 +12,6 @@ using Eigen::MatrixXd;
 // Below this share of gravity a slip that begins has no acceleration: the contact came to the limit of friction there.
 constexpr double kNoStart = 1e-9;
 
-// Of the unit of speed: slower than that is what rounding leaves of a slip that an impact law stops.
-constexpr double kStopped = 1e-12;
-
 // Accelerations of slips that begin, in the rows of heldRows.
 Eigen::VectorXd rateOfBeginningSlips(const HeldPath& path, Eigen::Index rows) {
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(rows);
@@ -114,18 +111,11 @@ HeldStartDerivative heldStartDerivative(const HeldPath& path, const HeldInputs& 
   const Eigen::VectorXd slip_rate = rateOfBeginningSlips(path, rows);
   if (slip_rate.norm() > kNoStart * path.scene().gravity.norm())
     out.time = -(slip_rate.transpose() * StartRates::along(at_start.speeds, D)) / slip_rate.squaredNorm();
-  // At its own time: HeldPath::startRate takes along what a later start does to it.
-  D.bottomRows<6>() += StartRates::along(at_start.stopped, D);
+  // At its own time: HeldPath::startRate takes along what a later start does to it. Of slips that begin, heldStop has done it.
+  if (!path.stopsSlips()) D.bottomRows<6>() += StartRates::along(at_start.stopped, D);
   if (!out.time.isZero(0)) D += asVector(path.rateAt(path.start())) * out.time;
   undoSpeeds(path, now, StartRates::along(at_start.speeds, D), D);
   return out;
-}
-
-bool stopsSlips(const HeldPath& path) {
-  for (std::size_t k = 0; k < path.stopped().size(); ++k)
-    if (path.contacts()[k].begins && path.stopped()[k].norm() * path.scene().model->inverse_mass > kStopped * path.scene().speed)
-      return true;
-  return false;
 }
 
 MatrixXd heldStop(const HeldPath& path, const HeldInputs& inputs) {
@@ -133,6 +123,7 @@ MatrixXd heldStop(const HeldPath& path, const HeldInputs& inputs) {
   const HeldInstant& now = rates.now();
   const StartRates at_start = startRates(path, inputs, rates, heldRows(now, path.contacts()).rows());
   MatrixXd D = startAsGiven(inputs);
+  D.bottomRows<6>() += StartRates::along(at_start.stopped, D);
   undoSpeeds(path, now, StartRates::along(at_start.speeds, D), D);
   return D;
 }

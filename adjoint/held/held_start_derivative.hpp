@@ -18,10 +18,9 @@ struct HeldStartDerivative {
 };
 HeldStartDerivative heldStartDerivative(const HeldPath& path, const HeldInputs& inputs);
 
-/// Whether slips that begin at the start of a path were what an impact left: the start stopped them.
-bool stopsSlips(const HeldPath& path);
-/// What that does to a tangent of the state at the time of its own at which the path starts, 12 rows by the inputs. It has to be
-/// done there: at a fixed time a slip has a tangent as it begins earlier or later too, and that is how HeldStartDerivative knows it.
+/// Where HeldPath::stopsSlips: what that does to a tangent of the state at the time of its own at which the path starts, 12 rows
+/// by the inputs. It has to be done there: at a fixed time a slip has a tangent as it begins earlier or later too, and that is
+/// how HeldStartDerivative knows it.
 Eigen::MatrixXd heldStop(const HeldPath& path, const HeldInputs& inputs);
 
 /// No directions of their own: slips are followed.

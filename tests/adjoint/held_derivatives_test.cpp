@@ -7,6 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/adjoint.h"
+#include "adjoint/derivative/held_pass.hpp"
 #include "adjoint/numeric/so3.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/held_scenes.h"
@@ -18,6 +19,7 @@ namespace carom::held_derivatives {
 namespace {
 
 using namespace test;
+using adjoint_detail::HeldPath;
 using adjoint_detail::logSO3;
 
 class HeldDerivatives : public ::testing::TestWithParam<HeldCase> {};
@@ -31,6 +33,51 @@ TEST_P(HeldDerivatives, TangentAndAdjointAreTransposed) {
       SCOPED_TRACE((reverse ? "reversed, seed " : "seed ") + std::to_string(seed));
       expectTransposed(m, seed, 1e-12);
     }
+  }
+}
+
+// A die whose impacts leave a slip where another one begins: the start of the path stops it.
+Scene dieWithStoppedSlips() {
+  Body die = makeBox("die", Vec3::Constant(0.016), {0, 0, 0.036822478825975453},
+                     {0.458423601420475, -0.30030392959331698, -0.93205876425219203});
+  die.angular_velocity = {-20.679203353411356, 31.041016164709063, -26.666359958886712};
+  die.orientation = {0.88515717278034056, -0.022470101480940061, 0.46196360240732626, -0.050808503872840353};
+  return makeScene({0.1, -0.2, -9.81}, 0.3, 1, {die, makePlane("floor", Vec3::UnitZ(), 0)});
+}
+
+TEST(HeldDerivativesOf, SlipsThatAnImpactLeftAreStoppedAtItsTime) {
+  Scene scene = dieWithStoppedSlips();
+  for (bool reverse : {false, true}) {
+    if (reverse) std::reverse(scene.bodies.begin(), scene.bodies.end());
+    const Motion m = playLasting(scene, 1);
+    const int body = reverse ? 1 : 0;
+    const WorldLine& line = m.world_lines[static_cast<std::size_t>(body)];
+    DerivativeTape tape(m);
+    Random random(5);
+    SceneTangent direction(scene);
+    direction.bodies[static_cast<std::size_t>(body)].velocity = random.vec(1);
+    direction.bodies[static_cast<std::size_t>(body)].angular_velocity = random.vec(10);
+    const MotionTangent found = tangent(tape, direction);
+    int stopped = 0;
+    for (std::size_t k = 1; k < line.arcs.size(); ++k) {
+      const HeldPath* path = adjoint_detail::heldPathOf(line.arcs[k]);
+      if (!path || !path->stopsSlips()) continue;
+      ++stopped;
+      // of a corner at the time of the event: dv + dw x r + w x (dtheta x r)
+      const int event = line.events[k - 1];
+      const BodyStateRate d = found.at(body, Instant::after(event));
+      const auto now = path->instantAt(path->start());
+      for (std::size_t c = 0; c < path->contacts().size(); ++c) {
+        if (!path->contacts()[c].stands()) continue;
+        const Vec3& r = now.contacts[c].r;
+        const Vec3 parts[] = {d.velocity, d.angular_velocity.cross(r), now.body.omega.cross(d.orientation.cross(r))};
+        const double scale = parts[0].norm() + parts[1].norm() + parts[2].norm();
+        EXPECT_TRUE((parts[0] + parts[1] + parts[2]).norm() <= 1e-12 * scale)
+            << "event " << event << ": " << (parts[0] + parts[1] + parts[2]).norm() << " of " << scale;
+      }
+    }
+    EXPECT_GE(stopped, 1);
+    expectTransposed(m, 3, 1e-12);
   }
 }
 
