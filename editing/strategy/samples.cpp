@@ -10,14 +10,20 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Half widths of boxes and lengths along free directions, as shares of the reach; used in turn.
-constexpr double kSampleRadii[] = {0.1 / 3, 0.1, 1.0 / 3, 0.01, 0.5 / 3, 0.2 / 3, 1};
+/// Half widths of boxes and lengths along free directions, as shares of the reach; used in turn. Of changes that have to be
+/// smaller than a known one most are nearly as large.
+constexpr double kRadii[] = {0.1 / 3, 0.1, 1.0 / 3, 0.01, 0.5 / 3, 0.2 / 3, 1};
+constexpr double kSmallerRadii[] = {0.95, 0.7, 0.85, 0.5, 1, 0.35, 0.6};
 /// Shares of a Gauss-Newton step; used in turn.
 constexpr double kShares[] = {1, 0.5, 1.5, 0.75, 0.25, 2};
 
 template <std::size_t N>
 double inTurn(const double (&list)[N], int k) {
   return list[static_cast<std::size_t>(k) % N];
+}
+
+double radius(int k, const SampleReach& reach) {
+  return reach.length * (reach.of_known ? inTurn(kSmallerRadii, k) : inTurn(kRadii, k));
 }
 
 /// Numbers beyond a bound come to lie just before it: many a bound is a special case, such as friction 0.
@@ -40,16 +46,21 @@ Eigen::VectorXd inBox(const EvenPoints& points, int k, const Eigen::VectorXd& ce
   return from + points.inCube(k).cwiseProduct(to - from);
 }
 
-Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre, double reach) {
+/// Of a box: points of one have a length of sqrt(n / 3) half widths, in the mean of squares.
+double halfWidth(int k, Eigen::Index n, const SampleReach& reach) {
+  return radius(k, reach) * (reach.of_known ? std::sqrt(3.0 / static_cast<double>(n)) : 1);
+}
+
+Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre, const SampleReach& reach) {
   Eigen::VectorXd x = centre;
   const int n = static_cast<int>(x.size()), turn = k / (2 * n);
-  x[(k / 2) % n] += (k % 2 ? -1 : 1) * reach * inTurn(kSampleRadii, turn);
+  x[(k / 2) % n] += (k % 2 ? -1 : 1) * radius(turn, reach);
   return x;
 }
 
-Eigen::VectorXd along(int k, const Surroundings& s, double reach) {
+Eigen::VectorXd along(int k, const Surroundings& s, const SampleReach& reach) {
   Eigen::VectorXd x = s.at + inTurn(kShares, k) * s.step;
-  const double length = reach * inTurn(kSampleRadii, k / 2) * (k < 2 ? 0 : 1);  // the step itself first
+  const double length = radius(k / 2, reach) * (k < 2 ? 0 : 1);  // the step itself first
   if (s.free.cols() > 0) x += length * (s.free * EvenPoints(s.free.cols()).onSphere(k));
   return x;
 }
@@ -86,7 +97,7 @@ Eigen::VectorXd EvenPoints::onSphere(int k) const {
 
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
-                                     double reach) {
+                                     const SampleReach& reach) {
   const EvenPoints points(centre.size());
   const int kinds = 2 + 2 * static_cast<int>(around.size());
   std::vector<Eigen::VectorXd> list;
@@ -94,7 +105,7 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
     const int kind = i % kinds, k = i / kinds;
     Eigen::VectorXd x;
     if (kind == 0) {
-      x = inBox(points, k, centre, reach * inTurn(kSampleRadii, k), lower, upper);
+      x = inBox(points, k, centre, halfWidth(k, centre.size(), reach), lower, upper);
     } else if (kind == 1) {
       x = alone(k, centre, reach);
     } else {

@@ -31,12 +31,18 @@ struct Surroundings {
   Eigen::MatrixXd free;
 };
 
+/// How far samples reach, in natural scales times the weights.
+struct SampleReach {
+  double length = 3;
+  bool of_known = false;  ///< a change of this length is known, and smaller ones are looked for
+};
+
 /// A part of `count` of one endless sequence of samples, from number `first` on, all within the bounds. They take
-/// turns: points of boxes around `centre` with half widths from a hundredth of `reach` to all of it (natural scales,
-/// times the weights); single numbers changed; and from each of `around` on, a share of the step and something along
-/// the free directions.
+/// turns: points of boxes around `centre` with half widths from a hundredth of the reach to all of it, or, where smaller changes
+/// than a known one are looked for, with lengths from a third of it on; single numbers changed; and from each of `around` on, a
+/// share of the step and something along the free directions.
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
-                                     double reach = 3);
+                                     const SampleReach& reach = {});
 
 }  // namespace carom::editing_detail

@@ -30,8 +30,8 @@ constexpr int kDoublings = 6;
 constexpr double kStepsOfSample = 10;
 /// Where hardly another way changes less, one sample of so many is done.
 constexpr int kPartOfSamples = 6;
-/// The reach of samples, natural scales; around a solution in lengths of its change.
-constexpr double kReach = 3, kReachOfChange = 1.2;
+/// The reach of samples, natural scales, unless a smaller change is known.
+constexpr double kReach = 3;
 
 /// Where nothing is known of the rows: everything around it.
 Surroundings anywhereAround(const EditPoint& point) {
@@ -65,9 +65,10 @@ int SequenceSearch::sampleCount() const {
 }
 
 // What changes less than the best lies nearer to the start. While there is none, every other round reaches further.
-double SequenceSearch::reach() const {
-  if (solutions_.empty()) return std::ldexp(kReach, rounds_without_ / 2);
-  return std::min(kReach, kReachOfChange * lengthOf(search_.problem(), solutions_.front()->changes));
+SampleReach SequenceSearch::reach() const {
+  if (solutions_.empty()) return {std::ldexp(kReach, rounds_without_ / 2)};
+  const double known = lengthOf(search_.problem(), solutions_.front()->changes);
+  return known < kReach ? SampleReach{known, true} : SampleReach{kReach};
 }
 
 std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
@@ -100,7 +101,8 @@ std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   return points;
 }
 
-// Beyond the borders of the sequences of the start and of the smallest solutions, of each of them once.
+// Beyond the borders of the sequences of the start, of the smallest solutions and of what was most promising in the last
+// round, of each of them once.
 std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
   std::vector<EditPointPtr> around;
   const auto take = [&](const EditPointPtr& point) {
@@ -109,6 +111,7 @@ std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
   };
   if (start_->rows.available && missingImpacts(search_.problem(), *start_).empty()) take(start_);
   for (const EditPointPtr& solution : solutions_) take(solution);
+  for (const EditPointPtr& point : promising_) take(point);
   std::vector<std::vector<Eigen::VectorXd>> beyond(around.size());
   forAll(around.size(), [&](std::size_t i, ContactSource&) {
     if (search_.differentiate(*around[i])) beyond[i] = beyondBorders(search_, *around[i], lengthToBeat(seek));

@@ -9,6 +9,7 @@
 #include "editing/solve/projection.hpp"
 #include "editing/strategy/border_minimum.hpp"
 #include "editing/strategy/landing.hpp"
+#include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -31,7 +32,9 @@ constexpr int kFewImpacts = 3;
 /// Steps of a motion from which on a landing takes so long that few can be made.
 constexpr std::size_t kManySteps = 2000;
 /// A step that is so much longer makes up for a change that is smaller by one.
-constexpr double kStepsAreUncertain = 1.5;
+constexpr double kStepsAreUncertain = 0.4;
+/// Of the most promising points of a round the next one may look beyond the borders.
+constexpr std::size_t kRemembered = 6;
 /// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
 constexpr double kLeadsNowhere = 0.5;
 /// Once there is a solution only points from which the change is expected to be smaller than this share of it count.
@@ -144,6 +147,9 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
   std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
   for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  promising_.clear();
+  for (const auto& [score, point] : ranked)
+    if (promising_.size() < kRemembered && missingImpacts(search_.problem(), *point).empty()) promising_.push_back(point);
   std::vector<EditPointPtr> chosen;
   std::map<std::string, int> of_sequence;
   for (const auto& [score, point] : ranked) {

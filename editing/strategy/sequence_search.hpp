@@ -9,6 +9,7 @@
 #include "editing/detail/parallel.hpp"
 #include "editing/solve/edit_search.hpp"
 #include "editing/strategy/effort.hpp"
+#include "editing/strategy/samples.hpp"
 
 /// Solutions in other impact sequences. Internal to editing/.
 namespace carom::editing_detail {
@@ -55,7 +56,7 @@ class SequenceSearch {
  private:
   int sampleCount() const;
   std::size_t landings() const;
-  double reach() const;
+  SampleReach reach() const;
   std::size_t wanted() const;
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
@@ -78,7 +79,8 @@ class SequenceSearch {
   EditPointPtr start_;
   std::map<std::string, int> tries_;  // landings from a sequence so far
   std::vector<EditPointPtr> solutions_;
-  std::vector<EditPointPtr> crossed_;  // points beyond whose borders was looked
+  std::vector<EditPointPtr> promising_;  // of the last round, the most promising
+  std::vector<EditPointPtr> crossed_;    // points beyond whose borders was looked
   EditPointPtr nearest_lacking_;
   double least_lack_ = std::numeric_limits<double>::infinity();
   int round_ = 0, rounds_without_ = 0;
