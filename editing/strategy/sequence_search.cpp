@@ -24,7 +24,7 @@ constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderStep
 constexpr double kStationary = 1e-9, kNearlyStationary = 1e-8;
 /// Of the objective: half a natural scale; and the part of the landings that is done for less than that.
 constexpr double kSmallChange = 0.1;
-constexpr std::size_t kPart = 4;
+constexpr std::size_t kPart = 6;
 /// Of the objective near its least, as a share of it: what is stationary may seem the larger by this.
 constexpr double kRounding = 1e-12;
 /// So many impacts leave few other ways.
