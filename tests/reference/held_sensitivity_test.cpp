@@ -195,7 +195,7 @@ double worstOf(const HeldPath& path, const Vec3& size, const std::vector<double>
     std::vector<Column> expected;
     Numbers there = nudged(known, path, inputs, column, kNudge);
     there.start = withoutGaps(there.body, there.corners, there.start);
-    stopAgain(there, known, path.stopped());
+    if (!path.stopsSlips()) stopAgain(there, known, path.stopped());  // else heldStop has done it, at the event
     moveStart(there, known, series);
     const std::vector<HeldState> after = statesOf(there, at);
     const double input = unitOf(path, inputs, column);
