@@ -136,7 +136,7 @@ class EventPass {
     part.rules.pullback(pair_bar, slot(part.material_a), slot(part.material_b));
   }
 
-  /// Adjoint just before the event from that just after (`after_bar`), plus adjoints of the state just before
+  /// Adjoint just before the event from that just after (`fixed_bar`, at the fixed nominal time), plus adjoints of the state just before
   /// (`read_bar`) and of the time of the event (`time_bar`) that are read at the event itself.
   std::vector<StateBar> pullback(const std::vector<StateBar>& fixed_bar, const std::vector<StateBar>& read_bar,
                                  const S& time_bar, SceneBar& scene_bar, std::vector<ModelBar>& model_bar) const {
