@@ -37,8 +37,6 @@ class IntegratedPath {
   virtual Vec3 velocityAt(double t) const = 0;
   /// d(state)/dt; of two steps that meet at t the one before.
   virtual StateDerivative rateAt(double t) const = 0;
-  /// rateAt of the start as a later event makes it: what takes away what is left of speeds there goes with the contacts.
-  virtual StateDerivative startRate() const = 0;
   /// Over all that is known.
   virtual PathBounds bounds() const = 0;
   /// Whether a contact slips on it, and whether one goes round the body.

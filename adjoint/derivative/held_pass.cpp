@@ -18,7 +18,7 @@ std::shared_ptr<const PathStart> pathStartOf(const Motion& motion, const Event& 
   for (std::size_t i = 0; i < event.participants.size(); ++i) {
     const Participant& p = event.participants[i];
     const HeldPath* path = heldPathOf(motion.world_lines[placeOf(p.body)].arcs[placeOf(p.arc) + 1]);
-    if (!path || !path->stopsSlips()) continue;
+    if (!path || !path->stopsSpeeds()) continue;
     const auto columns = std::make_shared<const HeldColumns>(motion, *path);
     const auto stop = std::make_shared<const Eigen::MatrixXd>(heldStop(*path, columns->inputs()));
     auto start = std::make_shared<PathStart>();

@@ -33,12 +33,6 @@ class HeldColumns {
   std::vector<Friction> friction_;
 };
 
-inline StateDerivative asState(const Eigen::Matrix<double, 12, 1>& v) {
-  StateDerivative d;
-  d.x = v.head<3>(), d.theta = v.segment<3>(3), d.v = v.segment<3>(6), d.L = v.tail<3>();
-  return d;
-}
-
 /// The integrated path of an arc; null for any other arc.
 const HeldPath* heldPathOf(const Arc& arc);
 /// Of the path that starts at an event; null where it takes the state as it is.

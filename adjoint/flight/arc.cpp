@@ -241,10 +241,6 @@ StateDerivative Arc::rateAt(double t, const State& s) const {
   return ds;
 }
 
-StateDerivative Arc::startRate() const {
-  return path_ && path_->integrated ? path_->integrated->startRate() : rateAt(start_, startState());
-}
-
 RotationSensitivity Arc::rotationSensitivity(double t, Tier tier, bool products) const {
   const double s = t - start_;
   switch (tier) {

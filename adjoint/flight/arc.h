@@ -89,8 +89,8 @@ class Arc {
   /// d(state)/dt of the flow at time t, where the state is `state`: (v, omega, acceleration, dL/dt). L is constant in
   /// flight.
   StateDerivative rateAt(double t, const State& state) const;
-  /// The same of the start as a later event makes it.
-  StateDerivative startRate() const;
+  /// The same at its start.
+  StateDerivative startRate() const { return rateAt(start_, startState()); }
 
   /// Bound over the whole arc: |omega| <= spinBound(), rad/s.
   double spinBound() const { return spin_bound_; }

@@ -25,6 +25,22 @@ struct HeldInputs {
   /// Of a derivative of a pair's geometry what belongs to a column; nothing where that does not move the pair.
   std::optional<Eigen::Matrix<double, 7, 1>> columnOf(const ContactJacobian& J, const HeldContact& contact, std::size_t k,
                                                       int column) const;
+
+  /// The chain rule where the state has the derivative `state`, 12 rows, by the inputs: rows by all inputs.
+  static Eigen::MatrixXd chained(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& state) {
+    Eigen::MatrixXd sum = rows.leftCols<kStart>() * state;
+    sum.rightCols(rows.cols() - kStart) += rows.rightCols(rows.cols() - kStart);
+    return sum;
+  }
 };
+
+inline Eigen::Matrix<double, 12, 1> asVector(const StateDerivative& d) {
+  return (Eigen::Matrix<double, 12, 1>() << d.x, d.theta, d.v, d.L).finished();
+}
+inline StateDerivative asState(const Eigen::Matrix<double, 12, 1>& v) {
+  StateDerivative d;
+  d.x = v.head<3>(), d.theta = v.segment<3>(3), d.v = v.segment<3>(6), d.L = v.tail<3>();
+  return d;
+}
 
 }  // namespace carom::adjoint_detail

@@ -28,8 +28,8 @@ constexpr double kLeftOutOfSlip = 3e-13;
 // One that is nearer than this share of a step to its start, and cannot be come to by a step, is there at once.
 constexpr double kAtOnceOfStep = 1e-6;
 constexpr int kTries = 200;
-// Of the unit of speed: slower than that is what rounding leaves of a slip that an impact law stops.
-constexpr double kStopped = 1e-12;
+// Of the unit of speed: slower than that is what rounding leaves of speeds that an impact law stops.
+constexpr double kStopped = 1e-14;
 constexpr std::size_t kMostSteps = 20'000;
 
 // By which a step may be longer, or has to be shorter.
@@ -263,26 +263,9 @@ StateDerivative HeldPath::rateAt(double t) const {
   return rate;
 }
 
-// The impulses act where the contacts are, and those of contacts that slide along their normals.
-bool HeldPath::stopsSlips() const {
-  for (std::size_t k = 0; k < stopped_.size(); ++k)
-    if (contacts_[k].begins && stopped_[k].norm() * scene_.model->inverse_mass > kStopped * scene_.speed) return true;
-  return false;
-}
-
-StateDerivative HeldPath::startRate() const {
-  StateDerivative rate = rateAt(start_);
-  if (stopped_.empty() || stopsSlips()) return rate;
-  const HeldInstant now = instantAt(start_);
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const ContactInstant<double>& c = now.contacts[k];
-    rate.L -= Vec3(c.point_rate - now.body.v).cross(stopped_[k]);
-    if (contacts_[k].stands()) continue;
-    const Vec3 turned = c.n.dot(stopped_[k]) * c.normal_rate;
-    rate.v -= now.body.inverse_mass * turned;
-    rate.L -= c.r.cross(turned);
-  }
-  return rate;
+bool HeldPath::stopsSpeeds() const {
+  const double rounding = kStopped * scene_.speed * scene_.model->mass;
+  return std::ranges::any_of(stopped_, [&](const Vec3& impulse) { return impulse.norm() > rounding; });
 }
 
 }  // namespace carom::adjoint_detail

@@ -32,7 +32,6 @@ class HeldPath final : public IntegratedPath {
   Vec3 positionAt(double t) const override { return stateAt(t).x; }
   Vec3 velocityAt(double t) const override;
   StateDerivative rateAt(double t) const override;
-  StateDerivative startRate() const override;
   PathBounds bounds() const override { return bounds_; }
   bool slides() const override;
   bool rolls() const override { return rolls_; }
@@ -50,8 +49,8 @@ class HeldPath final : public IntegratedPath {
   double start() const { return start_; }
   /// The impulses, N s, by which the contacts took away what was left of speeds at its start; empty: none.
   const std::vector<Vec3>& stopped() const { return stopped_; }
-  /// Whether a slip that begins at its start was one that an impact left, and the start stopped it.
-  bool stopsSlips() const;
+  /// Whether what its start took away of speeds is more than rounding.
+  bool stopsSpeeds() const;
   /// That whose slip ends it.
   std::optional<std::size_t> contactThatStops() const;
   /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node, and at

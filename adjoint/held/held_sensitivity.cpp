@@ -125,8 +125,7 @@ void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixX
     const auto u = lanes.body.velocityAt(lanes.contacts[k].r);
     for (int lane = 0; lane < count; ++lane) row[first + lane] = across.dot(ratesOf(u, static_cast<std::size_t>(lane)));
   });
-  HeldRow left = row.leftCols<12>() * D;
-  left.rightCols(inputs.count - 12) += row.rightCols(inputs.count - 12);
+  HeldRow left = HeldInputs::chained(row, D);
   const HeldDynamics forces(now.body, now.contacts, path.redundant());
   const std::vector<Vec3> push = forces.answerToTurn(k, path.redundant());
   const Vec3 turned = forces.responseAt(now.contacts[k].r, push);

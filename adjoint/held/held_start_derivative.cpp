@@ -46,27 +46,30 @@ Stopped stoppedBy(const HeldPath& path, const HeldLanes& lanes) {
   return sum;
 }
 
-// What is 0 at a start, and what was taken away to make it so, by all inputs.
+// The same by all inputs: rows (v, L).
+MatrixXd stoppedRates(const HeldPath& path, const HeldInputs& inputs, HeldRates& rates) {
+  MatrixXd out(6, inputs.count);
+  rates.each([&](const HeldLanes& lanes, int first, int count) {
+    const Stopped stopped = stoppedBy(path, lanes);
+    for (int lane = 0; lane < count; ++lane) {
+      const auto at = static_cast<std::size_t>(lane);
+      out.col(first + lane) << ratesOf(stopped.v, at), ratesOf(stopped.L, at);
+    }
+  });
+  return out;
+}
+
+// What is 0 at a start, by all inputs.
 struct StartRates {
   MatrixXd gaps, speeds;  // of contacts, and in the rows of heldRows
-  MatrixXd stopped;       // (v, L)
-
-  // Of one of them, along the columns of a tangent of the start.
-  static MatrixXd along(const MatrixXd& rates, const MatrixXd& tangent) {
-    MatrixXd sum = rates.leftCols<12>() * tangent;
-    sum.rightCols(rates.cols() - 12) += rates.rightCols(rates.cols() - 12);
-    return sum;
-  }
 };
 
 StartRates startRates(const HeldPath& path, const HeldInputs& inputs, HeldRates& rates, Eigen::Index rows) {
   const std::vector<HeldContact>& contacts = path.contacts();
-  StartRates out{MatrixXd(contacts.size(), inputs.count), MatrixXd(rows, inputs.count), MatrixXd(6, inputs.count)};
+  StartRates out{MatrixXd(contacts.size(), inputs.count), MatrixXd(rows, inputs.count)};
   rates.each([&](const HeldLanes& lanes, int first, int count) {
-    const auto taken = stoppedBy(path, lanes);
     for (int lane = 0; lane < count; ++lane) {
       const auto at = static_cast<std::size_t>(lane);
-      out.stopped.col(first + lane) << ratesOf(taken.v, at), ratesOf(taken.L, at);
       Eigen::Index row = 0;
       for (std::size_t k = 0; k < contacts.size(); ++k) {
         out.gaps(static_cast<Eigen::Index>(k), first + lane) = lanes.gap[k].rate[at];
@@ -110,11 +113,9 @@ HeldStartDerivative heldStartDerivative(const HeldPath& path, const HeldInputs& 
   D.topRows<6>() -= undoing(now, gapRows(now)) * at_start.gaps;
   const Eigen::VectorXd slip_rate = rateOfBeginningSlips(path, rows);
   if (slip_rate.norm() > kNoStart * path.scene().gravity.norm())
-    out.time = -(slip_rate.transpose() * StartRates::along(at_start.speeds, D)) / slip_rate.squaredNorm();
-  // At its own time: HeldPath::startRate takes along what a later start does to it. Of slips that begin, heldStop has done it.
-  if (!path.stopsSlips()) D.bottomRows<6>() += StartRates::along(at_start.stopped, D);
+    out.time = -(slip_rate.transpose() * HeldInputs::chained(at_start.speeds, D)) / slip_rate.squaredNorm();
   if (!out.time.isZero(0)) D += asVector(path.rateAt(path.start())) * out.time;
-  undoSpeeds(path, now, StartRates::along(at_start.speeds, D), D);
+  undoSpeeds(path, now, HeldInputs::chained(at_start.speeds, D), D);
   return out;
 }
 
@@ -123,8 +124,8 @@ MatrixXd heldStop(const HeldPath& path, const HeldInputs& inputs) {
   const HeldInstant& now = rates.now();
   const StartRates at_start = startRates(path, inputs, rates, heldRows(now, path.contacts()).rows());
   MatrixXd D = startAsGiven(inputs);
-  D.bottomRows<6>() += StartRates::along(at_start.stopped, D);
-  undoSpeeds(path, now, StartRates::along(at_start.speeds, D), D);
+  D.bottomRows<6>() += stoppedRates(path, inputs, rates);
+  undoSpeeds(path, now, HeldInputs::chained(at_start.speeds, D), D);
   return D;
 }
 

@@ -18,17 +18,14 @@ struct HeldStartDerivative {
 };
 HeldStartDerivative heldStartDerivative(const HeldPath& path, const HeldInputs& inputs);
 
-/// Where HeldPath::stopsSlips: what that does to a tangent of the state at the time of its own at which the path starts, 12 rows
-/// by the inputs. It has to be done there: at a fixed time a slip has a tangent as it begins earlier or later too, and that is
-/// how HeldStartDerivative knows it.
+/// Where HeldPath::stopsSpeeds: what that does to a tangent of the state at the time of its own at which the path starts, 12 rows
+/// by the inputs. It has to be done there: at a fixed time speeds have a tangent as the path starts earlier or later too, and
+/// from that of a slip which begins HeldStartDerivative knows when it does.
 Eigen::MatrixXd heldStop(const HeldPath& path, const HeldInputs& inputs);
 
 /// No directions of their own: slips are followed.
 inline std::vector<Vec3> followSlips(const HeldPath& path) {
   return std::vector<Vec3>(path.contacts().size(), Vec3::Zero());
-}
-inline Eigen::Matrix<double, 12, 1> asVector(const StateDerivative& d) {
-  return (Eigen::Matrix<double, 12, 1>() << d.x, d.theta, d.v, d.L).finished();
 }
 
 }  // namespace carom::adjoint_detail

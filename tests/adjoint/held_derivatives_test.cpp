@@ -61,7 +61,7 @@ TEST(HeldDerivativesOf, SlipsThatAnImpactLeftAreStoppedAtItsTime) {
     int stopped = 0;
     for (std::size_t k = 1; k < line.arcs.size(); ++k) {
       const HeldPath* path = adjoint_detail::heldPathOf(line.arcs[k]);
-      if (!path || !path->stopsSlips()) continue;
+      if (!path || !path->stopsSpeeds()) continue;
       ++stopped;
       // of a corner at the time of the event: dv + dw x r + w x (dtheta x r)
       const int event = line.events[k - 1];

@@ -183,8 +183,13 @@ double worstOf(const HeldPath& path, const Vec3& size, const std::vector<double>
   const Numbers known{body, corners, projected(body, corners, stateOf(model, start)), path.start()};
   const HeldSeries series(body, corners, known.start, 3, kTolerance);
   const HeldInputs inputs(path.scene(), path.contacts(), start);
+  // What stops speeds is differentiated at the event; where no slip begins, that is at the time at which the path starts.
+  const bool stops = path.stopsSpeeds() && std::ranges::none_of(path.contacts(), &HeldContact::begins);
   std::vector<Eigen::MatrixXd> found;
-  for (const double t : at) found.push_back(heldSensitivity(path, inputs, t));
+  for (const double t : at) {
+    found.push_back(heldSensitivity(path, inputs, t));
+    if (stops) found.back() = HeldInputs::chained(found.back(), heldStop(path, inputs));
+  }
   const double l = path.scene().length, c = path.scene().speed, turning = model.inertia.maxCoeff() * c / l;
   Column unit;
   unit << Vec3::Constant(l), Vec3::Ones(), Vec3::Constant(c), Vec3::Constant(turning);
@@ -195,7 +200,7 @@ double worstOf(const HeldPath& path, const Vec3& size, const std::vector<double>
     std::vector<Column> expected;
     Numbers there = nudged(known, path, inputs, column, kNudge);
     there.start = withoutGaps(there.body, there.corners, there.start);
-    if (!path.stopsSlips()) stopAgain(there, known, path.stopped());  // else heldStop has done it, at the event
+    if (stops) stopAgain(there, known, path.stopped());
     moveStart(there, known, series);
     const std::vector<HeldState> after = statesOf(there, at);
     const double input = unitOf(path, inputs, column);
