@@ -14,7 +14,7 @@ namespace {
 // A slip that ends goes straight from this share of the unit of speed on, if what is left of it across is rounding, or from
 // the lesser one.
 constexpr double kStraight = 1e-8, kStraightAnyway = 1e-11;
-// A slip slower than this has no direction of its own.
+// The direction of a slip slower than this is better known by the nodes of the step.
 constexpr double kNoDirection = 1e-7;
 // Its direction at its end is found in so many rounds, if it is not further than this from that at a node, rad.
 constexpr int kAlignRounds = 3;
@@ -239,16 +239,17 @@ HeldInstant HeldPath::instantAt(double t) const {
   if (steps_.empty() || !(steps_.front().length > 0)) {
     slip = slipAfter();
   } else {
-    const HeldStep& step = stepAt(t);
-    slip = step.slipAtNode(t - step.start < 0.5 * step.length ? 0 : Gauss::kNodes - 1);
+    stepAt(t).placeSlips(t, slip);
     if (!(t > start_))
       for (std::size_t k = 0; k < contacts_.size(); ++k) slip[k] = contacts_[k].slip;
   }
   HeldInstant now = instantOf(scene_, contacts_, stateAt(t), slip);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (contacts_[k].mode != HeldMode::slides || !(contacts_[k].friction > 0)) continue;
+    ContactInstant<double>& c = now.contacts[k];
     const Vec3 u = now.slipAt(k);
-    if (u.norm() > kNoDirection * scene_.speed) now.contacts[k].slip = u.normalized();
+    if (u.norm() > kNoDirection * scene_.speed) c.slip = u;
+    c.slip = (c.slip - c.n.dot(c.slip) * c.n).normalized();
   }
   if (t > start_) alignStop(now);
   return now;

@@ -46,6 +46,8 @@ class HeldPath final : public IntegratedPath {
   const std::vector<HeldGuard>& guards() const { return guards_; }
   bool redundant() const { return redundant_; }
   const HeldSteps& allSteps() const { return steps_; }
+  /// Of two steps that meet at t the one before.
+  const HeldStep& stepAt(double t) const;
   double start() const { return start_; }
   /// The impulses, N s, by which the contacts took away what was left of speeds at its start; empty: none.
   const std::vector<Vec3>& stopped() const { return stopped_; }
@@ -53,8 +55,8 @@ class HeldPath final : public IntegratedPath {
   bool stopsSpeeds() const;
   /// That whose slip ends it.
   std::optional<std::size_t> contactThatStops() const;
-  /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the nearest node, and at
-  /// its end that of its acceleration.
+  /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the step, and at its end
+  /// that of its acceleration.
   HeldInstant instantAt(double t) const;
 
   /// Where a guard comes nearest to 0 and turns away from it: a little change lets it end the path there.
@@ -72,7 +74,6 @@ class HeldPath final : public IntegratedPath {
     double above, below;  ///< times, between which a guard falls through 0
     double high, low;     ///< its values there
   };
-  const HeldStep& stepAt(double t) const;
   HeldStep nextStep();
   std::vector<Vec3> slipAfter() const;
   void alignStop(HeldInstant& now) const;

@@ -20,20 +20,6 @@ constexpr double kLeastWithin = 1e-9;
 // that still turns.
 constexpr double kStraightLeft = 1e-6, kNothingLeft = 1e-11;
 
-// The directions of slip at the nodes as polynomials; those that are frozen, or of contacts that stick, are the same at all.
-void placeSlips(const HeldStep& step, double t, std::vector<Vec3>& slip) {
-  const Gauss& gauss = Gauss::get();
-  const Gauss::Row weights = Gauss::values((t - step.start) / step.length) * gauss.coefficients;
-  slip.resize(step.slip.size());
-  for (std::size_t k = 0; k < slip.size(); ++k) {
-    const auto& nodes = step.slip[k];
-    slip[k] = nodes.front();
-    if (nodes.front() == nodes.back()) continue;
-    slip[k].setZero();
-    for (std::size_t i = 0; i < nodes.size(); ++i) slip[k] += weights[static_cast<Eigen::Index>(i)] * nodes[i];
-  }
-}
-
 }  // namespace
 
 // The values of all guards at times of one step.
@@ -48,16 +34,14 @@ struct HeldPath::Values {
   Values(const HeldPath& of, const HeldStep& in) : path(of), step(in), values(of.guards_.size()) {}
 
   const std::vector<double>& at(double t) {
-    placeSlips(step, t, slip);
+    step.placeSlips(t, slip);
     return withSlips(t);
   }
 
   const std::vector<double>& atStart() {
-    slip.clear();
-    for (std::size_t k = 0; k < step.slip.size(); ++k) {
-      const Vec3& first = path.contacts_[k].slip;
-      slip.push_back(path.steps_.empty() && !first.isZero(0) ? first : step.slip[k].front());
-    }
+    step.placeSlips(step.start, slip);
+    for (std::size_t k = 0; k < slip.size() && path.steps_.empty(); ++k)
+      if (const Vec3& first = path.contacts_[k].slip; !first.isZero(0)) slip[k] = first;
     return withSlips(step.start);
   }
 

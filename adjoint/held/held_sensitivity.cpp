@@ -110,31 +110,75 @@ void throughStep(const HeldPath& path, const HeldInputs& inputs, const HeldStep&
   }
 }
 
-// At its end a slip has no tangent across its way: whichever way it came, it goes to 0 as a power of |u|. Where it is
-// straight, what is left is taken back by a turn of its friction, which is all that turns it there.
-void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixXd& D) {
-  const std::optional<std::size_t> stops = path.contactThatStops();
-  if (!stops) return;
-  const std::size_t k = *stops;
-  const HeldInstant now = path.instantAt(t);
-  if (!(now.slipAt(k).norm() <= kNoDirectionLeft * path.scene().speed) || !(path.contacts()[k].friction > 0)) return;
-  const Vec3 across = now.contacts[k].n.cross(now.contacts[k].slip);
-  HeldRow row(inputs.count);
+// Whether a slip ends there, or begins, so that it keeps its direction whatever it changes by.
+bool hasNoDirection(const HeldPath& path, std::size_t k, double t, const HeldInstant& now) {
+  const HeldStep& step = path.stepAt(t);
+  return (step.length > 0 && step.frozen[k]) || !(now.slipAt(k).norm() > kNoDirectionLeft * path.scene().speed);
+}
+
+// Contacts whose slips are 0 at the end of a path: that which ends it, first, and those that come to their end with it, as
+// the slips of a body do that slides and spins.
+std::vector<std::size_t> contactsThatStop(const HeldPath& path, const HeldInstant& now) {
+  const std::optional<std::size_t> first = path.contactThatStops();
+  const auto stops = [&](std::size_t k) {
+    const HeldContact& c = path.contacts()[k];
+    return c.mode == HeldMode::slides && c.friction > 0 && now.slipAt(k).norm() <= kNoDirectionLeft * path.scene().speed;
+  };
+  if (!first || !stops(*first)) return {};
+  std::vector<std::size_t> found{*first};
+  for (std::size_t k = 0; k < path.contacts().size(); ++k)
+    if (k != *first && stops(k)) found.push_back(k);
+  return found;
+}
+
+Vec3 acrossSlip(const HeldInstant& now, std::size_t k) { return now.contacts[k].n.cross(now.contacts[k].slip); }
+
+// The tangents of slips across their ways, by all inputs: a row of each contact.
+MatrixXd acrossSlips(const HeldPath& path, const HeldInputs& inputs, double t, const HeldInstant& now,
+                     const std::vector<std::size_t>& contacts) {
+  MatrixXd rows(contacts.size(), inputs.count);
   HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), followSlips(path));
   rates.each([&](const HeldLanes& lanes, int first, int count) {
-    const auto u = lanes.body.velocityAt(lanes.contacts[k].r);
-    for (int lane = 0; lane < count; ++lane) row[first + lane] = across.dot(ratesOf(u, static_cast<std::size_t>(lane)));
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Vec3 across = acrossSlip(now, contacts[i]);
+      const auto u = lanes.body.velocityAt(lanes.contacts[contacts[i]].r);
+      for (int lane = 0; lane < count; ++lane)
+        rows(static_cast<Eigen::Index>(i), first + lane) = across.dot(ratesOf(u, static_cast<std::size_t>(lane)));
+    }
   });
-  HeldRow left = HeldInputs::chained(row, D);
+  return rows;
+}
+
+// At its end a slip has no tangent across its way: whichever way it came, it goes to 0 as a power of |u|. What is left is
+// taken back by turns of the frictions of all that stop, which are all that turns them there.
+void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixXd& D) {
+  const HeldInstant now = path.instantAt(t);
+  std::vector<std::size_t> stop = contactsThatStop(path, now);
+  if (stop.empty()) return;
   const HeldDynamics forces(now.body, now.contacts, path.redundant());
-  const std::vector<Vec3> push = forces.answerToTurn(k, path.redundant());
-  const Vec3 turned = forces.responseAt(now.contacts[k].r, push);
-  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-  for (std::size_t l = 0; l < push.size(); ++l) force += push[l], moment += now.contacts[l].r.cross(push[l]);
-  if (!(std::abs(across.dot(turned)) > kNoTurn * now.body.inverse_mass * push[k].norm())) return;  // it goes round another
-  left /= across.dot(turned);
-  D.middleRows<3>(6) -= now.body.inverse_mass * force * left;
-  D.bottomRows<3>() -= moment * left;
+  const auto count = static_cast<Eigen::Index>(stop.size());
+  MatrixXd turned(count, count);           // of slips, across their ways, by the turns
+  Eigen::Matrix<double, 6, Eigen::Dynamic> change(6, count);  // of (v, L)
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const std::vector<Vec3> push = forces.answerToTurn(stop[static_cast<std::size_t>(j)], path.redundant());
+    const double size = now.body.inverse_mass * push[stop[static_cast<std::size_t>(j)]].norm();
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (std::size_t l = 0; l < push.size(); ++l) force += push[l], moment += now.contacts[l].r.cross(push[l]);
+    change.col(j) << now.body.inverse_mass * force / size, moment / size;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const std::size_t k = stop[static_cast<std::size_t>(i)];
+      turned(i, j) = acrossSlip(now, k).dot(forces.responseAt(now.contacts[k].r, push)) / size;
+    }
+  }
+  Eigen::FullPivLU<MatrixXd> turns(turned);
+  turns.setThreshold(kNoTurn);
+  if (!(std::abs(turned(0, 0)) > kNoTurn)) return;  // it goes round another
+  const MatrixXd left = HeldInputs::chained(acrossSlips(path, inputs, t, now, stop), D);
+  if (turns.isInvertible()) {
+    D.bottomRows<6>() -= change * turns.solve(left);
+  } else {  // those that do not turn by themselves follow the first
+    D.bottomRows<6>() -= change.col(0) * left.row(0) / turned(0, 0);
+  }
 }
 
 // Where supports are redundant, friction may be at its limit without any slip that begins.
@@ -173,9 +217,8 @@ HeldRow guardRow(const HeldPath& path, const HeldInputs& inputs, HeldGuard guard
     for (HeldGuard& now : guardsOf(path.scene(), path.contacts(), path.stateAt(t)))
       if (now.isSame(guard)) guard = std::move(now);
   std::vector<Vec3> slip = followSlips(path);
-  for (std::size_t i = 0; i < slip.size(); ++i)  // those without a direction of their own keep that of the last node
-    if (path.contacts()[i].mode == HeldMode::slides && end.slipAt(i).norm() < 1e-7 * path.scene().speed)
-      slip[i] = end.contacts[i].slip;
+  for (std::size_t i = 0; i < slip.size(); ++i)
+    if (path.contacts()[i].mode == HeldMode::slides && hasNoDirection(path, i, t, end)) slip[i] = end.contacts[i].slip;
   if (guard.cause == TransitionCause::sticks) slip[k] = end.contacts[k].slip;
   HeldRow row(inputs.count);
   HeldRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), slip);

@@ -54,6 +54,19 @@ std::vector<Vec3> HeldStep::slipAtNode(int node) const {
   return at;
 }
 
+// Directions that are frozen, or of contacts that stick, are the same at all nodes.
+void HeldStep::placeSlips(double t, std::vector<Vec3>& at) const {
+  const Gauss::Row weights = Gauss::values((t - start) / length) * Gauss::get().coefficients;
+  at.resize(slip.size());
+  for (std::size_t k = 0; k < slip.size(); ++k) {
+    const auto& nodes = slip[k];
+    at[k] = nodes.front();
+    if (nodes.front() == nodes.back()) continue;
+    at[k].setZero();
+    for (std::size_t i = 0; i < nodes.size(); ++i) at[k] += weights[static_cast<Eigen::Index>(i)] * nodes[i];
+  }
+}
+
 State HeldStep::moved(const State& from, const HeldVector& change) {
   const Vec3 theta = change.segment<3>(3);
   return {from.x + change.head<3>(), theta.isZero(0) ? from.q : Quat((expSO3(theta) * from.q).normalized()),

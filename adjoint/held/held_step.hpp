@@ -28,6 +28,8 @@ struct HeldStep {
   HeldVector slopeAt(double t) const { return slopes * Gauss::values((t - start) / length).transpose(); }
   State stateAt(double t) const { return moved(from, changeAt(t)); }
   std::vector<Vec3> slipAtNode(int node) const;
+  /// The same at any time, as polynomials: of unit length, and along the plane of the contact, as nearly as these are good.
+  void placeSlips(double t, std::vector<Vec3>& slip) const;
 
   static State moved(const State& from, const HeldVector& change);
 };

@@ -124,11 +124,12 @@ Errors compared(std::uint64_t seed, std::size_t stride) {
   return worst;
 }
 
-// Throws that the replay does not know are left out; of the first ones, which it follows, none may come to be among them.
-constexpr int kKnownThrows = 3;
+// Throws that the replay does not know are left out; of the first ones, which it follows, none may come to be among them, nor
+// may that in which a corner lifts as another turns round at 1e-7 of the unit of speed.
+constexpr int kKnownThrows = 3, kTurnsRound = 5;
 
 void notCompared(int seed, const char* why) {
-  if (seed <= kKnownThrows) FAIL() << why;
+  if (seed <= kKnownThrows || seed == kTurnsRound) FAIL() << why;
   GTEST_SKIP() << why;
 }
 
@@ -151,6 +152,7 @@ TEST_P(SettledDice, GradientsOfTheirPlaces) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(SlowTurn, SettledDice, ::testing::Values(kTurnsRound));
 INSTANTIATE_TEST_SUITE_P(Seeds, SettledDice, ::testing::Range(1, 1 + test::scaled(kKnownThrows)));
 
 }  // namespace
