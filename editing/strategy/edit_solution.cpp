@@ -112,30 +112,32 @@ EditSolution unsolved(EditSearch& search, EditSolution solution) {
   return solution;
 }
 
-/// The smallest change within the impact sequence of the start; null where none was found. Where any impacts will do, steps
-/// that stay within it come first: the solver takes several times as long. It goes as if features had no edges: trials
-/// may leave the sequence on the way, and where they end outside of it they show where to look.
+/// A point that is a solution within the impact sequence of the start; null otherwise.
+EditPointPtr insideOrNone(const EditSearch& search, const EditPoint& start, const EditPointPtr& point) {
+  return point && search.reached(*point) && point->signature == start.signature ? point : nullptr;
+}
+
+/// The smallest change within the impact sequence of the start where any impacts will do; null where none was found. Steps that
+/// stay within it come first, as the solver takes several times as long; it needs them only where an objective of one's own
+/// leads elsewhere.
+EditPointPtr stepsInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start) {
+  const auto landed = [&] { return insideOrNone(search, *start, land(search, choice.from, {.signature = &start->signature})); };
+  const bool steps_first = !search.problem().constraints.objective();
+  if (steps_first)
+    if (const EditPointPtr inside = landed(); inside || !search.goesOn()) return inside;
+  const int following = std::min(kFollowingIterations, search.iterationsLeft() / 4);
+  const EditPointPtr followed = insideOrNone(search, *start, followSequence(search, choice.from, choice.rows, following));
+  return followed || steps_first || !search.goesOn() ? followed : landed();
+}
+
+/// The same where the start's impacts are to be kept, or preferred: by the solver, as if features had no edges, and then with
+/// every point simulated. Trials may leave the sequence on the way, and where they end outside of it they show where to look.
 EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start) {
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
-  const bool any = search.options().sequence == SequencePolicy::smallest;
   const int iterations = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
-  const auto solves = [&](const EditPointPtr& point) {
-    return point && search.reached(*point) && point->signature == start->signature;
-  };
-  const auto landed = [&] { return land(search, choice.from, {.signature = &start->signature}); };
-  const bool steps_first = any && !search.problem().constraints.objective();
-  if (steps_first) {
-    if (const EditPointPtr inside = landed(); solves(inside)) return inside;
-    if (!search.goesOn()) return nullptr;
-  }
-  const int following = any ? std::min(kFollowingIterations, iterations / 2) : iterations / 2;
-  const EditPointPtr followed = followSequence(search, choice.from, choice.rows, following);
-  if (solves(followed)) return followed;
-  if (!search.goesOn()) return nullptr;
-  if (steps_first) return nullptr;
-  const EditPointPtr inside =
-      any ? landed() : minimiseChange(search, choice.from, choice.rows, &start->signature, iterations);
-  return solves(inside) ? inside : nullptr;
+  const EditPointPtr followed = insideOrNone(search, *start, followSequence(search, choice.from, choice.rows, iterations / 2));
+  if (followed || !search.goesOn()) return followed;
+  return insideOrNone(search, *start, minimiseChange(search, choice.from, choice.rows, &start->signature, iterations));
 }
 
 /// The solver's own way within the sequence of the start, which takes long and seldom leads to a smaller change: where
@@ -226,7 +228,8 @@ EditSolution findSolution(EditSearch& search) {
   EditPointPtr inside;
   if (from_start && !contradicts) {
     solution.growth = growthOf(start->motion, search.problem(), start->rows);
-    inside = solveInSequence(search, choice, start);
+    const bool any = search.options().sequence == SequencePolicy::smallest;
+    inside = any ? stepsInSequence(search, choice, start) : solveInSequence(search, choice, start);
   }
   SequenceSearch across(search, start);
   if (inside) across.add(inside);
