@@ -168,7 +168,7 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   }
   if (across.solutions().empty()) return;
   const auto patience = [&] {
-    if (across.hasSmallChangeInside() || across.isLong()) return std::max(1, plan.idle_rounds / 2);
+    if (across.hasSmallChangeInside() || across.isLong()) return std::max(1, plan.idle_rounds / 3);
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
     return many ? plan.idle_rounds_of_many : plan.idle_rounds;
   };
