@@ -28,4 +28,7 @@ void placeInstant(const HeldScene& scene, const std::vector<HeldContact>& contac
 HeldInstant instantOf(const HeldScene& scene, const std::vector<HeldContact>& contacts, const State& state,
                       const std::vector<Vec3>& slip);
 
+/// The part of a direction along the plane of a normal, of unit length.
+inline Vec3 inPlane(const Vec3& d, const Vec3& n) { return (d - n.dot(d) * n).normalized(); }
+
 }  // namespace carom::adjoint_detail

@@ -249,7 +249,7 @@ HeldInstant HeldPath::instantAt(double t) const {
     ContactInstant<double>& c = now.contacts[k];
     const Vec3 u = now.slipAt(k);
     if (u.norm() > kNoDirection * scene_.speed) c.slip = u;
-    c.slip = (c.slip - c.n.dot(c.slip) * c.n).normalized();
+    c.slip = inPlane(c.slip, c.n);
   }
   if (t > start_) alignStop(now);
   return now;

@@ -53,7 +53,7 @@ struct HeldPath::Values {
     for (std::size_t k = 0; k < slip.size(); ++k) {
       ContactInstant<double>& c = now.contacts[k];
       c.slip = slip[k];
-      if (c.mode == HeldMode::slides && c.friction > 0) c.slip = (c.slip - c.n.dot(c.slip) * c.n).normalized();
+      if (c.mode == HeldMode::slides && c.friction > 0) c.slip = inPlane(c.slip, c.n);
     }
     forces.solve(now, path.redundant_);
     forces.share();

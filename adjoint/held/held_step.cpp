@@ -21,11 +21,6 @@ constexpr double kLeftOut = 3e-14;
 constexpr double kTurned = 1e-6;
 // How much further than it is long another step is good for a guess.
 constexpr double kGuessed = 1.5;
-// Directions are worked out anew where a round leaves more than this share of what they turned by.
-constexpr double kSlowTurns = 0.05;
-
-// Perpendicular to n, unit.
-Vec3 inPlane(const Vec3& d, const Vec3& n) { return (d - n.dot(d) * n).normalized(); }
 
 // d(theta)/dt at angular velocity w.
 Vec3 rotationRate(const Vec3& theta, const Vec3& w) {
