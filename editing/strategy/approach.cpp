@@ -16,8 +16,8 @@ namespace {
 
 /// A share of the wish counts as much as so many distances.
 constexpr double kShareCounts = 10;
-/// How far into the other body a step aims, in lengths of the smaller one.
-constexpr double kInto = 0.3;
+/// How far into the other body a step aims, in lengths of the smaller one; just into it, with a share of the distance.
+constexpr double kWellInto = 0.3, kJustInto = 1e-7, kBeyondDistance = 0.02;
 /// Shares of a step that are tried.
 constexpr double kShortenings[] = {1, 0.5, 0.2};
 
@@ -63,7 +63,7 @@ double lackOf(const EditProblem& problem, const EditPoint& point) {
   return lack;
 }
 
-EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps) {
+EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps, Aim aim) {
   const EditProblem& problem = search.problem();
   const Eigen::Index n = problem.controls.size();
   double lack = lackOf(problem, *point);
@@ -76,9 +76,11 @@ EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps) {
     const Eigen::VectorXd row = problem.controls.gather(adjoint(point->motion, seeds), point->values)
                                     .cwiseProduct(problem.rates(point->changes).head(n));
     if (!(row.squaredNorm() > 0) || !row.allFinite()) break;
-    const double aim = nearest->value() + kInto * lengthOfPair(problem, nearest->a, nearest->b);
+    const double length = lengthOfPair(problem, nearest->a, nearest->b);
+    const double way = aim == Aim::well_into ? nearest->value() + kWellInto * length
+                                             : (1 + kBeyondDistance) * nearest->value() + kJustInto * length;
     Eigen::VectorXd step = Eigen::VectorXd::Zero(problem.unknowns());
-    step.head(n) = -aim / row.squaredNorm() * row;
+    step.head(n) = -way / row.squaredNorm() * row;
     EditPointPtr next;
     for (const double share : kShortenings) {
       const Eigen::VectorXd there = (point->changes + share * step).cwiseMax(search.lower()).cwiseMin(search.upper());

@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "editing/certificate.h"
 #include "editing/problem/margins/sequence_borders.hpp"
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/projection.hpp"
+#include "editing/solve/reduced_hessian.hpp"
+#include "editing/strategy/approach.hpp"
 #include "editing/strategy/landing.hpp"
+#include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -19,7 +24,10 @@ constexpr double kCouldBeSmaller = 2e-3;
 constexpr double kWorthAStep = 1e-4;
 /// How near steps go to a border, as a share of the distance to it.
 constexpr double kShortOfBorder = 0.02;
-constexpr double kBorderShares[] = {1, 0.5, 0.25, 0.1, 0.03};
+/// Steps are shortened by this, down to that share of them; the next one begins a little longer than the last.
+constexpr double kShorter = 0.3, kShortest = 1e-3;
+/// Steps back to an impact that a step has lost.
+constexpr int kBackSteps = 3;
 constexpr int kSweeps = 300;
 
 /// Half-spaces normal . y >= offset, unit normals in columns.
@@ -28,8 +36,9 @@ struct HalfSpaces {
   Eigen::VectorXd offsets;
 };
 
-/// The point of least norm in all of them, by Hildreth's method: the dual is ascended one multiplier at a time.
-Eigen::VectorXd leastNorm(const HalfSpaces& spaces) {
+/// The point of least norm in all of them, with a multiplier of each, by Hildreth's method: the dual is ascended one
+/// multiplier at a time.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> leastNorm(const HalfSpaces& spaces) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(spaces.normals.rows());
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(spaces.normals.cols());
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -43,36 +52,80 @@ Eigen::VectorXd leastNorm(const HalfSpaces& spaces) {
     }
     if (moved <= 1e-12 * (1 + y.norm())) break;
   }
-  return y;
+  return {y, multipliers};
 }
 
-/// With z the smallest change that meets the linear rows and N the directions that change none, the unknowns are
-/// z + N y, and |z + N y|^2 = |z|^2 + |y|^2.
-Eigen::VectorXd smallestWithinBorders(const EditSearch& search, const EditPoint& point) {
+/// The borders of a point's sequence along the directions N that change no row, as they are linear around the point: the
+/// unknowns are z + N y, with z the smallest change that meets the linear rows.
+HalfSpaces bordersAlong(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& z, const Eigen::MatrixXd& N) {
   const EditProblem& problem = search.problem();
-  const Eigen::VectorXd smallest = smallestChange(search, point);
-  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
   const Eigen::Index n = problem.controls.size();
   DerivativeTape tape(point.motion);
-  HalfSpaces spaces{Eigen::MatrixXd(free.cols(), 0), {}};
+  HalfSpaces spaces{Eigen::MatrixXd(N.cols(), 0), {}};
   std::vector<double> offsets;
   for (const EventMargin& border : sequenceBorders(problem, point.changes, tape, point.rows, kBordersUpTo)) {
     const double slope = border.gradient.norm();
     if (border.value == 0 || !(slope > 0) || !std::isfinite(slope)) continue;
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(point.changes.size());
     gradient.head(n) = (border.value < 0 ? -1 : 1) * border.gradient;
-    const Eigen::VectorXd normal = free.transpose() * gradient;
+    const Eigen::VectorXd normal = N.transpose() * gradient;
     const double length = normal.norm();
     if (!(length > 1e-9 * slope)) continue;
     // value + gradient . (z + N y - x) >= a little of the value
-    const double value = std::abs(border.value);
-    const double offset = (kShortOfBorder - 1) * value - gradient.dot(smallest - point.changes);
-    spaces.normals.conservativeResize(free.cols(), spaces.normals.cols() + 1);
+    const double offset = (kShortOfBorder - 1) * std::abs(border.value) - gradient.dot(z - point.changes);
+    spaces.normals.conservativeResize(N.cols(), spaces.normals.cols() + 1);
     spaces.normals.rightCols<1>() = normal / length;
     offsets.push_back(offset / length);
   }
   spaces.offsets = Eigen::Map<const Eigen::VectorXd>(offsets.data(), static_cast<Eigen::Index>(offsets.size()));
-  return smallest + free * leastNorm(spaces);
+  return spaces;
+}
+
+/// The step to the smallest change within the rows and borders as they are linear around a point.
+struct BorderStep {
+  Eigen::VectorXd up_to;              ///< to the rows, and to the borders that hinder
+  Eigen::VectorXd along;              ///< along both
+  Eigen::MatrixXd held;               ///< rows and normals of these borders, a line each
+  std::vector<Eigen::Index> hinders;  ///< which borders these are, of those of the point
+};
+
+BorderStep stepWithinBorders(const EditSearch& search, const EditPoint& point) {
+  const Eigen::VectorXd smallest = smallestChange(search, point);
+  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
+  const HalfSpaces spaces = bordersAlong(search, point, smallest, free);
+  // |z + N y|^2 = |z|^2 + |y|^2
+  const auto [y, multipliers] = leastNorm(spaces);
+  BorderStep step;
+  for (Eigen::Index i = 0; i < multipliers.size(); ++i)
+    if (multipliers[i] > 0) step.hinders.push_back(i);
+  step.held.resize(point.row_jacobian->rows() + static_cast<Eigen::Index>(step.hinders.size()), point.changes.size());
+  step.held.topRows(point.row_jacobian->rows()) = *point.row_jacobian;
+  Eigen::Index row = point.row_jacobian->rows();
+  for (const Eigen::Index i : step.hinders) step.held.row(row++) = (free * spaces.normals.col(i)).transpose();
+  const Eigen::VectorXd whole = smallest + free * y - point.changes;
+  const Eigen::MatrixXd within = nullSpace(step.held);
+  step.along = within * (within.transpose() * whole);
+  step.up_to = whole - step.along;
+  return step;
+}
+
+/// A smaller change of the sequence of a point, at a place or near it; null where there is none. Borders are bent: where
+/// an impact is missed, the least distance at which its bodies pass leads back to it.
+EditPointPtr smallerNear(EditSearch& search, const EditPoint& point, const Eigen::VectorXd& place) {
+  if (!(lengthOf(search.problem(), place) < lengthOf(search.problem(), point.changes))) return nullptr;
+  const auto lacks = [&](const EditPointPtr& trial) { return !missingImpacts(search.problem(), *trial).empty(); };
+  const MotionMaker lacking{{}, nullptr, true};
+  EditPointPtr trial = search.make(place, false, lacking);
+  if (trial && lacks(trial)) {
+    EditSearch back = search.branch(lacking, true);
+    trial = approach(back, trial, kBackSteps, Aim::just_into);
+    if (lacks(trial)) return nullptr;
+  }
+  if (!trial || trial->signature != point.signature) return nullptr;
+  if (!search.reached(*trial)) trial = projectOntoConstraints(search, trial, kOntoSteps, &point.signature);
+  if (!search.reached(*trial) || !(trial->objective < (1 - kWorthAStep) * point.objective)) return nullptr;
+  search.consider(trial);
+  return trial;
 }
 
 }  // namespace
@@ -86,21 +139,25 @@ bool isAtBorder(const EditSearch& search, EditPoint& point) {
 }
 
 EditPointPtr minimiseAlongBorder(EditSearch& search, EditPointPtr point, int max_steps) {
+  ReducedHessian hessian;  // of the borders that hinder, as long as these are the same
+  std::vector<Eigen::Index> hindered;
+  double longest = 1;
   for (int k = 0; k < max_steps && search.halt() == Halt::none && isAtBorder(search, *point); ++k) {
-    const Eigen::VectorXd target = smallestWithinBorders(search, *point);
-    if (!target.allFinite()) break;
+    const BorderStep step = stepWithinBorders(search, *point);
+    if (!step.up_to.allFinite() || !step.along.allFinite()) break;
+    if (step.hinders != hindered) hessian = {};
+    hindered = step.hinders;
+    const Eigen::VectorXd whole = step.up_to + hessian.stepAlong(point->changes, step.held, step.along);
     EditPointPtr next;
-    for (const double share : kBorderShares) {
-      const Eigen::VectorXd place = point->changes + share * (target - point->changes);
-      EditPointPtr trial = search.evaluate(place.cwiseMax(search.lower()).cwiseMin(search.upper()));
-      if (!trial || trial->signature != point->signature) continue;
-      if (!search.reached(*trial)) trial = projectOntoConstraints(search, trial, kOntoSteps, &point->signature);
-      if (!search.reached(*trial) || !(trial->objective < (1 - kWorthAStep) * point->objective)) continue;
-      next = trial;
-      break;
+    double share = longest;
+    for (; share > kShortest && search.halt() == Halt::none; share *= kShorter) {
+      const Eigen::VectorXd place = point->changes + share * whole;
+      next = smallerNear(search, *point, place.cwiseMax(search.lower()).cwiseMin(search.upper()));
+      if (next) break;
     }
     if (!next || !search.step(next->objective, next->violation)) break;
     point = std::move(next);
+    longest = std::min(1.0, share / kShorter);
   }
   return point;
 }

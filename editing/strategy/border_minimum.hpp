@@ -12,8 +12,9 @@ bool isAtBorder(const EditSearch& search, EditPoint& point);
 
 /// From a point that meets the constraints, along the borders of its impact sequence, towards the smallest change within
 /// them. Each step goes to the minimum of |z|^2 / 2 subject to the rows and the borders as they are linear around the
-/// point, shortened until the sequence stays and the change falls. Returns the last point, or the first where none is
-/// smaller.
+/// point; along the borders that hinder it, with what ReducedHessian has learned of their bends. Where it misses an
+/// impact, it is led back to it; it is shortened until the sequence stays and the change falls. Returns the last point,
+/// or the first where none is smaller.
 EditPointPtr minimiseAlongBorder(EditSearch& search, EditPointPtr point, int max_steps);
 
 }  // namespace carom::editing_detail

@@ -239,7 +239,7 @@ EditSolution findSolution(EditSearch& search) {
     if (across.solutions().empty()) break;
     const bool unsolved_inside = from_start && !contradicts && !inside;
     if (may_leave && unsolved_inside && tries == kTries) solveInSequenceAgain(search, choice, start, across);
-    across.polish(1);
+    across.polishSmallest();
     confirmed = smallestConfirmed(search, across);
   }
   solution.point = confirmed ? confirmed : polished(search, search.best());

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kLackingForEach = 4;
 constexpr int kApproachSteps = 8;
 /// Points beyond whose borders one round looks.
-constexpr std::size_t kCrossedInRound = 2;
+constexpr std::size_t kCrossedInRound = 4;
 /// A solution from which the change could still fall by this share, if it were not for the border of its sequence.
 constexpr double kAtBorder = 0.05;
 /// Samples double from one round without a solution to the next, so often.

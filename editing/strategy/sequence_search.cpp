@@ -19,7 +19,7 @@ constexpr std::size_t kOfEachGroup = 2;
 /// So many of them for each landing, at most.
 constexpr std::size_t kForEachLanding = 4;
 constexpr int kLandingSteps = 30, kImprovingSteps = 15;
-constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderSteps = 8;
+constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderSteps = 20;
 /// The way along the constraints that is left where a change is as small as it gets, as a share of it.
 constexpr double kStationary = 1e-9, kNearlyStationary = 1e-8;
 /// Of the objective: half a natural scale; and the part of the landings that is done for less than that.
@@ -42,7 +42,7 @@ constexpr double kClearlySmaller = 0.995;
 /// From a sequence that was tried so often, no more than so many landings a round go where a solution is known.
 constexpr int kTriedOften = 4, kOfTriedOften = 4;
 /// So many landings at a time: what they find is what the next have to beat.
-constexpr std::size_t kWave = 8;
+constexpr std::size_t kWave = 4;
 /// Solutions of one sequence whose changes differ by less than this share of them are the same.
 constexpr double kSameChange = 0.1;
 
@@ -106,6 +106,15 @@ bool SequenceSearch::reportBatch() {
   return search_.step(best->objective, best->violation);
 }
 
+// Clipped samples, and the best of each round, come again and again; from a point that had no less to beat a landing ends
+// as it did.
+bool SequenceSearch::wasBegun(const EditPoint& point, double to_beat) const {
+  const Eigen::Index n = search_.problem().controls.size();
+  return std::any_of(begun_.begin(), begun_.end(), [&](const Begun& begun) {
+    return begun.to_beat >= to_beat && begun.changes.head(n) == point.changes.head(n);
+  });
+}
+
 // A few of each impact sequence, all in all no more than can be looked at.
 std::vector<EditPointPtr> SequenceSearch::nearestOfEachGroup(const std::vector<EditPointPtr>& points) const {
   const auto nearer = [](const EditPointPtr& a, const EditPointPtr& b) { return a->violation < b->violation; };
@@ -156,6 +165,8 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
     if (chosen.size() == landings()) break;
     const bool tried_often = std::isfinite(to_beat) && tries_[point->signature] >= kTriedOften;
     if (tried_often && of_sequence[point->signature] >= kOfTriedOften) continue;
+    if (wasBegun(*point, to_beat)) continue;
+    begun_.push_back({point->changes, to_beat});
     ++tries_[point->signature], ++of_sequence[point->signature];
     chosen.push_back(point);
   }
@@ -210,9 +221,7 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek
       add(point);
       continue;
     }
-    const EditPointPtr end = smallerWithin(point);
-    const bool is_best = solutions_.empty() || end->objective < solutions_.front()->objective;
-    add(is_best ? minimiseAlongBorder(search_, end, kBorderSteps) : end);
+    add(smallerWithin(point));
   }
 }
 
@@ -224,23 +233,37 @@ EditPointPtr SequenceSearch::smallerWithin(const EditPointPtr& point) {
   return search_.reached(*end) && end->objective < point->objective ? end : point;
 }
 
+std::vector<EditPointPtr> SequenceSearch::smallestSolutions(std::size_t count) const {
+  return {solutions_.begin(), solutions_.begin() + static_cast<std::ptrdiff_t>(std::min(count, solutions_.size()))};
+}
+
 void SequenceSearch::polish(std::size_t count) {
-  if (search_.problem().constraints.objective()) return;
-  const std::vector<EditPointPtr> smallest(solutions_.begin(),
-                                           solutions_.begin() + static_cast<std::ptrdiff_t>(std::min(count, solutions_.size())));
-  for (const EditPointPtr& solution : smallest) {
-    if (search_.halt() != Halt::none) return;
-    const Landing landing{.max_steps = kLandingSteps, .signature = &solution->signature, .arrived = kStationary};
-    EditPointPtr end = land(search_, solution, landing);
-    const bool stationary = search_.differentiate(*end) && (smallestChange(search_, *end) - end->changes).norm() <=
-                                                               kNearlyStationary * end->changes.norm();
-    if (!stationary) end = minimiseWithin(search_, end, kPolishingIterations);
-    // of the best, that has been done already
-    if (!stationary && solution != smallest.front()) end = minimiseAlongBorder(search_, end, kBorderSteps);
-    if (end == solution || !search_.reached(*end) || !(end->objective <= (1 + kRounding) * solution->objective)) continue;
-    drop(solution);
-    add(end);
+  for (const EditPointPtr& solution : smallestSolutions(count)) polish(solution);
+}
+
+void SequenceSearch::polishSmallest() {
+  for (const EditPointPtr& solution : smallestSolutions(plan_.minimised)) {
+    const bool may_be = solution == solutions_.front() ||
+                        (search_.differentiate(*solution) && lengthOf(search_.problem(), smallestChange(search_, *solution)) <
+                                                                 lengthOf(search_.problem(), solutions_.front()->changes));
+    if (may_be) polish(solution);
   }
+}
+
+void SequenceSearch::polish(const EditPointPtr& solution) {
+  if (search_.problem().constraints.objective() || search_.halt() != Halt::none) return;
+  const Landing landing{.max_steps = kLandingSteps, .signature = &solution->signature, .arrived = kStationary};
+  EditPointPtr end = land(search_, solution, landing);
+  const bool stationary = search_.differentiate(*end) && (smallestChange(search_, *end) - end->changes).norm() <=
+                                                             kNearlyStationary * end->changes.norm();
+  if (!stationary) {
+    const EditPointPtr landed = end;
+    end = minimiseAlongBorder(search_, landed, kBorderSteps);  // does nothing where the minimum is on none
+    if (end == landed) end = minimiseWithin(search_, end, kPolishingIterations);
+  }
+  if (end == solution || !search_.reached(*end) || !(end->objective <= (1 + kRounding) * solution->objective)) return;
+  drop(solution);
+  add(end);
 }
 
 bool SequenceSearch::isBestInside() const {

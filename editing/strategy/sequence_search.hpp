@@ -39,8 +39,11 @@ class SequenceSearch {
   void add(const EditPointPtr& solution);
   /// Takes one of the solutions out again.
   void drop(const EditPointPtr& solution);
-  /// Brings so many of the smallest to where their changes are as small as they get within their sequences.
+  /// Brings so many of the smallest to where their changes are as small as they get within their sequences, along the
+  /// borders of these where the minimum lies on one.
   void polish(std::size_t count);
+  /// The same of the smallest and of the few next to it that may become the smallest by that.
+  void polishSmallest();
   /// Whether the best is a small change within the sequence of the start, of few impacts: seldom is another one
   /// smaller, so rounds do a part of the work.
   bool hasSmallChangeInside() const;
@@ -60,6 +63,7 @@ class SequenceSearch {
   std::size_t wanted() const;
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
+  bool wasBegun(const EditPoint& point, double to_beat) const;
   std::vector<EditPointPtr> sample(Seek seek);
   std::vector<EditPointPtr> neighbours(Seek seek);
   std::vector<EditPointPtr> crossings(const std::vector<EditPointPtr>& points);
@@ -69,6 +73,8 @@ class SequenceSearch {
   std::vector<EditPointPtr> landAll(const std::vector<EditPointPtr>& candidates, Seek seek);
   void minimise(const std::vector<EditPointPtr>& landed, Seek seek);
   EditPointPtr smallerWithin(const EditPointPtr& point);
+  std::vector<EditPointPtr> smallestSolutions(std::size_t count) const;
+  void polish(const EditPointPtr& solution);
   bool reportBatch();
   template <class Work>
   void forAll(std::size_t count, const Work& work);
@@ -81,6 +87,11 @@ class SequenceSearch {
   std::vector<EditPointPtr> solutions_;
   std::vector<EditPointPtr> promising_;  // of the last round, the most promising
   std::vector<EditPointPtr> crossed_;    // points beyond whose borders was looked
+  struct Begun {
+    Eigen::VectorXd changes;
+    double to_beat;
+  };
+  std::vector<Begun> begun_;  // where landings began
   EditPointPtr nearest_lacking_;
   double least_lack_ = std::numeric_limits<double>::infinity();
   int round_ = 0, rounds_without_ = 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,29 @@ TEST(WishedImpacts, AHitFromAMiss) {
   ASSERT_EQ(r.status, EditStatus::solved_sequence_changed) << r.message;
   EXPECT_TRUE(r.motion.findImpact(indexOf(r.motion, "cue"), 1, indexOf(r.motion, "yellow"))) << r.message;
   EXPECT_TRUE(r.residuals.empty());
+}
+
+// Of all velocities v' that hit, the nearest to v sends the ball along a tangent: |v' - v| = |v| sin(a), with a the angle
+// between v and the line on which the balls just touch. On one side of it the ball misses.
+TEST(WishedImpacts, TheSmallestHitJustTouches) {
+  for (const bool reversed : {false, true}) {
+    Table t;
+    Scene scene = t.scene;
+    scene.bodies = {scene.bodies[4], scene.bodies[5]};  // cue and red, without rails
+    if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
+    OdeContacts contacts(scene);
+    Edit edit(scene, contacts, 4);
+    edit.vary(velocity("cue").only({"x", "y"}));
+    edit.hit("cue", "red");
+    const EditResult r = edit.solve();
+    ASSERT_TRUE(r.solved()) << r.message;
+    const Vec3 v(1.5, 0, 0), way = Vec3(0.2, 0.2, 0) - Vec3(-0.5, 0, 0);
+    const double a = std::atan2(way.y(), way.x()) - std::asin(2 * 0.03 / way.norm());
+    const double least = v.norm() * std::sin(a);
+    const double change = (r.motion.stateAt("cue", 0).velocity - v).norm();
+    EXPECT_TRUE(change >= least) << change << " and " << least;
+    EXPECT_TRUE(change <= (1 + 1e-5) * least) << change << " and " << least;
+  }
 }
 
 TEST(WishedImpacts, AHitDuringASpan) {
