@@ -128,8 +128,8 @@ EditPointPtr smallerNear(EditSearch& search, const EditPoint& point, const Eigen
   return trial;
 }
 
-}  // namespace
-
+/// Whether a point that meets the constraints could change clearly less if it were not for the border of its impact
+/// sequence: as the rows are linear around it.
 bool isAtBorder(const EditSearch& search, EditPoint& point) {
   const EditProblem& problem = search.problem();
   if (problem.constraints.objective() || point.motion.world_lines.size() > kMarginBodies) return false;
@@ -137,6 +137,8 @@ bool isAtBorder(const EditSearch& search, EditPoint& point) {
   const double length = lengthOf(problem, point.changes);
   return lengthOf(problem, smallestChange(search, point)) < (1 - kCouldBeSmaller) * length;
 }
+
+}  // namespace
 
 EditPointPtr minimiseAlongBorder(EditSearch& search, EditPointPtr point, int max_steps) {
   ReducedHessian hessian;  // of the borders that hinder, as long as these are the same

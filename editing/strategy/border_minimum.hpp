@@ -6,10 +6,6 @@
 /// Internal to editing/.
 namespace carom::editing_detail {
 
-/// Whether a point that meets the constraints could change clearly less if it were not for the border of its impact
-/// sequence: as the rows are linear around it.
-bool isAtBorder(const EditSearch& search, EditPoint& point);
-
 /// From a point that meets the constraints, along the borders of its impact sequence, towards the smallest change within
 /// them. Each step goes to the minimum of |z|^2 / 2 subject to the rows and the borders as they are linear around the
 /// point; along the borders that hinder it, with what ReducedHessian has learned of their bends. Where it misses an
