@@ -113,13 +113,12 @@ BorderStep stepWithinBorders(const EditSearch& search, const EditPoint& point) {
 /// an impact is missed, the least distance at which its bodies pass leads back to it.
 EditPointPtr smallerNear(EditSearch& search, const EditPoint& point, const Eigen::VectorXd& place) {
   if (!(lengthOf(search.problem(), place) < lengthOf(search.problem(), point.changes))) return nullptr;
-  const auto lacks = [&](const EditPointPtr& trial) { return !missingImpacts(search.problem(), *trial).empty(); };
   const MotionMaker lacking{{}, nullptr, true};
   EditPointPtr trial = search.make(place, false, lacking);
-  if (trial && lacks(trial)) {
+  if (trial && lacksImpacts(search.problem(), *trial)) {
     EditSearch back = search.branch(lacking, true);
     trial = approach(back, trial, kBackSteps, Aim::just_into);
-    if (lacks(trial)) return nullptr;
+    if (lacksImpacts(search.problem(), *trial)) return nullptr;
   }
   if (!trial || trial->signature != point.signature) return nullptr;
   if (!search.reached(*trial)) trial = projectOntoConstraints(search, trial, kOntoSteps, &point.signature);

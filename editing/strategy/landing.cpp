@@ -75,7 +75,7 @@ EditPointPtr stepAlong(EditSearch& search, const EditPoint& point, const Eigen::
   const auto leads = [&](const EditPointPtr& trial) {
     if (!trial || (signature && trial->signature != *signature) || !(merit(*trial, penalty) < before)) return false;
     // where nothing that varies has a part in a constraint, no small change brings it back, whatever the merit says
-    return missingImpacts(search.problem(), *trial).empty();
+    return !lacksImpacts(search.problem(), *trial);
   };
   for (const double share : kSharesAlong) {
     const Eigen::VectorXd to = point.changes + onto + share * along;

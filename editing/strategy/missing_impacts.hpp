@@ -12,4 +12,7 @@ namespace carom::editing_detail {
 /// part in a constraint that is not met: its body would have to be struck, by one of the bodies that the controls move.
 std::vector<LackingImpact> missingImpacts(const EditProblem& problem, const EditPoint& point);
 
+/// Whether there are any.
+inline bool lacksImpacts(const EditProblem& problem, const EditPoint& point) { return !missingImpacts(problem, point).empty(); }
+
 }  // namespace carom::editing_detail

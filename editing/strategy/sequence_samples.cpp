@@ -85,7 +85,7 @@ std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
     points[i] = search_.make(places[i], true, {{&contacts}, nullptr, true});
   });
   std::erase(points, nullptr);
-  const auto lacks = [&](const EditPointPtr& point) { return !missingImpacts(search_.problem(), *point).empty(); };
+  const auto lacks = [&](const EditPointPtr& point) { return lacksImpacts(search_.problem(), *point); };
   std::vector<EditPointPtr> lacking;
   std::copy_if(points.begin(), points.end(), std::back_inserter(lacking), lacks);
   std::erase_if(points, lacks);
@@ -109,7 +109,7 @@ std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
     if (around.size() >= kCrossedInRound || std::find(crossed_.begin(), crossed_.end(), point) != crossed_.end()) return;
     around.push_back(point), crossed_.push_back(point);
   };
-  if (start_->rows.available && missingImpacts(search_.problem(), *start_).empty()) take(start_);
+  if (start_->rows.available && !lacksImpacts(search_.problem(), *start_)) take(start_);
   for (const EditPointPtr& solution : solutions_) take(solution);
   for (const EditPointPtr& point : promising_) take(point);
   std::vector<std::vector<Eigen::VectorXd>> beyond(around.size());
@@ -124,7 +124,7 @@ std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
     points[i] = search_.make(places[i], true, {{&contacts}});
   });
   std::erase(points, nullptr);
-  std::erase_if(points, [&](const EditPointPtr& p) { return !missingImpacts(search_.problem(), *p).empty(); });
+  std::erase_if(points, [&](const EditPointPtr& p) { return lacksImpacts(search_.problem(), *p); });
   return points;
 }
 

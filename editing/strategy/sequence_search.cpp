@@ -158,7 +158,7 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   promising_.clear();
   for (const auto& [score, point] : ranked)
-    if (promising_.size() < kRemembered && missingImpacts(search_.problem(), *point).empty()) promising_.push_back(point);
+    if (promising_.size() < kRemembered && !lacksImpacts(search_.problem(), *point)) promising_.push_back(point);
   std::vector<EditPointPtr> chosen;
   std::map<std::string, int> of_sequence;
   for (const auto& [score, point] : ranked) {

@@ -68,25 +68,30 @@ void expectSameChanges(const EditResult& a, const EditResult& b, double toleranc
 
 std::vector<Control> boxControls() { return {velocity("box"), angularVelocity("box"), elasticity("felt")}; }
 
-// The smallest change lies within its impact sequence, not on a border, where it is found to 1e-4 alone.
+// At 2 m/s the smallest change lies within its impact sequence; at 2.2 m/s on a border, where it is found to 1e-4 alone, so
+// that only what goes the same way ends at the same place.
 TEST(MotionFunction, RowIsTheBuiltInOne) {
-  const Scene scene = thrownBox();
-  OdeContacts contacts(scene);
-  const double scale = naturalScales(scene, 1).velocity;
-  Edit built_in(scene, contacts, 0.8), own(scene, contacts, 0.8), secant(scene, contacts, 0.8);
-  for (Edit* edit : {&built_in, &own, &secant}) {
-    for (const Control& control : boxControls()) edit->vary(control);
-    edit->nail("box", 0.7).position({1.1, any, any});
+  for (const double speed : {2.0, 2.2}) {
+    SCOPED_TRACE(speed);
+    const Scene scene = thrownBox();
+    OdeContacts contacts(scene);
+    const double scale = naturalScales(scene, 1).velocity;
+    Edit built_in(scene, contacts, 0.8), own(scene, contacts, 0.8), secant(scene, contacts, 0.8);
+    for (Edit* edit : {&built_in, &own, &secant}) {
+      for (const Control& control : boxControls()) edit->vary(control);
+      edit->nail("box", 0.7).position({1.1, any, any});
+    }
+    built_in.nail("box", 0.6).speed(speed);
+    own.require(speedAt("box", 0.6, scale, true), speed);
+    secant.require(speedAt("box", 0.6, scale, false), speed);
+    const EditResult a = built_in.solve(), b = own.solve(), c = secant.solve();
+    expectFound(a), expectFound(b), expectFound(c);
+    expectSameChanges(b, a, 1e-13);
+    if (speed == 2.0) expectSameChanges(c, a, 1e-6);
+    EXPECT_TRUE(std::abs(c.objective - a.objective) <= 1e-3 * a.objective) << c.objective << " and " << a.objective;
+    EXPECT_EQ(b.residuals.back().name, "'speed of box'");
+    EXPECT_EQ(b.residuals.back().constraint, -1);
   }
-  built_in.nail("box", 0.6).speed(2);
-  own.require(speedAt("box", 0.6, scale, true), 2);
-  secant.require(speedAt("box", 0.6, scale, false), 2);
-  const EditResult a = built_in.solve(), b = own.solve(), c = secant.solve();
-  expectFound(a), expectFound(b), expectFound(c);
-  expectSameChanges(b, a, 1e-13);
-  expectSameChanges(c, a, 1e-6);
-  EXPECT_EQ(b.residuals.back().name, "'speed of box'");
-  EXPECT_EQ(b.residuals.back().constraint, -1);
 }
 
 TEST(MotionFunction, RangeIsReachedAtItsNearEnd) {
