@@ -20,6 +20,9 @@ constexpr double kFarthest = 1e3;
 /// Steps of the motion of a trial: so many, or so many times those of the start. Some trials bounce to and fro in a
 /// corner for a hundred times the work of all others.
 constexpr std::size_t kLeastSteps = 2000, kStepsOfStart = 20;
+/// What a point takes beside its motion, and what a reverse pass takes, in steps of a simulation: least squares over
+/// the times of 660 edits.
+constexpr std::size_t kStepsOfPoint = 17, kStepsOfPass = 6;
 
 }  // namespace
 
@@ -99,7 +102,18 @@ EditPointPtr EditSearch::make(const Eigen::VectorXd& changes, bool nearest_times
   if (n > 0 && changes.head(n).cwiseAbs().maxCoeff() > kFarthest) return nullptr;
   MotionMaker limited = maker;
   limited.how.step_limit = std::min(maker.how.step_limit, step_limit_);
-  return trialAt(problem_, changes, until_, nearest_times, limited);
+  EditPointPtr point = trialAt(problem_, changes, until_, nearest_times, limited);
+  work_->fetch_add(kStepsOfPoint + (point ? point->motion.steps : 0), std::memory_order_relaxed);
+  return point;
+}
+
+bool EditSearch::differentiate(EditPoint& point) const {
+  if (!point.row_jacobian) countPasses(static_cast<std::size_t>(problem_.constraints.size()));
+  return editing_detail::differentiate(problem_, point);
+}
+
+void EditSearch::countPasses(std::size_t passes) const {
+  work_->fetch_add(kStepsOfPass * passes, std::memory_order_relaxed);
 }
 
 EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_times) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -84,7 +86,7 @@ class EditSearch {
   void consider(const EditPointPtr& point);
 
   /// Fills in the point's derivatives. False where they cannot be computed: no step can be made from there.
-  bool differentiate(EditPoint& point) const { return editing_detail::differentiate(problem_, point); }
+  bool differentiate(EditPoint& point) const;
 
   /// The best point so far: within the tolerance the smallest change, else the smallest violation. By value: what goes
   /// on from it finds better ones, and it must stay alive meanwhile.
@@ -98,6 +100,10 @@ class EditSearch {
   void count(int steps) { budget_.count(steps); }
   int iterations() const { return budget_.done(); }
   int iterationsLeft() const { return budget_.left(); }
+  /// What it and its branches have done, in steps of simulations (SimulateOptions::step_limit): the same everywhere.
+  double work() const { return static_cast<double>(work_->load(std::memory_order_relaxed)); }
+  /// Counts reverse passes.
+  void countPasses(std::size_t passes) const;
   Halt halt() const { return budget_.halt(); }
   /// The callback ended it, or a stop has been requested, whether or not that has ended anything yet.
   bool isCancelled() const { return halt() == Halt::cancelled || options_.stop.stop_requested(); }
@@ -115,6 +121,7 @@ class EditSearch {
   EditPointPtr best_;
   MotionMaker maker_;
   bool silent_ = false;
+  std::shared_ptr<std::atomic<std::size_t>> work_ = std::make_shared<std::atomic<std::size_t>>(0);  // of branches, too
 };
 
 }  // namespace carom::editing_detail

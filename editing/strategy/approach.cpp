@@ -21,18 +21,6 @@ constexpr double kWellInto = 0.3, kJustInto = 1e-7, kBeyondDistance = 0.02;
 /// Shares of a step that are tried.
 constexpr double kShortenings[] = {1, 0.5, 0.2};
 
-/// Of the smaller of two bodies, m.
-double lengthOfPair(const EditProblem& problem, int a, int b) {
-  const Scene& scene = problem.controls.startScene();
-  double length = kInfinity;
-  for (const int body : {a, b}) {
-    const Shape& shape = scene.bodies[static_cast<std::size_t>(body)].shape;
-    const double radius = kindOf(shape).boundingRadius(shape);
-    if (radius > 0) length = std::min(length, radius);
-  }
-  return std::isfinite(length) ? length : 1;
-}
-
 /// Null where it is not known: the motion ends at once, or nothing tells distances.
 std::optional<ClosestApproach> nearestOf(const EditPoint& point, const LackingImpact& lacking) {
   std::optional<ClosestApproach> nearest;
@@ -51,7 +39,7 @@ double lackOf(const EditProblem& problem, const LackingImpact& lacking, const st
   const double share = kShareCounts * (1 - lacking.share);
   if (!nearest) return share + 1;
   const double d = nearest->value();
-  return share + d / (d + lengthOfPair(problem, nearest->a, nearest->b));
+  return share + d / (d + lengthOfSmaller(problem.controls.startScene(), nearest->a, nearest->b));
 }
 
 }  // namespace
@@ -76,7 +64,7 @@ EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps, Aim
     const Eigen::VectorXd row = problem.controls.gather(adjoint(point->motion, seeds), point->values)
                                     .cwiseProduct(problem.rates(point->changes).head(n));
     if (!(row.squaredNorm() > 0) || !row.allFinite()) break;
-    const double length = lengthOfPair(problem, nearest->a, nearest->b);
+    const double length = lengthOfSmaller(problem.controls.startScene(), nearest->a, nearest->b);
     const double way = aim == Aim::well_into ? nearest->value() + kWellInto * length
                                              : (1 + kBeyondDistance) * nearest->value() + kJustInto * length;
     Eigen::VectorXd step = Eigen::VectorXd::Zero(problem.unknowns());

@@ -28,8 +28,12 @@ constexpr double kBeside = 1e-4;
 constexpr int kFollowingIterations = 20, kInsideIterations = 40;
 /// An objective, a third of a natural scale, from which on the solver looks within the sequence of the start once more.
 constexpr double kLargeChange = 0.05;
-/// Events of a solution from which on its neighbours are many.
+/// Events of a solution in other impacts than those of the start from which on its neighbours are many: so much more work
+/// is done for it.
 constexpr int kManyImpacts = 4;
+constexpr double kPatienceForMany = 3;
+/// Rounds without a clearly smaller change, however little work they are.
+constexpr int kIdleRounds = 30;
 /// So often solutions are looked for, while none of those that were found is confirmed.
 constexpr int kTries = 3;
 
@@ -161,21 +165,21 @@ bool mayBecomeAvailable(const EditSearch& search) {
   });
 }
 
-/// A first solution, and then smaller changes, until so many rounds brought none.
+/// A first solution, and then smaller changes, until none was found for too long.
 void searchAcross(const EditSearch& search, SequenceSearch& across) {
   const SearchPlan& plan = planOf(search.options().effort);
   for (int rounds = plan.first_rounds; across.solutions().empty() && rounds > 0 && across.round(); --rounds) {
   }
   if (across.solutions().empty()) return;
-  const auto patience = [&] {
-    if (across.hasSmallChangeInside() || across.isLong()) return std::max(1, plan.idle_rounds / 3);
+  double found = search.work();
+  for (int idle = 0; idle < kIdleRounds;) {
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
-    return many ? plan.idle_rounds_of_many : plan.idle_rounds;
-  };
-  for (int rounds = plan.improving_rounds, idle = 0; rounds > 0 && idle < patience(); --rounds) {
+    const double patience = (many ? kPatienceForMany : 1) * plan.patience.after(found);
+    if (search.work() - found >= patience) return;
     const double before = across.solutions().front()->objective;
     if (!across.round()) return;
-    idle = across.solutions().front()->objective < kClearlyLess * before ? 0 : idle + 1;
+    ++idle;
+    if (across.solutions().front()->objective < kClearlyLess * before) idle = 0, found = search.work();
   }
 }
 

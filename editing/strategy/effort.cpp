@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "editing/strategy/effort.hpp"
 
+#include <algorithm>
+
 namespace carom::editing_detail {
 namespace {
 
 constexpr SearchPlan kFast{.first_rounds = 10,
-                           .improving_rounds = 0,
-                           .idle_rounds = 1,
-                           .idle_rounds_of_many = 1,
+                           .patience = {.least = 0, .whole = 1, .largest_share = 0, .most = 0},
                            .first_steps = 7e3,
                            .improving_steps = 1e4,
                            .least_samples = 40,
@@ -15,9 +15,7 @@ constexpr SearchPlan kFast{.first_rounds = 10,
                            .landings = 8,
                            .minimised = 2};
 constexpr SearchPlan kNormal{.first_rounds = 10,
-                             .improving_rounds = 24,
-                             .idle_rounds = 4,
-                             .idle_rounds_of_many = 10,
+                             .patience = {.least = 1.8e4, .whole = 1.8e4, .largest_share = 4, .most = 2e6},
                              .first_steps = 1e4,
                              .improving_steps = 2.5e3,
                              .least_samples = 24,
@@ -25,9 +23,7 @@ constexpr SearchPlan kNormal{.first_rounds = 10,
                              .landings = 20,
                              .minimised = 3};
 constexpr SearchPlan kThorough{.first_rounds = 16,
-                               .improving_rounds = 24,
-                               .idle_rounds = 6,
-                               .idle_rounds_of_many = 10,
+                               .patience = {.least = 6e5, .whole = 1.8e4, .largest_share = 4, .most = 2e7},
                                .first_steps = 4e4,
                                .improving_steps = 1e5,
                                .least_samples = 256,
@@ -36,6 +32,10 @@ constexpr SearchPlan kThorough{.first_rounds = 16,
                                .minimised = 8};
 
 }  // namespace
+
+double Patience::after(double work) const {
+  return std::min(most, least + work * std::min(largest_share, work / whole));
+}
 
 const SearchPlan& planOf(Effort effort) {
   switch (effort) {

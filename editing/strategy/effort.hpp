@@ -8,13 +8,19 @@
 /// How much work a search does. Internal to editing/.
 namespace carom::editing_detail {
 
+/// How long a search goes on without a clearly smaller change, in steps of simulations: what took long to find is often
+/// followed by smaller ones that take as long again. With w for the work up to the last one that was found, so much more is
+/// done without another: least + w min(largest_share, w / whole), and `most` at most.
+struct Patience {
+  double least, whole, largest_share, most;
+
+  double after(double work) const;
+};
+
 /// The work of a search, all of it counted: the same on every machine and any number of threads.
 struct SearchPlan {
   int first_rounds;      ///< until a first solution
-  int improving_rounds;  ///< after it, for smaller changes
-  /// So many in a row without a clearly smaller change end them: where the impacts are those of the start or few, and
-  /// where they are many others.
-  int idle_rounds, idle_rounds_of_many;
+  Patience patience;     ///< after it, with rounds for smaller changes
   /// Of the samples of one round, in steps of simulations (SimulateOptions::step_limit): until a first solution, twice
   /// as much with each round, and after it.
   double first_steps, improving_steps;

@@ -135,9 +135,16 @@ Eigen::VectorXd ClosestApproach::timeRate(DerivativeTape& tape, std::span<const 
   return r;
 }
 
-namespace {
+double lengthOfSmaller(const Scene& scene, int a, int b) {
+  double length = kInfinity;
+  for (const int body : {a, b}) {
+    const Shape& shape = scene.bodies[static_cast<std::size_t>(body)].shape;
+    const double radius = kindOf(shape).boundingRadius(shape);
+    if (radius > 0) length = std::min(length, radius);
+  }
+  return std::isfinite(length) ? length : 1;
+}
 
-// The events at which one of two bodies goes over to its next arc within a span, in order of time.
 std::vector<int> eventsWithin(const Motion& motion, int a, int b, double from, double to) {
   std::vector<int> events;
   for (const int body : {a, b})
@@ -153,6 +160,8 @@ std::vector<int> eventsWithin(const Motion& motion, int a, int b, double from, d
 const Arc& arcFrom(const Motion& motion, int body, double time) {
   return motion.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(motion.arcAt(body, time))];
 }
+
+namespace {
 
 // Of the two bodies with each other.
 std::optional<int> meetingWithin(const Motion& motion, int a, int b, double from, double to) {

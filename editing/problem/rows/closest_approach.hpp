@@ -50,6 +50,13 @@ struct ClosestApproach : DistanceReading {
   Eigen::VectorXd timeRate(DerivativeTape& tape, std::span<const ReadingDirection> controls) const;
 };
 
+/// Radius of the smaller of two bodies, m; 1 where neither ends.
+double lengthOfSmaller(const Scene& scene, int a, int b);
+/// The events at which one of two bodies goes over to its next arc, after `from` and before `to`, in order of time.
+std::vector<int> eventsWithin(const Motion& motion, int a, int b, double from, double to);
+/// The arc of a body from a time on.
+const Arc& arcFrom(const Motion& motion, int body, double time);
+
 /// The least distance of two bodies over [from, to]; where they collide within it, 0 at their first impact there. Null
 /// where the motion ends before the span does.
 std::optional<ClosestApproach> closestApproach(const Motion& motion, int a, int b, double from, double to);
