@@ -176,6 +176,7 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
     const double patience = (many ? kPatienceForMany : 1) * plan.patience.after(found);
     if (search.work() - found >= patience) return;
+    if (idle > 0 && (across.hasSmallChangeInside() || across.isLong())) return;
     const double before = across.solutions().front()->objective;
     if (!across.round()) return;
     ++idle;

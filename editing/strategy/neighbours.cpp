@@ -20,8 +20,7 @@ constexpr double kBeyond = 0.05, kLeastBeyond = 1e-4;
 constexpr double kAlong = 1e-3;
 /// Borders that are farther away, in natural scales, are not looked at.
 constexpr double kFarthest = 3;
-/// Of bodies that nearly meet so many pairs, and how far into each other they are to come, in lengths of the smaller one.
-constexpr std::size_t kNearMisses = 12;
+/// How far bodies that nearly meet are to come into each other, in lengths of the smaller one.
 constexpr double kInto = 0.1;
 
 /// A border of an impact sequence, as it is linear around a point x: at x - distance normal.
@@ -32,7 +31,8 @@ struct Border {
 };
 
 /// Those at which an impact of the motion becomes another one, and those at which bodies meet that nearly do.
-std::vector<Border> bordersAround(const EditSearch& search, const EditPoint& point, double beyond) {
+std::vector<Border> bordersAround(const EditSearch& search, const EditPoint& point, double beyond,
+                                  std::size_t near_misses) {
   const EditProblem& problem = search.problem();
   std::vector<Border> borders;
   const auto add = [&](double value, const Eigen::VectorXd& gradient, double further) {
@@ -45,7 +45,7 @@ std::vector<Border> bordersAround(const EditSearch& search, const EditPoint& poi
   DerivativeTape tape(point.motion);
   for (const EventMargin& margin : sequenceBorders(problem, point.changes, tape, point.rows, kBordersUpTo))
     add(margin.value, margin.gradient, beyond * margin.gradient.norm());
-  for (const NearMiss& miss : nearMisses(problem, point.changes, tape, point.rows, kNearMisses))
+  for (const NearMiss& miss : nearMisses(problem, point.changes, tape, point.rows, near_misses))
     add(miss.gap, miss.gradient, kInto * miss.length);
   search.countPasses(borders.size());
   return borders;
@@ -54,7 +54,8 @@ std::vector<Border> bordersAround(const EditSearch& search, const EditPoint& poi
 
 }  // namespace
 
-std::vector<Eigen::VectorXd> beyondBorders(const EditSearch& search, const EditPoint& point, double below) {
+std::vector<Eigen::VectorXd> beyondBorders(const EditSearch& search, const EditPoint& point, double below,
+                                           std::size_t near_misses) {
   const EditProblem& problem = search.problem();
   if (point.motion.world_lines.size() > kMarginBodies) return {};
   const Eigen::VectorXd smallest = smallestChange(search, point);
@@ -67,7 +68,7 @@ std::vector<Eigen::VectorXd> beyondBorders(const EditSearch& search, const EditP
     if (length < below) places.emplace_back(length, std::move(place));
   };
   const double beyond = std::max(kLeastBeyond, kBeyond * lengthOf(problem, smallest));
-  for (const Border& border : bordersAround(search, point, beyond)) {
+  for (const Border& border : bordersAround(search, point, beyond, near_misses)) {
     const double further = border.distance + border.beyond;
     if (border.distance < kFarthest) add(point.changes - further * border.normal);
     const Eigen::VectorXd across = free * (free.transpose() * border.normal);

@@ -20,6 +20,8 @@ namespace {
 /// Of points that lack impacts so many for each landing, at most, are looked at.
 constexpr std::size_t kLackingForEach = 4;
 constexpr int kApproachSteps = 8;
+/// Of the bodies of a motion that nearly meet so many pairs are made to; none where hardly another way changes less.
+constexpr std::size_t kNearMisses = 12;
 /// Points beyond whose borders one round looks.
 constexpr std::size_t kCrossedInRound = 4;
 /// A solution from which the change could still fall by this share, if it were not for the border of its sequence.
@@ -112,9 +114,10 @@ std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
   if (start_->rows.available && !lacksImpacts(search_.problem(), *start_)) take(start_);
   for (const EditPointPtr& solution : solutions_) take(solution);
   for (const EditPointPtr& point : promising_) take(point);
+  const std::size_t misses = hasSmallChangeInside() ? 0 : kNearMisses;
   std::vector<std::vector<Eigen::VectorXd>> beyond(around.size());
   forAll(around.size(), [&](std::size_t i, ContactSource&) {
-    if (search_.differentiate(*around[i])) beyond[i] = beyondBorders(search_, *around[i], lengthToBeat(seek));
+    if (search_.differentiate(*around[i])) beyond[i] = beyondBorders(search_, *around[i], lengthToBeat(seek), misses);
   });
   std::vector<Eigen::VectorXd> places;
   for (const auto& list : beyond)

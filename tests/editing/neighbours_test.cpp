@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "editing/problem/margins/near_misses.hpp"
 #include "editing/strategy/landing.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
@@ -19,6 +21,7 @@ using namespace editing_detail;
 namespace {
 
 constexpr double kAnyLength = std::numeric_limits<double>::infinity();
+constexpr std::size_t kMisses = 12;
 
 /// A box that tumbles over a floor, and where it shall be after two impacts or so.
 struct TumblingBox {
@@ -51,7 +54,7 @@ TEST(Neighbours, HaveOtherImpacts) {
   TumblingBox t(false);
   ASSERT_TRUE(t.search.differentiate(*t.start));
   const std::string before = t.start->signature;
-  const std::vector<Eigen::VectorXd> places = beyondBorders(t.search, *t.start, kAnyLength);
+  const std::vector<Eigen::VectorXd> places = beyondBorders(t.search, *t.start, kAnyLength, kMisses);
   ASSERT_GE(places.size(), 6u);
   int others = 0, simulated = 0;
   double length = 0;
@@ -71,10 +74,10 @@ TEST(Neighbours, HaveOtherImpacts) {
 TEST(Neighbours, KeepBelowALength) {
   TumblingBox t(false);
   ASSERT_TRUE(t.search.differentiate(*t.start));
-  const std::vector<Eigen::VectorXd> all = beyondBorders(t.search, *t.start, kAnyLength);
+  const std::vector<Eigen::VectorXd> all = beyondBorders(t.search, *t.start, kAnyLength, kMisses);
   ASSERT_FALSE(all.empty());
   const double below = lengthOf(t.problem, all[all.size() / 2]);
-  const std::vector<Eigen::VectorXd> some = beyondBorders(t.search, *t.start, below);
+  const std::vector<Eigen::VectorXd> some = beyondBorders(t.search, *t.start, below, kMisses);
   EXPECT_LE(some.size(), all.size() / 2);
   for (const Eigen::VectorXd& place : some) EXPECT_LT(lengthOf(t.problem, place), below);
 }
@@ -82,11 +85,80 @@ TEST(Neighbours, KeepBelowALength) {
 TEST(Neighbours, AreTheSameWithBodiesInReverseOrder) {
   TumblingBox a(false), b(true);
   ASSERT_TRUE(a.search.differentiate(*a.start) && b.search.differentiate(*b.start));
-  const std::vector<Eigen::VectorXd> one = beyondBorders(a.search, *a.start, kAnyLength),
-                                     other = beyondBorders(b.search, *b.start, kAnyLength);
+  const std::vector<Eigen::VectorXd> one = beyondBorders(a.search, *a.start, kAnyLength, kMisses),
+                                     other = beyondBorders(b.search, *b.start, kAnyLength, kMisses);
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t i = 0; i < one.size(); ++i)
     EXPECT_NEAR(lengthOf(a.problem, one[i]), lengthOf(b.problem, other[i]), 1e-9) << i;
+}
+
+/// A ball that passes another one without gravity, at (kAhead, kBeside, 0), and where it shall be later.
+struct PassingBall {
+  static constexpr double kRadius = 0.1, kSpeed = 2, kAhead = 1, kBeside = 0.3;
+  Scene scene;
+  OdeContacts contacts;
+  EditOptions options;
+  EditProblem problem;
+  EditSearch search;
+  EditPointPtr start;
+
+  explicit PassingBall(bool reversed)
+      : scene(sceneOf(reversed)),
+        contacts(scene),
+        problem(scene, contacts, 1, {velocity("ball")}, constraints()),
+        search(problem, options),
+        start(search.evaluateStart()) {}
+
+  static Scene sceneOf(bool reversed) {
+    Scene scene;
+    scene.gravity.setZero();
+    for (const char* name : {"ball", "other"}) {
+      Body body;
+      body.name = name;
+      body.mass = 1;
+      body.shape = Sphere{kRadius};
+      scene.bodies.push_back(body);
+    }
+    scene.bodies[0].velocity = Vec3(kSpeed, 0, 0);
+    scene.bodies[1].position = Vec3(kAhead, kBeside, 0);
+    if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
+    return scene;
+  }
+  static std::vector<Constraint> constraints() {
+    Constraint place{"ball", When(0.9), {{"position", {2, 0.2, any}}}};
+    return {place};
+  }
+};
+
+// Along a line in the direction of v the least distance of the centres is |kAhead v_y - kBeside v_x| / |v|.
+TEST(Neighbours, KnowHowNearBodiesPass) {
+  for (const bool reversed : {false, true}) {
+    PassingBall p(reversed);
+    DerivativeTape tape(p.start->motion);
+    const std::vector<NearMiss> misses = nearMisses(p.problem, p.start->changes, tape, p.start->rows, kMisses);
+    ASSERT_EQ(misses.size(), 1u);
+    const NearMiss& miss = misses[0];
+    EXPECT_TRUE(std::abs(miss.gap - (p.kBeside - 2 * p.kRadius)) <= 1e-12) << miss.gap;
+    EXPECT_EQ(miss.length, p.kRadius);
+    const Vec3 by_velocity(0, -p.kAhead / p.kSpeed, 0);
+    const Eigen::VectorXd rates = p.problem.controls.valueRates(p.start->changes);
+    ASSERT_EQ(miss.gradient.size(), 3);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_TRUE(std::abs(miss.gradient[i] - by_velocity[i] * rates[i]) <= 1e-9 * rates.norm())
+          << i << ": " << miss.gradient[i];
+  }
+}
+
+TEST(Neighbours, MeetWhatTheMotionPasses) {
+  PassingBall p(false);
+  ASSERT_TRUE(p.search.differentiate(*p.start));
+  EXPECT_TRUE(beyondBorders(p.search, *p.start, kAnyLength, 0).empty());
+  const std::vector<Eigen::VectorXd> places = beyondBorders(p.search, *p.start, kAnyLength, kMisses);
+  ASSERT_FALSE(places.empty());
+  const EditPointPtr nearest = p.search.evaluate(places[0]);
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(p.start->motion.impacts, 0u);
+  EXPECT_EQ(nearest->motion.impacts, 1u);
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ std::vector<Passing> passingsOf(const Motion& motion, double until) {
 
 std::vector<NearMiss> nearMisses(const EditProblem& problem, const Eigen::VectorXd& unknowns, DerivativeTape& tape,
                                  const RowValues& rows, std::size_t most) {
+  if (most == 0) return {};
   const Motion& motion = tape.motion();
   const double until = std::min(motion.end, problem.constraints.extentIn(motion, rows.times).time);
   const Eigen::VectorXd changes = unknowns.head(problem.controls.size());
