@@ -31,7 +31,7 @@ constexpr double kLargeChange = 0.05;
 /// Events of a solution in other impacts than those of the start from which on its neighbours are many: so much more work
 /// is done for it.
 constexpr int kManyImpacts = 4;
-constexpr double kPatienceForMany = 3;
+constexpr double kPatienceForMany = 2.5;
 /// Rounds without a clearly smaller change, however little work they are.
 constexpr int kIdleRounds = 30;
 /// So often solutions are looked for, while none of those that were found is confirmed.
@@ -174,8 +174,8 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   double found = search.work();
   for (int idle = 0; idle < kIdleRounds;) {
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
-    const double patience = (many ? kPatienceForMany : 1) * plan.patience.after(found);
-    if (search.work() - found >= patience) return;
+    const double multiple = many ? kPatienceForMany : 1;
+    if (idle >= multiple * plan.patience.rounds && search.work() - found >= plan.patience.after(found, multiple)) return;
     if (idle > 0 && (across.hasSmallChangeInside() || across.isLong())) return;
     const double before = across.solutions().front()->objective;
     if (!across.round()) return;

@@ -7,7 +7,7 @@ namespace carom::editing_detail {
 namespace {
 
 constexpr SearchPlan kFast{.first_rounds = 10,
-                           .patience = {.least = 0, .whole = 1, .largest_share = 0, .most = 0},
+                           .patience = {.least = 0, .whole = 1, .largest_share = 0, .most = 0, .rounds = 0},
                            .first_steps = 7e3,
                            .improving_steps = 1e4,
                            .least_samples = 40,
@@ -15,7 +15,7 @@ constexpr SearchPlan kFast{.first_rounds = 10,
                            .landings = 8,
                            .minimised = 2};
 constexpr SearchPlan kNormal{.first_rounds = 10,
-                             .patience = {.least = 1.8e4, .whole = 1.2e4, .largest_share = 4, .most = 2e6},
+                             .patience = {.least = 5e3, .whole = 1.2e4, .largest_share = 4, .most = 3e6, .rounds = 4},
                              .first_steps = 1e4,
                              .improving_steps = 2.5e3,
                              .least_samples = 24,
@@ -23,7 +23,7 @@ constexpr SearchPlan kNormal{.first_rounds = 10,
                              .landings = 20,
                              .minimised = 3};
 constexpr SearchPlan kThorough{.first_rounds = 16,
-                               .patience = {.least = 6e5, .whole = 1.8e4, .largest_share = 4, .most = 2e7},
+                               .patience = {.least = 6e5, .whole = 1.8e4, .largest_share = 4, .most = 2e7, .rounds = 4},
                                .first_steps = 4e4,
                                .improving_steps = 1e5,
                                .least_samples = 256,
@@ -33,8 +33,8 @@ constexpr SearchPlan kThorough{.first_rounds = 16,
 
 }  // namespace
 
-double Patience::after(double work) const {
-  return std::min(most, least + work * std::min(largest_share, work / whole));
+double Patience::after(double work, double multiple) const {
+  return std::min(most, multiple * (least + work * std::min(largest_share, work / whole)));
 }
 
 const SearchPlan& planOf(Effort effort) {

@@ -10,11 +10,13 @@ namespace carom::editing_detail {
 
 /// How long a search goes on without a clearly smaller change, in steps of simulations: what took long to find is often
 /// followed by smaller ones that take as long again. With w for the work up to the last one that was found, so much more is
-/// done without another: least + w min(largest_share, w / whole), and `most` at most.
+/// done without another: least + w min(largest_share, w / whole), a multiple of it where the neighbours are many, and `most`
+/// at most.
 struct Patience {
   double least, whole, largest_share, most;
+  int rounds;  ///< as many, or the multiple, at least
 
-  double after(double work) const;
+  double after(double work, double multiple) const;
 };
 
 /// The work of a search, all of it counted: the same on every machine and any number of threads.
