@@ -131,9 +131,7 @@ TEST_P(CurvedRegion, AnEditIsKeptOutOfOne) {
   edit.vary(velocity("body").only({"x", "y"}));
   edit.nail("body", 1.4).position({end.x() + 0.05, any, any});
   edit.nail("body", 0.0).avoid(post);
-  EditOptions options;
-  options.effort = Effort::fast;  // without the search for smaller changes, which takes as many iterations again
-  const EditResult result = edit.solve(options);
+  const EditResult result = edit.solve();
   EXPECT_TRUE(result.solved()) << result.message;
   EXPECT_TRUE(result.scaled_residual <= 1e-9) << result.scaled_residual;
   const double margin = GetParam() ? 0.1 : Vec3(0.15, 0.1, 0.1).norm();

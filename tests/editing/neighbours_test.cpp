@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "editing/problem/margins/near_misses.hpp"
 #include "editing/strategy/landing.hpp"
@@ -23,8 +25,8 @@ namespace {
 constexpr double kAnyLength = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMisses = 12;
 
-/// A box that tumbles over a floor, and where it shall be after two impacts or so.
-struct TumblingBox {
+/// A search for an edit of one second of a scene.
+struct SecondOf {
   Scene scene;
   OdeContacts contacts;
   EditOptions options;
@@ -32,18 +34,24 @@ struct TumblingBox {
   EditSearch search;
   EditPointPtr start;
 
-  explicit TumblingBox(bool reversed)
-      : scene(sceneOf(reversed)),
-        contacts(scene),
-        problem(scene, contacts, 1, {velocity("box"), angularVelocity("box")}, constraints()),
+  SecondOf(Scene s, const std::vector<Control>& controls, const std::vector<Constraint>& constraints, bool reversed)
+      : scene(std::move(s)),
+        contacts(ordered(scene, reversed)),
+        problem(scene, contacts, 1, controls, constraints),
         search(problem, options),
         start(search.evaluateStart()) {}
 
-  static Scene sceneOf(bool reversed) {
-    Scene scene = testing_scenes::thrownBox();
+  static const Scene& ordered(Scene& scene, bool reversed) {
     if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
     return scene;
   }
+};
+
+/// A box that tumbles over a floor, and where it shall be after two impacts or so.
+struct TumblingBox : SecondOf {
+  explicit TumblingBox(bool reversed)
+      : SecondOf(testing_scenes::thrownBox(), {velocity("box"), angularVelocity("box")}, constraints(), reversed) {}
+
   static std::vector<Constraint> constraints() {
     Constraint place{"box", When(0.9), {{"position", {1.4, any, any}}}};
     return {place};
@@ -93,23 +101,12 @@ TEST(Neighbours, AreTheSameWithBodiesInReverseOrder) {
 }
 
 /// A ball that passes another one without gravity, at (kAhead, kBeside, 0), and where it shall be later.
-struct PassingBall {
+struct PassingBall : SecondOf {
   static constexpr double kRadius = 0.1, kSpeed = 2, kAhead = 1, kBeside = 0.3;
-  Scene scene;
-  OdeContacts contacts;
-  EditOptions options;
-  EditProblem problem;
-  EditSearch search;
-  EditPointPtr start;
 
-  explicit PassingBall(bool reversed)
-      : scene(sceneOf(reversed)),
-        contacts(scene),
-        problem(scene, contacts, 1, {velocity("ball")}, constraints()),
-        search(problem, options),
-        start(search.evaluateStart()) {}
+  explicit PassingBall(bool reversed) : SecondOf(passing(), {velocity("ball")}, constraints(), reversed) {}
 
-  static Scene sceneOf(bool reversed) {
+  static Scene passing() {
     Scene scene;
     scene.gravity.setZero();
     for (const char* name : {"ball", "other"}) {
@@ -121,7 +118,6 @@ struct PassingBall {
     }
     scene.bodies[0].velocity = Vec3(kSpeed, 0, 0);
     scene.bodies[1].position = Vec3(kAhead, kBeside, 0);
-    if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
     return scene;
   }
   static std::vector<Constraint> constraints() {
