@@ -100,6 +100,11 @@ Eigen::VectorXd EditProblem::unknownTimes(const Eigen::VectorXd& t) const {
   return y;
 }
 
+Eigen::VectorXd EditProblem::byChanges(const SceneGradient& gradient, const Eigen::VectorXd& unknowns) const {
+  const Eigen::VectorXd changes = unknowns.head(controls.size());
+  return controls.gather(gradient, controls.valuesOf(changes)).cwiseProduct(controls.valueRates(changes));
+}
+
 Eigen::VectorXd EditProblem::rates(const Eigen::VectorXd& unknowns) const {
   Eigen::VectorXd d(this->unknowns());
   d.head(controls.size()) = controls.valueRates(unknowns.head(controls.size()));

@@ -35,6 +35,8 @@ struct EditProblem {
   Eigen::VectorXd unknownTimes(const Eigen::VectorXd& times) const;
   /// d(values, times)/d(unknowns), a diagonal.
   Eigen::VectorXd rates(const Eigen::VectorXd& unknowns) const;
+  /// A derivative by the numbers of the scene, at some unknowns, as that by the changes of the controls.
+  Eigen::VectorXd byChanges(const SceneGradient& gradient, const Eigen::VectorXd& unknowns) const;
   Eigen::VectorXd lower() const;
   Eigen::VectorXd upper() const;
   /// 1/2 |changes of the controls|^2: the free times cost nothing.

@@ -41,11 +41,9 @@ std::optional<Kink> kinkBetween(const EditProblem& problem, const EditPoint& a, 
 std::vector<Kink> jumpsBetween(const EditProblem& problem, const EditPoint& a, const EditPoint& b) {
   const std::size_t events = problem.constraints.extentIn(a.motion, a.rows.times).events;
   if (events == 0 || events > kBordersUpTo) return {};
-  const Eigen::VectorXd rates = problem.rates(a.changes), way = b.changes - a.changes;
+  const Eigen::VectorXd way = b.changes - a.changes;
   const Eigen::Index n = problem.controls.size();
-  const auto byChanges = [&](const SceneGradient& gradient) {
-    return Eigen::VectorXd(problem.controls.gather(gradient, a.values).cwiseProduct(rates.head(n)));
-  };
+  const auto byChanges = [&](const SceneGradient& gradient) { return problem.byChanges(gradient, a.changes); };
   std::vector<Kink> jumps;
   DerivativeTape tape(a.motion);
   for (const EventMargin& m : eventMargins(tape, events, {}, byChanges)) {

@@ -61,8 +61,7 @@ EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps, Aim
     const std::optional<ClosestApproach> nearest = nearestOf(*point, missing.front());
     if (!nearest || !(nearest->value() > 0)) break;
     const std::vector<StateSeed> seeds = nearest->seeds();
-    const Eigen::VectorXd row = problem.controls.gather(adjoint(point->motion, seeds), point->values)
-                                    .cwiseProduct(problem.rates(point->changes).head(n));
+    const Eigen::VectorXd row = problem.byChanges(adjoint(point->motion, seeds), point->changes);
     if (!(row.squaredNorm() > 0) || !row.allFinite()) break;
     const double length = lengthOfSmaller(problem.controls.startScene(), nearest->a, nearest->b);
     const double way = aim == Aim::well_into ? nearest->value() + kWellInto * length

@@ -2,7 +2,6 @@
 #include "editing/problem/margins/near_misses.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "adjoint/base/errors.h"
@@ -67,13 +66,11 @@ std::vector<NearMiss> nearMisses(const EditProblem& problem, const Eigen::Vector
   if (most == 0) return {};
   const Motion& motion = tape.motion();
   const double until = std::min(motion.end, problem.constraints.extentIn(motion, rows.times).time);
-  const Eigen::VectorXd changes = unknowns.head(problem.controls.size());
-  const Eigen::VectorXd values = problem.controls.valuesOf(changes), rates = problem.controls.valueRates(changes);
   std::vector<NearMiss> misses;
   for (const Passing& passing : passingsOf(motion, until)) {
     if (misses.size() == most) break;
     const std::vector<StateSeed> seeds = passing.at.seeds();
-    Eigen::VectorXd gradient = problem.controls.gather(adjoint(tape, seeds), values).cwiseProduct(rates);
+    Eigen::VectorXd gradient = problem.byChanges(adjoint(tape, seeds), unknowns);
     if (!(gradient.squaredNorm() > 0) || !gradient.allFinite()) continue;
     misses.push_back({passing.at.value(), passing.length, std::move(gradient)});
   }

@@ -46,11 +46,7 @@ std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues&
 
 std::vector<EventMargin> sequenceBorders(const EditProblem& problem, const Eigen::VectorXd& unknowns,
                                          DerivativeTape& tape, const RowValues& rows, std::size_t most_events) {
-  const Eigen::VectorXd changes = unknowns.head(problem.controls.size());
-  const Eigen::VectorXd values = problem.controls.valuesOf(changes), rates = problem.controls.valueRates(changes);
-  const auto byChanges = [&](const SceneGradient& gradient) {
-    return Eigen::VectorXd(problem.controls.gather(gradient, values).cwiseProduct(rates));
-  };
+  const auto byChanges = [&](const SceneGradient& gradient) { return problem.byChanges(gradient, unknowns); };
   const ConstraintSet::Extent extent = problem.constraints.extentIn(tape.motion(), rows.times);
   return eventMargins(tape, std::min(extent.events, most_events), instantsOf(problem, rows, extent.time), byChanges);
 }
