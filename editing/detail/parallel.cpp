@@ -1,53 +1,109 @@
 // SPDX-License-Identifier: MIT
 #include "editing/detail/parallel.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#if defined(__SANITIZE_THREAD__)
+#include <atomic>
+#include <condition_variable>
+#include <thread>
+#else
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <atomic>
-#include <optional>
-#include <thread>
-#include <vector>
+#endif
 
 namespace carom::editing_detail {
-namespace {
 
 #if defined(__SANITIZE_THREAD__)
 
 /// Debian's oneTBB is not instrumented, so that ThreadSanitizer takes its tasks, and all that they hand on, for races.
 /// Under it plain threads run the same work.
-void runAll(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> crew;
-  for (int t = 0; t < (threads > 0 ? threads : 2); ++t)
-    crew.emplace_back([&] {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
+struct Crew::Threads {
+  explicit Threads(int threads) : count(threads > 0 ? threads : 2) {}
+
+  void run(const std::function<void()>& each) const {
+    std::vector<std::jthread> crew;
+    for (int t = 0; t < count; ++t) crew.emplace_back(each);
+  }
+  void forAll(std::size_t n, const std::function<void(std::size_t)>& work) {
+    std::atomic<std::size_t> next = 0;
+    run([&] {
+      for (std::size_t i = next++; i < n; i = next++) work(i);
     });
-}
+  }
+  void inOrder(std::size_t n, std::size_t ahead, const std::function<void(std::size_t)>& work) {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<char> done(n, 0);
+    std::size_t next = 0, ended = 0;  // all before `ended` are done
+    run([&] {
+      for (std::unique_lock lock(mutex); next < n;) {
+        const std::size_t i = next++;
+        changed.wait(lock, [&] { return i < ended + ahead; });
+        lock.unlock();
+        work(i);
+        lock.lock();
+        done[i] = 1;
+        while (ended < n && done[ended]) ++ended;
+        changed.notify_all();
+      }
+    });
+  }
+
+  int count;
+};
 
 #else
 
-void runAll(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
-  // More threads than cores are for those who ask for them; without this oneTBB warns and ignores the request.
+struct Crew::Threads {
+  explicit Threads(int threads) : arena(threads > 0 ? threads : tbb::task_arena::automatic) {
+    // More threads than cores are for those who ask for them; without this oneTBB warns and ignores the request.
+    if (threads > tbb::info::default_concurrency())
+      more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
+
+  void forAll(std::size_t n, const std::function<void(std::size_t)>& work) {
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, n, work, tbb::simple_partitioner()); });
+  }
+  void inOrder(std::size_t n, std::size_t ahead, const std::function<void(std::size_t)>& work) {
+    std::size_t next = 0;
+    const auto begin = tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
+      if (next == n) flow.stop();
+      return next++;
+    });
+    const auto middle = tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, [&](std::size_t i) {
+      work(i);
+      return i;
+    });
+    const auto end = tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, [](std::size_t) {});
+    arena.execute([&] { tbb::parallel_pipeline(ahead, begin & middle & end); });
+  }
+
   std::optional<tbb::global_control> more;
-  if (threads > tbb::info::default_concurrency())
-    more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work, tbb::simple_partitioner()); });
-}
+  tbb::task_arena arena;
+};
 
 #endif
 
-}  // namespace
+Crew::Crew(int threads) {
+  if (threads != 1) threads_ = std::make_unique<Threads>(threads);
+}
 
-void inParallel(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
-  if (threads == 1 || count < 2) {
-    for (std::size_t i = 0; i < count; ++i) work(i);
-    return;
-  }
-  runAll(threads, count, work);
+Crew::~Crew() = default;
+
+void Crew::forAll(std::size_t count, const std::function<void(std::size_t)>& work) {
+  if (threads_ && count > 1) return threads_->forAll(count, work);
+  for (std::size_t i = 0; i < count; ++i) work(i);
+}
+
+void Crew::inOrder(std::size_t count, std::size_t ahead, const std::function<void(std::size_t)>& work) {
+  if (threads_ && count > 1 && ahead > 1) return threads_->inOrder(count, ahead, work);
+  for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
 ContactSource* ContactPool::take() {

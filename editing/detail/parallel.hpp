@@ -12,9 +12,22 @@
 /// Work on several cores, with answers that do not depend on how many. Internal to editing/.
 namespace carom::editing_detail {
 
-/// Calls work(0) to work(count - 1), in any order, on up to `threads` cores (0: all there are). Returns when all are
-/// done; an exception of one of them comes out here.
-void inParallel(int threads, std::size_t count, const std::function<void(std::size_t)>& work);
+/// Threads that stay together from one batch of work to the next: to gather them takes longer than many a batch. Both calls
+/// return when all is done; an exception of one of the works comes out of them.
+class Crew {
+ public:
+  explicit Crew(int threads);  ///< 0: as many as there are cores
+  ~Crew();
+
+  /// Calls work(0) to work(count - 1), in any order.
+  void forAll(std::size_t count, const std::function<void(std::size_t)>& work);
+  /// The same one after the other, but for `ahead` of them at a time: work(i) begins when all up to work(i - ahead) are done.
+  void inOrder(std::size_t count, std::size_t ahead, const std::function<void(std::size_t)>& work);
+
+ private:
+  struct Threads;
+  std::unique_ptr<Threads> threads_;  // null: the caller's alone
+};
 
 /// Collision detection for whoever simulates at the moment: sources are independent of each other, and which one a
 /// simulation gets makes no difference to it.

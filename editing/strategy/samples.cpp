@@ -58,10 +58,10 @@ Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre, const SampleReach& r
   return x;
 }
 
-Eigen::VectorXd along(int k, const Surroundings& s, const SampleReach& reach) {
+Eigen::VectorXd along(int k, const Surroundings& s, const EvenPoints& directions, const SampleReach& reach) {
   Eigen::VectorXd x = s.at + inTurn(kShares, k) * s.step;
   const double length = radius(k / 2, reach) * (k < 2 ? 0 : 1);  // the step itself first
-  if (s.free.cols() > 0) x += length * (s.free * EvenPoints(s.free.cols()).onSphere(k));
+  if (s.free.cols() > 0) x += length * (s.free * directions.onSphere(k));
   return x;
 }
 
@@ -99,6 +99,8 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
                                      const SampleReach& reach) {
   const EvenPoints points(centre.size());
+  std::vector<EvenPoints> directions;
+  for (const Surroundings& s : around) directions.emplace_back(s.free.cols());
   const int kinds = 2 + 2 * static_cast<int>(around.size());
   std::vector<Eigen::VectorXd> list;
   for (int i = first; i < first + count; ++i) {
@@ -109,8 +111,8 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
     } else if (kind == 1) {
       x = alone(k, centre, reach);
     } else {
-      const auto& from = around[static_cast<std::size_t>(kind - 2) / 2];
-      x = along(2 * k + kind % 2, from, reach);
+      const std::size_t from = static_cast<std::size_t>(kind - 2) / 2;
+      x = along(2 * k + kind % 2, around[from], directions[from], reach);
     }
     list.push_back(within(x, centre, lower, upper));
   }

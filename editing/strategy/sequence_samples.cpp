@@ -95,6 +95,7 @@ std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   std::erase_if(lacking, [&](const EditPointPtr& p) { return lengthOf(search_.problem(), p->changes) > to_beat; });
   if (round_ == 0 && lacks(start_)) lacking.push_back(start_);
   for (const EditPointPtr& point : approachAll(lacking)) points.push_back(point);
+  letGo(std::move(lacking));
   if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
   if (search_.best() != start_) points.insert(points.begin(), search_.best());
   for (const EditPointPtr& point : neighbours(seek)) points.push_back(point);
@@ -163,12 +164,12 @@ std::vector<EditPointPtr> SequenceSearch::crossings(const std::vector<EditPointP
 // From the points that lack least, steps towards the impacts that they lack. Returns those that arrived.
 std::vector<EditPointPtr> SequenceSearch::approachAll(const std::vector<EditPointPtr>& lacking) {
   const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::vector<std::pair<double, EditPointPtr>> ranked;
-  for (const EditPointPtr& point : lacking) {
+  std::vector<std::pair<double, EditPointPtr>> ranked(lacking.size());
+  forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     double left = 0;  // of what was wished
-    for (const LackingImpact& impact : missingImpacts(search_.problem(), *point)) left += 1 - impact.share;
-    ranked.emplace_back(left, point);
-  }
+    for (const LackingImpact& impact : missingImpacts(search_.problem(), *lacking[i])) left += 1 - impact.share;
+    ranked[i] = {left, lacking[i]};
+  });
   std::stable_sort(ranked.begin(), ranked.end(), nearer);
   const std::size_t followed = solutions_.empty() ? landings() : (landings() + 1) / 2;
   ranked.resize(std::min(ranked.size(), kLackingForEach * followed));

@@ -41,8 +41,8 @@ constexpr double kLeadsNowhere = 0.5;
 constexpr double kClearlySmaller = 0.995;
 /// From a sequence that was tried so often, no more than so many landings a round go where a solution is known.
 constexpr int kTriedOften = 4, kOfTriedOften = 4;
-/// So many landings at a time: what they find is what the next have to beat.
-constexpr std::size_t kWave = 4;
+/// So many landings at a time.
+constexpr std::size_t kLandingsAhead = 4;
 /// Solutions of one sequence whose changes differ by less than this share of them are the same.
 constexpr double kSameChange = 0.1;
 
@@ -57,14 +57,17 @@ SequenceSearch::SequenceSearch(EditSearch& search, EditPointPtr start)
     : search_(search),
       plan_(planOf(search.options().effort)),
       pool_(*search.problem().contacts),
+      crew_(pool_.isShareable() ? search.options().threads : 1),
       start_(std::move(start)) {}
 
 bool SequenceSearch::round(Seek seek) {
   if (search_.problem().unknowns() == 0) return false;  // nowhere to go
   if (!search_.goesOn()) return false;
-  const std::vector<EditPointPtr> points = sample(seek);
+  std::vector<EditPointPtr> points = sample(seek);
   if (!reportBatch()) return false;
-  const std::vector<EditPointPtr> landed = landAll(promising(points, seek), seek);
+  const std::vector<EditPointPtr> candidates = promising(points, seek);
+  letGo(std::move(points));
+  const std::vector<EditPointPtr> landed = landAll(candidates, seek);
   if (!reportBatch()) return false;
   minimise(landed, seek);
   ++round_;
@@ -104,6 +107,11 @@ bool SequenceSearch::isAllowed(const EditPoint& point) const {
 bool SequenceSearch::reportBatch() {
   const EditPointPtr best = search_.best();
   return search_.step(best->objective, best->violation);
+}
+
+// Where memory was taken by several threads, one alone is slow to give it back.
+void SequenceSearch::letGo(std::vector<EditPointPtr> points) {
+  crew_.forAll(points.size(), [&](std::size_t i) { points[i].reset(); });
 }
 
 // Clipped samples, and the best of each round, come again and again; from a point that had no less to beat a landing ends
@@ -173,31 +181,32 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
   return chosen;
 }
 
+// What landings find is what later ones have to beat.
 std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr>& candidates, Seek seek) {
-  Landing landing{.max_steps = solutions_.empty() ? kLandingSteps : kImprovingSteps, .below = lengthToBeat(seek)};
-  std::vector<EditPointPtr> landed;
-  int longest = 0;
-  for (std::size_t first = 0; first < candidates.size(); first += kWave) {
-    std::vector<EditPointPtr> wave(std::min(kWave, candidates.size() - first));
-    std::vector<int> steps(wave.size(), 0);
-    forAll(wave.size(), [&](std::size_t i, ContactSource& contacts) {
-      EditSearch branch = search_.branch({{&contacts}}, true);
-      wave[i] = land(branch, candidates[first + i], landing);
-      steps[i] = branch.iterations() - search_.iterations();
-    });
-    longest = std::max(longest, *std::max_element(steps.begin(), steps.end()));
-    for (const EditPointPtr& point : wave) {
-      if (!point) continue;
-      landed.push_back(point);
-      if (!isAllowed(*point)) continue;
-      search_.consider(point);
-      if (seek == Seek::others || wanted() > 1 || !search_.reached(*point)) continue;
-      landing.max_steps = kImprovingSteps;
-      landing.below = std::min(landing.below, kClearlySmaller * lengthOf(search_.problem(), point->changes));
-    }
-  }
-  search_.count(longest);
-  return landed;
+  const std::size_t n = candidates.size();
+  const Landing first{.max_steps = solutions_.empty() ? kLandingSteps : kImprovingSteps, .below = lengthToBeat(seek)};
+  std::vector<EditPointPtr> ends(n);
+  std::vector<int> steps(n, 0);
+  const auto learn = [&](Landing landing, const EditPointPtr& end) {
+    if (seek == Seek::others || wanted() > 1 || !end || !isAllowed(*end) || !search_.reached(*end)) return landing;
+    landing.max_steps = kImprovingSteps;
+    landing.below = std::min(landing.below, kClearlySmaller * lengthOf(search_.problem(), end->changes));
+    return landing;
+  };
+  crew_.inOrder(n, kLandingsAhead, [&](std::size_t i) {
+    // of those that are sure to be done, whoever else may be: the same on any number of threads
+    Landing landing = first;
+    for (std::size_t k = 0; k + kLandingsAhead <= i; ++k) landing = learn(landing, ends[k]);
+    const ContactPool::Loan loan(pool_);
+    EditSearch branch = search_.branch({{&loan.source()}}, true);
+    ends[i] = land(branch, candidates[i], landing);
+    steps[i] = branch.iterations() - search_.iterations();
+  });
+  for (const EditPointPtr& end : ends)
+    if (end && isAllowed(*end)) search_.consider(end);
+  if (n > 0) search_.count(*std::max_element(steps.begin(), steps.end()));
+  std::erase(ends, nullptr);
+  return ends;
 }
 
 // Of each sequence the smallest change that arrived, the smallest of all first.

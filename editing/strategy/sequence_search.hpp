@@ -76,12 +76,14 @@ class SequenceSearch {
   std::vector<EditPointPtr> smallestSolutions(std::size_t count) const;
   void polish(const EditPointPtr& solution);
   bool reportBatch();
+  void letGo(std::vector<EditPointPtr> points);
   template <class Work>
   void forAll(std::size_t count, const Work& work);
 
   EditSearch& search_;
   const SearchPlan& plan_;
   ContactPool pool_;
+  Crew crew_;
   EditPointPtr start_;
   std::map<std::string, int> tries_;  // landings from a sequence so far
   std::vector<EditPointPtr> solutions_;
@@ -100,8 +102,7 @@ class SequenceSearch {
 
 template <class Work>
 void SequenceSearch::forAll(std::size_t count, const Work& work) {
-  const int threads = pool_.isShareable() ? search_.options().threads : 1;
-  inParallel(threads, count, [&](std::size_t i) {
+  crew_.forAll(count, [&](std::size_t i) {
     const ContactPool::Loan loan(pool_);
     work(i, loan.source());
   });
