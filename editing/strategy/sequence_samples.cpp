@@ -82,18 +82,18 @@ std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   const std::vector<Eigen::VectorXd> places =
       samples(start_->changes, around, search_.lower(), search_.upper(), samples_, count, reach());
   samples_ += count;
-  std::vector<EditPointPtr> points(places.size());
+  std::vector<EditPointPtr> made(places.size());
+  std::vector<char> is_lacking(places.size(), 0);
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
-    points[i] = search_.make(places[i], true, {{&contacts}, nullptr, true});
+    made[i] = search_.make(places[i], true, {{&contacts}, nullptr, true});
+    is_lacking[i] = made[i] && lacksImpacts(search_.problem(), *made[i]);
   });
-  std::erase(points, nullptr);
-  const auto lacks = [&](const EditPointPtr& point) { return lacksImpacts(search_.problem(), *point); };
-  std::vector<EditPointPtr> lacking;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(lacking), lacks);
-  std::erase_if(points, lacks);
+  std::vector<EditPointPtr> points, lacking;
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (made[i]) (is_lacking[i] ? lacking : points).push_back(std::move(made[i]));
   const double to_beat = lengthToBeat(seek);
   std::erase_if(lacking, [&](const EditPointPtr& p) { return lengthOf(search_.problem(), p->changes) > to_beat; });
-  if (round_ == 0 && lacks(start_)) lacking.push_back(start_);
+  if (round_ == 0 && lacksImpacts(search_.problem(), *start_)) lacking.push_back(start_);
   for (const EditPointPtr& point : approachAll(lacking)) points.push_back(point);
   letGo(std::move(lacking));
   if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
