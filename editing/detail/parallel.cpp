@@ -6,8 +6,8 @@
 #include <vector>
 
 #if defined(__SANITIZE_THREAD__)
-#include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <thread>
 #else
 #include <oneapi/tbb/global_control.h>
@@ -26,33 +26,37 @@ namespace carom::editing_detail {
 struct Crew::Threads {
   explicit Threads(int threads) : count(threads > 0 ? threads : 2) {}
 
-  void run(const std::function<void()>& each) const {
-    std::vector<std::jthread> crew;
-    for (int t = 0; t < count; ++t) crew.emplace_back(each);
-  }
-  void forAll(std::size_t n, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next = 0;
-    run([&] {
-      for (std::size_t i = next++; i < n; i = next++) work(i);
-    });
-  }
+  void forAll(std::size_t n, const std::function<void(std::size_t)>& work) { inOrder(n, n, work); }
   void inOrder(std::size_t n, std::size_t ahead, const std::function<void(std::size_t)>& work) {
     std::mutex mutex;
     std::condition_variable changed;
+    std::exception_ptr thrown;
     std::vector<char> done(n, 0);
     std::size_t next = 0, ended = 0;  // all before `ended` are done
-    run([&] {
-      for (std::unique_lock lock(mutex); next < n;) {
+    const auto each = [&] {
+      for (std::unique_lock lock(mutex); next < n && !thrown;) {
         const std::size_t i = next++;
-        changed.wait(lock, [&] { return i < ended + ahead; });
+        changed.wait(lock, [&] { return i < ended + ahead || thrown; });
+        if (thrown) return;
         lock.unlock();
-        work(i);
+        std::exception_ptr failure;
+        try {
+          work(i);
+        } catch (...) {
+          failure = std::current_exception();
+        }
         lock.lock();
+        if (!thrown) thrown = failure;
         done[i] = 1;
         while (ended < n && done[ended]) ++ended;
         changed.notify_all();
       }
-    });
+    };
+    {
+      std::vector<std::jthread> crew;
+      for (int t = 0; t < count; ++t) crew.emplace_back(each);
+    }
+    if (thrown) std::rethrow_exception(thrown);
   }
 
   int count;
