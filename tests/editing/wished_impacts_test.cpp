@@ -109,6 +109,28 @@ TEST(WishedImpacts, TheSmallestHitJustTouches) {
   }
 }
 
+// A hit that may come no later than the end T: of all v' for which |v' T - way| is at most the sum of the radii, the nearest to v
+// has v' T where the line from v T to `way` enters that circle.
+TEST(WishedImpacts, TheSmallestHitInTimeComesAtTheEnd) {
+  for (const bool reversed : {false, true}) {
+    Scene scene = table();
+    scene.bodies = {scene.bodies[4], scene.bodies[5]};  // cue and red, without rails
+    if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
+    OdeContacts contacts(scene);
+    constexpr double kEnd = 0.3;
+    Edit edit(scene, contacts, kEnd);
+    edit.vary(velocity("cue").only({"x", "y"}));
+    edit.hit("cue", "red");
+    const EditResult r = edit.solve();
+    ASSERT_TRUE(r.solved()) << r.message;
+    const Vec3 v(1.5, 0, 0), way = Vec3(0.2, 0.2, 0) - Vec3(-0.5, 0, 0);
+    const double least = ((v * kEnd - way).norm() - 2 * 0.03) / kEnd;
+    const double change = (r.motion.stateAt("cue", 0).velocity - v).norm();
+    EXPECT_TRUE(change >= (1 - 1e-12) * least) << change << " and " << least;
+    EXPECT_TRUE(change <= (1 + 1e-5) * least) << change << " and " << least;
+  }
+}
+
 TEST(WishedImpacts, AHitDuringASpan) {
   Table t;
   t.edit.hit("cue", {.with = "red", .during = {{0.9, 1.0}}});

@@ -7,8 +7,8 @@ namespace carom::editing_detail {
 namespace {
 
 /// The instants at which targets are read, and the last one of all, up to which every impact counts. What a region
-/// keeps clear of is read where it is nearest, and does not jump. Impacts that are held must not come after the end,
-/// nor must a rest.
+/// keeps clear of is read where it is nearest, and does not jump. Impacts that are held or wished must not come after the
+/// end, nor must a rest.
 std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues& rows, double last) {
   std::vector<ReadInstant> instants;
   bool at_impact = false;
@@ -38,7 +38,10 @@ std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues&
       add(seed.at.time == last ? -1 : seed.body, seed.at.time);
     }
   }
-  if (at_impact) instants.push_back({-1, problem.duration, true});
+  const std::vector<Constraint>& held = problem.constraints.constraints();
+  const bool wishes = std::any_of(held.begin(), held.end(),
+                                  [](const Constraint& c) { return c.hits.has_value() || !c.sequence.empty(); });
+  if (at_impact || wishes) instants.push_back({-1, problem.duration, true});
   return instants;
 }
 
