@@ -109,8 +109,8 @@ BorderStep stepWithinBorders(const EditSearch& search, const EditPoint& point) {
   return step;
 }
 
-/// A smaller change of the sequence of a point, at a place or near it; null where there is none. Borders are bent: where
-/// an impact is missed, the least distance at which its bodies pass leads back to it.
+/// A smaller change at a place or near it, of the sequence of a point unless any will do; null where there is none. Borders are
+/// bent: where an impact is missed, the least distance at which its bodies pass leads back to it.
 EditPointPtr smallerNear(EditSearch& search, const EditPoint& point, const Eigen::VectorXd& place) {
   if (!(lengthOf(search.problem(), place) < lengthOf(search.problem(), point.changes))) return nullptr;
   const MotionMaker lacking{{}, nullptr, true};
@@ -120,8 +120,10 @@ EditPointPtr smallerNear(EditSearch& search, const EditPoint& point, const Eigen
     trial = approach(back, trial, kBackSteps, Aim::just_into);
     if (lacksImpacts(search.problem(), *trial)) return nullptr;
   }
-  if (!trial || trial->signature != point.signature) return nullptr;
-  if (!search.reached(*trial)) trial = projectOntoConstraints(search, trial, kOntoSteps, &point.signature);
+  if (!trial) return nullptr;
+  const bool crosses = trial->signature != point.signature;
+  if (crosses && search.options().sequence != SequencePolicy::smallest) return nullptr;
+  if (!search.reached(*trial)) trial = projectOntoConstraints(search, trial, kOntoSteps, crosses ? nullptr : &point.signature);
   if (!search.reached(*trial) || !(trial->objective < (1 - kWorthAStep) * point.objective)) return nullptr;
   search.consider(trial);
   return trial;
@@ -157,6 +159,7 @@ EditPointPtr minimiseAlongBorder(EditSearch& search, EditPointPtr point, int max
       if (next) break;
     }
     if (!next || !search.step(next->objective, next->violation)) break;
+    if (next->signature != point->signature) hessian = {};
     point = std::move(next);
     longest = std::min(1.0, share / kShorter);
   }

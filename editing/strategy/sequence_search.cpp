@@ -268,6 +268,8 @@ void SequenceSearch::polish(const EditPointPtr& solution) {
   if (!stationary) {
     const EditPointPtr landed = end;
     end = minimiseAlongBorder(search_, landed, kBorderSteps);  // does nothing where the minimum is on none
+    if (end->signature != solution->signature)  // beyond the border it may lie on none
+      end = land(search_, end, {.max_steps = kLandingSteps, .signature = &end->signature, .arrived = kStationary});
     if (end == landed) end = minimiseWithin(search_, end, kPolishingIterations);
   }
   if (end == solution || !search_.reached(*end) || !(end->objective <= (1 + kRounding) * solution->objective)) return;
