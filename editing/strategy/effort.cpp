@@ -15,7 +15,7 @@ constexpr SearchPlan kFast{.first_rounds = 10,
                            .landings = 8,
                            .minimised = 2};
 constexpr SearchPlan kNormal{.first_rounds = 10,
-                             .patience = {.least = 5e3, .whole = 9e3, .largest_share = 4, .most = 2.7e6, .rounds = 4},
+                             .patience = {.least = 5e3, .whole = 1.2e4, .largest_share = 4, .most = 2.7e6, .rounds = 4},
                              .first_steps = 1e4,
                              .improving_steps = 2.5e3,
                              .least_samples = 24,
