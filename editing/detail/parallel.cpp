@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "editing/detail/parallel.hpp"
 
-#include <algorithm>
-#include <optional>
-#include <vector>
-
 #if defined(__SANITIZE_THREAD__)
 #include <condition_variable>
 #include <exception>
 #include <thread>
 #else
+#include <optional>
+
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>

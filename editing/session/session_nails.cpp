@@ -8,6 +8,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 #include "editing/problem/rows/instants.hpp"
+#include "editing/problem/rows/wished_impacts.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session/session_words.hpp"
 
@@ -42,7 +43,7 @@ std::string worstOf(const ConstraintSet& set, const RowValues& rows) {
 
 double timeOf(const ConstraintSet& set, const RowValues& rows, const Motion& motion) {
   const Constraint& nail = set.constraints()[0];
-  if (nail.hits || !nail.sequence.empty()) return set.extentIn(motion).time;
+  if (wishesImpacts(nail)) return set.extentIn(motion).time;
   if (nail.targets.empty()) return set.timeOfClearance(motion, 0).value_or(0);
   if (nail.at.span) return rows.times[0];
   const auto instant = findInstant(motion, bodyIndex(*motion.scene, nail.body), nail.at);
@@ -67,7 +68,7 @@ NailState EditSession::State::stateOf(const SessionNail& nail, const Motion& mot
   if (!rows.available) {
     state.available = state.met = false;
     state.time = state.error = state.scaled_error = std::numeric_limits<double>::quiet_NaN();
-    const bool wishes = nail.constraint.hits || !nail.constraint.sequence.empty();
+    const bool wishes = wishesImpacts(nail.constraint);
     state.message = wishes ? rows.message : whyMissing(nail.constraint, motion);
     return state;
   }

@@ -2,7 +2,6 @@
 // The points of a round of SequenceSearch.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "editing/solve/dependence.hpp"

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "editing/problem/rows/wished_impacts.hpp"
+
 namespace carom::editing_detail {
 namespace {
 
@@ -39,9 +41,7 @@ std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues&
     }
   }
   const std::vector<Constraint>& held = problem.constraints.constraints();
-  const bool wishes = std::any_of(held.begin(), held.end(),
-                                  [](const Constraint& c) { return c.hits.has_value() || !c.sequence.empty(); });
-  if (at_impact || wishes) instants.push_back({-1, problem.duration, true});
+  if (at_impact || std::any_of(held.begin(), held.end(), wishesImpacts)) instants.push_back({-1, problem.duration, true});
   return instants;
 }
 

@@ -13,6 +13,9 @@
 /// Impacts that a motion shall have, by the bodies that meet. Internal to editing/.
 namespace carom::editing_detail {
 
+/// Whether a constraint asks for impacts to come: a hit, or a sequence.
+inline bool wishesImpacts(const Constraint& constraint) { return constraint.hits || !constraint.sequence.empty(); }
+
 /// What a motion lacks of an impact that shall come: bodies that shall meet, and when they may. Without pairs: of one
 /// with anybody, or of a body that shall come to rest.
 struct LackingImpact {
