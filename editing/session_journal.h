@@ -34,7 +34,7 @@ struct SessionOptions {
   double tolerance = 1e-9;                                 ///< of every number that is held, dimensionless
   /// At most, for one update. A motion of m bodies that move counts m / 5 where more than 5 move in the scene, m / all
   /// where fewer do: parts of the scene are simulated on their own where nothing else matters.
-  int drag_simulations = 14;
+  int drag_simulations = 28;
   int dwell_simulations = 60;    ///< at most, for one call of EditSession::dwell, which has no clock
   int release_iterations = 200;  ///< at most, when a gesture ends
   double drag_seconds = 0.25;    ///< of the clock, for one update

@@ -22,6 +22,8 @@ class IntegratedPath {
  public:
   virtual ~IntegratedPath() = default;
   virtual std::unique_ptr<IntegratedPath> clone() const = 0;
+  /// Reads the model of its body, which is the same, here from now on.
+  virtual void useModel(const BodyModel& model) = 0;
 
   /// Integrates on, until t or until one step more than is known. Throws NotComputable where it cannot go on.
   virtual void extendTo(double t) = 0;

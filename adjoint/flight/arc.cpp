@@ -138,6 +138,13 @@ Arc Arc::view() const {
   return Arc(*this, std::make_unique<ContactPath>(path_->view()));
 }
 
+Arc Arc::withModel(const BodyModel& model) const {
+  Arc copy = *this;
+  copy.model_ = &model;
+  if (IntegratedPath* path = copy.integrated()) path->useModel(model);
+  return copy;
+}
+
 Arc::Arc(const Arc& o, std::unique_ptr<ContactPath> path)
     : model_(o.model_),
       tier_(o.tier_),

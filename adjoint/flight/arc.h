@@ -52,6 +52,8 @@ class Arc {
 
   /// A copy that has an integrated path in common with this one: that grows in both. A path of many steps is dear to copy.
   Arc view() const;
+  /// A copy for another motion, which keeps the model of the body itself. It has to be the same model.
+  Arc withModel(const BodyModel& model) const;
 
   ArcKind kind() const;                                     ///< flight, or how the body stays in contact
   /// Of a body in lasting contact; null for a flight.

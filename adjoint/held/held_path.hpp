@@ -23,6 +23,7 @@ class HeldPath final : public IntegratedPath {
            const State& start, double time, double until, std::vector<Vec3> stopped = {});
 
   std::unique_ptr<IntegratedPath> clone() const override { return std::make_unique<HeldPath>(*this); }
+  void useModel(const BodyModel& model) override { scene_.model = &model; }
   void extendTo(double t) override;
   double knownUntil() const override { return known_; }
   bool ended() const override { return end_ || known_ >= until_; }

@@ -135,6 +135,7 @@ struct Motion {
   std::size_t impacts = 0;             ///< events that are impacts to people (Event::counts), recorded or not
   std::size_t event_count = 0;         ///< all events, recorded or not
   std::size_t steps = 0;               ///< of work that it took, see SimulateOptions::step_limit
+  std::size_t taken_over = 0;          ///< bodies whose paths are those of SimulateOptions::known
   bool has_events = true;              ///< false: paths alone, which cannot be differentiated
   std::vector<StartOverlap> overlaps;  ///< pairs that did not collide until they had parted
   double lowest_bounce = 0;            ///< m, in force, see SimulateOptions; 0: no contact lasts

@@ -23,6 +23,7 @@ struct Material {
   Combine combine_elasticity = Combine::average;  ///< rule for e
   Combine combine_friction = Combine::average;    ///< rule for the friction
   std::string notes = {};  ///< for people; kept in documents
+  bool operator==(const Material&) const = default;  ///< field by field
 };
 
 /// Inertia as written: derived from shape and mass; three principal moments about the shape's own axes; or a symmetric
@@ -33,6 +34,7 @@ struct Inertia {
   Source source = Source::derived;  ///< as read
   Vec3 moments = Vec3::Zero();   ///< kg m^2, unless derived
   Quat axes = Quat::Identity();  ///< p_shape = axes * p_principal; identity unless matrix
+  bool operator==(const Inertia&) const = default;  ///< as written
 
   /// Three principal moments about the axes of the shape, kg m^2.
   static Inertia fromMoments(const Vec3& moments);
@@ -76,6 +78,7 @@ struct Body {
 
   /// No impact moves it: its mass and its inertia have no part in the motion.
   bool immovable() const { return fixed || kinematic; }
+  bool operator==(const Body&) const = default;  ///< field by field, as written
 };
 
 /// Whether two bodies ever collide: at least one of them can be moved by impacts, and the filters of both let them.
@@ -87,6 +90,7 @@ struct Tilt {
   std::string body;           ///< name of the one that is struck
   int impact = 1;             ///< n-th impact of that body, 1 = first
   Vec2 value = Vec2::Zero();  ///< (alpha, beta)
+  bool operator==(const Tilt&) const = default;  ///< field by field
 };
 
 /// Everything that causes a motion: plain, constant data.

@@ -19,29 +19,34 @@ namespace carom {
 /// Ball about the shape's origin.
 struct Sphere {
   double radius = 0.5;  ///< m
+  bool operator==(const Sphere&) const = default;  ///< the same numbers
 };
 
 /// Cuboid centred on the shape's origin, edges along its axes.
 struct Box {
   Vec3 size{1, 1, 1};  ///< full edge lengths, m
+  bool operator==(const Box&) const = default;  ///< the same numbers
 };
 
 /// The half space { p : normal . p <= offset } in the shape's frame; fixed bodies only.
 struct Plane {
   Vec3 normal{0, 0, 1};  ///< unit, pointing out of the solid
   double offset = 0;     ///< m, along the unit normal
+  bool operator==(const Plane&) const = default;  ///< the same numbers
 };
 
 /// All points within `radius` of the segment from (0, 0, -height/2) to (0, 0, height/2).
 struct Capsule {
   double radius = 0.5;  ///< m
   double height = 1;    ///< between the centres of its two ends, m
+  bool operator==(const Capsule&) const = default;  ///< the same numbers
 };
 
 /// Round cylinder about z, from -height/2 to height/2, with sharp rims.
 struct Cylinder {
   double radius = 0.5;  ///< m
   double height = 1;    ///< m
+  bool operator==(const Cylinder&) const = default;  ///< the same numbers
 };
 
 /// Convex hull of points; see `convexHull` in ode_bridge/ for one made from points.
@@ -49,6 +54,7 @@ struct Hull {
   std::shared_ptr<const Surface> surface;  ///< convex and closed, at scale 1
   double scale = 1;                        ///< factor on all coordinates
   std::string file;                        ///< where it was read from; empty when its points were written out
+  bool operator==(const Hull&) const = default;  ///< the same surface in memory, and the same numbers
 };
 
 /// Surface of triangles, which may be concave; closed unless the body is fixed or has its mass and inertia written.
@@ -56,12 +62,14 @@ struct Mesh {
   std::shared_ptr<const Surface> surface;  ///< at scale 1
   double scale = 1;                        ///< factor on all coordinates
   std::string file;                        ///< where it was read from; empty when it was made in memory
+  bool operator==(const Mesh&) const = default;  ///< the same surface in memory, and the same numbers
 };
 
 struct CompoundPart;
 /// Several shapes that move as one. They may overlap: mass properties are the sums over the parts.
 struct Compound {
   std::vector<CompoundPart> parts;  ///< at least one
+  bool operator==(const Compound&) const;  ///< the same parts in the same order
 };
 
 /// Any of them.
@@ -72,7 +80,9 @@ struct CompoundPart {
   Shape shape;                          ///< any but a plane
   Vec3 position = Vec3::Zero();         ///< of the part's origin in the compound's axes, m
   Quat orientation = Quat::Identity();  ///< part to compound, unit
+  bool operator==(const CompoundPart&) const = default;  ///< the same shape in the same place
 };
+inline bool Compound::operator==(const Compound& other) const { return parts == other.parts; }
 
 /// Rates of SolidPropertiesOf by one dimension of the shape.
 template <class S>

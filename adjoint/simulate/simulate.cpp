@@ -24,21 +24,6 @@ void fixMatrixBlocks() {
   }();
 }
 
-// As positions are known to about 1e-13 S.
-double lowestBounce(const Scene& scene) {
-  double size = 1;
-  for (const Body& body : scene.bodies) {
-    const double radius = kindOf(body.shape).boundingRadius(body.shape);
-    size = std::max({size, body.position.lpNorm<Eigen::Infinity>(), std::isfinite(radius) ? radius : 0});
-  }
-  return 1e-12 * size;
-}
-
-double checkedBounce(double lowest) {
-  if (!(lowest >= 0 && lowest <= 1e9)) refuseNumber("simulate", "lowest bounce", lowest, "a height from 0 to 1e9 m");
-  return lowest;
-}
-
 }  // namespace
 
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options) {
@@ -46,7 +31,13 @@ Motion simulate(const Scene& scene, ContactSource& contacts, double duration, co
   if (!options.asked.empty()) checkCount("simulate", "bodies asked for", options.asked.size(), scene.bodies.size());
   validate(scene);
   fixMatrixBlocks();
-  return Simulator(scene, contacts, duration, options).run();
+  for (Attempts before;;) {
+    Simulator simulator(scene, contacts, duration, options, before);
+    Motion motion = simulator.run();
+    if (!simulator.metKnown()) return motion;
+    before.met.push_back(*simulator.metKnown());
+    before.steps = motion.steps;
+  }
 }
 
 Motion Simulator::run() {
@@ -72,6 +63,7 @@ void Simulator::runToEnd() {
 
 // False where the motion has ended before its time.
 bool Simulator::follow() {
+  if (steps_before_ > 0) work_.step(steps_before_);
   if (!start()) return false;
   for (Prediction next; takeNext(next);) {
     work_.step();
@@ -80,59 +72,24 @@ bool Simulator::follow() {
              "stopped after " + eventsSoFar() + ", the limit that was set");
       return false;
     }
+    if (next.isTaken()) {
+      takeOver();
+      commit();
+      continue;
+    }
+    if (meetsKnown({next.a, next.b})) return false;
     if (next.isTransition()) {
       resolveTransition(next.a);
     } else {
       if (!isExplained(next)) return false;
       resolve(next);
     }
+    if (draftMeetsKnown()) return false;
     if (draft_.event.kind != EventKind::transition && !separates()) return false;
     const bool last = accumulates();
     commit();
     if (last) return false;
   }
-  return true;
-}
-
-Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options)
-    : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit),
-      enough_(options.enough), least_duration_(options.least_duration),
-      refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
-      builder_(scene, duration), motion_(builder_.motion), queue_(scene.bodies.size()) {
-  contacts_.countIn(&work_);
-  const std::size_t n = scene.bodies.size();
-  motion_.plan = makePlan(scene, options.asked);
-  motion_.has_events = options.record_events;
-  motion_.lowest_bounce =
-      options.lowest_bounce ? checkedBounce(*options.lowest_bounce) : lowestBounce(scene);
-  arc_.assign(n, nullptr);
-  version_.assign(n, 0);
-  impacts_.assign(n, 0);
-  in_draft_.assign(n, -1);
-  for (const Body& body : scene.bodies)
-    simple_.push_back(std::holds_alternative<Sphere>(body.shape) || std::holds_alternative<Plane>(body.shape));
-  outlook_.resize(n);
-  onward_.resize(n);
-  for (std::size_t i = 0; i < scene.tilts.size(); ++i)
-    tilts_.try_emplace({bodyIndex(scene, scene.tilts[i].body), scene.tilts[i].impact}, static_cast<int>(i));
-}
-
-// False where a contact at the start is beyond what is known of.
-bool Simulator::start() {
-  const int n = static_cast<int>(scene_.bodies.size());
-  builder_.start();
-  setSpeedsOfContact();
-  for (int b = 0; b < n; ++b) arc_[index(b)] = &motion_.world_lines[index(b)].arcs.back();
-  contacts_.begin(scene_);
-  motion_.geometry = contacts_.geometry();
-  startOverlaps();
-  for (int b = 0; b < n; ++b) {
-    requireFlight(b, arcOf(b));
-    contacts_.setPath(b, arcOf(b), 0, motion_.duration);
-  }
-  if (!placeAtStart()) return false;
-  for (int b = 0; b < n; ++b)
-    if (arcOf(b).moving()) predictBody(b, 0);
   return true;
 }
 

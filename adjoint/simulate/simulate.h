@@ -40,6 +40,12 @@ struct SimulateOptions {
   /// over, the motion ends, complete, with that time as its duration. Not asked where events are not recorded.
   std::function<bool(const Motion&)> enough = {};
   double least_duration = 0;  ///< s; only beside `enough`
+  /// A motion of nearly the same scene, over this duration at least and with the same `asked`. Bodies that are the same
+  /// there, and that neither differing ones nor what those meet come to meet, are taken over from it rather than worked
+  /// out again: Motion::taken_over of them. Others are worked out beside them, and what they meet as well. So the motion
+  /// is the one without it, but for rounding: where the search for an impact begins depends on what else is searched
+  /// for. A motion that has ended early, or that differs in what is fixed, in gravity or in the lowest bounce, is of no use.
+  const Motion* known = nullptr;
 };
 
 /// Simulates a scene from impact to impact up to `duration` seconds.

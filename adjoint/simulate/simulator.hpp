@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -8,6 +9,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/event_queue.hpp"
+#include "adjoint/simulate/known_bodies.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/path_transition.hpp"
 #include "adjoint/simulate/simulate.h"
@@ -38,16 +40,26 @@ inline constexpr std::size_t kHeldStep = 100;
 /// Steps of work in which a motion that was ended may bring what it knows into order.
 inline constexpr std::size_t kStepsToEnd = 100'000;
 
+/// Attempts to take over from SimulateOptions::known what was met by something else.
+struct Attempts {
+  std::vector<int> met;   ///< bodies
+  std::size_t steps = 0;  ///< of work
+};
+
 /// The event loop behind `simulate`. Every body has one entry in the queue: its first impact, as far as it has been
 /// searched for, or the horizon of that search. An impact touches the entries of its own bodies only; an entry whose
 /// partner has been struck in the meantime is found out when its time comes, and the search goes on from there.
 class Simulator {
  public:
-  Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options);
+  Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options,
+            const Attempts& before);
   ~Simulator() { contacts_.countIn(nullptr); }
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
   Motion run();
+  /// A body whose path was to be taken over, but that another one came to meet: the motion ends there, and has to be
+  /// worked out without what is known of that body.
+  std::optional<int> metKnown() const { return met_known_; }
 
  private:
   // The first impact of a pair, found in a search of body `searched`.
@@ -58,7 +70,8 @@ class Simulator {
     FeaturePair features;
     int partner() const { return searched == a ? b : a; }
     bool explained() const { return features.kind >= 0; }
-    bool isTransition() const { return b < 0; }  // of the path of body a
+    bool isTaken() const { return a < 0; }                 // the next event of known bodies
+    bool isTransition() const { return a >= 0 && b < 0; }  // of the path of body a
     bool operator<(const Prediction& o) const {
       if (time != o.time) return time < o.time;
       return a != o.a ? a < o.a : b < o.b;
@@ -95,11 +108,16 @@ class Simulator {
     Kinematics k;
   };
 
-  bool start();
   void runToEnd();
   bool follow();
   bool takeNext(Prediction& next);
   bool holds(const Prediction& p) const { return version_[index(p.partner())] == p.partner_version; }
+
+  // simulator_start.cpp: where it begins
+  bool start();
+  void startKnown();
+  bool placeAtStart();
+  void solvePlaced(int body);
 
   // simulate.cpp: the event
   void resolve(const Prediction& first);
@@ -126,8 +144,6 @@ class Simulator {
 
   // simulator_contact.cpp: contact that lasts
   bool contactsLast() const { return motion_.lowest_bounce > 0; }
-  bool placeAtStart();
-  void solvePlaced(int body);
   void resolveTransition(int body);
   void resolveLanding(const std::vector<Contact>& on);
   std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
@@ -161,6 +177,12 @@ class Simulator {
     const int i = in_draft_[index(body)];
     return i < 0 ? arcOf(body) : draft_.arcs[index(i)];
   }
+
+  // simulator_known.cpp: paths that are taken over
+  Arc takenArcOf(int body) const;
+  void takeOver();
+  bool meetsKnown(std::initializer_list<int> bodies);
+  bool draftMeetsKnown();
 
   // simulator_overlaps.cpp: pairs that overlap from the start
   void startOverlaps();
@@ -200,7 +222,7 @@ class Simulator {
 
   const Scene& scene_;
   ContactSource& contacts_;
-  std::size_t impact_limit_;
+  std::size_t impact_limit_, steps_before_;
   std::function<bool(const Motion&)> enough_;  // empty once it has said yes
   double least_duration_, last_asked_for_ = EventQueue::kNever;  // nothing after it is asked for
   bool refuse_overlaps_;
@@ -219,6 +241,8 @@ class Simulator {
   double lowest_speed_ = 0, counted_speed_ = 0;  // see setSpeedsOfContact
   bool any_lasted_ = false;  // a body has been in lasting contact
   EventQueue queue_;
+  KnownBodies known_;
+  std::optional<int> met_known_;
 
   std::vector<double> overlaps_until_;  // of motion_.overlaps: known to overlap up to here
   std::map<std::pair<int, int>, int> tilts_;            // by body and impact

@@ -14,10 +14,15 @@ namespace carom::adjoint_detail {
 // the body's arc beyond that will happen, unless the other body is struck before. In that case the search goes on when
 // that time is reached with the arc still in force. Adds everything found to found_.
 void Simulator::search(int body, double from, Outlook& outlook) {
-  if (pathOf(body).integrated()) followHeld(body, from);
+  const bool known = known_.has(body);
+  if (pathOf(body).integrated() && !known) followHeld(body, from);
   double until = std::min({contacts_.window(body, from), motion_.duration, onwardOf(body).transition});
   if (pathOf(body).integrated()) until = std::min(until, pathOf(body).knownUntil());
   contacts_.neighbours(body, neighbours_);
+  if (known) {  // of those that are known, and of what stands still, the known motion tells
+    until = std::min(until, known_.nextTimeOf(body));
+    std::erase_if(neighbours_, [&](int other) { return known_.has(other) || !arcOf(other).moving(); });
+  }
   const std::size_t begin = found_.size();
   for (int other : neighbours_) {
     const bool is_first = body < other;
@@ -121,8 +126,15 @@ void Simulator::predictDraft() {
 
 // The earliest impact whose arcs are in force.
 bool Simulator::takeNext(Prediction& next) {
-  while (!queue_.empty()) {
-    if (queue_.time() > last_asked_for_) return false;
+  for (;;) {
+    const double known = known_.nextTime(), time = std::min(known, queue_.time());
+    if (time == EventQueue::kNever || time > last_asked_for_) return false;
+    if (known <= queue_.time()) {
+      next = {};
+      next.time = now_ = std::max(now_, known);
+      work_.reached(now_, motion_.impacts);
+      return true;
+    }
     const int body = queue_.body();
     now_ = std::max(now_, queue_.time());
     work_.reached(now_, motion_.impacts);
@@ -142,7 +154,6 @@ bool Simulator::takeNext(Prediction& next) {
                                  " searches without an impact"));
     predictBody(body, queue_.time());
   }
-  return false;
 }
 
 }  // namespace carom::adjoint_detail

@@ -147,6 +147,7 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
   SimulateOptions options;
   options.asked = problem.asked;
   options.step_limit = std::min(problem.step_limit, how.step_limit);
+  options.known = how.known;
   options.enough = problem.enough;
   options.least_duration = problem.least_duration;
   if (!how.even_if_stopped) options.stop = problem.stop;

@@ -75,6 +75,7 @@ struct Simulating {
   ContactSource* contacts = nullptr;  ///< null: that of the problem, which is for one thread at a time
   bool even_if_stopped = false;       ///< to the end although a stop was requested
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();  ///< beside that of the problem
+  const Motion* known = nullptr;  ///< see SimulateOptions
 };
 /// Simulates up to a time, with no more detail than the problem asks for.
 Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, const Simulating& how = {});

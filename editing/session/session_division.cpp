@@ -61,6 +61,7 @@ bool SessionSolver::takeOverPart(Budget& budget) {
   if (changes != start_->changes) {
     budget.count(1);
     trial = evaluate(changes);
+    if (trial) whole_ = trial;
   }
   if (!trial) {  // with all bodies it makes no sense
     stays_whole_ = true;
@@ -115,8 +116,16 @@ void SessionSolver::improveDivided(Budget& budget) {
   if (!part_) improveHere(budget);
 }
 
+/// What stays is a motion that owes nothing to those that were seen on the way: the same scene gives the same bits.
+void SessionSolver::simulateAlone() {
+  alone_ = true;
+  if (point_->motion.taken_over == 0) return;
+  if (const EditPointPtr alone = evaluate(point_->changes)) point_ = alone;
+}
+
 void SessionSolver::finish(Budget& budget) {
   better_ = {};
+  simulateAlone();
   if (!part_) return finishHere(budget);
   const int before = part_->iterations();
   part_->finish(budget);

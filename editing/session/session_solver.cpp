@@ -55,7 +55,9 @@ SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, do
 }
 
 EditPointPtr SessionSolver::evaluate(const Eigen::VectorXd& changes) const {
-  return trialAt(problem_, changes, until_, false);
+  MotionMaker maker;
+  if (whole_ && !alone_) maker.how.known = &whole_->motion;
+  return trialAt(problem_, changes, until_, false, maker);
 }
 
 void SessionSolver::aim(int target, const std::vector<double>& value) {

@@ -81,6 +81,7 @@ class SessionSolver {
   void shrinkPart();
   void startAt(const Eigen::VectorXd& changes);
   bool takeOverPart(Budget& budget);
+  void simulateAlone();
 
   SessionOptions options_;
   EditProblem problem_;
@@ -104,6 +105,8 @@ class SessionSolver {
   int since_growth_ = 0;  // updates
   ScenePart division_;
   std::unique_ptr<SessionSolver> part_;  // null: not divided
+  EditPointPtr whole_;                   // simulated last with all bodies: what a part has nothing to do with stays
+  bool alone_ = false;                   // from now on nothing is taken over from it
 };
 
 }  // namespace carom::editing_detail

@@ -195,11 +195,12 @@ TEST(SessionDrag, AnyBudgetGivesAVerifiedMotion) {
   }
 }
 
+// A ball that may hardly be faster gets no farther back from the wall: one that does not come to it does.
 TEST(SessionDrag, AcrossASequenceChangeAndBack) {
   const Scene scene = floorAndWall();
   OdeContacts contacts(scene);
   EditSession session(scene, contacts, 0.6, withoutClock());
-  session.vary(velocity("ball").only({"x", "z"}));
+  session.vary(velocity("ball").only({"x", "z"}).within(-5.2, 5.2));
   session.grab("ball", 0.6, {.components = {"x", "z"}});
   const Vec3 start = session.grabbedPlace();
   bool left = false;
@@ -212,11 +213,11 @@ TEST(SessionDrag, AcrossASequenceChangeAndBack) {
       EXPECT_EQ(u.sequence_changed, u.message.find("mpact") != std::string::npos) << u.message;
       left = left || u.sequence_changed;
     }
+    EXPECT_TRUE(u.reached) << u.message;
   };
-  follow(0, 0.85);  // up to the wall, where the ball does not come to it before 0.6 s
+  follow(0, -0.5);
   EXPECT_TRUE(left);
-  follow(0.85, 0);
-  EXPECT_TRUE(u.reached) << u.message;
+  follow(-0.5, 0);
   EXPECT_TRUE((u.motion->stateAt("ball", 0.6).position - start).norm() <= 1e-8);
 }
 

@@ -109,6 +109,31 @@ TEST(SessionParts, WhatIsShownIsSimulatedWithAllBodies) {
   EXPECT_TRUE(session.release().reached);
 }
 
+// In a drag what nobody comes near is taken over from update to update; what stays owes nothing to the way there.
+TEST(SessionParts, WhatStaysIsSimulatedAnew) {
+  for (const MeasureFrom from : {MeasureFrom::grab, MeasureFrom::start}) {
+    const Scene scene = rowOfBalls();
+    OdeContacts contacts(scene);
+    SessionOptions options = withoutClock();
+    options.measure_from = from;
+    EditSession session(scene, contacts, 1.0, allVelocities(scene), {}, options);
+    session.grab("hit", 0.5);
+    const Vec3 start = session.grabbedPlace();
+    for (int k = 1; k <= 5; ++k) session.dragTo(start + k * Vec3(0.004, 0.01, 0.005));
+    EXPECT_EQ(session.motion().taken_over, 6u) << "all but the two that meet";
+    for (const SessionUpdate& u : {session.release(), session.undo(), session.redo()}) {
+      EXPECT_EQ(u.motion->taken_over, 0u);
+      const Motion again = simulate(u.scene(), contacts, 1.0);
+      for (std::size_t b = 1; b < scene.bodies.size(); ++b) {
+        const BodyState is = u.motion->stateAt(static_cast<int>(b), 1.0), was = again.stateAt(static_cast<int>(b), 1.0);
+        EXPECT_TRUE(sameBits(is.position, was.position)) << scene.bodies[b].name;
+        EXPECT_TRUE(sameBits(is.angular_velocity, was.angular_velocity)) << scene.bodies[b].name;
+      }
+    }
+    expectSameAgain(session, scene);
+  }
+}
+
 TEST(SessionParts, AMotionThatEndsEarlySaysSo) {
   Scene scene = rowOfBalls();
   scene.materials[0].elasticity = 0;

@@ -209,7 +209,7 @@ TEST(Journal, BadOnesAreRefused) {
       {"\"carom\": 1", "\"carom\": 7", "/scene/carom", "found 7"},
       {"\"density\": 600", "\"density\": -600", "/scene/bodies/1/density", "a number > 0"},
       {"\"measure_from\": \"grab\"", "\"measure_from\": \"now\"", "/options/measure_from", "one of grab, start"},
-      {"\"drag_simulations\": 14", "\"drag_simulations\": -1", "/options/drag_simulations", "an integer"},
+      {"\"drag_simulations\": 28", "\"drag_simulations\": -1", "/options/drag_simulations", "an integer"},
       {"\"ending\": \"cancel\"", "\"ending\": \"escape\"", "/gestures/3/ending", "release_nailed"},
       {"\"ending\": \"cancel\"", "\"end\": \"cancel\"", "/gestures/3/end", "an unknown member"},
       {"\"undo\": true", "\"undone\": true", "/gestures/4/undone", "an unknown member"},

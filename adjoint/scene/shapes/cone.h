@@ -9,6 +9,7 @@ namespace carom {
 struct Cone {
   double radius = 0.5;  ///< of the base, m
   double height = 1;    ///< m
+  bool operator==(const Cone&) const = default;  ///< the same numbers
 };
 
 namespace shapes {
