@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/impact/impact.hpp"
+#include "adjoint/simulate/simulator.hpp"
+
+// Where a motion begins.
+
+namespace carom::adjoint_detail {
+namespace {
+
+// As positions are known to about 1e-13 S.
+double lowestBounce(const Scene& scene) {
+  double size = 1;
+  for (const Body& body : scene.bodies) {
+    const double radius = kindOf(body.shape).boundingRadius(body.shape);
+    size = std::max({size, body.position.lpNorm<Eigen::Infinity>(), std::isfinite(radius) ? radius : 0});
+  }
+  return 1e-12 * size;
+}
+
+double checkedBounce(double lowest) {
+  if (!(lowest >= 0 && lowest <= 1e9)) refuseNumber("simulate", "lowest bounce", lowest, "a height from 0 to 1e9 m");
+  return lowest;
+}
+
+}  // namespace
+
+Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options,
+                     const Attempts& before)
+    : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit), steps_before_(before.steps),
+      enough_(options.enough), least_duration_(options.least_duration),
+      refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
+      builder_(scene, duration), motion_(builder_.motion), queue_(scene.bodies.size()) {
+  contacts_.countIn(&work_);
+  const std::size_t n = scene.bodies.size();
+  motion_.plan = makePlan(scene, options.asked);
+  motion_.has_events = options.record_events;
+  motion_.lowest_bounce =
+      options.lowest_bounce ? checkedBounce(*options.lowest_bounce) : lowestBounce(scene);
+  arc_.assign(n, nullptr);
+  version_.assign(n, 0);
+  impacts_.assign(n, 0);
+  in_draft_.assign(n, -1);
+  for (const Body& body : scene.bodies)
+    simple_.push_back(std::holds_alternative<Sphere>(body.shape) || std::holds_alternative<Plane>(body.shape));
+  outlook_.resize(n);
+  onward_.resize(n);
+  for (std::size_t i = 0; i < scene.tilts.size(); ++i)
+    tilts_.try_emplace({bodyIndex(scene, scene.tilts[i].body), scene.tilts[i].impact}, static_cast<int>(i));
+  if (options.known) known_ = KnownBodies(*options.known, motion_, duration, before.met);
+  motion_.taken_over = known_.count();
+}
+
+// False where a contact at the start is beyond what is known of.
+bool Simulator::start() {
+  const int n = static_cast<int>(scene_.bodies.size());
+  builder_.start();
+  setSpeedsOfContact();
+  for (int b = 0; b < n; ++b) arc_[index(b)] = &motion_.world_lines[index(b)].arcs.back();
+  startKnown();
+  contacts_.begin(scene_);
+  motion_.geometry = contacts_.geometry();
+  startOverlaps();
+  for (const StartOverlap& overlap : motion_.overlaps)
+    if (meetsKnown({overlap.a, overlap.b})) return false;
+  for (int b = 0; b < n; ++b) {
+    requireFlight(b, arcOf(b));
+    contacts_.setPath(b, arcOf(b), 0, motion_.duration);
+  }
+  if (!placeAtStart()) return false;
+  for (int b = 0; b < n; ++b)
+    if (arcOf(b).moving()) predictBody(b, 0);
+  return true;
+}
+
+// The first arcs of known bodies, of which more is worked out than of new ones.
+void Simulator::startKnown() {
+  for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body)
+    if (known_.has(body)) arcOf(body) = takenArcOf(body);
+}
+
+// Bodies that the scene starts in contact: those that neither part nor approach go on from an event of their own.
+bool Simulator::placeAtStart() {
+  if (!contactsLast()) return true;
+  std::vector<PlacedContact> placed = contacts_.placed();
+  for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
+    if (!isMoved(body) || known_.has(body)) continue;
+    Event& event = draft_.event;
+    event = {};
+    event.kind = EventKind::placed;
+    snapshots_.clear();
+    bodies_.clear();
+    for (const PlacedContact& p : placed) {
+      if ((p.a != body && p.b != body) || overlapOf(p.a, p.b)) continue;
+      if (arcOf(p.a == body ? p.b : p.a).moving()) continue;  // they meet at once, or part
+      for (const FeaturePair& f : p.features) {
+        Contact c = makeContact(0, p.a, p.b, f);
+        const double alpha = accelerationOf(c);
+        if (!(alpha < 0 && c.approach * c.approach < -2 * motion_.lowest_bounce * alpha)) continue;
+        c.counted = false;
+        c.kept = true;
+        c.pair.elasticity = c.pair.friction = 0;
+        event.contacts.push_back(c);
+      }
+    }
+    if (event.contacts.empty()) continue;
+    solvePlaced(body);
+    if (draft_.beyond.empty()) continue;
+    finish(MotionStatus::unresolved_contact, 0, draft_.beyond);
+    return false;
+  }
+  return true;
+}
+
+// Velocities along the normals, which are 0 but for rounding, are 0.
+void Simulator::solvePlaced(int body) {
+  Event& event = draft_.event;
+  bodies_ = {body};
+  event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
+                                snapshots_[snapshot(body, 0)].state});
+  try {
+    solveImpact(event, *motion_.models, draft_.after);
+  } catch (const NotComputable& error) {
+    giveUp("contact", event.contacts[0].a, event.contacts[0].b, 0, error);
+  }
+  chooseArcs();
+  setPath(body, draft_.arcs[0], 0);
+  draft_.outlooks.assign(1, {});
+  commit();
+}
+
+}  // namespace carom::adjoint_detail
