@@ -61,7 +61,7 @@ bool SessionSolver::takeOverPart(Budget& budget) {
   if (changes != start_->changes) {
     budget.count(1);
     trial = evaluate(changes);
-    if (trial) whole_ = trial;
+    if (trial && known_) known_ = {trial, &trial->motion};
   }
   if (!trial) {  // with all bodies it makes no sense
     stays_whole_ = true;
@@ -117,15 +117,15 @@ void SessionSolver::improveDivided(Budget& budget) {
 }
 
 /// What stays is a motion that owes nothing to those that were seen on the way: the same scene gives the same bits.
-void SessionSolver::simulateAlone() {
-  alone_ = true;
+void SessionSolver::simulateAnew() {
+  known_.reset();
   if (point_->motion.taken_over == 0) return;
-  if (const EditPointPtr alone = evaluate(point_->changes)) point_ = alone;
+  if (const EditPointPtr anew = evaluate(point_->changes)) point_ = anew;
 }
 
 void SessionSolver::finish(Budget& budget) {
   better_ = {};
-  simulateAlone();
+  simulateAnew();
   if (!part_) return finishHere(budget);
   const int before = part_->iterations();
   part_->finish(budget);

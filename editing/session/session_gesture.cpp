@@ -178,6 +178,7 @@ void EditSession::State::beginDrag(SessionDrag next, SessionMoment moment, std::
   next.record.constraint = held.back();
   if (next.orientation) next.turn_target = static_cast<int>(held.back().targets.size()) - 1;
   next.solver = solverFor(moment, held, static_cast<int>(held.size()) - 1);
+  next.solver->takeOverFrom(last.motion);
   next.before = last.motion;
   next.began = std::move(now);
   now = std::move(moment);

@@ -56,7 +56,7 @@ SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, do
 
 EditPointPtr SessionSolver::evaluate(const Eigen::VectorXd& changes) const {
   MotionMaker maker;
-  if (whole_ && !alone_) maker.how.known = &whole_->motion;
+  maker.how.known = known_.get();
   return trialAt(problem_, changes, until_, false, maker);
 }
 

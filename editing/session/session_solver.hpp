@@ -35,6 +35,8 @@ class SessionSolver {
   bool reached() const { return reached(*point_); }
   int iterations() const { return iterations_; }
 
+  /// The motion that is shown: what nobody comes near is taken over from it (SimulateOptions::known).
+  void takeOverFrom(std::shared_ptr<const Motion> shown) { known_ = std::move(shown); }
   /// Gives one target of the goal other numbers.
   void aim(int target, const std::vector<double>& value);
   /// Comes nearer to the constraints and makes the change smaller, by differential updates. Where few of the bodies
@@ -81,7 +83,7 @@ class SessionSolver {
   void shrinkPart();
   void startAt(const Eigen::VectorXd& changes);
   bool takeOverPart(Budget& budget);
-  void simulateAlone();
+  void simulateAnew();
 
   SessionOptions options_;
   EditProblem problem_;
@@ -105,8 +107,7 @@ class SessionSolver {
   int since_growth_ = 0;  // updates
   ScenePart division_;
   std::unique_ptr<SessionSolver> part_;  // null: not divided
-  EditPointPtr whole_;                   // simulated last with all bodies: what a part has nothing to do with stays
-  bool alone_ = false;                   // from now on nothing is taken over from it
+  std::shared_ptr<const Motion> known_;  // of all bodies: what those who matter do not come near is taken over
 };
 
 }  // namespace carom::editing_detail
