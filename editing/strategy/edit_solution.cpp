@@ -32,8 +32,6 @@ constexpr double kLargeChange = 0.05;
 /// is done for it.
 constexpr int kManyImpacts = 4;
 constexpr double kPatienceForMany = 2.5;
-/// Rounds without a clearly smaller change, however little work they are.
-constexpr int kIdleRounds = 30;
 /// So often solutions are looked for, while none of those that were found is confirmed.
 constexpr int kTries = 3;
 
@@ -168,14 +166,15 @@ bool mayBecomeAvailable(const EditSearch& search) {
 /// A first solution, and then smaller changes, until none was found for too long.
 void searchAcross(const EditSearch& search, SequenceSearch& across) {
   const SearchPlan& plan = planOf(search.options().effort);
+  const Patience& patience = plan.patience;
   for (int rounds = plan.first_rounds; across.solutions().empty() && rounds > 0 && across.round(); --rounds) {
   }
   if (across.solutions().empty()) return;
   double found = search.work();
-  for (int idle = 0; idle < kIdleRounds;) {
+  for (int idle = 0; idle < patience.most_rounds || search.work() < patience.unusual;) {
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
     const double multiple = many ? kPatienceForMany : 1;
-    if (idle >= multiple * plan.patience.rounds && search.work() - found >= plan.patience.after(found, multiple)) return;
+    if (idle >= multiple * patience.rounds && search.work() - found >= patience.after(found, multiple)) return;
     if (idle > 0 && (across.hasSmallChangeInside() || across.isLong())) return;
     const double before = across.solutions().front()->objective;
     if (!across.round()) return;

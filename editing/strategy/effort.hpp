@@ -11,10 +11,11 @@ namespace carom::editing_detail {
 /// How long a search goes on without a clearly smaller change, in steps of simulations: what took long to find is often
 /// followed by smaller ones that take as long again. With w for the work up to the last one that was found, so much more is
 /// done without another: least + w min(largest_share, w / whole), a multiple of it where the neighbours are many, and `most`
-/// at most.
+/// at most. A search that would end with more than `usual` in all, which most edits do with, goes on until `unusual`.
 struct Patience {
-  double least, whole, largest_share, most;
-  int rounds;  ///< as many, or the multiple, at least
+  double least, whole, largest_share, most, usual, unusual;
+  int rounds;       ///< as many without another, or the multiple, at least
+  int most_rounds;  ///< and no more, but until `unusual`
 
   double after(double work, double multiple) const;
 };
