@@ -60,7 +60,7 @@ bool SessionSolver::takeOverPart(Budget& budget) {
   EditPointPtr trial = start_;
   if (changes != start_->changes) {
     budget.count(1);
-    trial = evaluate(changes);
+    trial = evaluateToShow(changes);
     if (trial && known_) known_ = {trial, &trial->motion};
   }
   if (!trial) {  // with all bodies it makes no sense
@@ -120,7 +120,7 @@ void SessionSolver::improveDivided(Budget& budget) {
 void SessionSolver::simulateAnew() {
   known_.reset();
   if (point_->motion.taken_over == 0) return;
-  if (const EditPointPtr anew = evaluate(point_->changes)) point_ = anew;
+  if (const EditPointPtr anew = evaluateToShow(point_->changes)) point_ = anew;
 }
 
 void SessionSolver::finish(Budget& budget) {

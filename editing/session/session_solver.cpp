@@ -54,7 +54,16 @@ SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, do
   nails_allowed_ = std::max(options_.tolerance, nailViolation(*point_));
 }
 
+/// Null where the motion would take far longer than that of the start.
 EditPointPtr SessionSolver::evaluate(const Eigen::VectorXd& changes) const {
+  MotionMaker maker;
+  maker.how.step_limit = mostStepsBeside(*start_);
+  const EditPointPtr point = trialAt(problem_, changes, until_, false, maker);
+  return point && point->motion.status == MotionStatus::step_limit ? nullptr : point;
+}
+
+/// A motion that may be shown takes as long as it takes.
+EditPointPtr SessionSolver::evaluateToShow(const Eigen::VectorXd& changes) const {
   MotionMaker maker;
   maker.how.known = known_.get();
   return trialAt(problem_, changes, until_, false, maker);
@@ -139,7 +148,7 @@ void SessionSolver::finishHere(Budget& budget) {
   if (!budget.pass()) found = counted;
   if (!found || !found->rows.available || !reached(*found)) return;
   if (options_.sequence == SequencePolicy::stay && found->signature != start_->signature) return;
-  if (const EditPointPtr again = evaluate(found->changes)) keepIfBetter(again);
+  if (const EditPointPtr again = evaluateToShow(found->changes)) keepIfBetter(again);
 }
 
 }  // namespace carom::editing_detail

@@ -54,6 +54,7 @@ class SessionSolver {
 
  private:
   EditPointPtr evaluate(const Eigen::VectorXd& changes) const;
+  EditPointPtr evaluateToShow(const Eigen::VectorXd& changes) const;
   StepProblem stepProblem(EditPoint& point) const;
   bool reached(const EditPoint& point) const { return point.violation <= options_.tolerance; }
   double nailViolation(const EditPoint& point) const;

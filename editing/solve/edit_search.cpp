@@ -86,10 +86,12 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
   return point && point->rows.available && point->rows.scaled.allFinite() ? point : nullptr;
 }
 
+std::size_t mostStepsBeside(const EditPoint& start) { return std::max(kLeastSteps, kStepsOfStart * start.motion.steps); }
+
 EditPointPtr EditSearch::evaluateStart() {
   EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
   consider(point);
-  step_limit_ = std::max(kLeastSteps, kStepsOfStart * point->motion.steps);
+  step_limit_ = mostStepsBeside(*point);
   if (!point->rows.available) return point;
   if (!problem_.enough && !problem_.constraints.holdsAtRest())
     until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);

@@ -52,6 +52,8 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
                      const MotionMaker& maker = {});
 /// Reads the rows of a point's motion again, when targets are other ones than before.
 void readRows(const EditProblem& problem, EditPoint& point);
+/// Of the motion of a trial, see SimulateOptions::step_limit: so many times those of the start.
+std::size_t mostStepsBeside(const EditPoint& start);
 /// Fills in the point's derivatives. False where they cannot be computed: no step can be made from there.
 bool differentiate(const EditProblem& problem, EditPoint& point);
 /// Fills in that of an objective of one's own, by all unknowns.
