@@ -34,8 +34,9 @@ KnownBodies::KnownBodies(const Motion& known, const Motion& motion, double durat
   std::vector<char> same(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     same[b] = sameBody(known, motion, b);
-    if (bodies[b].fixed && !same[b]) return;  // anything may meet it
-    if (bodies[b].fixed) same[b] = false;
+    if (!bodies[b].fixed) continue;
+    if (!same[b]) return;  // anything may meet it
+    same[b] = false;
   }
   for (std::size_t i = 0; i < motion.scene->tilts.size(); ++i)
     if (!(motion.scene->tilts[i] == known.scene->tilts[i]))

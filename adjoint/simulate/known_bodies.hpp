@@ -21,7 +21,7 @@ class KnownBodies {
   /// either.
   KnownBodies(const Motion& known, const Motion& motion, double duration, const std::vector<int>& met);
 
-  bool has(int body) const { return is_known_.size() > index(body) && is_known_[index(body)]; }
+  bool has(int body) const { return body >= 0 && is_known_.size() > index(body) && is_known_[index(body)]; }
   std::size_t count() const;
 
   /// When the next event comes; kNever where none is left.

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "adjoint/base/arguments.hpp"
-#include "adjoint/impact/impact.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 namespace carom {
@@ -77,14 +76,14 @@ bool Simulator::follow() {
       commit();
       continue;
     }
-    if (meetsKnown({next.a, next.b})) return false;
+    if (meetsKnown(next.a) || meetsKnown(next.b)) return false;
     if (next.isTransition()) {
       resolveTransition(next.a);
     } else {
       if (!isExplained(next)) return false;
       resolve(next);
     }
-    if (draftMeetsKnown()) return false;
+    if (std::ranges::any_of(draft_.event.participants, [&](const Participant& p) { return meetsKnown(p.body); })) return false;
     if (draft_.event.kind != EventKind::transition && !separates()) return false;
     const bool last = accumulates();
     commit();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -181,8 +180,7 @@ class Simulator {
   // simulator_known.cpp: paths that are taken over
   Arc takenArcOf(int body) const;
   void takeOver();
-  bool meetsKnown(std::initializer_list<int> bodies);
-  bool draftMeetsKnown();
+  bool meetsKnown(int body);
 
   // simulator_overlaps.cpp: pairs that overlap from the start
   void startOverlaps();

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "adjoint/base/refuse.hpp"
-#include "adjoint/impact/impact.hpp"
 #include "adjoint/simulate/path_arc.hpp"
 #include "adjoint/simulate/simulator.hpp"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include "adjoint/simulate/simulator.hpp"
 
 // Bodies whose paths are taken over from a motion of nearly the same scene.
@@ -25,17 +23,10 @@ void Simulator::takeOver() {
   predictDraft();
 }
 
-// Whether an event is about to part a known body from what is known of it.
-bool Simulator::meetsKnown(std::initializer_list<int> bodies) {
-  const auto known = std::ranges::find_if(bodies, [&](int body) { return body >= 0 && known_.has(body); });
-  if (known != bodies.end()) met_known_ = *known;
+// Whether an event that `body` takes part in, -1: nobody, is about to part it from what is known of it.
+bool Simulator::meetsKnown(int body) {
+  if (known_.has(body)) met_known_ = body;
   return met_known_.has_value();
-}
-
-bool Simulator::draftMeetsKnown() {
-  for (const Participant& p : draft_.event.participants)
-    if (meetsKnown({p.body})) return true;
-  return false;
 }
 
 }  // namespace carom::adjoint_detail

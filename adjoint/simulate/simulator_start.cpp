@@ -66,7 +66,7 @@ bool Simulator::start() {
   motion_.geometry = contacts_.geometry();
   startOverlaps();
   for (const StartOverlap& overlap : motion_.overlaps)
-    if (meetsKnown({overlap.a, overlap.b})) return false;
+    if (meetsKnown(overlap.a) || meetsKnown(overlap.b)) return false;
   for (int b = 0; b < n; ++b) {
     requireFlight(b, arcOf(b));
     contacts_.setPath(b, arcOf(b), 0, motion_.duration);

@@ -32,6 +32,8 @@ constexpr double kLargeChange = 0.05;
 /// is done for it.
 constexpr int kManyImpacts = 4;
 constexpr double kPatienceForMany = 2.5;
+/// Rounds without a clearly smaller change, however little work they are, once the work is unusual.
+constexpr int kIdleRounds = 30;
 /// So often solutions are looked for, while none of those that were found is confirmed.
 constexpr int kTries = 3;
 
@@ -171,7 +173,7 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   }
   if (across.solutions().empty()) return;
   double found = search.work();
-  for (int idle = 0; idle < patience.most_rounds || search.work() < patience.unusual;) {
+  for (int idle = 0; idle < kIdleRounds || search.work() < patience.unusual;) {
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
     const double multiple = many ? kPatienceForMany : 1;
     if (idle >= multiple * patience.rounds && search.work() - found >= patience.after(found, multiple)) return;

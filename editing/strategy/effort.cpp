@@ -7,8 +7,7 @@ namespace carom::editing_detail {
 namespace {
 
 constexpr SearchPlan kFast{.first_rounds = 10,
-                           .patience = {.least = 0, .whole = 1, .largest_share = 0, .most = 0, .usual = 0, .unusual = 0,
-                                        .rounds = 0, .most_rounds = 30},
+                           .patience = {.least = 0, .whole = 1, .largest_share = 0, .most = 0, .rounds = 0},
                            .first_steps = 7e3,
                            .improving_steps = 1e4,
                            .least_samples = 40,
@@ -17,7 +16,7 @@ constexpr SearchPlan kFast{.first_rounds = 10,
                            .minimised = 2};
 constexpr SearchPlan kNormal{.first_rounds = 10,
                              .patience = {.least = 5e3, .whole = 1.2e4, .largest_share = 4, .most = 2.7e6, .usual = 1.3e5,
-                                          .unusual = 7e5, .rounds = 4, .most_rounds = 30},
+                                          .unusual = 7e5, .rounds = 4},
                              .first_steps = 1e4,
                              .improving_steps = 2.5e3,
                              .least_samples = 24,
@@ -25,8 +24,7 @@ constexpr SearchPlan kNormal{.first_rounds = 10,
                              .landings = 20,
                              .minimised = 3};
 constexpr SearchPlan kThorough{.first_rounds = 16,
-                               .patience = {.least = 6e5, .whole = 1.8e4, .largest_share = 4, .most = 2e7, .usual = 0, .unusual = 0,
-                                            .rounds = 4, .most_rounds = 30},
+                               .patience = {.least = 6e5, .whole = 1.8e4, .largest_share = 4, .most = 2e7, .rounds = 4},
                                .first_steps = 4e4,
                                .improving_steps = 1e5,
                                .least_samples = 256,
@@ -38,8 +36,7 @@ constexpr SearchPlan kThorough{.first_rounds = 16,
 
 double Patience::after(double work, double multiple) const {
   const double enough = multiple * (least + work * std::min(largest_share, work / whole));
-  if (!(work + enough > usual)) return enough;
-  return std::min(most, std::max(enough, unusual - work));
+  return std::min(most, work + enough > usual ? std::max(enough, unusual - work) : enough);
 }
 
 const SearchPlan& planOf(Effort effort) {

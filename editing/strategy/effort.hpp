@@ -13,9 +13,8 @@ namespace carom::editing_detail {
 /// done without another: least + w min(largest_share, w / whole), a multiple of it where the neighbours are many, and `most`
 /// at most. A search that would end with more than `usual` in all, which most edits do with, goes on until `unusual`.
 struct Patience {
-  double least, whole, largest_share, most, usual, unusual;
-  int rounds;       ///< as many without another, or the multiple, at least
-  int most_rounds;  ///< and no more, but until `unusual`
+  double least, whole, largest_share, most, usual = 0, unusual = 0;
+  int rounds;  ///< as many, or the multiple, at least
 
   double after(double work, double multiple) const;
 };

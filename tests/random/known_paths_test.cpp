@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
