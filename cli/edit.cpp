@@ -220,7 +220,7 @@ Action declareEdit(CLI::App& app) {
   addScene(app, options->scene);
   addMotion(app, options->motion);
   addOutput(app, options->output, "Write the scene with its new values here; - for standard output", "OUT.json");
-  app.add_option("--iterations", options->iterations, "Give up after so many, 1000 if not given")
+  app.add_option("--iterations", options->iterations, "Give up after so many, 10000 if not given")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   app.add_option("--seconds", options->seconds, "Give up after so long")->check(positiveNumber())->type_name("T");

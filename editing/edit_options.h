@@ -40,7 +40,7 @@ enum class SecondDerivatives {
 
 /// How an edit is solved.
 struct EditOptions {
-  int max_iterations = 1000;  ///< steps of all stages together; the one under way may add a few
+  int max_iterations = 10000;  ///< steps of all stages together; the one under way may add a few
   double time_budget_seconds = std::numeric_limits<double>::infinity();  ///< gives up after so long
   double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
   SequencePolicy sequence = SequencePolicy::smallest;                   ///< whether impacts may become others

@@ -26,12 +26,16 @@ constexpr int kDirectionsBeside = 16;
 constexpr double kBeside = 1e-4;
 /// Iterations of the solver along the sequence of the start: where it leads anywhere, it is there by then.
 constexpr int kFollowingIterations = 20, kInsideIterations = 40;
+/// Iterations of the solver at most, where the start's impacts are to be kept.
+constexpr int kKeepingIterations = 1000;
 /// An objective, a third of a natural scale, from which on the solver looks within the sequence of the start once more.
 constexpr double kLargeChange = 0.05;
 /// Events of a solution in other impacts than those of the start from which on its neighbours are many: so much more work
 /// is done for it.
 constexpr int kManyImpacts = 4;
 constexpr double kPatienceForMany = 2.5;
+/// Of the objective, a change by one natural scale: one that is larger is worth the usual work, however soon it was found.
+constexpr double kNoticedChange = 0.5;
 /// Rounds without a clearly smaller change, however little work they are, once the work is unusual.
 constexpr int kIdleRounds = 30;
 /// So often solutions are looked for, while none of those that were found is confirmed.
@@ -138,7 +142,7 @@ EditPointPtr stepsInSequence(EditSearch& search, const RowChoice& choice, const 
 /// every point simulated. Trials may leave the sequence on the way, and where they end outside of it they show where to look.
 EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start) {
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
-  const int iterations = may_leave ? search.iterationsLeft() / 2 : search.iterationsLeft();
+  const int most = std::min(kKeepingIterations, search.iterationsLeft()), iterations = may_leave ? most / 2 : most;
   const EditPointPtr followed = insideOrNone(search, *start, followSequence(search, choice.from, choice.rows, iterations / 2));
   if (followed || !search.goesOn()) return followed;
   return insideOrNone(search, *start, minimiseChange(search, choice.from, choice.rows, &start->signature, iterations));
@@ -176,9 +180,11 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   for (int idle = 0; idle < kIdleRounds || search.work() < patience.unusual;) {
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
     const double multiple = many ? kPatienceForMany : 1;
-    if (idle >= multiple * patience.rounds && search.work() - found >= patience.after(found, multiple)) return;
-    if (idle > 0 && (across.hasSmallChangeInside() || across.isLong())) return;
     const double before = across.solutions().front()->objective;
+    const bool may_end = before <= kNoticedChange || search.work() >= patience.usual;
+    if (may_end && idle >= multiple * patience.rounds && search.work() - found >= patience.after(found, multiple)) return;
+    if (idle >= plan.small_rounds && across.hasSmallChangeInside()) return;
+    if (idle > 0 && across.isLong()) return;
     if (!across.round()) return;
     ++idle;
     if (across.solutions().front()->objective < kClearlyLess * before) idle = 0, found = search.work();

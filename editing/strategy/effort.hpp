@@ -23,6 +23,7 @@ struct Patience {
 struct SearchPlan {
   int first_rounds;      ///< until a first solution
   Patience patience;     ///< after it, with rounds for smaller changes
+  int small_rounds;      ///< the most of them without one, where the best is a small change within the start's sequence
   /// Of the samples of one round, in steps of simulations (SimulateOptions::step_limit): until a first solution, twice
   /// as much with each round, and after it.
   double first_steps, improving_steps;

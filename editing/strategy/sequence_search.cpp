@@ -9,6 +9,7 @@
 #include "editing/solve/projection.hpp"
 #include "editing/strategy/border_minimum.hpp"
 #include "editing/strategy/landing.hpp"
+#include "editing/strategy/landing_score.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t kOfEachGroup = 2;
 /// So many of them for each landing, at most.
 constexpr std::size_t kForEachLanding = 4;
-constexpr int kLandingSteps = 30, kImprovingSteps = 15;
+constexpr int kLandingSteps = 30;
 constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderSteps = 20;
 /// The way along the constraints that is left where a change is as small as it gets, as a share of it.
 constexpr double kStationary = 1e-9, kNearlyStationary = 1e-8;
@@ -31,8 +32,11 @@ constexpr double kRounding = 1e-12;
 constexpr int kFewImpacts = 3;
 /// Steps of a motion from which on a landing takes so long that few can be made.
 constexpr std::size_t kManySteps = 2000;
-/// A step that is so much longer makes up for a change that is smaller by one.
+/// While there is no solution, a step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 0.4;
+/// Landings of a higher score are not made, where rounds do a part of the work and elsewhere: of a thousand four and one at the
+/// most bring a smaller change.
+constexpr double kScoreInPart = 2, kScore = 8;
 /// Of the most promising points of a round the next one may look beyond the borders.
 constexpr std::size_t kRemembered = 6;
 /// A step that leaves more of the residuals than this, as the rows are linear, leads nowhere.
@@ -82,8 +86,10 @@ bool SequenceSearch::hasSmallChangeInside() const {
 
 bool SequenceSearch::isLong() const { return start_->motion.steps > kManySteps; }
 
+bool SequenceSearch::isInPart() const { return hasSmallChangeInside() || isLong(); }
+
 std::size_t SequenceSearch::landings() const {
-  return hasSmallChangeInside() || isLong() ? (plan_.landings + kPart - 1) / kPart : plan_.landings;
+  return isInPart() ? (plan_.landings + kPart - 1) / kPart : plan_.landings;
 }
 
 std::size_t SequenceSearch::wanted() const {
@@ -141,12 +147,14 @@ std::vector<EditPointPtr> SequenceSearch::nearestOfEachGroup(const std::vector<E
   return nearest;
 }
 
-// Those from which the linearised rows lead to the smallest change by the shortest step, sequences that were not tried
-// often first.
+// Once there is a solution, those that are likeliest to lead to a smaller change, as far as they are worth a landing; until
+// then those from which the linearised rows lead to the smallest change by the shortest step. Sequences that were tried
+// often come last.
 std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointPtr>& points, Seek seek) {
   std::vector<std::pair<double, EditPointPtr>> ranked;
   for (const EditPointPtr& point : nearestOfEachGroup(points)) ranked.push_back({0, point});
   const double to_beat = lengthToBeat(seek);
+  const bool improving = std::isfinite(to_beat);
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
     auto& [score, point] = ranked[i];
     if (!search_.differentiate(*point)) {
@@ -157,21 +165,24 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
     const double left = residualsAfter(search_, *point, step).norm();
     const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
     const double change = lengthOf(search_.problem(), smallestChange(search_, *point));
-    score = change + kStepsAreUncertain * step.norm();
+    const auto tried = tries_.find(point->signature);
+    const int tries = tried == tries_.end() ? 0 : tried->second;
+    score = improving ? landingScore({point->violation, step.norm() / to_beat, change / to_beat}, tries)
+                      : (change + kStepsAreUncertain * step.norm()) * (1 + tries);
     if (leads_nowhere || !std::isfinite(score) || change > to_beat + step.norm())  // as landings are given up
       score = std::numeric_limits<double>::infinity();
   });
   std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
-  for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   promising_.clear();
   for (const auto& [score, point] : ranked)
     if (promising_.size() < kRemembered && !lacksImpacts(search_.problem(), *point)) promising_.push_back(point);
+  const double worst = isInPart() ? kScoreInPart : kScore;
   std::vector<EditPointPtr> chosen;
   std::map<std::string, int> of_sequence;
   for (const auto& [score, point] : ranked) {
-    if (chosen.size() == landings()) break;
-    const bool tried_often = std::isfinite(to_beat) && tries_[point->signature] >= kTriedOften;
+    if (chosen.size() == landings() || (improving && score > worst)) break;
+    const bool tried_often = improving && tries_[point->signature] >= kTriedOften;
     if (tried_often && of_sequence[point->signature] >= kOfTriedOften) continue;
     if (wasBegun(*point, to_beat)) continue;
     begun_.push_back({point->changes, to_beat});
@@ -184,12 +195,11 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
 // What landings find is what later ones have to beat.
 std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr>& candidates, Seek seek) {
   const std::size_t n = candidates.size();
-  const Landing first{.max_steps = solutions_.empty() ? kLandingSteps : kImprovingSteps, .below = lengthToBeat(seek)};
+  const Landing first{.max_steps = kLandingSteps, .below = lengthToBeat(seek)};
   std::vector<EditPointPtr> ends(n);
   std::vector<int> steps(n, 0);
   const auto learn = [&](Landing landing, const EditPointPtr& end) {
     if (seek == Seek::others || wanted() > 1 || !end || !isAllowed(*end) || !search_.reached(*end)) return landing;
-    landing.max_steps = kImprovingSteps;
     landing.below = std::min(landing.below, kClearlySmaller * lengthOf(search_.problem(), end->changes));
     return landing;
   };

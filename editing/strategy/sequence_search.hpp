@@ -57,6 +57,7 @@ class SequenceSearch {
   const EditPointPtr& nearestLacking() const { return nearest_lacking_; }
 
  private:
+  bool isInPart() const;
   int sampleCount() const;
   std::size_t landings() const;
   SampleReach reach() const;

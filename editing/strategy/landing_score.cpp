@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "editing/strategy/landing_score.hpp"
+
+#include <algorithm>
+
+#include "adjoint/numeric/elementary.hpp"
+
+namespace carom::editing_detail {
+namespace {
+
+/// Nearer to the constraints, or by a shorter step, is as good as there.
+constexpr double kNear = 1e-3;
+
+}  // namespace
+
+double landingScore(const Prospect& prospect, int tries) {
+  const double near = std::max(prospect.violation, kNear) * std::max(prospect.step, kNear);
+  return elementary::pow(near, 0.25) * elementary::exp(std::max(0.0, prospect.change - 1)) * (1 + tries);
+}
+
+}  // namespace carom::editing_detail
