@@ -142,7 +142,8 @@ EditPointPtr stepsInSequence(EditSearch& search, const RowChoice& choice, const 
 /// every point simulated. Trials may leave the sequence on the way, and where they end outside of it they show where to look.
 EditPointPtr solveInSequence(EditSearch& search, const RowChoice& choice, const EditPointPtr& start) {
   const bool may_leave = search.options().sequence != SequencePolicy::stay;
-  const int most = std::min(kKeepingIterations, search.iterationsLeft()), iterations = may_leave ? most / 2 : most;
+  const int most = std::min(kKeepingIterations, search.iterationsLeft());
+  const int iterations = may_leave ? most / 2 : most;
   const EditPointPtr followed = insideOrNone(search, *start, followSequence(search, choice.from, choice.rows, iterations / 2));
   if (followed || !search.goesOn()) return followed;
   return insideOrNone(search, *start, minimiseChange(search, choice.from, choice.rows, &start->signature, iterations));

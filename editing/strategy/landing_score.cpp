@@ -13,9 +13,9 @@ constexpr double kNear = 1e-3;
 
 }  // namespace
 
-double landingScore(const Prospect& prospect, int tries) {
+double landingScore(const Prospect& prospect) {
   const double near = std::max(prospect.violation, kNear) * std::max(prospect.step, kNear);
-  return elementary::pow(near, 0.25) * elementary::exp(std::max(0.0, prospect.change - 1)) * (1 + tries);
+  return elementary::pow(near, 0.25) * elementary::exp(std::max(0.0, prospect.change - 1));
 }
 
 }  // namespace carom::editing_detail

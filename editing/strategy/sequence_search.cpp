@@ -19,7 +19,6 @@ namespace {
 constexpr std::size_t kOfEachGroup = 2;
 /// So many of them for each landing, at most.
 constexpr std::size_t kForEachLanding = 4;
-constexpr int kLandingSteps = 30;
 constexpr int kMinimisingIterations = 40, kPolishingIterations = 15, kBorderSteps = 20;
 /// The way along the constraints that is left where a change is as small as it gets, as a share of it.
 constexpr double kStationary = 1e-9, kNearlyStationary = 1e-8;
@@ -34,8 +33,8 @@ constexpr int kFewImpacts = 3;
 constexpr std::size_t kManySteps = 2000;
 /// While there is no solution, a step that is so much longer makes up for a change that is smaller by one.
 constexpr double kStepsAreUncertain = 0.4;
-/// Landings of a higher score are not made, where rounds do a part of the work and elsewhere: of a thousand four and one at the
-/// most bring a smaller change.
+/// Landings of a higher score are not made, where rounds do a part of the work and elsewhere: of a thousand fewer than three, and
+/// fewer than one, bring a smaller change.
 constexpr double kScoreInPart = 2, kScore = 8;
 /// Of the most promising points of a round the next one may look beyond the borders.
 constexpr std::size_t kRemembered = 6;
@@ -165,14 +164,13 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
     const double left = residualsAfter(search_, *point, step).norm();
     const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
     const double change = lengthOf(search_.problem(), smallestChange(search_, *point));
-    const auto tried = tries_.find(point->signature);
-    const int tries = tried == tries_.end() ? 0 : tried->second;
-    score = improving ? landingScore({point->violation, step.norm() / to_beat, change / to_beat}, tries)
-                      : (change + kStepsAreUncertain * step.norm()) * (1 + tries);
+    score = improving ? landingScore({point->violation, step.norm() / to_beat, change / to_beat})
+                      : change + kStepsAreUncertain * step.norm();
     if (leads_nowhere || !std::isfinite(score) || change > to_beat + step.norm())  // as landings are given up
       score = std::numeric_limits<double>::infinity();
   });
   std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
+  for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   promising_.clear();
   for (const auto& [score, point] : ranked)
@@ -195,7 +193,7 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
 // What landings find is what later ones have to beat.
 std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr>& candidates, Seek seek) {
   const std::size_t n = candidates.size();
-  const Landing first{.max_steps = kLandingSteps, .below = lengthToBeat(seek)};
+  const Landing first{.below = lengthToBeat(seek)};
   std::vector<EditPointPtr> ends(n);
   std::vector<int> steps(n, 0);
   const auto learn = [&](Landing landing, const EditPointPtr& end) {
@@ -248,7 +246,7 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& landed, Seek seek
 EditPointPtr SequenceSearch::smallerWithin(const EditPointPtr& point) {
   const bool own = search_.problem().constraints.objective() != nullptr;
   const EditPointPtr end = own ? minimiseWithin(search_, point, kMinimisingIterations)
-                               : land(search_, point, {.max_steps = kLandingSteps, .signature = &point->signature});
+                               : land(search_, point, {.signature = &point->signature});
   return search_.reached(*end) && end->objective < point->objective ? end : point;
 }
 
@@ -271,7 +269,7 @@ void SequenceSearch::polishSmallest() {
 
 void SequenceSearch::polish(const EditPointPtr& solution) {
   if (search_.problem().constraints.objective() || search_.halt() != Halt::none) return;
-  const Landing landing{.max_steps = kLandingSteps, .signature = &solution->signature, .arrived = kStationary};
+  const Landing landing{.signature = &solution->signature, .arrived = kStationary};
   EditPointPtr end = land(search_, solution, landing);
   const bool stationary = search_.differentiate(*end) && (smallestChange(search_, *end) - end->changes).norm() <=
                                                              kNearlyStationary * end->changes.norm();
@@ -279,7 +277,7 @@ void SequenceSearch::polish(const EditPointPtr& solution) {
     const EditPointPtr landed = end;
     end = minimiseAlongBorder(search_, landed, kBorderSteps);  // does nothing where the minimum is on none
     if (end->signature != solution->signature)  // beyond the border it may lie on none
-      end = land(search_, end, {.max_steps = kLandingSteps, .signature = &end->signature, .arrived = kStationary});
+      end = land(search_, end, {.signature = &end->signature, .arrived = kStationary});
     if (end == landed) end = minimiseWithin(search_, end, kPolishingIterations);
   }
   if (end == solution || !search_.reached(*end) || !(end->objective <= (1 + kRounding) * solution->objective)) return;
