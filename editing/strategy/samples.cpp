@@ -16,6 +16,8 @@ constexpr double kRadii[] = {0.1 / 3, 0.1, 1.0 / 3, 0.01, 0.5 / 3, 0.2 / 3, 1};
 constexpr double kSmallerRadii[] = {0.95, 0.7, 0.85, 0.5, 1, 0.35, 0.6};
 /// Shares of a Gauss-Newton step; used in turn.
 constexpr double kShares[] = {1, 0.5, 1.5, 0.75, 0.25, 2};
+/// Sines of the angle between a change and the span of the gradients; used in turn.
+constexpr double kSines[] = {0, 0.25, 0.5, 0.125, 0.375};
 
 template <std::size_t N>
 double inTurn(const double (&list)[N], int k) {
@@ -65,6 +67,20 @@ Eigen::VectorXd along(int k, const Surroundings& s, const EvenPoints& directions
   return x;
 }
 
+/// Where the rows are met by the smallest change, it is a sum of their gradients (z = J^T m). What these span is decided by the
+/// first impacts, so that it is much the same in many sequences. `even` has a dimension more than the span, for the length.
+Eigen::VectorXd nearlySpanned(int k, const Surroundings& s, const EvenPoints& even, const EvenPoints& aside,
+                              const Eigen::VectorXd& centre, const SampleReach& reach) {
+  const Eigen::Index r = s.spanned.cols();
+  const double length = reach.length * elementary::pow(even.inCube(k)[0], 1.0 / static_cast<double>(r));
+  Eigen::VectorXd direction = s.spanned * even.onSphere(k).tail(r).normalized();
+  if (s.free.cols() > 0) {
+    const double sine = inTurn(kSines, k);
+    direction = std::sqrt(1 - sine * sine) * direction + sine * (s.free * aside.onSphere(k));
+  }
+  return centre + length * direction;
+}
+
 }  // namespace
 
 EvenPoints::EvenPoints(Eigen::Index dimensions) : steps_(2 * dimensions), dimensions_(dimensions) {
@@ -99,9 +115,15 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
                                      const SampleReach& reach) {
   const EvenPoints points(centre.size());
-  std::vector<EvenPoints> directions;
-  for (const Surroundings& s : around) directions.emplace_back(s.free.cols());
-  const int kinds = 2 + 2 * static_cast<int>(around.size());
+  std::vector<EvenPoints> directions, in_span;
+  std::vector<std::size_t> spanned;  // of `around`
+  for (std::size_t j = 0; j < around.size(); ++j) {
+    directions.emplace_back(around[j].free.cols());
+    in_span.emplace_back(1 + around[j].spanned.cols());
+    if (reach.of_known && around[j].spanned.cols() > 0) spanned.push_back(j);
+  }
+  const int before_spanned = 2 + 2 * static_cast<int>(around.size());
+  const int kinds = before_spanned + static_cast<int>(spanned.size());
   std::vector<Eigen::VectorXd> list;
   for (int i = first; i < first + count; ++i) {
     const int kind = i % kinds, k = i / kinds;
@@ -110,9 +132,12 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
       x = inBox(points, k, centre, halfWidth(k, centre.size(), reach), lower, upper);
     } else if (kind == 1) {
       x = alone(k, centre, reach);
+    } else if (kind < before_spanned) {
+      const std::size_t j = static_cast<std::size_t>(kind - 2) / 2;
+      x = along(2 * k + kind % 2, around[j], directions[j], reach);
     } else {
-      const std::size_t from = static_cast<std::size_t>(kind - 2) / 2;
-      x = along(2 * k + kind % 2, around[from], directions[from], reach);
+      const std::size_t j = spanned[static_cast<std::size_t>(kind - before_spanned)];
+      x = nearlySpanned(k, around[j], in_span[j], directions[j], centre, reach);
     }
     list.push_back(within(x, centre, lower, upper));
   }

@@ -44,11 +44,11 @@ Surroundings anywhereAround(const EditPoint& point) {
 // matters at the border of a sequence, or else back to the start.
 Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
   if (!search.differentiate(point)) return anywhereAround(point);
-  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
-  if (!search.reached(point)) return {point.changes, smallestStep(search, point), free};
+  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian), spanned = nullSpace(free.transpose());
+  if (!search.reached(point)) return {point.changes, smallestStep(search, point), free, spanned};
   const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
   const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();
-  return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
+  return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free, spanned};
 }
 
 }  // namespace
@@ -58,7 +58,8 @@ int SequenceSearch::sampleCount() const {
   const double steps = kStepsOfSample + static_cast<double>(start_->motion.steps);
   if (!solutions_.empty()) {
     const int part = hasSmallChangeInside() ? kPartOfSamples : 1;
-    return std::clamp(static_cast<int>(plan_.improving_steps / steps), plan_.least_samples, plan_.most_samples) / part;
+    const double wanted = plan_.improving_steps * (search_.work() > plan_.patience.usual ? plan_.unusually : 1);
+    return std::clamp(static_cast<int>(wanted / steps), plan_.least_samples, plan_.most_samples) / part;
   }
   const double doubled = std::ldexp(plan_.first_steps / steps, std::min(rounds_without_, kDoublings));
   const double least = std::ldexp(plan_.least_samples, std::min(rounds_without_, kDoublings));

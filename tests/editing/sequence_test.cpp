@@ -275,6 +275,32 @@ TEST(Samples, AreWithinBoundsAndTheSameInParts) {
   }
 }
 
+// Of three dimensions two rows span a plane: samples of it stay within the reach and within 30 degrees of it, on all sides.
+TEST(Samples, AreNearlySpannedByGradientsWhereASmallerChangeIsSought) {
+  const Eigen::VectorXd centre = Eigen::VectorXd::Zero(3), far = Eigen::VectorXd::Constant(3, 10);
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(3, 3);
+  const std::vector<Surroundings> around = {{centre, Eigen::Vector3d::Zero(), all.rightCols(1), all.leftCols(2)}};
+  const SampleReach known{0.5, true};
+  const int kinds = 5, each = 200;
+  const auto list = samples(centre, around, -far, far, 0, kinds * each, known);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  int within = 0, exactly = 0;
+  for (int k = 0; k < each; ++k) {
+    const Eigen::VectorXd& x = list[static_cast<std::size_t>(kinds * k + kinds - 1)];
+    EXPECT_LE(x.norm(), known.length * (1 + 1e-15));
+    EXPECT_LE(std::abs(x[2]), (0.5 + 1e-12) * x.norm());
+    within += x.norm() < known.length / std::sqrt(2.0);
+    exactly += x[2] == 0;
+    mean += x / each;
+  }
+  EXPECT_EQ(exactly, each / 5);
+  EXPECT_NEAR(within, each / 2, 5);  // as even as the area
+  EXPECT_LT(mean.norm(), 0.03) << mean.transpose();
+  const auto unknown = samples(centre, around, -far, far, 0, 60, {0.5, false});
+  const std::vector<Surroundings> none = {{centre, Eigen::Vector3d::Zero(), all.rightCols(1)}};
+  EXPECT_TRUE(unknown == samples(centre, none, -far, far, 0, 60, {0.5, false}));
+}
+
 TEST(Samples, CoverTheCubeAndTheSphere) {
   const EvenPoints points(3);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
