@@ -27,7 +27,7 @@ struct SearchPlan {
   /// Of the samples of one round, in steps of simulations (SimulateOptions::step_limit): until a first solution, twice
   /// as much with each round, and after it.
   double first_steps, improving_steps;
-  double unusually = 1;  ///< so many times improving_steps once more work is done than is usual (Patience)
+  double unusual_multiple = 1;  ///< so many times improving_steps once more work is done than is usual (Patience)
   int least_samples, most_samples;  ///< of one round; the more, the cheaper one of them is
   std::size_t landings;             ///< points of a round from which steps go onto the constraints
   std::size_t minimised;            ///< of those that arrive, the smallest, within their sequences
