@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "adjoint/numeric/elementary.hpp"
+#include "editing/solve/dependence.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -67,16 +69,23 @@ Eigen::VectorXd along(int k, const Surroundings& s, const EvenPoints& directions
   return x;
 }
 
+/// What the gradients of the rows span at one of the points around.
+struct Span {
+  std::size_t around;
+  Eigen::MatrixXd basis;
+  EvenPoints even;  ///< of a dimension more, for lengths
+};
+
 /// Where the rows are met by the smallest change, it is a sum of their gradients (z = J^T m). What these span is decided by the
-/// first impacts, so that it is much the same in many sequences. `even` has a dimension more than the span, for the length.
-Eigen::VectorXd nearlySpanned(int k, const Surroundings& s, const EvenPoints& even, const EvenPoints& aside,
+/// first impacts, so that it is much the same in many sequences.
+Eigen::VectorXd nearlySpanned(int k, const Span& span, const Eigen::MatrixXd& free, const EvenPoints& aside,
                               const Eigen::VectorXd& centre, const SampleReach& reach) {
-  const Eigen::Index r = s.spanned.cols();
-  const double length = reach.length * elementary::pow(even.inCube(k)[0], 1.0 / static_cast<double>(r));
-  Eigen::VectorXd direction = s.spanned * even.onSphere(k).tail(r).normalized();
-  if (s.free.cols() > 0) {
+  const Eigen::Index r = span.basis.cols();
+  const double length = reach.length * elementary::pow(span.even.inCube(k)[0], 1.0 / static_cast<double>(r));
+  Eigen::VectorXd direction = span.basis * span.even.onSphere(k).tail(r).normalized();
+  if (free.cols() > 0) {
     const double sine = inTurn(kSines, k);
-    direction = std::sqrt(1 - sine * sine) * direction + sine * (s.free * aside.onSphere(k));
+    direction = std::sqrt(1 - sine * sine) * direction + sine * (free * aside.onSphere(k));
   }
   return centre + length * direction;
 }
@@ -115,15 +124,17 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
                                      const SampleReach& reach) {
   const EvenPoints points(centre.size());
-  std::vector<EvenPoints> directions, in_span;
-  std::vector<std::size_t> spanned;  // of `around`
+  std::vector<EvenPoints> directions;
+  std::vector<Span> spans;
   for (std::size_t j = 0; j < around.size(); ++j) {
     directions.emplace_back(around[j].free.cols());
-    in_span.emplace_back(1 + around[j].spanned.cols());
-    if (reach.of_known && around[j].spanned.cols() > 0) spanned.push_back(j);
+    if (!reach.of_known) continue;
+    Eigen::MatrixXd basis = nullSpace(around[j].free.transpose());
+    const Eigen::Index r = basis.cols();
+    if (r > 0) spans.push_back({j, std::move(basis), EvenPoints(1 + r)});
   }
-  const int before_spanned = 2 + 2 * static_cast<int>(around.size());
-  const int kinds = before_spanned + static_cast<int>(spanned.size());
+  const int before_spans = 2 + 2 * static_cast<int>(around.size());
+  const int kinds = before_spans + static_cast<int>(spans.size());
   std::vector<Eigen::VectorXd> list;
   for (int i = first; i < first + count; ++i) {
     const int kind = i % kinds, k = i / kinds;
@@ -132,12 +143,12 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
       x = inBox(points, k, centre, halfWidth(k, centre.size(), reach), lower, upper);
     } else if (kind == 1) {
       x = alone(k, centre, reach);
-    } else if (kind < before_spanned) {
+    } else if (kind < before_spans) {
       const std::size_t j = static_cast<std::size_t>(kind - 2) / 2;
       x = along(2 * k + kind % 2, around[j], directions[j], reach);
     } else {
-      const std::size_t j = spanned[static_cast<std::size_t>(kind - before_spanned)];
-      x = nearlySpanned(k, around[j], in_span[j], directions[j], centre, reach);
+      const Span& span = spans[static_cast<std::size_t>(kind - before_spans)];
+      x = nearlySpanned(k, span, around[span.around].free, directions[span.around], centre, reach);
     }
     list.push_back(within(x, centre, lower, upper));
   }

@@ -24,11 +24,11 @@ class EvenPoints {
   Eigen::Index dimensions_;
 };
 
-/// What is known around a point: Gauss-Newton's step there, and orthonormal bases (columns; may have none) of the directions
-/// that change no row to first order and of those perpendicular to them, which the gradients of the rows span.
+/// What is known around a point: Gauss-Newton's step there, and an orthonormal basis of the directions that change no
+/// row to first order (columns; may have none).
 struct Surroundings {
   Eigen::VectorXd at, step;
-  Eigen::MatrixXd free, spanned = {};
+  Eigen::MatrixXd free;
 };
 
 /// How far samples reach, in natural scales times the weights.
@@ -41,7 +41,7 @@ struct SampleReach {
 /// turns: points of boxes around `centre` with half widths from a hundredth of the reach to all of it, or, where smaller changes
 /// than a known one are looked for, with lengths from a third of it on; single numbers changed; from each of `around` on, a
 /// share of the step and something along the free directions; and, where smaller changes than a known one are looked for,
-/// changes nearly within the span of the gradients at each of `around`.
+/// changes nearly within the span of the gradients at each of `around`, which is all that is perpendicular to `free`.
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
                                      const SampleReach& reach = {});

@@ -44,11 +44,11 @@ Surroundings anywhereAround(const EditPoint& point) {
 // matters at the border of a sequence, or else back to the start.
 Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
   if (!search.differentiate(point)) return anywhereAround(point);
-  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian), spanned = nullSpace(free.transpose());
-  if (!search.reached(point)) return {point.changes, smallestStep(search, point), free, spanned};
+  const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
+  if (!search.reached(point)) return {point.changes, smallestStep(search, point), free};
   const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
   const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();
-  return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free, spanned};
+  return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
 }
 
 }  // namespace

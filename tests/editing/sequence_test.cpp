@@ -279,7 +279,7 @@ TEST(Samples, AreWithinBoundsAndTheSameInParts) {
 TEST(Samples, AreNearlySpannedByGradientsWhereASmallerChangeIsSought) {
   const Eigen::VectorXd centre = Eigen::VectorXd::Zero(3), far = Eigen::VectorXd::Constant(3, 10);
   const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(3, 3);
-  const std::vector<Surroundings> around = {{centre, Eigen::Vector3d::Zero(), all.rightCols(1), all.leftCols(2)}};
+  const std::vector<Surroundings> around = {{centre, Eigen::Vector3d::Zero(), all.rightCols(1)}};
   const SampleReach known{0.5, true};
   const int kinds = 5, each = 200;
   const auto list = samples(centre, around, -far, far, 0, kinds * each, known);
@@ -296,9 +296,17 @@ TEST(Samples, AreNearlySpannedByGradientsWhereASmallerChangeIsSought) {
   EXPECT_EQ(exactly, each / 5);
   EXPECT_NEAR(within, each / 2, 5);  // as even as the area
   EXPECT_LT(mean.norm(), 0.03) << mean.transpose();
+  // none where no smaller change is known, or all directions are free: then every fourth sample is one of a box
   const auto unknown = samples(centre, around, -far, far, 0, 60, {0.5, false});
-  const std::vector<Surroundings> none = {{centre, Eigen::Vector3d::Zero(), all.rightCols(1)}};
-  EXPECT_TRUE(unknown == samples(centre, none, -far, far, 0, 60, {0.5, false}));
+  const std::vector<Surroundings> unbound = {{centre, Eigen::Vector3d::Zero(), all}};
+  for (const bool of_known : {false, true}) {
+    const SampleReach as_far{0.5, of_known};
+    const auto none = samples(centre, unbound, -far, far, 0, 60, as_far), boxes = samples(centre, {}, -far, far, 0, 30, as_far);
+    for (std::size_t k = 0; k < 15; ++k) {
+      EXPECT_EQ(none[4 * k], boxes[2 * k]) << k;
+      if (!of_known) EXPECT_EQ(unknown[4 * k], boxes[2 * k]) << k;
+    }
+  }
 }
 
 TEST(Samples, CoverTheCubeAndTheSphere) {
