@@ -33,7 +33,7 @@ struct EditArguments {
   double seconds = EditOptions{}.time_budget_seconds;
   bool same_sequence = false, impacts = false;
   MotionArguments motion;
-  int alternatives = 1, threads = 0;
+  int alternatives = 1, threads = 0, seed = 0;
   std::string effort = "normal";
 };
 
@@ -157,6 +157,7 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
   edit_options.time_budget_seconds = options.seconds;
   edit_options.alternatives = options.alternatives;
   edit_options.threads = options.threads;
+  edit_options.seed = options.seed;
   edit_options.effort = effortOf(options.effort);
   edit_options.step_limit = options.motion.step_limit;
   edit_options.stop = stoppable.token();
@@ -233,6 +234,9 @@ Action declareEdit(CLI::App& app) {
                  "How long to look for a smaller change: fast, normal or thorough; normal if not given")
       ->check(CLI::IsMember({"fast", "normal", "thorough"}))
       ->type_name("E");
+  app.add_option("--seed", options->seed, "Begin the samples of the search elsewhere: another try; 0 if not given")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
   app.add_option("--threads", options->threads, "Cores to search on, all if not given; the answer is the same")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

@@ -47,6 +47,9 @@ struct EditOptions {
   Effort effort = Effort::normal;                                   ///< how long a smaller change is looked for
   SecondDerivatives second_derivatives = SecondDerivatives::exact;  ///< where Ipopt takes them from
   int alternatives = 1;  ///< distinct solutions that are looked for, see EditResult::alternatives
+  /// 0 to 1000: where the samples of the search begin. Where a change is larger than it could be is largely chance: another
+  /// seed is another try.
+  int seed = 0;
   int threads = 0;       ///< of the search across impact sequences; 0: all cores. The answer does not depend on it
   bool certify = true;   ///< fill in EditResult::certificate
   /// Of each motion, see SimulateOptions::step_limit: a point whose motion ends before its constraints is not taken.

@@ -30,7 +30,7 @@ constexpr const char* kUsage =
     "edits_bench [--tasks N] [--every N] [--seed S] [--only FAMILY] [--task INDEX] [--config NAME[,NAME...]]\n"
     "            [--budget SECONDS] [--threads T] [--list] [--failures] [--csv FILE] [--summary FILE] [--families "
     "FILE]\n"
-    "            [--best FILE] [--improve] [--save FOLDER] [--serve]\n"
+    "            [--best FILE] [--improve] [--save FOLDER] [--serve] [--search-seed N]\n"
     "  --tasks     how many (all), the first     --only      of one family: ball, box, hull, meeting, chain, ...\n"
     "  --every     N: only every N-th\n"
     "  --task      one task alone               --config    of the configurations (all)\n"
@@ -40,12 +40,14 @@ constexpr const char* kUsage =
     "  --families  one line a family and configuration\n"
     "  --improve   keeps smaller changes in the file of the best known (--best)\n"
     "  --save      writes every task as a scene document, edit-INDEX.json\n"
-    "  --serve     answers questions about tasks, see serve.h\n";
+    "  --serve     answers questions about tasks, see serve.h\n"
+    "  --search-seed  of the samples (0): variants are compared by several, as which edits end badly is chance\n";
 
 struct Settings {
   int tasks = kTasks, threads = 1;
   std::uint64_t seed = 1;
   std::optional<int> task;
+  int search_seed = 0;
   int every = 1;
   std::string only, configurations, csv, summary, families, save, best = CAROM_EDITS_BEST_KNOWN;
   double budget = 5;
@@ -59,6 +61,7 @@ Settings readSettings(int argc, char** argv) {
   std::map<std::string, std::function<void(const std::string&)>> values = {
       {"--tasks", [&](const std::string& v) { s.tasks = std::stoi(v); }},
       {"--seed", [&](const std::string& v) { s.seed = std::stoull(v); }},
+      {"--search-seed", [&](const std::string& v) { s.search_seed = std::stoi(v); }},
       {"--task", [&](const std::string& v) { s.task = std::stoi(v); }},
       {"--every", [&](const std::string& v) { s.every = std::max(1, std::stoi(v)); }},
       {"--only", [&](const std::string& v) { s.only = v; }},
@@ -125,11 +128,13 @@ std::vector<Run> runAll(const Settings& s, const std::vector<Task>& tasks) {
   std::vector<Run> runs;
   for (const Configuration& configuration : configurations()) {
     const std::string name = configuration.name;
+    Configuration seeded = configuration;
+    seeded.options.seed = s.search_seed;
     if (!s.configurations.empty() && s.configurations.find("," + name + ",") == std::string::npos) continue;
     Run run{&configuration, std::vector<Outcome>(tasks.size())};
     forEach(static_cast<int>(tasks.size()), s.threads, configuration.name, [&](int i) {
       const std::size_t k = static_cast<std::size_t>(i);
-      run.outcomes[k] = solve(tasks[k], configuration, s.budget);
+      run.outcomes[k] = solve(tasks[k], seeded, s.budget);
     });
     runs.push_back(std::move(run));
   }

@@ -186,6 +186,7 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
     if (may_end && idle >= multiple * patience.rounds && search.work() - found >= patience.after(found, multiple)) return;
     if (idle >= plan.small_rounds && across.hasSmallChangeInside()) return;
     if (idle > 0 && across.isLong()) return;
+    if (search.work() >= patience.in_all) return;
     if (!across.round()) return;
     ++idle;
     if (across.solutions().front()->objective < kClearlyLess * before) idle = 0, found = search.work();

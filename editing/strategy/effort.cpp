@@ -17,7 +17,7 @@ constexpr SearchPlan kFast{.first_rounds = 10,
                            .minimised = 2};
 constexpr SearchPlan kNormal{.first_rounds = 10,
                              .patience = {.least = 5e3, .whole = 1.2e4, .largest_share = 4, .most = 2.7e6, .usual = 1.3e5,
-                                          .unusual = 7e5, .rounds = 4},
+                                          .unusual = 7e5, .rounds = 4, .in_all = 6.5e6},
                              .small_rounds = 3,
                              .first_steps = 1e4,
                              .improving_steps = 2.5e3,

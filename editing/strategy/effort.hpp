@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "editing/edit_options.h"
 
@@ -15,6 +16,7 @@ namespace carom::editing_detail {
 struct Patience {
   double least, whole, largest_share, most, usual = 0, unusual = 0;
   int rounds;  ///< as many, or the multiple, at least
+  double in_all = std::numeric_limits<double>::infinity();  ///< no round begins once so much is done
 
   double after(double work, double multiple) const;
 };

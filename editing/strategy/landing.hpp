@@ -29,5 +29,8 @@ struct Landing {
 /// point with the smallest violation, of those within the tolerance that with the smallest change; null where it was
 /// given up.
 EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing);
+/// The same, where a smaller change than a known one is looked for. When the constraints are missed: onto them alone first, within the
+/// impact sequence of `from` and else across its borders, and from there along them.
+EditPointPtr landAnyWay(EditSearch& search, const EditPointPtr& from, const Landing& landing);
 
 }  // namespace carom::editing_detail

@@ -18,6 +18,8 @@ constexpr double kRadii[] = {0.1 / 3, 0.1, 1.0 / 3, 0.01, 0.5 / 3, 0.2 / 3, 1};
 constexpr double kSmallerRadii[] = {0.95, 0.7, 0.85, 0.5, 1, 0.35, 0.6};
 /// Shares of a Gauss-Newton step; used in turn.
 constexpr double kShares[] = {1, 0.5, 1.5, 0.75, 0.25, 2};
+/// Numbers beyond a bound come to lie so far on the way to it.
+constexpr double kBefore = 0.95;
 /// Sines of the angle between a change and the span of the gradients; used in turn.
 constexpr double kSines[] = {0, 0.25, 0.5, 0.125, 0.375};
 
@@ -33,7 +35,6 @@ double radius(int k, const SampleReach& reach) {
 /// Numbers beyond a bound come to lie just before it: many a bound is a special case, such as friction 0.
 Eigen::VectorXd within(Eigen::VectorXd x, const Eigen::VectorXd& centre, const Eigen::VectorXd& lower,
                        const Eigen::VectorXd& upper) {
-  constexpr double kBefore = 0.95;
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     if (x[j] < lower[j]) x[j] = centre[j] + kBefore * (lower[j] - centre[j]);
     if (x[j] > upper[j]) x[j] = centre[j] + kBefore * (upper[j] - centre[j]);
@@ -55,10 +56,15 @@ double halfWidth(int k, Eigen::Index n, const SampleReach& reach) {
   return radius(k, reach) * (reach.of_known ? std::sqrt(3.0 / static_cast<double>(n)) : 1);
 }
 
-Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre, const SampleReach& reach) {
+/// As far as the bounds let it. The list of radii would come again and again, at the same places.
+Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                      const SampleReach& reach) {
   Eigen::VectorXd x = centre;
-  const int n = static_cast<int>(x.size()), turn = k / (2 * n);
-  x[(k / 2) % n] += (k % 2 ? -1 : 1) * radius(turn, reach);
+  const int n = static_cast<int>(x.size()), turn = k / (2 * n), listed = static_cast<int>(std::size(kRadii));
+  const Eigen::Index j = (k / 2) % n;
+  const double room = kBefore * (k % 2 ? centre[j] - lower[j] : upper[j] - centre[j]);
+  const double share = turn < listed ? radius(turn, {1, reach.of_known}) : EvenPoints(1).inCube(turn)[0];
+  x[j] += (k % 2 ? -1 : 1) * share * std::min(reach.length, room);
   return x;
 }
 
@@ -142,7 +148,7 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
     if (kind == 0) {
       x = inBox(points, k, centre, halfWidth(k, centre.size(), reach), lower, upper);
     } else if (kind == 1) {
-      x = alone(k, centre, reach);
+      x = alone(k, centre, lower, upper, reach);
     } else if (kind < before_spans) {
       const std::size_t j = static_cast<std::size_t>(kind - 2) / 2;
       x = along(2 * k + kind % 2, around[j], directions[j], reach);

@@ -73,14 +73,23 @@ SampleReach SequenceSearch::reach() const {
   return known < kReach ? SampleReach{known, true} : SampleReach{kReach};
 }
 
+// Within bounds many samples, and points beyond borders, come to lie where others were.
+void SequenceSearch::eraseKnown(std::vector<Eigen::VectorXd>& places) {
+  const Eigen::Index n = search_.problem().controls.size();
+  std::erase_if(places, [&](const Eigen::VectorXd& place) {
+    return !known_.insert(std::vector<double>(place.data(), place.data() + n)).second;
+  });
+}
+
 std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   std::vector<Surroundings> around;
   if (start_->rows.available) around.push_back(surroundingsOf(search_, *start_));
   if (nearest_lacking_ && solutions_.empty()) around.push_back(anywhereAround(*nearest_lacking_));
   if (search_.best() != start_) around.push_back(surroundingsOf(search_, *search_.best()));
   const int count = sampleCount();
-  const std::vector<Eigen::VectorXd> places =
+  std::vector<Eigen::VectorXd> places =
       samples(start_->changes, around, search_.lower(), search_.upper(), samples_, count, reach());
+  eraseKnown(places);
   samples_ += count;
   std::vector<EditPointPtr> made(places.size());
   std::vector<char> is_lacking(places.size(), 0);
@@ -123,6 +132,7 @@ std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
   std::vector<Eigen::VectorXd> places;
   for (const auto& list : beyond)
     places.insert(places.end(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(std::min(list.size(), landings())));
+  eraseKnown(places);
   std::vector<EditPointPtr> points(places.size());
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
     points[i] = search_.make(places[i], true, {{&contacts}});

@@ -46,6 +46,8 @@ constexpr double kClearlySmaller = 0.995;
 constexpr int kTriedOften = 4, kOfTriedOften = 4;
 /// So many landings at a time.
 constexpr std::size_t kLandingsAhead = 4;
+/// The beginnings of the samples of two seeds are so many of them apart: a prime.
+constexpr int kBetweenSeeds = 1'000'003;
 /// Solutions of one sequence whose changes differ by less than this share of them are the same.
 constexpr double kSameChange = 0.1;
 
@@ -61,7 +63,8 @@ SequenceSearch::SequenceSearch(EditSearch& search, EditPointPtr start)
       plan_(planOf(search.options().effort)),
       pool_(*search.problem().contacts),
       crew_(pool_.isShareable() ? search.options().threads : 1),
-      start_(std::move(start)) {}
+      start_(std::move(start)),
+      samples_(search.options().seed * kBetweenSeeds) {}
 
 bool SequenceSearch::round(Seek seek) {
   if (search_.problem().unknowns() == 0) return false;  // nowhere to go
@@ -207,7 +210,7 @@ std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr
     for (std::size_t k = 0; k + kLandingsAhead <= i; ++k) landing = learn(landing, ends[k]);
     const ContactPool::Loan loan(pool_);
     EditSearch branch = search_.branch({{&loan.source()}}, true);
-    ends[i] = land(branch, candidates[i], landing);
+    ends[i] = landAnyWay(branch, candidates[i], landing);
     steps[i] = branch.iterations() - search_.iterations();
   });
   for (const EditPointPtr& end : ends)

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,7 @@ class SequenceSearch {
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
   bool wasBegun(const EditPoint& point, double to_beat) const;
+  void eraseKnown(std::vector<Eigen::VectorXd>& places);
   std::vector<EditPointPtr> sample(Seek seek);
   std::vector<EditPointPtr> neighbours(Seek seek);
   std::vector<EditPointPtr> crossings(const std::vector<EditPointPtr>& points);
@@ -95,10 +97,11 @@ class SequenceSearch {
     double to_beat;
   };
   std::vector<Begun> begun_;  // where landings began
+  std::set<std::vector<double>> known_;  // places where points were made
   EditPointPtr nearest_lacking_;
   double least_lack_ = std::numeric_limits<double>::infinity();
   int round_ = 0, rounds_without_ = 0;
-  int samples_ = 0;  // taken so far, of the endless sequence of them
+  int samples_;  // the next of the endless sequence of them
 };
 
 template <class Work>

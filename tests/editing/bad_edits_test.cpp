@@ -252,6 +252,8 @@ TEST(BadEdits, OptionsThatMakeNoSense) {
       {"/options/tolerance: found nan", [](EditOptions& o) { o.tolerance = kNaN; }},
       {"/options/tolerance: found inf", [](EditOptions& o) { o.tolerance = INFINITY; }},
       {"/options/alternatives: found 0", [](EditOptions& o) { o.alternatives = 0; }},
+      {"/options/seed: found -1", [](EditOptions& o) { o.seed = -1; }},
+      {"/options/seed: found 1001", [](EditOptions& o) { o.seed = 1001; }},
       {"/options/threads: found -1", [](EditOptions& o) { o.threads = -1; }},
   };
   for (const auto& [sentence, spoil] : wrong) {

@@ -7,10 +7,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <set>
 #include <vector>
 
 #include "editing/solve/reduced_hessian.hpp"
 #include "editing/strategy/missing_impacts.hpp"
+#include "editing/strategy/samples.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
@@ -114,6 +116,37 @@ TEST(Landing, IsGivenUpWhereNothingSmallerIsInSight) {
   EXPECT_EQ(land(t.search, start, landing), nullptr);
   landing.below = 1.01 * length;
   EXPECT_NE(land(t.search, start, landing), nullptr);
+}
+
+// Of 3000 throws the likely ones are all from whose prospects it is tried and comes off; of the others it would.
+TEST(Landing, AnyWayArrivesWhereStepsTowardsTheSmallestChangeMiss) {
+  const EvenPoints throws(2);
+  const std::set<int> within = {625}, across = {440, 1222, 2582}, unlikely = {241, 283, 1431, 2565};
+  std::set<int> tried;
+  for (const std::set<int>& throws_of : {within, across, unlikely}) tried.insert(throws_of.begin(), throws_of.end());
+  for (int k = 0; k < 40; ++k) tried.insert(k);
+  for (const bool reversed : {false, true}) {
+    for (const int k : tried) {
+      const Eigen::Vector2d to = throws.inCube(k);
+      Shot t({-2.2 + 0.6 * to[0], -1.05 + 0.2 * to[1], 0}, {"red", 1.9, {{"position", {-0.3, 0.3, any}}}}, reversed);
+      const EditPointPtr start = t.search.evaluateStart();
+      ASSERT_TRUE(start->rows.available);
+      Landing landing;
+      landing.below = 4;
+      EditSearch one = t.search.branch({}, true), other = t.search.branch({}, true);
+      const EditPointPtr end = land(one, start, landing), any_way = landAnyWay(other, start, landing);
+      if (within.count(k) + across.count(k)) {
+        ASSERT_TRUE(end && !one.reached(*end)) << k;
+        ASSERT_TRUE(any_way && other.reached(*any_way)) << k;
+        EXPECT_EQ(any_way->signature == start->signature, within.count(k) > 0) << k;
+        EXPECT_TRUE(lengthOf(t.problem, any_way->changes) <= landing.below) << k;
+      } else if (!end || one.reached(*end) || unlikely.count(k)) {
+        ASSERT_EQ(!any_way, !end) << k;
+        if (end) EXPECT_EQ(any_way->changes, end->changes) << k;
+        if (unlikely.count(k)) EXPECT_TRUE(end && !one.reached(*end)) << k;
+      }
+    }
+  }
 }
 
 TEST(MissingImpacts, NameWhatHasToComeBefore) {

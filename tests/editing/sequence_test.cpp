@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
@@ -207,6 +209,23 @@ TEST(SequenceEdit, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
+TEST(SequenceEdit, ASeedIsAnotherTryAndTheSameOneTheSameAnswer) {
+  const Scene scene = ballBeforeWall();
+  std::vector<EditResult> results;
+  for (const int seed : {0, 7, 0, 7, 1000}) {
+    OdeContacts contacts(scene);
+    EditOptions options;
+    options.seed = seed;
+    results.push_back(bounceEdit(scene, contacts).solve(options));
+    EXPECT_TRUE(results.back().solved()) << seed << ": " << results.back().message;
+  }
+  for (const std::size_t k : {0u, 1u}) {
+    EXPECT_EQ(results[k + 2].iterations, results[k].iterations);
+    EXPECT_EQ(results[k + 2].scene.bodies[2].velocity, results[k].scene.bodies[2].velocity);
+  }
+  EXPECT_NE(results[0].iterations, results[1].iterations);
+}
+
 TEST(SequenceEdit, CancelKeepsTheBest) {
   const Scene scene = ballBeforeWall();
   OdeContacts contacts(scene);
@@ -306,6 +325,26 @@ TEST(Samples, AreNearlySpannedByGradientsWhereASmallerChangeIsSought) {
       EXPECT_EQ(none[4 * k], boxes[2 * k]) << k;
       if (!of_known) EXPECT_EQ(unknown[4 * k], boxes[2 * k]) << k;
     }
+  }
+}
+
+TEST(Samples, OfSingleNumbersLieWithinTheirBoundsAndNeverTwiceAtAPlace) {
+  const Eigen::VectorXd centre = Eigen::Vector2d(0.1, -0.2);
+  const Eigen::VectorXd lower = centre - Eigen::VectorXd::Constant(2, 0.3), upper = centre + Eigen::Vector2d(0.05, 8);
+  const int kinds = 2, count = 500;
+  for (const bool of_known : {false, true}) {
+    const auto list = samples(centre, {}, lower, upper, 0, kinds * count, {3, of_known});
+    std::set<std::vector<double>> places;
+    double farthest = 0;
+    for (std::size_t k = 1; k < list.size(); k += kinds) {
+      const Eigen::VectorXd& x = list[k];
+      EXPECT_EQ((x.array() == centre.array()).count(), 1) << k;
+      EXPECT_TRUE((x.array() > lower.array()).all() && (x.array() < upper.array()).all()) << x.transpose();
+      places.insert({x[0], x[1]});
+      farthest = std::max(farthest, x[1] - centre[1]);
+    }
+    EXPECT_EQ(places.size(), static_cast<std::size_t>(count));
+    EXPECT_NEAR(farthest, 3, 1e-12);
   }
 }
 
