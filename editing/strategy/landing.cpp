@@ -22,8 +22,8 @@ constexpr double kBent = 0.1;
 /// So near to the smallest change, as a share of it, steps gain less than the rounding of rows may hide in the merit: those
 /// count that leave clearly less of the way.
 constexpr double kFlat = 1e-3, kNearer = 0.5;
-/// The highest score (landingScore) of points from which constraints that were missed are tried in other ways: of 5000, such tries
-/// brought 46 smaller changes up to it, and one above.
+/// The highest score (landingScore) of points from which constraints that were missed are tried in other ways. Within the sequence
+/// such tries brought a smaller change from 58 of 3800 points up to it, and from one of 1600 above.
 constexpr double kLikely = 1;
 /// The penalty of the merit function, in multipliers.
 constexpr double kAboveMultipliers = 2;

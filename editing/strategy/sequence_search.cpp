@@ -193,12 +193,13 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
   return chosen;
 }
 
-// What landings find is what later ones have to beat.
+// What landings find is what later ones have to beat. Where an edit takes long, those that miss are made in other ways, too.
 std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr>& candidates, Seek seek) {
   const std::size_t n = candidates.size();
   const Landing first{.below = lengthToBeat(seek)};
   std::vector<EditPointPtr> ends(n);
   std::vector<int> steps(n, 0);
+  const auto way = search_.work() > plan_.patience.usual ? landAnyWay : land;
   const auto learn = [&](Landing landing, const EditPointPtr& end) {
     if (seek == Seek::others || wanted() > 1 || !end || !isAllowed(*end) || !search_.reached(*end)) return landing;
     landing.below = std::min(landing.below, kClearlySmaller * lengthOf(search_.problem(), end->changes));
@@ -210,7 +211,7 @@ std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr
     for (std::size_t k = 0; k + kLandingsAhead <= i; ++k) landing = learn(landing, ends[k]);
     const ContactPool::Loan loan(pool_);
     EditSearch branch = search_.branch({{&loan.source()}}, true);
-    ends[i] = landAnyWay(branch, candidates[i], landing);
+    ends[i] = way(branch, candidates[i], landing);
     steps[i] = branch.iterations() - search_.iterations();
   });
   for (const EditPointPtr& end : ends)

@@ -118,7 +118,7 @@ TEST(Landing, IsGivenUpWhereNothingSmallerIsInSight) {
   EXPECT_NE(land(t.search, start, landing), nullptr);
 }
 
-// Of 3000 throws the likely ones are all from whose prospects it is tried and comes off; of the others it would.
+// These are all of 3000 throws from which one of the other ways arrives. The unlikely ones have scores above 1: it is not tried.
 TEST(Landing, AnyWayArrivesWhereStepsTowardsTheSmallestChangeMiss) {
   const EvenPoints throws(2);
   const std::set<int> within = {625}, across = {440, 1222, 2582}, unlikely = {241, 283, 1431, 2565};
