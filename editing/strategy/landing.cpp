@@ -112,7 +112,7 @@ EditPointPtr stepToStationary(EditSearch& search, const EditPoint& point, const 
   return leftAlong(search, *trial) < kNearer * leftAlong(search, point) ? trial : nullptr;
 }
 
-/// Whether so much is likely to come of a point that it is left in other ways, too.
+/// Whether a smaller change is likely enough from a point to try the other ways.
 bool isWorthMore(const EditSearch& search, EditPoint& from, double below) {
   if (!search.differentiate(from)) return false;
   const double change = lengthOf(search.problem(), smallestChange(search, from));
