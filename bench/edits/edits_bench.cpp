@@ -128,9 +128,9 @@ std::vector<Run> runAll(const Settings& s, const std::vector<Task>& tasks) {
   std::vector<Run> runs;
   for (const Configuration& configuration : configurations()) {
     const std::string name = configuration.name;
+    if (!s.configurations.empty() && s.configurations.find("," + name + ",") == std::string::npos) continue;
     Configuration seeded = configuration;
     seeded.options.seed = s.search_seed;
-    if (!s.configurations.empty() && s.configurations.find("," + name + ",") == std::string::npos) continue;
     Run run{&configuration, std::vector<Outcome>(tasks.size())};
     forEach(static_cast<int>(tasks.size()), s.threads, configuration.name, [&](int i) {
       const std::size_t k = static_cast<std::size_t>(i);

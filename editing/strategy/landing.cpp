@@ -175,8 +175,10 @@ EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& l
 EditPointPtr landAnyWay(EditSearch& search, const EditPointPtr& from, const Landing& landing) {
   EditPointPtr end = land(search, from, landing);
   if (!std::isfinite(landing.below)) return end;  // its steps across borders are as many as it may take
+  const auto missed = [&] { return end && !search.reached(*end) && search.halt() == Halt::none; };
+  if (!missed() || !isWorthMore(search, *from, landing.below)) return end;
   for (const std::string* kept : std::initializer_list<const std::string*>{&from->signature, landing.signature}) {
-    if (!end || search.reached(*end) || search.halt() != Halt::none || !isWorthMore(search, *from, landing.below)) break;
+    if (!missed()) break;
     const EditPointPtr met = projectOntoConstraints(search, from, landing.max_steps, kept, Care::coarse);
     if (!search.reached(*met)) continue;
     Landing along = landing;

@@ -57,13 +57,13 @@ double halfWidth(int k, Eigen::Index n, const SampleReach& reach) {
 }
 
 /// As far as the bounds let it. The list of radii would come again and again, at the same places.
-Eigen::VectorXd alone(int k, const Eigen::VectorXd& centre, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
-                      const SampleReach& reach) {
+Eigen::VectorXd alone(int k, const EvenPoints& shares, const Eigen::VectorXd& centre, const Eigen::VectorXd& lower,
+                      const Eigen::VectorXd& upper, const SampleReach& reach) {
   Eigen::VectorXd x = centre;
   const int n = static_cast<int>(x.size()), turn = k / (2 * n), listed = static_cast<int>(std::size(kRadii));
   const Eigen::Index j = (k / 2) % n;
   const double room = kBefore * (k % 2 ? centre[j] - lower[j] : upper[j] - centre[j]);
-  const double share = turn < listed ? radius(turn, {1, reach.of_known}) : EvenPoints(1).inCube(turn)[0];
+  const double share = turn < listed ? radius(turn, {1, reach.of_known}) : shares.inCube(turn)[0];
   x[j] += (k % 2 ? -1 : 1) * share * std::min(reach.length, room);
   return x;
 }
@@ -129,7 +129,7 @@ Eigen::VectorXd EvenPoints::onSphere(int k) const {
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
                                      const SampleReach& reach) {
-  const EvenPoints points(centre.size());
+  const EvenPoints points(centre.size()), shares(1);
   std::vector<EvenPoints> directions;
   std::vector<Span> spans;
   for (std::size_t j = 0; j < around.size(); ++j) {
@@ -148,7 +148,7 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
     if (kind == 0) {
       x = inBox(points, k, centre, halfWidth(k, centre.size(), reach), lower, upper);
     } else if (kind == 1) {
-      x = alone(k, centre, lower, upper, reach);
+      x = alone(k, shares, centre, lower, upper, reach);
     } else if (kind < before_spans) {
       const std::size_t j = static_cast<std::size_t>(kind - 2) / 2;
       x = along(2 * k + kind % 2, around[j], directions[j], reach);

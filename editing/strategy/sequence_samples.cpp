@@ -58,7 +58,7 @@ int SequenceSearch::sampleCount() const {
   const double steps = kStepsOfSample + static_cast<double>(start_->motion.steps);
   if (!solutions_.empty()) {
     const int part = hasSmallChangeInside() ? kPartOfSamples : 1;
-    const double wanted = plan_.improving_steps * (search_.work() > plan_.patience.usual ? plan_.unusual_multiple : 1);
+    const double wanted = plan_.improving_steps * (takesLong() ? plan_.unusual_multiple : 1);
     return std::clamp(static_cast<int>(wanted / steps), plan_.least_samples, plan_.most_samples) / part;
   }
   const double doubled = std::ldexp(plan_.first_steps / steps, std::min(rounds_without_, kDoublings));

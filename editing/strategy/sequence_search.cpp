@@ -90,6 +90,8 @@ bool SequenceSearch::isLong() const { return start_->motion.steps > kManySteps; 
 
 bool SequenceSearch::isInPart() const { return hasSmallChangeInside() || isLong(); }
 
+bool SequenceSearch::takesLong() const { return search_.work() > plan_.patience.usual; }
+
 std::size_t SequenceSearch::landings() const {
   return isInPart() ? (plan_.landings + kPart - 1) / kPart : plan_.landings;
 }
@@ -199,7 +201,7 @@ std::vector<EditPointPtr> SequenceSearch::landAll(const std::vector<EditPointPtr
   const Landing first{.below = lengthToBeat(seek)};
   std::vector<EditPointPtr> ends(n);
   std::vector<int> steps(n, 0);
-  const auto way = search_.work() > plan_.patience.usual ? landAnyWay : land;
+  const auto way = takesLong() ? landAnyWay : land;
   const auto learn = [&](Landing landing, const EditPointPtr& end) {
     if (seek == Seek::others || wanted() > 1 || !end || !isAllowed(*end) || !search_.reached(*end)) return landing;
     landing.below = std::min(landing.below, kClearlySmaller * lengthOf(search_.problem(), end->changes));

@@ -59,6 +59,7 @@ class SequenceSearch {
 
  private:
   bool isInPart() const;
+  bool takesLong() const;
   int sampleCount() const;
   std::size_t landings() const;
   SampleReach reach() const;
