@@ -170,6 +170,11 @@ bool mayBecomeAvailable(const EditSearch& search) {
   });
 }
 
+/// So many times the patience, by what the landings were expected to bring since the best was found.
+double patienceBy(const ExpectedImprovement& expected, const Patience& patience) {
+  return std::clamp(expected.mean() / ExpectedImprovement::kUsual, patience.least_expected, patience.most_expected);
+}
+
 /// A first solution, and then smaller changes, until none was found for too long.
 void searchAcross(const EditSearch& search, SequenceSearch& across) {
   const SearchPlan& plan = planOf(search.options().effort);
@@ -181,15 +186,16 @@ void searchAcross(const EditSearch& search, SequenceSearch& across) {
   for (int idle = 0; idle < kIdleRounds || search.work() < patience.unusual;) {
     const bool many = !across.isBestInside() && across.impactsOfBest() > kManyImpacts;
     const double multiple = many ? kPatienceForMany : 1;
+    const double enough = patience.after(found, multiple * patienceBy(across.expected(), patience));
     const double before = across.solutions().front()->objective;
     const bool may_end = before <= kNoticedChange || search.work() >= patience.usual;
-    if (may_end && idle >= multiple * patience.rounds && search.work() - found >= patience.after(found, multiple)) return;
+    if (may_end && idle >= multiple * patience.rounds && search.work() - found >= enough) return;
     if (idle >= plan.small_rounds && across.hasSmallChangeInside()) return;
     if (idle > 0 && across.isLong()) return;
     if (search.work() >= patience.in_all) return;
     if (!across.round()) return;
     ++idle;
-    if (across.solutions().front()->objective < kClearlyLess * before) idle = 0, found = search.work();
+    if (across.solutions().front()->objective < kClearlyLess * before) idle = 0, found = search.work(), across.expectAnew();
   }
 }
 

@@ -22,9 +22,6 @@ constexpr double kBent = 0.1;
 /// So near to the smallest change, as a share of it, steps gain less than the rounding of rows may hide in the merit: those
 /// count that leave clearly less of the way.
 constexpr double kFlat = 1e-3, kNearer = 0.5;
-/// The highest score (landingScore) of points from which constraints that were missed are tried in other ways. Within the sequence
-/// such tries brought a smaller change from 58 of 3800 points up to it, and from one of 1600 above.
-constexpr double kLikely = 1;
 /// The penalty of the merit function, in multipliers.
 constexpr double kAboveMultipliers = 2;
 
@@ -112,11 +109,12 @@ EditPointPtr stepToStationary(EditSearch& search, const EditPoint& point, const 
   return leftAlong(search, *trial) < kNearer * leftAlong(search, point) ? trial : nullptr;
 }
 
-/// Whether a smaller change is likely enough from a point to try the other ways.
+/// Whether a smaller change is likely enough from a point to try the other ways. Within the sequence these brought one from 58 of
+/// 3800 likely points, and from one of 1600 others.
 bool isWorthMore(const EditSearch& search, EditPoint& from, double below) {
   if (!search.differentiate(from)) return false;
   const double change = lengthOf(search.problem(), smallestChange(search, from));
-  return landingScore({from.violation, smallestStep(search, from).norm() / below, change / below}) <= kLikely;
+  return landingScore({from.violation, smallestStep(search, from).norm() / below, change / below}) <= kLikelyScore;
 }
 
 bool isBetter(const EditSearch& search, const EditPoint& a, const EditPoint& b) {

@@ -18,4 +18,12 @@ double landingScore(const Prospect& prospect) {
   return elementary::pow(near, 0.25) * elementary::exp(std::max(0.0, prospect.change - 1));
 }
 
+void ExpectedImprovement::add(const Prospect& prospect) {
+  const double score = landingScore(prospect);
+  if (!(score <= kLikelyScore)) return;
+  const double change = std::max(prospect.change, kNear);
+  sum_ += elementary::exp(-score) * std::max(0.0, -elementary::log(change));
+  ++count_;
+}
+
 }  // namespace carom::editing_detail

@@ -14,5 +14,23 @@ struct Prospect {
 /// For each landing that began in the same impact sequence it counts once more. Of 142,000 landings, to which it was fitted, one of
 /// a hundred brought a smaller change at 1, one of a thousand at 4 (docs/decisions.md, 146).
 double landingScore(const Prospect& prospect);
+/// Points up to this score are likely ones.
+inline constexpr double kLikelyScore = 1;
+
+/// What landings from likely points were expected to bring, whether they did or not: the more it is, the likelier that others
+/// will bring it.
+class ExpectedImprovement {
+ public:
+  /// Counts where it is likely.
+  void add(const Prospect& prospect);
+  /// Mean of e^-score log(1 / c) over those that count, c as in Prospect, and over one more of a usual improvement, as there may be
+  /// none.
+  double mean() const { return (sum_ + kUsual) / (count_ + 1); }
+  static constexpr double kUsual = 0.2;
+
+ private:
+  double sum_ = 0;
+  int count_ = 0;
+};
 
 }  // namespace carom::editing_detail

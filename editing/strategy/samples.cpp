@@ -20,6 +20,10 @@ constexpr double kSmallerRadii[] = {0.95, 0.7, 0.85, 0.5, 1, 0.35, 0.6};
 constexpr double kShares[] = {1, 0.5, 1.5, 0.75, 0.25, 2};
 /// Numbers beyond a bound come to lie so far on the way to it.
 constexpr double kBefore = 0.95;
+/// Places whose numbers differ by less are the same.
+constexpr double kSamePlace = 1e-9;
+/// All numbers vary in every so many places.
+constexpr std::size_t kAllVary = 4;
 /// Sines of the angle between a change and the span of the gradients; used in turn.
 constexpr double kSines[] = {0, 0.25, 0.5, 0.125, 0.375};
 
@@ -98,6 +102,10 @@ Eigen::VectorXd nearlySpanned(int k, const Span& span, const Eigen::MatrixXd& fr
 
 }  // namespace
 
+Place::Place(const Eigen::VectorXd& numbers) : rounded_(numbers.begin(), numbers.end()) {
+  for (double& number : rounded_) number = std::round(number / kSamePlace);
+}
+
 EvenPoints::EvenPoints(Eigen::Index dimensions) : steps_(2 * dimensions), dimensions_(dimensions) {
   double g = 1.5;
   for (int i = 0; i < 60; ++i) g = elementary::pow(1 + g, 1.0 / (static_cast<double>(steps_.size()) + 1));
@@ -159,6 +167,16 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
     list.push_back(within(x, centre, lower, upper));
   }
   return list;
+}
+
+void keepInMost(std::vector<Eigen::VectorXd>& places, const Eigen::VectorXd& start, const std::vector<char>& has_influence) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i % kAllVary == i / (2 * kAllVary) % kAllVary) continue;  // in turn, as the kinds of samples take turns, too
+    for (std::size_t j = 0; j < has_influence.size(); ++j) {
+      const auto number = static_cast<Eigen::Index>(j);
+      if (!has_influence[j]) places[i][number] = start[number];
+    }
+  }
 }
 
 }  // namespace carom::editing_detail

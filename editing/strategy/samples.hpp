@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <compare>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,16 @@ class EvenPoints {
   Eigen::Index dimensions_;
 };
 
+/// Numbers rounded to 1e-9: places with the same ones differ by rounding.
+class Place {
+ public:
+  explicit Place(const Eigen::VectorXd& numbers);
+  auto operator<=>(const Place&) const = default;
+
+ private:
+  std::vector<double> rounded_;
+};
+
 /// What is known around a point: Gauss-Newton's step there, and an orthonormal basis of the directions that change no
 /// row to first order (columns; may have none).
 struct Surroundings {
@@ -45,5 +56,9 @@ struct SampleReach {
 std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::vector<Surroundings>& around,
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
                                      const SampleReach& reach = {});
+
+/// Three of four places get the numbers of `start` where these have no influence, as far as is known (none: all may): the mass of
+/// a body that meets only fixed ones changes nothing, nor does the elasticity of a wall that none comes to.
+void keepInMost(std::vector<Eigen::VectorXd>& places, const Eigen::VectorXd& start, const std::vector<char>& has_influence);
 
 }  // namespace carom::editing_detail

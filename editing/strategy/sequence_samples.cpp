@@ -31,6 +31,8 @@ constexpr int kDoublings = 6;
 constexpr double kStepsOfSample = 10;
 /// Where hardly another way changes less, one sample of so many is done.
 constexpr int kPartOfSamples = 6;
+/// Smaller derivatives, as shares of the largest, are rounding.
+constexpr double kInfluence = 1e-10;
 /// The reach of samples, natural scales, unless a smaller change is known.
 constexpr double kReach = 3;
 
@@ -76,9 +78,16 @@ SampleReach SequenceSearch::reach() const {
 // Within bounds many samples, and points beyond borders, come to lie where others were.
 void SequenceSearch::eraseKnown(std::vector<Eigen::VectorXd>& places) {
   const Eigen::Index n = search_.problem().controls.size();
-  std::erase_if(places, [&](const Eigen::VectorXd& place) {
-    return !known_.insert(std::vector<double>(place.data(), place.data() + n)).second;
-  });
+  std::erase_if(places, [&](const Eigen::VectorXd& place) { return !known_.insert(Place(place.head(n))).second; });
+}
+
+void SequenceSearch::noteInfluence(const EditPoint& point) {
+  if (!point.row_jacobian || point.row_jacobian->size() == 0) return;
+  const Eigen::Index n = search_.problem().controls.size();
+  has_influence_.resize(static_cast<std::size_t>(n), 0);
+  const double largest = point.row_jacobian->cwiseAbs().maxCoeff();
+  for (Eigen::Index j = 0; j < n; ++j)
+    if (point.row_jacobian->col(j).cwiseAbs().maxCoeff() > kInfluence * largest) has_influence_[static_cast<std::size_t>(j)] = 1;
 }
 
 std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
@@ -89,6 +98,7 @@ std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   const int count = sampleCount();
   std::vector<Eigen::VectorXd> places =
       samples(start_->changes, around, search_.lower(), search_.upper(), samples_, count, reach());
+  keepInMost(places, start_->changes, has_influence_);
   eraseKnown(places);
   samples_ += count;
   std::vector<EditPointPtr> made(places.size());

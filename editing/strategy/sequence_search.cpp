@@ -71,7 +71,8 @@ bool SequenceSearch::round(Seek seek) {
   if (!search_.goesOn()) return false;
   std::vector<EditPointPtr> points = sample(seek);
   if (!reportBatch()) return false;
-  const std::vector<EditPointPtr> candidates = promising(points, seek);
+  const double to_beat = lengthToBeat(seek);
+  const std::vector<EditPointPtr> candidates = landingsFrom(promising(points, to_beat), to_beat);
   letGo(std::move(points));
   const std::vector<EditPointPtr> landed = landAll(candidates, seek);
   if (!reportBatch()) return false;
@@ -124,15 +125,6 @@ void SequenceSearch::letGo(std::vector<EditPointPtr> points) {
   crew_.forAll(points.size(), [&](std::size_t i) { points[i].reset(); });
 }
 
-// Clipped samples, and the best of each round, come again and again; from a point that had no less to beat a landing ends
-// as it did.
-bool SequenceSearch::wasBegun(const EditPoint& point, double to_beat) const {
-  const Eigen::Index n = search_.problem().controls.size();
-  return std::any_of(begun_.begin(), begun_.end(), [&](const Begun& begun) {
-    return begun.to_beat >= to_beat && begun.changes.head(n) == point.changes.head(n);
-  });
-}
-
 // A few of each impact sequence, all in all no more than can be looked at.
 std::vector<EditPointPtr> SequenceSearch::nearestOfEachGroup(const std::vector<EditPointPtr>& points) const {
   const auto nearer = [](const EditPointPtr& a, const EditPointPtr& b) { return a->violation < b->violation; };
@@ -154,13 +146,12 @@ std::vector<EditPointPtr> SequenceSearch::nearestOfEachGroup(const std::vector<E
 // Once there is a solution, those that are likeliest to lead to a smaller change, as far as they are worth a landing; until
 // then those from which the linearised rows lead to the smallest change by the shortest step. Sequences that were tried
 // often come last.
-std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointPtr>& points, Seek seek) {
-  std::vector<std::pair<double, EditPointPtr>> ranked;
-  for (const EditPointPtr& point : nearestOfEachGroup(points)) ranked.push_back({0, point});
-  const double to_beat = lengthToBeat(seek);
+std::vector<SequenceSearch::Candidate> SequenceSearch::promising(const std::vector<EditPointPtr>& points, double to_beat) {
+  std::vector<Candidate> ranked;
+  for (const EditPointPtr& point : nearestOfEachGroup(points)) ranked.push_back({0, {}, point});
   const bool improving = std::isfinite(to_beat);
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
-    auto& [score, point] = ranked[i];
+    auto& [score, prospect, point] = ranked[i];
     if (!search_.differentiate(*point)) {
       score = std::numeric_limits<double>::infinity();
       return;
@@ -169,27 +160,36 @@ std::vector<EditPointPtr> SequenceSearch::promising(const std::vector<EditPointP
     const double left = residualsAfter(search_, *point, step).norm();
     const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
     const double change = lengthOf(search_.problem(), smallestChange(search_, *point));
-    score = improving ? landingScore({point->violation, step.norm() / to_beat, change / to_beat})
-                      : change + kStepsAreUncertain * step.norm();
+    prospect = {point->violation, step.norm() / to_beat, change / to_beat};
+    score = improving ? landingScore(prospect) : change + kStepsAreUncertain * step.norm();
     if (leads_nowhere || !std::isfinite(score) || change > to_beat + step.norm())  // as landings are given up
       score = std::numeric_limits<double>::infinity();
   });
-  std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.first); });
-  for (auto& [score, point] : ranked) score *= 1 + tries_[point->signature];
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [score, prospect, point] : ranked) noteInfluence(*point);
+  std::erase_if(ranked, [](const auto& entry) { return std::isinf(entry.score); });
+  for (auto& [score, prospect, point] : ranked) score *= 1 + tries_[point->signature];
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+  return ranked;
+}
+
+// As many as can be made, none from a place where one began that had no less to beat: it would end as that did.
+std::vector<EditPointPtr> SequenceSearch::landingsFrom(const std::vector<Candidate>& ranked, double to_beat) {
   promising_.clear();
-  for (const auto& [score, point] : ranked)
+  for (const auto& [score, prospect, point] : ranked)
     if (promising_.size() < kRemembered && !lacksImpacts(search_.problem(), *point)) promising_.push_back(point);
+  const bool improving = std::isfinite(to_beat);
   const double worst = isInPart() ? kScoreInPart : kScore;
   std::vector<EditPointPtr> chosen;
   std::map<std::string, int> of_sequence;
-  for (const auto& [score, point] : ranked) {
+  for (const auto& [score, prospect, point] : ranked) {
     if (chosen.size() == landings() || (improving && score > worst)) break;
     const bool tried_often = improving && tries_[point->signature] >= kTriedOften;
     if (tried_often && of_sequence[point->signature] >= kOfTriedOften) continue;
-    if (wasBegun(*point, to_beat)) continue;
-    begun_.push_back({point->changes, to_beat});
+    double& had_to_beat = begun_.try_emplace(Place(point->changes.head(search_.problem().controls.size())), -1).first->second;
+    if (had_to_beat >= to_beat) continue;
+    had_to_beat = to_beat;
     ++tries_[point->signature], ++of_sequence[point->signature];
+    if (improving) expected_.add(prospect);
     chosen.push_back(point);
   }
   return chosen;

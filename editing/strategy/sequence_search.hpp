@@ -10,6 +10,7 @@
 #include "editing/detail/parallel.hpp"
 #include "editing/solve/edit_search.hpp"
 #include "editing/strategy/effort.hpp"
+#include "editing/strategy/landing_score.hpp"
 #include "editing/strategy/samples.hpp"
 
 /// Solutions in other impact sequences. Internal to editing/.
@@ -54,6 +55,9 @@ class SequenceSearch {
   bool isBestInside() const;
   /// Of the best, up to the last that a constraint holds; 0 without one.
   int impactsOfBest() const;
+  /// Of the landings since expectAnew(), with a solution to beat.
+  const ExpectedImprovement& expected() const { return expected_; }
+  void expectAnew() { expected_ = {}; }
   /// The point that lacks least of the impacts that are waited for; null where none lacked any.
   const EditPointPtr& nearestLacking() const { return nearest_lacking_; }
 
@@ -66,14 +70,20 @@ class SequenceSearch {
   std::size_t wanted() const;
   double lengthToBeat(Seek seek) const;
   bool isAllowed(const EditPoint& point) const;
-  bool wasBegun(const EditPoint& point, double to_beat) const;
+  void noteInfluence(const EditPoint& point);
   void eraseKnown(std::vector<Eigen::VectorXd>& places);
   std::vector<EditPointPtr> sample(Seek seek);
   std::vector<EditPointPtr> neighbours(Seek seek);
   std::vector<EditPointPtr> crossings(const std::vector<EditPointPtr>& points);
   std::vector<EditPointPtr> approachAll(const std::vector<EditPointPtr>& lacking);
   std::vector<EditPointPtr> nearestOfEachGroup(const std::vector<EditPointPtr>& points) const;
-  std::vector<EditPointPtr> promising(const std::vector<EditPointPtr>& points, Seek seek);
+  struct Candidate {
+    double score;
+    Prospect prospect;
+    EditPointPtr point;
+  };
+  std::vector<Candidate> promising(const std::vector<EditPointPtr>& points, double to_beat);
+  std::vector<EditPointPtr> landingsFrom(const std::vector<Candidate>& ranked, double to_beat);
   std::vector<EditPointPtr> landAll(const std::vector<EditPointPtr>& candidates, Seek seek);
   void minimise(const std::vector<EditPointPtr>& landed, Seek seek);
   EditPointPtr smallerWithin(const EditPointPtr& point);
@@ -93,13 +103,11 @@ class SequenceSearch {
   std::vector<EditPointPtr> solutions_;
   std::vector<EditPointPtr> promising_;  // of the last round, the most promising
   std::vector<EditPointPtr> crossed_;    // points beyond whose borders was looked
-  struct Begun {
-    Eigen::VectorXd changes;
-    double to_beat;
-  };
-  std::vector<Begun> begun_;  // where landings began
-  std::set<std::vector<double>> known_;  // places where points were made
+  std::map<Place, double> begun_;        // where landings began, and what they had to beat
+  std::set<Place> known_;                // places where points were made
+  std::vector<char> has_influence_;      // numbers of the controls: on a row at any of the promising points so far
   EditPointPtr nearest_lacking_;
+  ExpectedImprovement expected_;
   double least_lack_ = std::numeric_limits<double>::infinity();
   int round_ = 0, rounds_without_ = 0;
   int samples_;  // the next of the endless sequence of them

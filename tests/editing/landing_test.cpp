@@ -7,10 +7,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <vector>
 
 #include "editing/solve/reduced_hessian.hpp"
+#include "editing/strategy/landing_score.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 #include "editing/strategy/samples.hpp"
 #include "ode_bridge/ode_contacts.h"
@@ -165,6 +167,17 @@ TEST(MissingImpacts, NameWhatHasToComeBefore) {
     EXPECT_EQ(missing[1].constraint, start->rows.lacking[0].constraint);
     EXPECT_EQ(missing[1].pairs, start->rows.lacking[0].pairs);
   }
+}
+
+TEST(ExpectedImprovement, IsTheMeanOverLikelyLandings) {
+  ExpectedImprovement expected;
+  EXPECT_EQ(expected.mean(), ExpectedImprovement::kUsual);
+  const Prospect good{0.1, 0.2, 0.5}, none{0.01, 0.01, 1.02}, unlikely{0.5, 3, 0.4}, undefined{NAN, 0.1, 0.5};
+  for (const Prospect& prospect : {good, none, unlikely, undefined}) expected.add(prospect);
+  const double score = std::pow(0.1 * 0.2, 0.25), sum = std::exp(-score) * std::log(2);
+  EXPECT_NEAR(expected.mean(), (sum + 0.2) / 3, 1e-15);
+  expected.add({1e-9, 0, 0});  // as near and as small as counts
+  EXPECT_NEAR(expected.mean(), (sum + std::exp(-std::sqrt(1e-3)) * std::log(1e3) + 0.2) / 4, 1e-14);
 }
 
 }  // namespace
