@@ -11,8 +11,9 @@ namespace carom::editing_detail {
 
 /// How long a search goes on without a clearly smaller change, in steps of simulations: what took long to find is often
 /// followed by smaller ones that take as long again. With w for the work up to the last one that was found, so much more is
-/// done without another: least + w min(largest_share, w / whole), a multiple of it where the neighbours are many or as much as is
-/// expected of landings, and `most` at most. A search that would end with more than `usual` in all, which most edits do with, goes on until `unusual`.
+/// done without another: least + w min(largest_share, w / whole), a multiple of it where the neighbours are many or
+/// much is expected of landings, and `most` at most. A search that would end with more than `usual` in all, which most edits do
+/// with, goes on until `unusual`.
 struct Patience {
   double least, whole, largest_share, most, usual = 0, unusual = 0;
   int rounds;  ///< as many, or the multiple, at least

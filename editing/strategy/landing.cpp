@@ -7,7 +7,6 @@
 
 #include "editing/solve/projection.hpp"
 #include "editing/solve/reduced_hessian.hpp"
-#include "editing/strategy/landing_score.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
@@ -113,8 +112,7 @@ EditPointPtr stepToStationary(EditSearch& search, const EditPoint& point, const 
 /// 3800 likely points, and from one of 1600 others.
 bool isWorthMore(const EditSearch& search, EditPoint& from, double below) {
   if (!search.differentiate(from)) return false;
-  const double change = lengthOf(search.problem(), smallestChange(search, from));
-  return landingScore({from.violation, smallestStep(search, from).norm() / below, change / below}) <= kLikelyScore;
+  return landingScore(prospectOf(search, from, smallestStep(search, from)), below) <= kLikelyScore;
 }
 
 bool isBetter(const EditSearch& search, const EditPoint& a, const EditPoint& b) {
@@ -132,6 +130,10 @@ Eigen::VectorXd smallestChange(const EditSearch& search, const EditPoint& point)
 
 double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes) {
   return changes.head(problem.controls.size()).norm();
+}
+
+Prospect prospectOf(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& onto) {
+  return {point.violation, onto.norm(), lengthOf(search.problem(), smallestChange(search, point))};
 }
 
 EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "editing/solve/edit_search.hpp"
+#include "editing/strategy/landing_score.hpp"
 
 /// From a sample onto the constraints. Internal to editing/.
 namespace carom::editing_detail {
@@ -13,6 +14,9 @@ namespace carom::editing_detail {
 Eigen::VectorXd smallestChange(const EditSearch& search, const EditPoint& point);
 /// The length of the changes of controls alone.
 double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes);
+
+/// Of a differentiated point; `onto` is the step onto the constraints from there (smallestStep).
+Prospect prospectOf(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& onto);
 
 /// What a landing keeps to.
 struct Landing {

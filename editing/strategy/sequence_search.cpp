@@ -159,10 +159,9 @@ std::vector<SequenceSearch::Candidate> SequenceSearch::promising(const std::vect
     const Eigen::VectorXd step = smallestStep(search_, *point);
     const double left = residualsAfter(search_, *point, step).norm();
     const bool leads_nowhere = !search_.reached(*point) && !(left < kLeadsNowhere * point->rows.scaled.norm());
-    const double change = lengthOf(search_.problem(), smallestChange(search_, *point));
-    prospect = {point->violation, step.norm() / to_beat, change / to_beat};
-    score = improving ? landingScore(prospect) : change + kStepsAreUncertain * step.norm();
-    if (leads_nowhere || !std::isfinite(score) || change > to_beat + step.norm())  // as landings are given up
+    prospect = prospectOf(search_, *point, step);
+    score = improving ? landingScore(prospect, to_beat) : prospect.change + kStepsAreUncertain * prospect.step;
+    if (leads_nowhere || !std::isfinite(score) || prospect.change > to_beat + prospect.step)  // as landings are given up
       score = std::numeric_limits<double>::infinity();
   });
   for (const auto& [score, prospect, point] : ranked) noteInfluence(*point);
@@ -189,7 +188,7 @@ std::vector<EditPointPtr> SequenceSearch::landingsFrom(const std::vector<Candida
     if (had_to_beat >= to_beat) continue;
     had_to_beat = to_beat;
     ++tries_[point->signature], ++of_sequence[point->signature];
-    if (improving) expected_.add(prospect);
+    if (improving) expected_.add(prospect, to_beat);
     chosen.push_back(point);
   }
   return chosen;

@@ -173,10 +173,13 @@ TEST(ExpectedImprovement, IsTheMeanOverLikelyLandings) {
   ExpectedImprovement expected;
   EXPECT_EQ(expected.mean(), ExpectedImprovement::kUsual);
   const Prospect good{0.1, 0.2, 0.5}, none{0.01, 0.01, 1.02}, unlikely{0.5, 3, 0.4}, undefined{NAN, 0.1, 0.5};
-  for (const Prospect& prospect : {good, none, unlikely, undefined}) expected.add(prospect);
+  for (const Prospect& prospect : {good, none, unlikely, undefined}) expected.add(prospect, 1);
   const double score = std::pow(0.1 * 0.2, 0.25), sum = std::exp(-score) * std::log(2);
   EXPECT_NEAR(expected.mean(), (sum + 0.2) / 3, 1e-15);
-  expected.add({1e-9, 0, 0});  // as near and as small as counts
+  ExpectedImprovement twice_as_long;
+  for (const Prospect& p : {good, none}) twice_as_long.add({p.violation, 2 * p.step, 2 * p.change}, 2);
+  EXPECT_EQ(twice_as_long.mean(), expected.mean());
+  expected.add({1e-9, 0, 0}, 1);  // as near and as small as counts
   EXPECT_NEAR(expected.mean(), (sum + std::exp(-std::sqrt(1e-3)) * std::log(1e3) + 0.2) / 4, 1e-14);
 }
 
