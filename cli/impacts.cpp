@@ -7,8 +7,12 @@
 
 #include "adjoint/motion/lasting_contact.h"
 #include "cli/table.h"
+#include "formats/base/short_text.hpp"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr std::size_t kMostRows = 10;  // of pairs, and of bodies

@@ -13,9 +13,13 @@
 #include "cli/units.h"
 #include "editing/session_replay.h"
 #include "editing/session_numbers.h"
+#include "formats/base/in_file.hpp"
 #include "formats/documents/journal_json.h"
 
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 struct ReplayArguments {

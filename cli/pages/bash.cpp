@@ -2,7 +2,12 @@
 // Completion in bash, with nothing but its builtins.
 #include "cli/pages/pages.h"
 
+#include "formats/base/short_text.hpp"
+
 namespace carom::cli {
+
+using namespace formats_detail;
+
 namespace {
 
 constexpr const char* kBashHead = R"(_carom() {

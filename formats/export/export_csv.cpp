@@ -9,9 +9,6 @@
 #include "adjoint/base/errors.h"
 
 namespace carom {
-
-using namespace formats_detail;
-
 namespace {
 
 constexpr const char* kColumns =

@@ -9,13 +9,13 @@ namespace carom::gltf {
 
 Quat product(const Quat& a, const Quat& b) {
   const Quat q = a * b;
-  return q.vec().norm() <= kUnitRounding ? Quat::Identity() : unitQuaternion(q);
+  return q.vec().norm() <= formats_detail::kUnitRounding ? Quat::Identity() : formats_detail::unitQuaternion(q);
 }
 
 Mat3 matrixOf(const Quat& q) {
   return q.toRotationMatrix().unaryExpr([](double x) {
     const double whole = std::round(x);  // -1, 0 or 1
-    return std::abs(x - whole) <= kUnitRounding ? whole : x;
+    return std::abs(x - whole) <= formats_detail::kUnitRounding ? whole : x;
   });
 }
 

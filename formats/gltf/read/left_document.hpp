@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "formats/base/document.h"
 #include "formats/gltf/read/bodies.hpp"
 #include "formats/gltf/physics_nodes.hpp"
 
