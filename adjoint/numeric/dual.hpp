@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "adjoint/numeric/elementary.hpp"
+#include "adjoint/numeric/plain_products.hpp"
 
 // Internal to the libraries: not installed, and no public header includes it.
 
@@ -19,6 +20,7 @@ namespace carom::adjoint_detail {
 /// values and rates are: double, Wide, or a Dual, for second derivatives.
 template <int N, class T = double>
 struct Dual {
+  static constexpr bool kPlainProducts = true;
   static constexpr int kDirections = N;
   T value = 0;
   std::array<T, N> rate{};

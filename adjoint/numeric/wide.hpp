@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "adjoint/numeric/elementary/two_parts.hpp"
+#include "adjoint/numeric/plain_products.hpp"
 
 // Internal to the libraries: not installed, and no public header includes it.
 
@@ -17,6 +18,7 @@ namespace carom::adjoint_detail {
 /// "Algorithms for quad-double precision floating point arithmetic", 2001). Below 1e300, and above 1e-290, where parts
 /// underflow.
 struct Wide {
+  static constexpr bool kPlainProducts = true;
   double high = 0, low = 0;
 
   Wide() = default;
