@@ -7,6 +7,7 @@
 
 namespace carom::adjoint_detail {
 
+template FrictionTerms<double>::FrictionTerms(const ContactProblemOf<double>&);
 template ImpactSolutionOf<double> solveLaw(const ImpactProblemOf<double>&);
 template ImpactProblemDerivativeOf<double> lawPullback(const ImpactProblemOf<double>&, const VectorOf<double>&);
 template ImpactSolutionOf<Dual<1>> solveLaw(const ImpactProblemOf<Dual<1>>&);

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include "adjoint/base/types.h"
+#include "adjoint/impact/law.hpp"
 #include "adjoint/numeric/dual.hpp"
 #include "adjoint/numeric/wide.hpp"
 
@@ -75,37 +76,7 @@ struct FrictionlessTerms {
 ///   slide: P = (1 + e) P_I + kappa d, kappa = mu (1 + e) n.P_I / (|d_t| - mu n.d).
 template <class S>
 struct FrictionTerms {
-  template <class Problem>
-  explicit FrictionTerms(const Problem& p)
-      : K(p.K),
-        u(p.u),
-        n(p.normal),
-        mu(p.pair.friction),
-        e1(1 + p.pair.elasticity),
-        et1(1 + p.pair.tangential_elasticity),
-        Kn(K * n),
-        u_n(n.dot(u)),
-        a(n.dot(Kn)),
-        factor(K) {
-    P_I = -(u_n / a) * n;
-    P_II = -factor.solve(u);
-    d = P_II - P_I;
-    d_n = n.dot(d);
-    d_t = d - d_n * n;
-    using std::abs;
-    using T = Value<S>;
-    const T s_now = valuesOf(d_t).norm();
-    const S P_n = e1 * n.dot(P_I) + et1 * d_n;
-    const T P_t = abs(valueOf(et1)) * s_now;
-    slides = P_t > valueOf(mu * P_n);
-    kappa = et1;
-    margin = rounded(abs(valueOf(mu * P_n) - P_t) / ((1 + valueOf(mu)) * abs(valueOf(P_n))));
-    if (slides) {
-      s = d_t.norm();
-      slope = s - mu * d_n;  // > mu e1 n.P_I / et1 > 0, because the stick impulse lies outside the cone
-      kappa = mu * e1 * n.dot(P_I) / slope;
-    }
-  }
+  explicit FrictionTerms(const ContactProblemOf<S>& p);
   /// From now on the impulse before the friction cone cuts it back: the contact sticks where it lies in the cone.
   void stick() {
     slides = false;
@@ -150,6 +121,39 @@ struct FrictionTerms {
     bar.K += a_bar * n * n.transpose() - z * P_II.transpose();
   }
 };
+
+template <class S>
+FrictionTerms<S>::FrictionTerms(const ContactProblemOf<S>& p)
+    : K(p.K),
+      u(p.u),
+      n(p.normal),
+      mu(p.pair.friction),
+      e1(1 + p.pair.elasticity),
+      et1(1 + p.pair.tangential_elasticity),
+      Kn(K * n),
+      u_n(n.dot(u)),
+      a(n.dot(Kn)),
+      factor(K) {
+  P_I = -(u_n / a) * n;
+  P_II = -factor.solve(u);
+  d = P_II - P_I;
+  d_n = n.dot(d);
+  d_t = d - d_n * n;
+  using std::abs;
+  using T = Value<S>;
+  const T s_now = valuesOf(d_t).norm();
+  const S P_n = e1 * n.dot(P_I) + et1 * d_n;
+  const T P_t = abs(valueOf(et1)) * s_now;
+  slides = P_t > valueOf(mu * P_n);
+  kappa = et1;
+  margin = rounded(abs(valueOf(mu * P_n) - P_t) / ((1 + valueOf(mu)) * abs(valueOf(P_n))));
+  if (slides) {
+    s = d_t.norm();
+    slope = s - mu * d_n;  // > mu e1 n.P_I / et1 > 0, because the stick impulse lies outside the cone
+    kappa = mu * e1 * n.dot(P_I) / slope;
+  }
+}
+extern template FrictionTerms<double>::FrictionTerms(const ContactProblemOf<double>&);  // in laws.cpp
 
 /// Whether a contact without friction slips by more than rounding, so that 4.2 slides as friction grows from 0.
 template <class S>
