@@ -5,20 +5,20 @@
 namespace carom::adjoint_detail {
 namespace {
 
-using Number = HeldLanes::Number;
+using LaneNumber = HeldLanes::Number;
 
 // weight . (R^T (p - x) - border) + normal_weight . R^T n, see FeatureLimit.
-Number borderRate(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs, const HeldLanes& lanes,
+LaneNumber borderRate(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs, const HeldLanes& lanes,
                   int first, int count) {
   const FeatureLimit& limit = guard.border;
   const auto k = static_cast<std::size_t>(guard.contact);
   const HeldContact& held = path.contacts()[k];
   const bool own = limit.body != held.with;
   const HeldInputs::Partner& partner = inputs.partners[inputs.partner_of[k]];
-  V3<Number> x = lanes.x;
-  M3<Number> R = lanes.R;
-  if (!own) x = path.scene().with[k].x.cast<Number>(), R = path.scene().with[k].R.cast<Number>();
-  V3<Number> border = limit.border.cast<Number>(), normal_weight = limit.normal_weight.cast<Number>();
+  V3<LaneNumber> x = lanes.x;
+  M3<LaneNumber> R = lanes.R;
+  if (!own) x = path.scene().with[k].x.cast<LaneNumber>(), R = path.scene().with[k].R.cast<LaneNumber>();
+  V3<LaneNumber> border = limit.border.cast<LaneNumber>(), normal_weight = limit.normal_weight.cast<LaneNumber>();
   const int sizes = own ? HeldInputs::kSizes : partner.sizes, size_count = own ? inputs.size_count : partner.size_count;
   for (int lane = 0; lane < count; ++lane) {
     const int column = first + lane;
@@ -30,56 +30,56 @@ Number borderRate(const HeldGuard& guard, const HeldPath& path, const HeldInputs
     if (limit.border_rates.cols() > 0) setRates(border, Vec3(limit.border_rates.col(column - sizes)), at);
     if (limit.normal_rates.cols() > 0) setRates(normal_weight, Vec3(limit.normal_rates.col(column - sizes)), at);
   }
-  const ContactInstant<Number>& c = lanes.contacts[k];
-  const V3<Number> at = R.transpose() * V3<Number>(lanes.x + c.r - x);
-  Number value = 0;
+  const ContactInstant<LaneNumber>& c = lanes.contacts[k];
+  const V3<LaneNumber> at = R.transpose() * V3<LaneNumber>(lanes.x + c.r - x);
+  LaneNumber value = 0;
   if (limit.radius > 0) {  // the border is where the weight pointed at the start; the circle's centre stays
     const Vec3 center = limit.border + limit.radius * limit.point_weight;
-    const V3<Number> to = at - center.cast<Number>(), axis = limit.axis.cast<Number>();
-    const V3<Number> across = to - axis * axis.dot(to);
+    const V3<LaneNumber> to = at - center.cast<LaneNumber>(), axis = limit.axis.cast<LaneNumber>();
+    const V3<LaneNumber> across = to - axis * axis.dot(to);
     value = -sqrt(across.squaredNorm());
-    const V3<Number> outward = V3<Number>(border - limit.border.cast<Number>());  // how border and centre move
-    value += outward.dot(V3<Number>(-limit.point_weight.cast<Number>()));
+    const V3<LaneNumber> outward = V3<LaneNumber>(border - limit.border.cast<LaneNumber>());  // how border and centre move
+    value += outward.dot(V3<LaneNumber>(-limit.point_weight.cast<LaneNumber>()));
   } else if (!limit.point_weight.isZero(0)) {
-    value = limit.point_weight.cast<Number>().dot(V3<Number>(at - border));
+    value = limit.point_weight.cast<LaneNumber>().dot(V3<LaneNumber>(at - border));
   }
-  const V3<Number> n = held.is_first ? c.n : V3<Number>(-c.n);
-  return value + normal_weight.dot(V3<Number>(R.transpose() * n));
+  const V3<LaneNumber> n = held.is_first ? c.n : V3<LaneNumber>(-c.n);
+  return value + normal_weight.dot(V3<LaneNumber>(R.transpose() * n));
 }
 
-Number roomOf(const ContactInstant<Number>& c, const V3<Number>& force) {
-  const Number pressing = c.n.dot(force);
-  return c.friction * pressing - sqrt(V3<Number>(force - c.n * pressing).squaredNorm());
+LaneNumber roomOf(const ContactInstant<LaneNumber>& c, const V3<LaneNumber>& force) {
+  const LaneNumber pressing = c.n.dot(force);
+  return c.friction * pressing - sqrt(V3<LaneNumber>(force - c.n * pressing).squaredNorm());
 }
 
 // At the best share the room that is least does not change with what the two push; where both have that room, it is that
 // mean of them which does not.
-Number sharedRate(const HeldShare& share, const std::vector<ContactInstant<Number>>& contacts,
+LaneNumber sharedRate(const HeldShare& share, const std::vector<ContactInstant<LaneNumber>>& contacts,
                   const ForceLanes& forces, std::size_t k, bool slips) {
   const std::array<std::size_t, 2>& pair = share.contact;
-  const V3<Number> between = contacts[pair[1]].r - contacts[pair[0]].r;
-  const V3<Number> push = between * (Number(share.push) / sqrt(between.squaredNorm()));
-  const std::array<V3<Number>, 2> force{forces.force(pair[0]) - push, forces.force(pair[1]) + push};
+  const V3<LaneNumber> between = contacts[pair[1]].r - contacts[pair[0]].r;
+  const V3<LaneNumber> push = between * (LaneNumber(share.push) / sqrt(between.squaredNorm()));
+  const std::array<V3<LaneNumber>, 2> force{forces.force(pair[0]) - push, forces.force(pair[1]) + push};
   const std::size_t own = k == pair[0] ? 0 : 1;
   if (!slips) return contacts[k].n.dot(force[own]);
   if (!(share.weight[own] > 0)) return roomOf(contacts[k], force[own]);
-  Number room = 0;
+  LaneNumber room = 0;
   for (const std::size_t i : {0u, 1u})
-    if (share.weight[i] > 0) room += Number(share.weight[i]) * roomOf(contacts[pair[i]], force[i]);
+    if (share.weight[i] > 0) room += LaneNumber(share.weight[i]) * roomOf(contacts[pair[i]], force[i]);
   return room;
 }
 
 }  // namespace
 
-Number guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs,
+LaneNumber guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldInputs& inputs,
                    const HeldForceRates& force_rates, const HeldLanes& lanes, int first, int count) {
   const auto k = static_cast<std::size_t>(guard.contact);
-  const ContactInstant<Number>& c = lanes.contacts[k];
+  const ContactInstant<LaneNumber>& c = lanes.contacts[k];
   if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count);
   if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.velocityAt(c.r));
   const ForceLanes forces = force_rates.in(lanes);
   const bool slips = guard.cause == TransitionCause::slips;
-  if (const auto share = shareOf<Number>(lanes.contacts, forces);
+  if (const auto share = shareOf<LaneNumber>(lanes.contacts, forces);
       share && (k == share->contact[0] || k == share->contact[1]))
     return sharedRate(*share, lanes.contacts, forces, k, slips);
   return slips ? roomOf(c, forces.force(k)) : c.n.dot(forces.force(k));

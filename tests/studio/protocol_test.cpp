@@ -11,9 +11,10 @@
 #include "tests/studio/test_scene.h"
 
 namespace carom::studio {
-namespace {
 
 using Json = nlohmann::json;
+
+namespace {
 
 /// One of each message, with all of its members.
 const std::map<std::string, Json>& examples() {
