@@ -24,11 +24,80 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using boost::asio::ip::tcp;
 using Error = boost::system::error_code;
+using Executor = asio::io_context::executor_type;  // the only one: Asio's default holds any, in more code
+using TcpSocket = asio::basic_stream_socket<tcp, Executor>;
+using Clock = std::chrono::steady_clock;
+using Timer = asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor>;
 using HttpRequest = http::request<http::empty_body>;
 
 constexpr std::size_t kMostDrained = 4u << 20;       // of a request that was refused, before its connection is closed
 constexpr std::chrono::milliseconds kFarewell{500};  // for sockets to close when the program ends
 constexpr std::chrono::milliseconds kAcceptAgain{100};  // where the system has no room for a connection
+
+// What is called when bytes have come or gone, of one type for all: Asio makes some twenty functions for every type of
+// handler and of buffers, and half the time that this file takes would be spent on them.
+class Done {
+ public:
+  template <class Handler>
+  explicit Done(Handler handler) : call_(std::make_unique<Holding<Handler>>(std::move(handler))) {}
+  void operator()(Error error, std::size_t bytes) { std::exchange(call_, nullptr)->run(error, bytes); }
+
+ private:
+  struct Call {
+    virtual ~Call() = default;
+    virtual void run(Error error, std::size_t bytes) = 0;
+  };
+  template <class Handler>
+  struct Holding final : Call {
+    explicit Holding(Handler the_handler) : handler(std::move(the_handler)) {}
+    void run(Error error, std::size_t bytes) override { handler(error, bytes); }
+    Handler handler;
+  };
+  std::unique_ptr<Call> call_;
+};
+
+// The first buffers of a sequence that are not empty: as many as Beast's messages have.
+template <class Buffer>
+class FirstBuffers {
+ public:
+  template <class Buffers>
+  explicit FirstBuffers(const Buffers& buffers) {
+    for (auto it = asio::buffer_sequence_begin(buffers); it != asio::buffer_sequence_end(buffers); ++it)
+      if (const Buffer buffer(*it); buffer.size() > 0 && size_ < buffers_.size()) buffers_[size_++] = buffer;
+  }
+  const Buffer* begin() const { return buffers_.data(); }
+  const Buffer* end() const { return buffers_.data() + size_; }
+
+ private:
+  std::array<Buffer, 8> buffers_;
+  std::size_t size_ = 0;
+};
+
+// Beast's TCP stream, with timeouts.
+class Stream {
+ public:
+  using executor_type = Executor;
+  using Tcp = beast::basic_stream<tcp, Executor>;
+  explicit Stream(TcpSocket socket) : tcp_(std::move(socket)) {}
+  Executor get_executor() { return tcp_.get_executor(); }
+  Tcp& next_layer() { return tcp_; }
+
+  template <class Buffers, class Handler>
+  void async_read_some(const Buffers& buffers, Handler&& handler) {
+    tcp_.async_read_some(FirstBuffers<asio::mutable_buffer>(buffers), Done(std::forward<Handler>(handler)));
+  }
+  template <class Buffers, class Handler>
+  void async_write_some(const Buffers& buffers, Handler&& handler) {
+    tcp_.async_write_some(FirstBuffers<asio::const_buffer>(buffers), Done(std::forward<Handler>(handler)));
+  }
+  template <class Handler>
+  friend void async_teardown(beast::role_type role, Stream& stream, Handler&& handler) {
+    websocket::async_teardown(role, stream.tcp_.socket(), std::forward<Handler>(handler));
+  }
+
+ private:
+  Tcp tcp_;
+};
 
 class Socket;
 
@@ -38,7 +107,7 @@ struct Net::State {
   State(const Limits& the_limits, NetHandlers the_handlers) : limits(the_limits), handlers(std::move(the_handlers)) {}
 
   void accept();
-  void take(tcp::socket socket);
+  void take(TcpSocket socket);
   void stop();
   template <class Call>
   void with(SocketId id, Call call) {
@@ -51,8 +120,8 @@ struct Net::State {
   const Limits limits;
   const NetHandlers handlers;
   asio::io_context io{1};
-  tcp::acceptor acceptor{io};
-  asio::steady_timer timer{io};
+  asio::basic_socket_acceptor<tcp, Executor> acceptor{io};
+  Timer timer{io};
   unsigned short port = 0;
   Peers peers;
   std::map<SocketId, std::shared_ptr<Socket>> sockets;
@@ -64,7 +133,7 @@ namespace {
 
 class Socket final : public Peer, public std::enable_shared_from_this<Socket> {
  public:
-  Socket(Net::State& net, beast::tcp_stream stream, SocketId id);
+  Socket(Net::State& net, Stream stream, SocketId id);
   void start(const HttpRequest& request);
   void drop() override { beast::get_lowest_layer(stream_).close(); }
   void send(Outgoing message);
@@ -84,15 +153,15 @@ class Socket final : public Peer, public std::enable_shared_from_this<Socket> {
   void end();
 
   Net::State& net_;
-  websocket::stream<beast::tcp_stream> stream_;
+  websocket::stream<Stream, false> stream_;  // false: without compression, which it never agreed to
   beast::flat_buffer buffer_;
-  asio::steady_timer timer_;
+  Timer timer_;
   Outbox outbox_;
   std::string written_;  // what is being written: one at a time
   const SocketId id_;
   bool reading_ = false, paused_ = false, writing_ = false, closing_ = false;
 };
-Socket::Socket(Net::State& net, beast::tcp_stream stream, SocketId id)
+Socket::Socket(Net::State& net, Stream stream, SocketId id)
     : net_(net),
       stream_(std::move(stream)),
       timer_(net.io),
@@ -188,9 +257,9 @@ void Socket::end() {
 // A connection that speaks HTTP.
 class Visitor final : public Peer, public std::enable_shared_from_this<Visitor> {
  public:
-  Visitor(Net::State& net, tcp::socket socket) : net_(net), stream_(std::move(socket)) {}
+  Visitor(Net::State& net, TcpSocket socket) : net_(net), stream_(std::move(socket)) {}
   void read();
-  void drop() override { stream_.close(); }
+  void drop() override { stream_.next_layer().close(); }
 
  private:
   void onHeader(Error error);
@@ -202,7 +271,7 @@ class Visitor final : public Peer, public std::enable_shared_from_this<Visitor> 
   void drain();
 
   Net::State& net_;
-  beast::tcp_stream stream_;
+  Stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   http::response<http::string_body> response_;
@@ -221,7 +290,7 @@ void Visitor::read() {
   parser_.emplace();
   parser_->header_limit(static_cast<std::uint32_t>(net_.limits.header));
   parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // the gate says what of bodies
-  stream_.expires_after(net_.limits.handshake);
+  stream_.next_layer().expires_after(net_.limits.handshake);
   http::async_read_header(stream_, buffer_, *parser_,
                           [self = shared_from_this()](Error error, std::size_t) { self->onHeader(error); });
 }
@@ -262,7 +331,7 @@ void Visitor::answer(HttpAnswer answer, bool keep) {
   response_.content_length(answer.body.size());
   const bool head = parser_->is_header_done() && parser_->get().method() == http::verb::head;
   if (!head) response_.body() = std::move(answer.body);
-  stream_.expires_after(net_.limits.handshake);
+  stream_.next_layer().expires_after(net_.limits.handshake);
   http::async_write(stream_, response_, [self = shared_from_this(), keep](Error error, std::size_t) {
     if (!error) keep ? self->read() : self->drain();
   });
@@ -271,7 +340,7 @@ void Visitor::answer(HttpAnswer answer, bool keep) {
 // What was not read would make the system tear down the connection before the answer has arrived.
 void Visitor::drain() {
   Error ignored;
-  stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  stream_.next_layer().socket().shutdown(tcp::socket::shutdown_send, ignored);
   stream_.async_read_some(asio::buffer(drained_), [self = shared_from_this()](Error error, std::size_t bytes) {
     self->drained_bytes_ += bytes;
     if (!error && self->drained_bytes_ <= kMostDrained) self->drain();
@@ -280,7 +349,7 @@ void Visitor::drain() {
 
 }  // namespace
 
-void Net::State::take(tcp::socket socket) {
+void Net::State::take(TcpSocket socket) {
   if (!peers.makeRoom(limits.connections)) return;  // and is closed
   Error ignored;
   socket.set_option(tcp::no_delay(true), ignored);
@@ -290,7 +359,7 @@ void Net::State::take(tcp::socket socket) {
 }
 
 void Net::State::accept() {
-  acceptor.async_accept([this](Error error, tcp::socket socket) {
+  acceptor.async_accept([this](Error error, TcpSocket socket) {
     if (stopping) return;
     if (!error) return take(std::move(socket)), accept();
     timer.expires_after(kAcceptAgain);
