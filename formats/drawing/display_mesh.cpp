@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "adjoint/base/arguments.hpp"
+#include "formats/base/turn_from_z.hpp"
 #include "formats/drawing/display.h"
 #include "formats/drawing/triangle_mesh.hpp"
 
@@ -19,7 +20,7 @@ TriangleMesh placedMesh(const Shape& shape, double plane_half_width) {
   const Plane* plane = std::get_if<Plane>(&shape);
   if (!plane) return mesh;
   TriangleMesh placed;
-  append(placed, mesh, plane->offset * plane->normal, Quat::FromTwoVectors(Vec3::UnitZ(), plane->normal));
+  append(placed, mesh, plane->offset * plane->normal, turnFromZ(plane->normal));
   return placed;
 }
 

@@ -2,6 +2,7 @@
 // Bodies -> nodes with physics.
 #include "formats/gltf/physics_nodes.hpp"
 
+#include "formats/base/turn_from_z.hpp"
 #include "formats/base/unit.hpp"
 #include "formats/gltf/axes.hpp"
 #include "formats/shapes/rows.hpp"
@@ -42,7 +43,7 @@ void ColliderAdder::set(const gltf::ColliderShape& shape) const { node.collider 
 
 void ColliderAdder::setPlane(const Plane& s) const {
   node.translation += gltf::turned(node.rotation, s.offset * s.normal);
-  node.rotation = gltf::product(node.rotation, Quat::FromTwoVectors(Vec3::UnitZ(), s.normal));
+  node.rotation = gltf::product(node.rotation, turnFromZ(s.normal));
   set(gltf::Sheet{});
 }
 
