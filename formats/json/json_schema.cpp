@@ -2,16 +2,13 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <utility>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 #include <vector>
 
 #include "formats/json/json.hpp"
 #include "formats/json/schema_acceptance.hpp"
+#include "formats/json/schema_breach.hpp"
 
 namespace carom::formats_detail {
 
@@ -201,10 +198,9 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
 
 }  // namespace
 
-// What says where a document breaks the schema. It takes long to make.
 struct Schema::Compiled {
   std::once_flag once;
-  valijson::Schema schema;
+  std::optional<BreachFinder> finder;
 };
 
 Schema::Schema(Json tree) : tree_(std::move(tree)), compiled_(std::make_unique<Compiled>()) {}
@@ -213,29 +209,12 @@ Schema::~Schema() = default;
 
 void Schema::require(const Json& document) const {
   if (keepsSchema(document, tree_)) return;
-  std::call_once(compiled_->once, [this] {
-    const nlohmann::json plain = tree_;
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(plain), compiled_->schema);
-  });
-  const nlohmann::json plain = document;
-  valijson::Validator validator;
-  valijson::ValidationResults results;
-  if (validator.validate(compiled_->schema, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return;
-
-  // Causes are reported before what follows from them, and outer alternatives before inner ones: so the first error
-  // counts, unless a later one lies deeper inside the same place.
-  std::vector<std::string> deepest;
-  bool first = true;
-  for (const valijson::ValidationResults::Error& error : results) {
-    const auto& path = error.context;
-    const bool inside = path.size() > deepest.size() && std::equal(deepest.begin(), deepest.end(), path.begin());
-    if (first || inside) deepest = path;
-    first = false;
-  }
+  std::call_once(compiled_->once, [this] { compiled_->finder.emplace(tree_); });
+  const auto breach = compiled_->finder->breachIn(document);
+  if (!breach) return;
   TreePlace place{&document, &tree_, "", &tree_};
-  for (std::size_t i = 1; i < deepest.size(); ++i)  // the first is the document itself
-    if (!step(place, deepest[i])) break;
+  for (std::size_t i = 1; i < breach->size(); ++i)  // the first is the document itself
+    if (!step(place, (*breach)[i])) break;
   explain(place);
 }
 
