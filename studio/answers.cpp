@@ -19,7 +19,7 @@ using namespace formats_detail;
 
 namespace {
 
-std::string textOf(const Json& message) { return message.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string textOf(const Json& message) { return compactText(message, Json::error_handler_t::replace); }
 
 /// null for what is not finite: JSON has no such numbers.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -31,7 +31,7 @@ Json written(const Write& write) {
   out.beginArray();
   write(out);
   out.endArray();
-  return Json::parse(out.take());
+  return treeOf(out.take());
 }
 
 Json controlsOf(const std::vector<Control>& controls) {

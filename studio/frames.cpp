@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "formats/json/json.hpp"
 
 namespace carom::studio {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using namespace formats_detail;
 
 static_assert(std::endian::native == std::endian::little, "frames are written as numbers lie in memory");
 
@@ -48,7 +48,7 @@ class Blocks {
 };
 
 Json headerOf(const char* type, std::string_view members) {
-  Json given = Json::parse(members, nullptr, false);
+  Json given = treeOf(members, NoJson::discards);
   if (!given.is_object()) throw InputError("found no JSON object as members of a frame, expected one");
   Json header = {{"type", type}};
   for (auto& [name, value] : given.items()) {
@@ -66,7 +66,7 @@ void add(Json& header, const char* name, Json value) {
 
 // Names of files may hold bytes that are no text.
 std::string frameOf(const Json& header, const Blocks& blocks) {
-  std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = compactText(header, Json::error_handler_t::replace);
   text.resize(padded(text.size()), ' ');
   const auto length = static_cast<std::uint32_t>(text.size());
   std::string frame = "CRM1";

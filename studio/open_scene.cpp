@@ -66,9 +66,9 @@ void edit(Json& document, const std::string& pointer, const std::string& value) 
     at = next;
   }
   if (at->is_object())
-    (*at)[tokens.back()] = Json::parse(value);  // a member that is not known is found by the schema
+    (*at)[tokens.back()] = treeOf(value);  // a member that is not known is found by the schema
   else if (Json* item = childOf(*at, tokens.back()))
-    *item = Json::parse(value);
+    *item = treeOf(value);
   else
     fail(pointer, "no such place", "one that the document has");
 }
@@ -121,12 +121,12 @@ std::optional<FileStamp> OpenScene::stamp() const { return path_ ? std::optional
 
 SessionContent OpenScene::edited(const Edits& edits) const {
   const Document now = document();
-  const Json before = Json::parse(writeDocument(now));
+  const Json before = treeOf(writeDocument(now));
   Json after = before;
   for (const auto& [pointer, value] : edits) edit(after, pointer, value);
   Document changed;
   try {
-    changed = parseDocument(after.dump(), "", now.folder);
+    changed = parseDocument(compactText(after), "", now.folder);
   } catch (const FormatError& error) {
     throw InputError(error.where(), error.message());
   }

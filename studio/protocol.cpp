@@ -58,7 +58,7 @@ What readGrab(const Json& m) {
   grab.body = m["body"].get<std::string>();
   grab.at = readAt(m["at"]);
   if (m.contains("grip")) grab.grip = readGrip(m["grip"]);
-  if (m.contains("also_vary")) grab.also_vary = m["also_vary"].dump();
+  if (m.contains("also_vary")) grab.also_vary = compactText(m["also_vary"]);
   return grab;
 }
 
@@ -73,7 +73,7 @@ What readRelease(const Json& m) {
 }
 
 What readNail(const Json& m) {
-  if (m.contains("constraint")) return MakeNail{m["constraint"].dump(), "", 0.0};
+  if (m.contains("constraint")) return MakeNail{compactText(m["constraint"]), "", 0.0};
   return MakeNail{"", m["body"].get<std::string>(), readAt(m["at"])};
 }
 
@@ -84,7 +84,7 @@ What readSet(const Json& m) {
     const auto pointer = edit["pointer"].get<std::string>();
     if (!pointer.starts_with('/'))
       fail(pointerTo("/edits", i) + "/pointer", describe(edit["pointer"]), "a JSON pointer, which begins with /");
-    set.edits.emplace_back(pointer, edit["value"].dump());
+    set.edits.emplace_back(pointer, compactText(edit["value"]));
     ++i;
   }
   return set;
@@ -114,7 +114,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"nail", readNail},
       {"set_nail",
        [](const Json& m) -> What {
-         return SetNail{nailOf(m), m["constraint"].dump()};
+         return SetNail{nailOf(m), compactText(m["constraint"])};
        }},
       {"nail_on",
        [](const Json& m) -> What {
@@ -123,7 +123,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"unnail", [](const Json& m) -> What { return Unnail{nailOf(m)}; }},
       {"controls",
        [](const Json& m) -> What {
-         return SetControls{integer(m, "rev"), m["controls"].dump()};
+         return SetControls{integer(m, "rev"), compactText(m["controls"])};
        }},
       {"set", readSet},
       {"open",
@@ -188,13 +188,13 @@ Command readCommand(std::string_view text) {
 
 std::vector<Control> readControlsText(const std::string& json, const Scene& scene, const std::string& where) {
   Json alone;
-  alone["controls"] = Json::parse(json);
+  alone["controls"] = treeOf(json);
   return readPart("/controls", where, [&] { return readControls(alone, scene); });
 }
 
 Constraint readConstraintText(const std::string& json, const Scene& scene, double duration, const std::string& where) {
   Json alone;
-  alone["constraints"] = Json::array({Json::parse(json)});
+  alone["constraints"] = Json::array({treeOf(json)});
   return readPart("/constraints/0", where, [&] { return readConstraints(alone, scene, duration).at(0); });
 }
 

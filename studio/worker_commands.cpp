@@ -153,7 +153,7 @@ void Worker::perform(const Asker& asker, const Gallery&) {
   if (gallery_ && shown_in_gallery_.empty()) {
     for (const ListedFile& file : gallery_->list("")) {
       if (file.folder) continue;
-      const auto document = formats_detail::Json::parse(gallery_->open(file.path).text, nullptr, false);
+      const auto document = formats_detail::treeOf(gallery_->open(file.path).text, formats_detail::NoJson::discards);
       const std::string stem = file.name.substr(0, file.name.rfind('.'));
       const auto text = [&](const char* member) {
         const bool there = document.is_object() && document.contains(member) && document[member].is_string();

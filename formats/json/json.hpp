@@ -18,6 +18,13 @@ inline constexpr std::size_t kMostValues = 400'000;  ///< keeps the memory of a 
 /// line and column), numbers too large for a double, and members given twice (where = JSON pointer).
 Json parseJson(std::string_view text, std::size_t most_values = kMostValues);
 
+enum class NoJson { throws, discards };
+/// Text -> tree, without limits: for the program's own texts. Text that is not JSON throws Json::parse_error, or gives a
+/// discarded tree. What parses and dumps is large: it is compiled here once, and not where it is called.
+Json treeOf(std::string_view text, NoJson no_json = NoJson::throws);
+/// Tree -> text without blanks, as Json::dump writes it.
+std::string compactText(const Json& tree, Json::error_handler_t not_utf8 = Json::error_handler_t::strict);
+
 enum class DocumentKind { scene, journal };
 /// The tree of a document of a kind, of at most so many bytes, in the version of this program and by its schema. Throws
 /// InputError.

@@ -50,7 +50,7 @@ std::string describe(const Json& value) {
     case Json::value_t::boolean:
     case Json::value_t::number_integer:
     case Json::value_t::number_unsigned:
-      return value.dump();
+      return compactText(value);
     case Json::value_t::number_float:
       return numberText(value.get<double>());
     case Json::value_t::string:

@@ -48,7 +48,7 @@ void takeDefinitions(const Json& node, const Json& from, Json& schema) {
 }
 
 Json withScene(Json journal) {
-  Json scene = Json::parse(kSceneSchema);
+  Json scene = treeOf(kSceneSchema);
   pointInside(journal);
   for (const auto& definition : scene["definitions"].items())
     journal["definitions"][definition.key()] = definition.value();
@@ -59,9 +59,9 @@ Json withScene(Json journal) {
 }
 
 const Schema& schemaOf(DocumentKind kind) {
-  static const Schema scene(Json::parse(kSceneSchema));
+  static const Schema scene(treeOf(kSceneSchema));
   if (kind == DocumentKind::scene) return scene;
-  static const Schema journal(withScene(Json::parse(kJournalSchema)));
+  static const Schema journal(withScene(treeOf(kJournalSchema)));
   return journal;
 }
 
@@ -165,8 +165,8 @@ std::string expected(const Json* node, const Json& value, const Json& tree) {
 }
 
 [[noreturn]] void failMissing(const TreePlace& place, const Json& name, const std::string& beside, const Json* properties) {
-  fail(place.pointer, "no member " + name.dump() + beside,
-       name.dump() + ": " +
+  fail(place.pointer, "no member " + compactText(name) + beside,
+       compactText(name) + ": " +
            expected(memberOf(properties, name.get_ref<const std::string&>().c_str()), Json(), *place.tree));
 }
 
@@ -221,9 +221,9 @@ void Schema::require(const Json& document) const {
 void requireSchema(const Json& document, DocumentKind kind) { schemaOf(kind).require(document); }
 
 std::map<std::string, Schema> schemasOfDefinitions(const char* text) {
-  Json all = Json::parse(text);
+  Json all = treeOf(text);
   pointInside(all);
-  Json definitions = Json::parse(kSceneSchema)["definitions"];
+  Json definitions = treeOf(kSceneSchema)["definitions"];
   for (const auto& own : all["definitions"].items()) definitions[own.key()] = own.value();
   std::map<std::string, Schema> schemas;
   for (const auto& own : all["definitions"].items()) {

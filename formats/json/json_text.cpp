@@ -182,6 +182,12 @@ Json parseJson(std::string_view text, std::size_t most_values) {
   return builder.take();
 }
 
+Json treeOf(std::string_view text, NoJson no_json) { return Json::parse(text, nullptr, no_json == NoJson::throws); }
+
+std::string compactText(const Json& tree, Json::error_handler_t not_utf8) {
+  return tree.dump(-1, ' ', false, not_utf8);
+}
+
 Json parseJson(std::string_view text, DocumentKind kind, std::size_t most_bytes) {
   constexpr std::size_t kMostJournalValues = 8'000'000;
   const bool scene = kind == DocumentKind::scene;

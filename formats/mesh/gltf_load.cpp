@@ -204,7 +204,7 @@ tinygltf::Model parseGltf(std::string_view bytes, const std::string& folder) {
   std::vector<tinygltf::Buffer> buffers = readBuffers(document, container, folder);
   const std::size_t meshes = document.contains("meshes") ? document["meshes"].size() : 0;
   strip(document);
-  const std::string text = document.dump();
+  const std::string text = compactText(document);
   tinygltf::TinyGLTF reader;
   tinygltf::Model model;
   std::string error, warning;

@@ -159,7 +159,7 @@ void LeftDocument::read(const Json& json, std::size_t mesh_count, ShapeMaker& sh
   has_scene_ = whole.contains("bodies");
   if (!has_scene_) {  // older files hold the edit alone
     whole["carom"] = 1;
-    whole["bodies"] = Json::parse(R"([{"name": "none", "fixed": true, "shape": {"plane": {"normal": [0, 0, 1]}}}])");
+    whole["bodies"] = treeOf(R"([{"name": "none", "fixed": true, "shape": {"plane": {"normal": [0, 0, 1]}}}])");
   }
   requireSchema(whole);
   if (has_scene_) {
