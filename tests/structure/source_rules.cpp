@@ -55,8 +55,8 @@ const std::vector<Confined>& confinedLibraries() {
       {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests|fuzz)/.*\\.cpp"),
        "formats/*.cpp, tests and fuzz"},
       {"Boost.Multiprecision", std::regex("boost/multiprecision/.*"), std::regex("tests/.*"), "tests"},
-      {"Boost", std::regex("boost/(?!multiprecision/).*"), std::regex("(studio/net\\.cpp|tests/.*)"),
-       "studio/net.cpp and tests"},
+      {"Boost", std::regex("boost/(?!multiprecision/).*"), std::regex("(studio/net(_stream)?\\.(cpp|hpp)|tests/.*)"),
+       "studio/net.cpp, net_stream.hpp and tests"},
   };
   return rows;
 }
