@@ -5,8 +5,8 @@
 
 namespace carom::formats_detail {
 
-/// The shortest turn that takes +z to a direction: Quat::FromTwoVectors(Vec3::UnitZ(), direction) to the last bit,
-/// without the singular value decomposition that Eigen has there, which takes four seconds to compile.
+/// The shortest turn that takes +z to a direction. What Eigen does of nearly opposite directions takes four seconds to
+/// compile: once here, and not where it is called.
 Quat turnFromZ(const Vec3& direction);
 
 }  // namespace carom::formats_detail
