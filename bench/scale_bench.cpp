@@ -18,6 +18,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "bench/machine.h"
 #include "bench/pen.h"
+#include "examples/support/project_file.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom {
@@ -39,7 +40,7 @@ std::vector<Case> allCases() {
     cases.push_back({"balls_paths_only/" + std::to_string(n), make, impacts, false});
   }
   cases.push_back({"boxes/200", [] { return penOfBoxes(200, 1); }, 4000, true});
-  cases.push_back({"mugs/8", [] { return penOfMugs(8, CAROM_ASSETS_DIR "/mug.obj", 1); }, 200, true});
+  cases.push_back({"mugs/8", [] { return penOfMugs(8, projectFile("examples/assets/mug.obj"), 1); }, 200, true});
   return cases;
 }
 

@@ -15,6 +15,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
@@ -27,7 +28,7 @@ namespace {
 
 struct Case {
   explicit Case(const std::string& name)
-      : document(readDocument(std::string(CAROM_SCENES_DIR) + "/" + name + ".json")),
+      : document(readDocument(projectFile("examples/scenes/") + name + ".json")),
         contacts(document.scene),
         edit(document.scene, contacts, document.duration, document.controls, document.constraints),
         problem(edit.problem()),

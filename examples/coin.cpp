@@ -6,13 +6,14 @@
 #include "adjoint/derivative/adjoint.h"
 #include "adjoint/motion/lasting_contact.h"
 #include "editing/edit.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;
 
 int main() {
-  const Document document = readDocument(CAROM_SCENES_DIR "/coin.json");
+  const Document document = readDocument(projectFile("examples/scenes/coin.json"));
   OdeContacts contacts(document.scene);
   Edit edit(document.scene, contacts, document.duration, document.controls, document.constraints);
   const EditResult result = edit.solve();

@@ -4,6 +4,7 @@
 
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
@@ -19,7 +20,7 @@ double upAtTheEnd(const Motion& motion) {
 }  // namespace
 
 int main() {
-  const Document document = readDocument(CAROM_SCENES_DIR "/die-at-rest.json");
+  const Document document = readDocument(projectFile("examples/scenes/die-at-rest.json"));
   OdeContacts contacts(document.scene);
   std::printf("as written: up %.6f\n", upAtTheEnd(simulate(document.scene, contacts, document.duration)));
 

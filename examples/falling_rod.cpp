@@ -4,13 +4,14 @@
 #include <cstdio>
 
 #include "editing/edit.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;
 
 int main() {
-  const Document document = readDocument(CAROM_SCENES_DIR "/falling-rod.json");
+  const Document document = readDocument(projectFile("examples/scenes/falling-rod.json"));
   OdeContacts contacts(document.scene);
   Edit edit(document.scene, contacts, document.duration, document.controls, document.constraints);
   const EditResult result = edit.solve();

@@ -5,13 +5,14 @@
 #include <string>
 
 #include "editing/edit.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;
 
 int main() {
-  const Document document = readDocument(std::string(CAROM_SCENES_DIR) + "/hat-on-coatrack.json");
+  const Document document = readDocument(projectFile("examples/scenes/hat-on-coatrack.json"));
   OdeContacts contacts(document.scene);
   Edit edit(document.scene, contacts, document.duration);
   edit.vary(velocity("hat"), angularVelocity("hat").weighted(0.2));

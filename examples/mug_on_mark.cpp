@@ -4,6 +4,7 @@
 #include <string>
 
 #include "editing/session.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
@@ -29,7 +30,7 @@ void tell(const char* what, const EditSession& session) {
 }  // namespace
 
 int main() {
-  const Document document = readDocument(std::string(CAROM_SCENES_DIR) + "/mug-on-mark.json");
+  const Document document = readDocument(projectFile("examples/scenes/mug-on-mark.json"));
   OdeContacts contacts(document.scene);
   EditSession session(document.scene, contacts, document.duration);
   session.vary(velocity("mug"), angularVelocity("mug").weighted(0.5));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "adjoint/simulate/simulate.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
@@ -11,7 +12,7 @@ using namespace carom;
 
 int main() {
   for (const char* name : {"hat", "mug", "dice", "bowling", "ball_in_cup"}) {
-    const Document document = readDocument(std::string(CAROM_SCENES_DIR) + "/" + name + ".json");
+    const Document document = readDocument(projectFile("examples/scenes/") + name + ".json");
     OdeContacts contacts(document.scene);
     const Motion motion = simulate(document.scene, contacts, document.duration);
     std::printf("%s: %s after %.2f s\n", name, nameOf(motion.status), motion.end);

@@ -14,6 +14,7 @@
 #include "bench/charts/chart.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/error.h"
+#include "examples/support/project_file.h"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::charts {
@@ -211,7 +212,7 @@ std::string member(const std::string& line, const std::string& name) {
 
 // One row for every kind of body that a scene has, of `carom info --json`.
 void info(Csv& csv, const std::string& scene) {
-  const std::string command = std::string(CAROM_COMMAND) + " info --json " + CAROM_SCENES_DIR + "/" + scene + ".json";
+  const std::string command = std::string(CAROM_COMMAND) + " info --json " + projectFile("examples/scenes/") + scene + ".json";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   if (!pipe) throw std::runtime_error("cannot run " + command);
   std::vector<std::vector<std::string>> seen;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/charts/chart.h"
+#include "examples/support/project_file.h"
 
 namespace carom::charts {
 namespace {
@@ -29,7 +30,7 @@ struct Cost {
 };
 
 std::vector<Call> calls() {
-  const std::string carom = CAROM_COMMAND, scenes = CAROM_SCENES_DIR;
+  const std::string carom = CAROM_COMMAND, scenes = projectFile("examples/scenes");
   const std::string tiny = scenes + "/two-balls.json", edited = scenes + "/book-on-shelf.json";
   return {{"nothing (true)", {"/bin/true"}},
           {"carom --version", {carom, "--version"}},

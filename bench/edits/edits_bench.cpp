@@ -21,6 +21,7 @@
 
 #include "bench/edits/report.h"
 #include "bench/edits/serve.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 
 namespace carom::bench {
@@ -49,7 +50,7 @@ struct Settings {
   std::optional<int> task;
   int search_seed = 0;
   int every = 1;
-  std::string only, configurations, csv, summary, families, save, best = CAROM_EDITS_BEST_KNOWN;
+  std::string only, configurations, csv, summary, families, save, best = projectFile("bench/edits/best_known.csv");
   double budget = 5;
   bool list = false, failures = false, improve = false, serves = false;
 };

@@ -14,6 +14,7 @@
 #include "bench/pen.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 
@@ -170,12 +171,12 @@ void addScenes(Workloads& out) {
   const auto boxes = made(penOfBoxes(20, 1), kForever, 60);
   addAdjoint(out, "20 boxes", boxes);
   addSimulation(out, "20 boxes", boxes);
-  addAdjoint(out, "mugs", made(penOfMugs(4, CAROM_ASSETS_DIR "/mug.obj", 1), kForever, 8));
+  addAdjoint(out, "mugs", made(penOfMugs(4, projectFile("examples/assets/mug.obj"), 1), kForever, 8));
 }
 
 // A scene document and its edit.
 void addEdit(Workloads& out, const std::string& name) {
-  const auto document = std::make_shared<Document>(readDocument(std::string(CAROM_SCENES_DIR) + "/" + name + ".json"));
+  const auto document = std::make_shared<Document>(readDocument(projectFile("examples/scenes/") + name + ".json"));
   const auto contacts = std::make_shared<OdeContacts>(document->scene);
   const auto edit = std::make_shared<Edit>(document->scene, *contacts, document->duration, document->controls,
                                            document->constraints);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "adjoint/simulate/simulate.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "formats/drawing/display.h"
 #include "ode_bridge/ode_contacts.h"
@@ -11,7 +12,7 @@
 using namespace carom;
 
 int main() {
-  const Document document = readDocument(CAROM_SCENES_DIR "/hat-on-coatrack.json");
+  const Document document = readDocument(projectFile("examples/scenes/hat-on-coatrack.json"));
   OdeContacts contacts(document.scene);
   const Motion motion = simulate(document.scene, contacts, document.duration);
   const int hat = bodyIndex(document.scene, "hat");

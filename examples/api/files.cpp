@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "adjoint/simulate/simulate.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/save_with_meshes.h"
 #include "formats/documents/scene_json.h"
 #include "formats/export/export_motion.h"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 int main() {
   const fs::path folder = fs::temp_directory_path() / "carom-example-files";
   fs::create_directories(folder);
-  const Document document = readDocument(CAROM_SCENES_DIR "/book-on-shelf.json");
+  const Document document = readDocument(projectFile("examples/scenes/book-on-shelf.json"));
   OdeContacts contacts(document.scene);
   const Motion motion = simulate(document.scene, contacts, document.duration);
 

@@ -14,10 +14,10 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/simulate.h"
 #include "editing/problem/jacobian.hpp"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/cli/run_command.h"
-#include "tests/test_paths.h"
 
 namespace carom::test {
 
@@ -93,7 +93,7 @@ class Trial {
 
  private:
   void check(const std::string& text) {
-    const Document document = parseDocument(text, "document", CAROM_SOURCE_DIR "/examples/scenes");
+    const Document document = parseDocument(text, "document", projectFile("examples/scenes"));
     WorkCount work(kStepLimit, {}, nullptr);
     OdeContacts contacts(document.scene, &work);
     SimulateOptions options;

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <regex>
 
+#include "examples/support/project_file.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/short_session.h"
-#include "tests/test_paths.h"
 
 namespace carom::test {
 namespace {
@@ -19,7 +19,7 @@ using Lines = std::vector<std::string>;
 
 std::vector<std::string> pages() {
   std::vector<std::string> names{"README.md"};
-  for (const fs::directory_entry& entry : fs::directory_iterator(CAROM_SOURCE_DIR "/docs"))
+  for (const fs::directory_entry& entry : fs::directory_iterator(projectFile("docs")))
     if (entry.path().extension() == ".md" && entry.path().filename() != "decisions.md" &&
         entry.path().filename() != "tutorial.md")  // that one has files of its own: tutorial_test.cpp
       names.push_back("docs/" + entry.path().filename().string());
@@ -70,15 +70,15 @@ Lines commandsOf(const std::string& page) {
 TEST(DocumentedCommands, Run) {
   const fs::path folder = temporaryPath("documented");
   fs::create_directories(folder / "bin");
-  fs::create_directory_symlink(CAROM_SOURCE_DIR "/examples", folder / "examples");
+  fs::create_directory_symlink(projectFile("examples"), folder / "examples");
   fs::create_symlink(commandPath(), folder / "bin/carom");
-  const std::string scene = block(readText(CAROM_SOURCE_DIR "/README.md"), "json");
+  const std::string scene = block(readText(projectFile("README.md")), "json");
   ASSERT_NE(scene, "");
   for (const char* name : {"S.json", "OLD.json"}) writeText((folder / name).string(), scene);
   for (const char* name : {"J.json", "session.json"}) saveJournal((folder / name).string(), {shortSession(), ""});
   std::size_t count = 0;
   for (const std::string& name : pages()) {
-    for (const std::string& line : commandsOf(readText(std::string(CAROM_SOURCE_DIR "/") + name))) {
+    for (const std::string& line : commandsOf(readText(projectFile(name)))) {
       const std::string log = (folder / "log").string();
       const std::string shell = "cd '" + folder.string() + "' && PATH=\"$PWD/bin:$PATH\" && export PATH && ( " + line +
                                 " ) > '" + log + "' 2>&1 < /dev/null";

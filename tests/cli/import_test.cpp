@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "formats/gltf/read/import_gltf.h"
 #include "tests/cli/run_command.h"
-#include "tests/test_paths.h"
 
 namespace carom::test {
 namespace {
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Names = std::vector<std::string>;
 
-std::string sample(const std::string& name) { return CAROM_SOURCE_DIR "/tests/import/data/" + name; }
+std::string sample(const std::string& name) { return projectFile("tests/import/data/") + name; }
 
 json minimal() {
   return json::parse(R"({

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/cli/run_command.h"
-#include "tests/test_paths.h"
+#include "examples/support/project_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -130,14 +130,14 @@ std::vector<std::string> membersOf(const nlohmann::json& object) {
 
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes"))
+  for (const auto& entry : std::filesystem::directory_iterator(projectFile("examples/scenes")))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
 std::string scenePath(const std::string& name) {
-  return std::string(CAROM_SOURCE_DIR) + "/examples/scenes/" + name + ".json";
+  return projectFile("examples/scenes/") + name + ".json";
 }
 
 std::string readText(const std::string& path) {

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/short_session.h"
-#include "tests/test_paths.h"
 
 namespace carom::test {
 namespace {

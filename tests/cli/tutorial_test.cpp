@@ -7,14 +7,14 @@
 #include <cstdio>
 #include <string>
 
+#include "examples/support/project_file.h"
 #include "tests/cli/run_command.h"
-#include "tests/test_paths.h"
 
 namespace carom {
 namespace {
 
 TEST(Tutorial, ThePageShowsWhatHappens) {
-  const std::string command = "'" CAROM_SOURCE_DIR "/scripts/tutorial' --check '" + test::commandPath() + "' 2>&1";
+  const std::string command = "'" + projectFile("scripts/tutorial") + "' --check '" + test::commandPath() + "' 2>&1";
   FILE* const run = popen(command.c_str(), "r");
   ASSERT_NE(run, nullptr);
   std::string printed;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tests/export/all_shapes.h"
 
+#include "examples/support/project_file.h"
 #include "formats/mesh/mesh_file.h"
-#include "tests/test_paths.h"
 
 namespace carom::export_tests {
 
 std::shared_ptr<const Surface> assetSurface(const std::string& file) {
-  const TriangleSoup soup = readMeshFile(CAROM_SOURCE_DIR "/examples/assets/" + file);
+  const TriangleSoup soup = readMeshFile(projectFile("examples/assets/") + file);
   return meshSurface(soup.vertices, soup.triangles);
 }
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "formats/export/export_motion.h"
 #include "tests/export/hand_motion.h"
 #include "tests/export/players.h"
-#include "tests/test_paths.h"
 
 namespace carom::export_tests {
 namespace {
@@ -34,7 +34,7 @@ class Blender : public testing::Test {
   static json imported(const std::string& file, int steps, int last) {
     const std::string answer = temporaryPath("answer.json");
     const std::string log = outputOf("blender --background --factory-startup --python-exit-code 1 --python " +
-                                     quoted(CAROM_SOURCE_DIR "/tests/blender/poses.py") + " -- " + quoted(file) + " " +
+                                     quoted(projectFile("tests/blender/poses.py")) + " -- " + quoted(file) + " " +
                                      quoted(answer) + " " + std::to_string(steps) + " " + std::to_string(last) +
                                      " 2>&1");
     EXPECT_FALSE(log.empty()) << "blender failed with " << file;
@@ -43,7 +43,7 @@ class Blender : public testing::Test {
 };
 
 Document example(const std::string& name) {
-  return readDocument(CAROM_SOURCE_DIR "/examples/scenes/" + name + ".json");
+  return readDocument(projectFile("examples/scenes/") + name + ".json");
 }
 
 // The last whole frame of a motion: what comes after it is the end, held.

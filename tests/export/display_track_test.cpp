@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "adjoint/base/errors.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "formats/drawing/display.h"
 #include "ode_bridge/ode_contacts.h"
@@ -17,7 +18,6 @@
 #include "tests/support/compare.h"
 #include "tests/support/lasting_scenes.h"
 #include "tests/support/page_pose.h"
-#include "tests/test_paths.h"
 
 namespace carom::export_tests {
 namespace {
@@ -75,7 +75,7 @@ std::size_t expectTracks(const Motion& motion, std::uint64_t seed) {
 class ExampleTracks : public testing::TestWithParam<std::string> {};
 
 TEST_P(ExampleTracks, AreTheMotion) {
-  const Document document = readDocument(CAROM_SOURCE_DIR "/examples/scenes/" + GetParam() + ".json");
+  const Document document = readDocument(projectFile("examples/scenes/") + GetParam() + ".json");
   expectTracks(simulated(document), 1);
 }
 
@@ -113,7 +113,7 @@ TEST(DisplayTrack, OnlyBendsAreMoreThanAParabolaAnArc) {
 
 // A stone of curling slides round a bend for many seconds; what is sent of it with every step of a drag stays small.
 TEST(DisplayTrack, LongBendsTakeFewKeys) {
-  const Document document = readDocument(CAROM_SOURCE_DIR "/examples/scenes/curling.json");
+  const Document document = readDocument(projectFile("examples/scenes/curling.json"));
   const Motion motion = simulated(document);
   const DisplayTrack track = displayTrack(motion, bodyIndex(document.scene, "stone"));
   EXPECT_FALSE(std::ranges::all_of(track.arcs, &DisplayTrack::ArcKey::isParabola));

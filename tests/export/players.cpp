@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "examples/support/project_file.h"
 #include "formats/base/document.h"
 #include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
-#include "tests/test_paths.h"
 
 namespace carom::export_tests {
 
@@ -33,7 +33,7 @@ std::string quoted(const std::string& path) {
 
 std::vector<std::string> exampleScenes() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes"))
+  for (const auto& entry : std::filesystem::directory_iterator(projectFile("examples/scenes")))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

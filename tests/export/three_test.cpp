@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "formats/export/export_motion.h"
 #include "formats/json/json_writer.hpp"
 #include "tests/export/all_shapes.h"
 #include "tests/export/hand_motion.h"
 #include "tests/export/players.h"
-#include "tests/test_paths.h"
 
 namespace carom::export_tests {
 
@@ -25,7 +25,7 @@ namespace {
 using nlohmann::json;
 using Runner = json (*)(const std::string& script, const std::string& words);
 
-const std::string kFolder = CAROM_SOURCE_DIR "/tests/three";
+const std::string kFolder = projectFile("tests/three");
 constexpr int kStepsAFrame = 4;
 constexpr double kFloats = 2e-6;  // m and rad: what floats leave of numbers of some metres
 
@@ -63,13 +63,13 @@ void playsInThree(const Document& document, const Motion& motion, const GltfOpti
 }
 
 TEST_P(ThreeJs, PlaysLinearKeys) {
-  const Document document = readDocument(CAROM_SOURCE_DIR "/examples/scenes/" + GetParam() + ".json");
+  const Document document = readDocument(projectFile("examples/scenes/") + GetParam() + ".json");
   const GltfOptions options;
   playsInThree(document, simulated(document), options, {kFloats, kFloats, options.tolerance + kFloats, 1e-3}, run);
 }
 
 TEST_P(ThreeJs, PlaysCubicKeys) {
-  const Document document = readDocument(CAROM_SOURCE_DIR "/examples/scenes/" + GetParam() + ".json");
+  const Document document = readDocument(projectFile("examples/scenes/") + GetParam() + ".json");
   playsInThree(document, simulated(document), {GltfKeys::cubic}, {1e-5, 1e-3, 1e-5, 1e-3}, run);
 }
 
@@ -101,7 +101,7 @@ void isValid(const Document& document, const Motion& motion, Runner run) {
 }
 
 TEST_P(ThreeJs, IsValidGltf) {
-  const Document document = readDocument(CAROM_SOURCE_DIR "/examples/scenes/" + GetParam() + ".json");
+  const Document document = readDocument(projectFile("examples/scenes/") + GetParam() + ".json");
   isValid(document, simulated(document), run);
 }
 

@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "examples/support/project_file.h"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/journal_json.h"
 #include "formats/documents/save_with_meshes.h"
 #include "formats/documents/scene_json.h"
-#include "tests/test_paths.h"
 
 namespace carom {
 
@@ -203,7 +203,7 @@ TEST_F(WriteFileDurably, SomeFileSystemsCannotBeAsked) {
 
 // What people made: documents, their meshes and journals.
 TEST_F(WriteFileDurably, IsHowDocumentsAndJournalsAreSaved) {
-  Document document = readDocument(CAROM_SOURCE_DIR "/examples/scenes/two-balls.json");
+  Document document = readDocument(projectFile("examples/scenes/two-balls.json"));
   const auto filesSynced = [] {
     return std::count_if(watch.synced.begin(), watch.synced.end(), [](const Synced& s) { return !s.folder; });
   };
@@ -222,7 +222,7 @@ TEST_F(WriteFileDurably, IsHowDocumentsAndJournalsAreSaved) {
   saveJournal(path("journal.json"), {{document.scene, document.duration, {}, {}, {}, {}}, ""});
   expectSynced(path("journal.json"), 1);
 
-  Document mug = readDocument(CAROM_SOURCE_DIR "/examples/scenes/mug.json");
+  Document mug = readDocument(projectFile("examples/scenes/mug.json"));
   std::size_t named = 0;
   for (Body& body : mug.scene.bodies)
     if (Mesh* mesh = std::get_if<Mesh>(&body.shape)) mesh->file.clear(), ++named;

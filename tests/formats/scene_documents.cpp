@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/formats/scene_documents.h"
-#include "tests/test_paths.h"
+#include "examples/support/project_file.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ std::string textOf(const std::string& path) {
 
 std::vector<std::string> exampleScenes() {
   std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes"))
+  for (const auto& entry : std::filesystem::directory_iterator(projectFile("examples/scenes")))
     if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
   std::sort(paths.begin(), paths.end());
   return paths;

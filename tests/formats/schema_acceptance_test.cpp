@@ -9,10 +9,10 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "examples/support/project_file.h"
 #include "formats/json/schema_acceptance.hpp"
 #include "tests/formats/broken_documents.h"
 #include "tests/formats/scene_documents.h"
-#include "tests/test_paths.h"
 
 namespace carom {
 
@@ -37,7 +37,7 @@ class Judge {
   valijson::Schema schema_;
 };
 
-Json sceneSchema() { return Json::parse(formats_test::textOf(CAROM_SOURCE_DIR "/formats/documents/scene.schema.json")); }
+Json sceneSchema() { return Json::parse(formats_test::textOf(projectFile("formats/documents/scene.schema.json"))); }
 
 std::vector<Json> goodDocuments() {
   std::vector<Json> documents{Json::parse(formats_test::documentWithEverything())};

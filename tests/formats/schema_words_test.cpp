@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "editing/problem/controls/control_kinds.hpp"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "tests/formats/scene_documents.h"
-#include "tests/test_paths.h"
 
 namespace carom {
 
@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json readSchema(const std::string& name) {
-  return Json::parse(formats_test::textOf(CAROM_SOURCE_DIR "/formats/documents/" + name));
+  return Json::parse(formats_test::textOf(projectFile("formats/documents/") + name));
 }
 
 /// Every node with properties, by its JSON pointer.
@@ -106,7 +106,7 @@ TEST(SchemaWords, everyMemberIsDescribedToEditors) {
 TEST(SchemaWords, thePageTellsEveryMemberOfEveryObjectAndNoOther) {
   std::map<std::string, Json> objects;
   collectObjects(readSchema("scene.schema.json"), "", objects);
-  const auto tables = tablesOf(formats_test::textOf(CAROM_SOURCE_DIR "/docs/scenes.md"));
+  const auto tables = tablesOf(formats_test::textOf(projectFile("docs/scenes.md")));
   for (const Told& told : kTold) {
     SCOPED_TRACE("docs/scenes.md, " + told.heading);
     ASSERT_TRUE(objects.contains(told.pointer)) << told.pointer;
@@ -124,7 +124,7 @@ TEST(SchemaWords, thePageTellsEveryMemberOfEveryObjectAndNoOther) {
 TEST(SchemaWords, thePageTellsTheSameDefaults) {
   std::map<std::string, Json> objects;
   collectObjects(readSchema("scene.schema.json"), "", objects);
-  const auto tables = tablesOf(formats_test::textOf(CAROM_SOURCE_DIR "/docs/scenes.md"));
+  const auto tables = tablesOf(formats_test::textOf(projectFile("docs/scenes.md")));
   const std::regex stated(R"(default (\[[^\]]*\]|-?[0-9.]+|average|false)(;|$))");
   int compared = 0;
   for (const Told& told : kTold) {
@@ -144,7 +144,7 @@ TEST(SchemaWords, thePageTellsTheSameDefaults) {
 
 TEST(SchemaWords, thePageTellsEveryChoice) {
   const Json schema = readSchema("scene.schema.json");
-  const std::string page = formats_test::textOf(CAROM_SOURCE_DIR "/docs/scenes.md");
+  const std::string page = formats_test::textOf(projectFile("docs/scenes.md"));
   const auto kinds = tablesOf(page).at("Controls").at(1);
   std::set<std::string> in_page, in_schema, in_program;
   for (const auto& row : kinds) in_page.insert(row.first);

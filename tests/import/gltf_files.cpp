@@ -11,18 +11,18 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/motion/motion.h"
-#include "tests/test_paths.h"
+#include "examples/support/project_file.h"
 
 namespace carom::import_tests {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string samplePath(const std::string& name) { return CAROM_SOURCE_DIR "/tests/import/data/" + name; }
+std::string samplePath(const std::string& name) { return projectFile("tests/import/data/") + name; }
 
 std::vector<std::string> allFiles() {
   std::vector<std::string> files;
-  std::vector<std::string> folders{CAROM_SOURCE_DIR "/tests/import/data"};
+  std::vector<std::string> folders{projectFile("tests/import/data")};
 #ifdef CAROM_GLTF_SAMPLES
   folders.emplace_back(CAROM_GLTF_SAMPLES);
 #endif

@@ -13,9 +13,9 @@
 #include <sstream>
 
 #include "cli/command_line.h"
+#include "examples/support/project_file.h"
 #include "tests/numbers/changes.h"
 #include "tests/numbers/isolated.h"
-#include "tests/test_paths.h"
 
 // Every number of every example, one at a time, becomes 0, a denormal, 1e300, no number at all, ...; then every command
 // is called. Whatever the document says, a command ends by itself, with one of its exit codes, with a sentence where it
@@ -78,7 +78,7 @@ struct Scenes {
 
 Scenes examples() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes"))
+  for (const auto& entry : fs::directory_iterator(projectFile("examples/scenes")))
     if (entry.path().extension() == ".json" && entry.path().stem().string().starts_with(environment("CAROM_TEST_SCENES")))
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
@@ -116,7 +116,7 @@ class Folder {
  public:
   Folder() : path_(testing::TempDir() + "carom-numbers-" + std::to_string(getpid())) {
     fs::create_directories(path_ + "/scenes");
-    fs::create_directory_symlink(CAROM_SOURCE_DIR "/examples/assets", path_ + "/assets");
+    fs::create_directory_symlink(projectFile("examples/assets"), path_ + "/assets");
   }
   ~Folder() {
     std::error_code ignored;

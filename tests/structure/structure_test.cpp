@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "examples/support/project_file.h"
 #include "tests/structure/public_headers.h"
 #include "tests/structure/rooms.h"
 #include "tests/structure/source_rules.h"
-#include "tests/test_paths.h"
 
 namespace carom::structure {
 namespace {
 
 TEST(Structure, SourcesKeepTheLayering) {
-  const Sources sources = readSources(CAROM_SOURCE_DIR);
-  ASSERT_TRUE(sources.contains("adjoint/scene/scene.h")) << "no sources under " CAROM_SOURCE_DIR;
+  const Sources sources = readSources(projectFile("."));
+  ASSERT_TRUE(sources.contains("adjoint/scene/scene.h")) << "no sources under " << projectFile(".");
   for (const std::string& violation : violations(sources)) ADD_FAILURE() << violation;
 }
 
 TEST(Structure, EveryPublicTypeIsInAnExample) {
-  for (const std::string& missing : typesWithoutExample(readSources(CAROM_SOURCE_DIR))) ADD_FAILURE() << missing;
+  for (const std::string& missing : typesWithoutExample(readSources(projectFile(".")))) ADD_FAILURE() << missing;
   const Sources planted = {{"adjoint/scene/a.h", "namespace carom {\nstruct Known {\n};\nstruct Lone {\n};\n"},
                            {"examples/a.cpp", "Known k;\nstd::string Loner;\n"}};
   EXPECT_EQ(typesWithoutExample(planted), (std::vector<std::string>{"carom::Lone of adjoint/scene/a.h is in no example"}));

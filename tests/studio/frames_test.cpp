@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Frames as a page decodes them hold the motion and the scene that they were made of.
+#include "examples/support/project_file.h"
 #include "studio/frames.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,6 @@
 #include "tests/support/compare.h"
 #include "tests/support/page_pose.h"
 #include "tests/support/scenes.h"
-#include "tests/test_paths.h"
 
 namespace carom::studio_test {
 namespace {
@@ -25,7 +25,7 @@ namespace {
 using namespace studio;
 
 Motion exampleMotion(const std::string& name) {
-  const Document document = readDocument(CAROM_SOURCE_DIR "/examples/scenes/" + name + ".json");
+  const Document document = readDocument(projectFile("examples/scenes/") + name + ".json");
   OdeContacts contacts(document.scene);
   return simulate(document.scene, contacts, document.duration);
 }

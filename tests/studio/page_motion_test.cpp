@@ -12,12 +12,12 @@
 #include <nlohmann/json.hpp>
 
 #include "adjoint/simulate/simulate.h"
+#include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
 #include "studio/frames.h"
 #include "tests/support/compare.h"
 #include "tests/support/lasting_scenes.h"
-#include "tests/test_paths.h"
 
 namespace carom::studio_test {
 namespace {
@@ -27,7 +27,7 @@ using nlohmann::json;
 
 constexpr double kMove = 1e-9, kTurn = 2e-3;  // m, rad
 constexpr int kTimes = 200;
-const std::string kPage = CAROM_SOURCE_DIR "/studio/page";
+const std::string kPage = projectFile("studio/page");
 
 bool runs(const std::string& command) { return std::system(command.c_str()) == 0; }
 
@@ -54,7 +54,7 @@ class PageMotion : public testing::Test {
   }
 
   void expectPage() const {
-    const std::string script = CAROM_SOURCE_DIR "/tests/studio/page_motion.mjs";
+    const std::string script = projectFile("tests/studio/page_motion.mjs");
     ASSERT_TRUE(runs("node '" + script + "' '" + kPage + "' '" + folder_.string() + "'"));
     for (const Shown& shown : shown_) expectPoses(shown);
   }
@@ -103,7 +103,7 @@ class PageMotion : public testing::Test {
 
 TEST_F(PageMotion, IsTheMotionOfEveryExample) {
   int scenes = 0;
-  for (const auto& entry : fs::directory_iterator(CAROM_SOURCE_DIR "/examples/scenes")) {
+  for (const auto& entry : fs::directory_iterator(projectFile("examples/scenes"))) {
     if (entry.path().extension() != ".json") continue;
     const Document document = readDocument(entry.path().string());
     OdeContacts contacts(document.scene);
