@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/contact/interior_point.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "adjoint/base/types.h"
 #include "adjoint/contact/symmetric_inverse.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -150,7 +150,7 @@ void InteriorPoint::step() {
     const MatrixXd rows = c.inverse * D_.middleRows(c.at, c.size);
     H += rows.transpose() * rows;
   }
-  H_inverse_ = H.ldlt().solve(MatrixXd::Identity(H.rows(), H.cols()));
+  H_inverse_ = inverseOfSymmetric(H);
   S_inverse_ = symmetricInverse<double>(G_ * H_inverse_ * G_.transpose(), VectorXd::Ones(G_.rows()));
   VectorXd even(z_.size());
   for (const Cone& c : cones_) even.segment(c.at, c.size) = c.W * z_.segment(c.at, c.size);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/held/held_dynamics.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include "adjoint/base/errors.h"
+#include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -23,13 +21,11 @@ Eigen::VectorXd solveForces(const Eigen::MatrixXd& B, const Eigen::VectorXd& b, 
     return -b / B(0, 0);
   }
   if (redundant) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> whole;
-    whole.setThreshold(kRank);
-    whole.compute(B);
+    const CompleteOrthogonal whole(B, kRank);
     if (inverse) *inverse = whole.pseudoInverse();
     return -whole.solve(b);
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> whole(B);
+  const PartialLu whole(B);
   if (inverse) *inverse = whole.inverse();
   return -whole.solve(b);
 }

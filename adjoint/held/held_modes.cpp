@@ -7,6 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/held/held_share.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
@@ -92,9 +93,7 @@ class ModeSearch {
       for (const std::size_t i : {0u, 1u}) solved.force[share->contact[i]] += share->pushOn(i);
     solved.redundant = false;
     if (unknowns > 1) {
-      Eigen::FullPivLU<Eigen::MatrixXd> rank(solved.forces->matrix());
-      rank.setThreshold(kModeRounding);
-      solved.redundant = rank.rank() < unknowns;
+      solved.redundant = FullLu(solved.forces->matrix(), kModeRounding).rank() < unknowns;
     }
   }
 
@@ -163,7 +162,7 @@ class ModeSearch {
         r[a] = across.dot(rate);
       }
     }
-    Eigen::VectorXd turn = -J.partialPivLu().solve(r);
+    Eigen::VectorXd turn = -PartialLu(J).solve(r);
     const double most = turn.cwiseAbs().maxCoeff();
     if (!std::isfinite(most)) return most;
     if (most > kMostTurn) turn *= kMostTurn / most;

@@ -5,6 +5,7 @@
 #include "adjoint/held/held_force_rates.hpp"
 #include "adjoint/held/held_rates.hpp"
 #include "adjoint/held/held_start_derivative.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -59,7 +60,7 @@ void through(const HeldPath& path, const HeldInputs& inputs, const HeldStep& ste
       block.middleCols<3>(3) -= h * h * twice(i, j) * G.leftCols<3>();
     }
   }
-  F = M.partialPivLu().solve(F);
+  F = PartialLu(M).solveColumns(F);
   const Gauss::Row weight = Gauss::integrals(1) * gauss.coefficients, weight_twice = weight * gauss.integral;
   D.topRows<3>() += h * D.middleRows<3>(6);
   for (int j = 0; j < n; ++j) {
@@ -170,12 +171,11 @@ void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixX
       turned(i, j) = acrossSlip(now, k).dot(forces.responseAt(now.contacts[k].r, push)) / size;
     }
   }
-  Eigen::FullPivLU<MatrixXd> turns(turned);
-  turns.setThreshold(kNoTurn);
+  const FullLu turns(turned, kNoTurn);
   if (!(std::abs(turned(0, 0)) > kNoTurn)) return;  // it goes round another
   const MatrixXd left = HeldInputs::chained(acrossSlips(path, inputs, t, now, stop), D);
   if (turns.isInvertible()) {
-    D.bottomRows<6>() -= change * turns.solve(left);
+    D.bottomRows<6>() -= change * turns.solveColumns(left);
   } else {  // those that do not turn by themselves follow the first
     D.bottomRows<6>() -= change.col(0) * left.row(0) / turned(0, 0);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adjoint/held/held_forces.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/so3.hpp"
 
 namespace carom::adjoint_detail {
@@ -80,7 +81,7 @@ struct HeldStepper::Nodes {
   // How slopes of v and L answer to a turn of the direction of each of these, and the slip rates of all: [of][by].
   std::vector<Eigen::Matrix<double, 6, kNodes>> slope_by_turn;
   std::vector<std::vector<OfSlip>> rate_by_turn;
-  Eigen::PartialPivLU<Eigen::MatrixXd> turns;
+  PartialLu turns;
   Eigen::MatrixXd M;
   Eigen::VectorXd turn;
 };

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/SVD>
-
+#include "adjoint/numeric/decompositions.hpp"
 #include "editing/problem/margins/sequence_borders.hpp"
 
 namespace carom::editing_detail {
@@ -28,11 +27,11 @@ std::optional<Kink> kinkBetween(const EditProblem& problem, const EditPoint& a, 
   for (int i = 0; i < problem.constraints.size(); ++i)
     jump[i] /= problem.constraints.rows()[static_cast<std::size_t>(i)].scale;
   jump += Ja * a.changes - Jb * b.changes;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Ja - Jb, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& all = svd.singularValues();
+  const adjoint_detail::ThinSvd svd(Ja - Jb);
+  const Eigen::VectorXd& all = svd.s;
   const double s = all[0], second = all.size() > 1 ? all[1] : 0;
   if (!(s > kSharp * Ja.norm()) || second > kOneRank * s) return std::nullopt;
-  const Kink kink{svd.matrixV().col(0), svd.matrixU().col(0).dot(jump) / s};
+  const Kink kink{svd.V.col(0), svd.U.col(0).dot(jump) / s};
   const double side_a = kink.normal.dot(a.changes) - kink.offset, side_b = kink.normal.dot(b.changes) - kink.offset;
   if (!(side_a * side_b < 0)) return std::nullopt;
   return kink;

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
+#include "adjoint/numeric/decompositions.hpp"
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/projection.hpp"
 #include "editing/solve/step_bounds.hpp"
@@ -30,10 +28,10 @@ void shorten(Eigen::VectorXd& v, double longest) {
 }
 
 /// z of least |C z + c|^2 with |z| <= longest, C = U S V^T: z = -V S/(S^2 + mu) U^T c with the least mu >= 0.
-Eigen::VectorXd nearestWithin(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd, Eigen::Index rank, const Eigen::VectorXd& c,
+Eigen::VectorXd nearestWithin(const adjoint_detail::ThinSvd& svd, Eigen::Index rank, const Eigen::VectorXd& c,
                               double longest) {
-  const Eigen::VectorXd s = svd.singularValues().head(rank);
-  const Eigen::VectorXd a = svd.matrixU().leftCols(rank).transpose() * c;
+  const Eigen::VectorXd s = svd.s.head(rank);
+  const Eigen::VectorXd a = svd.U.leftCols(rank).transpose() * c;
   const auto at = [&](double mu) -> Eigen::VectorXd {
     return -(s.array() * a.array() / (s.array().square() + mu)).matrix();
   };
@@ -47,7 +45,7 @@ Eigen::VectorXd nearestWithin(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd, Eige
     }
     z = at(high);
   }
-  return svd.matrixV().leftCols(rank) * z;
+  return svd.V.leftCols(rank) * z;
 }
 
 /// The step of the free unknowns while the others have taken `fixed`.
@@ -61,10 +59,7 @@ struct Solver {
     Eigen::MatrixXd Z = Eigen::MatrixXd::Identity(n, n);
     const LinearRows hard = hardRows(free, fixed, active);
     if (hard.size() > 0 && n > 0) {
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> onto;
-      onto.setThreshold(kRank);
-      onto.compute(hard.J);
-      d0 = -onto.solve(hard.r);
+      d0 = -adjoint_detail::CompleteOrthogonal(hard.J, kRank).solve(hard.r);
       shorten(d0, problem.longest);
       Z = nullSpace(hard.J, kRank);
     }
@@ -76,14 +71,14 @@ struct Solver {
     step.free_for_soft = false;
     if (problem.soft.size() > 0 && Z.cols() > 0) {
       const Eigen::MatrixXd C = soft * Z;
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(C, Eigen::ComputeThinU | Eigen::ComputeThinV);
-      const Eigen::VectorXd& s = svd.singularValues();
+      const adjoint_detail::ThinSvd svd(C);
+      const Eigen::VectorXd& s = svd.s;
       const double least = kSoftRank * std::max(s[0], soft.norm());
       Eigen::Index rank = 0;
       while (rank < s.size() && s[rank] > least) ++rank;
       step.free_for_soft = rank > 0;
       if (rank > 0) d += Z * nearestWithin(svd, rank, left + soft * d0, problem.longest);
-      moved = svd.matrixV().leftCols(rank);
+      moved = svd.V.leftCols(rank);
     }
     if (Z.cols() > 0) {
       Eigen::VectorXd w = -(Z.transpose() * pull(free, d));

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
+#include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -38,7 +38,7 @@ struct ActiveSet {
     M.bottomRows(n) = kSmallness * Eigen::MatrixXd::Identity(n, n);
     VectorXd rhs = VectorXd::Zero(m + n);
     rhs.head(m) = -(A * fixed + b);
-    return M.colPivHouseholderQr().solve(rhs);
+    return adjoint_detail::PivotingQr(M).solve(rhs);
   }
 
   // Goes towards `wanted` as far as the bounds allow; true when it gets there.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
+#include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -40,10 +40,9 @@ RowSplit splitRows(const Eigen::MatrixXd& jacobian, const std::vector<int>& want
     norms[k] = jacobian.row(rows[k]).norm();
     unit_rows.col(k) = jacobian.row(rows[k]).transpose() / norms[k];
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(unit_rows);
-  qr.setThreshold(kRankTolerance);
+  const adjoint_detail::PivotingQr qr(unit_rows, kRankTolerance);
   const int rank = static_cast<int>(qr.rank());
-  const auto& order = qr.colsPermutation().indices();
+  const Eigen::VectorXi order = qr.order();
 
   // Independent rows in increasing order, so that the result does not depend on the order of the pivots.
   std::vector<int> pivots(order.data(), order.data() + rank);
@@ -53,7 +52,7 @@ RowSplit splitRows(const Eigen::MatrixXd& jacobian, const std::vector<int>& want
 
   Eigen::MatrixXd basis(jacobian.cols(), rank);
   for (int k = 0; k < rank; ++k) basis.col(k) = unit_rows.col(pivots[k]);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> basis_qr(basis);
+  const adjoint_detail::HouseholderQr basis_qr(basis);
   for (int j = rank; j < count; ++j) {
     DependentRow dependent;
     const int k = order[j];
@@ -73,10 +72,8 @@ RowSplit splitRows(const Eigen::MatrixXd& jacobian, const std::vector<int>& want
 Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& jacobian, double tolerance) {
   const Eigen::Index n = jacobian.cols();
   if (jacobian.size() == 0) return Eigen::MatrixXd::Identity(n, n);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian.transpose());
-  qr.setThreshold(tolerance);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  return Q.rightCols(n - qr.rank());
+  const adjoint_detail::PivotingQr qr(jacobian.transpose(), tolerance);
+  return qr.Q().rightCols(n - qr.rank());
 }
 
 double contradictionOf(const RowSplit& split, const DependentRow& row, const Eigen::VectorXd& residuals) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "editing/solve/projection.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/numeric/decompositions.hpp"
 #include "editing/solve/step_bounds.hpp"
 
 namespace carom::editing_detail {
@@ -67,12 +66,9 @@ Eigen::VectorXd smallestSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd
   if (damping > 0) {
     Eigen::MatrixXd normal = A * A.transpose();
     normal.diagonal().array() += damping;
-    return A.transpose() * normal.ldlt().solve(b);
+    return A.transpose() * adjoint_detail::solveSymmetric(normal, b);
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(1e-10);
-  decomposition.compute(A);
-  return decomposition.solve(b);
+  return adjoint_detail::CompleteOrthogonal(A, 1e-10).solve(b);
 }
 
 /// Smallest step with J step = -r that stays within the bounds: numbers that would leave them stop there, and the

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "adjoint/numeric/decompositions.hpp"
 #include "editing/solve/projection.hpp"
 #include "editing/solve/reduced_hessian.hpp"
 #include "editing/strategy/missing_impacts.hpp"
@@ -52,7 +53,7 @@ double largestMultiplier(const EditSearch& search, const EditPoint& point, const
   const Eigen::MatrixXd J = point.row_jacobian->leftCols(n);
   Eigen::MatrixXd normal = J * J.transpose();
   normal.diagonal().array() += 1e-12 * std::max(normal.diagonal().maxCoeff(), 1e-300);
-  const Eigen::VectorXd m = normal.ldlt().solve(J * smallest.head(n));
+  const Eigen::VectorXd m = adjoint_detail::solveSymmetric(normal, J * smallest.head(n));
   return m.allFinite() ? m.lpNorm<Eigen::Infinity>() : 0;
 }
 
