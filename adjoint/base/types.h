@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "adjoint/base/small_matrices.h"
+
 namespace carom {
 
 using Vec2 = Eigen::Vector2d;     ///< two numbers
