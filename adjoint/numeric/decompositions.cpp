@@ -31,7 +31,7 @@ HouseholderQr::HouseholderQr(const MatrixXd& A) : qr_(A) {}
 VectorXd HouseholderQr::solve(const VectorXd& b) const { return qr_.solve(b); }
 
 CompleteOrthogonal::CompleteOrthogonal(const MatrixXd& A, double threshold) {
-  whole_.setThreshold(threshold);  // before it is computed: of what counts as 0 it takes no account
+  whole_.setThreshold(threshold);  // its rank is decided while it is computed
   whole_.compute(A);
 }
 VectorXd CompleteOrthogonal::solve(const VectorXd& b) const { return whole_.solve(b); }

@@ -33,6 +33,11 @@ class SmallMatrices : public testing::TestWithParam<unsigned> {
 };
 
 TEST_P(SmallMatrices, SumsAndMultiplesHaveTheBitsOfEigens) {
+  const Mat3 odd = any<Mat3>(), other = any<Mat3>();  // a last entry without a second one
+  EXPECT_EQ(Mat3(odd + other), Mat3(odd.operator+(other)));
+  EXPECT_EQ(Mat3(odd - other), Mat3(odd.operator-(other)));
+  EXPECT_EQ(Mat3(-odd), Mat3(odd.operator-()));
+  EXPECT_EQ(Mat3(odd / 3), Mat3(odd.operator/(3.0)));
   const Mat6 a = any<Mat6>(), b = any<Mat6>();
   const Vec6 v = any<Vec6>();
   const double s = number_(random_);
