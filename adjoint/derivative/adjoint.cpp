@@ -25,7 +25,8 @@ class ReversePass {
     bars_.eachEvent([&](int event, const Bars::AtEvent& at) {
       if (reliability_) {
         reliability_->pass(motion_, event);
-        reliability_->passFriction(motion_, event, tape_.event(event).frictionFromZero());
+        const FromZero friction = tape_.event(event).frictionFromZero();
+        reliability_->passFriction(motion_, event, friction.margin, friction.shared);
       }
       throughEvent(event, at);
     });

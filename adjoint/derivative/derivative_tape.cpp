@@ -121,8 +121,8 @@ void Reliability::pass(const Motion& motion, int index) {
   message = sentenceOf(motion, index) + doubt;
 }
 
-void Reliability::passFriction(const Motion& motion, int index, double margin) {
-  if (!(margin < kReliableMargin)) return;
+void Reliability::passFriction(const Motion& motion, int index, double margin, bool shared) {
+  if (!shared && !(margin < kReliableMargin)) return;
   const Event& event = motion.events[checkedIndex("Reliability::passFriction", "event", index, motion.events.size())];
   const Scene& scene = *motion.scene;
   for (const Contact& c : event.contacts) {
@@ -137,6 +137,11 @@ void Reliability::passFriction(const Motion& motion, int index, double margin) {
   }
   if (frictions.empty() || !friction_message.empty()) return;
   friction_message = sentenceOf(motion, index);
+  if (shared) {
+    friction_message += "is without friction at contacts that share their load in many ways: the least friction chooses "
+                        "one of these, so that there is no derivative by it at 0";
+    return;
+  }
   friction_message += textOf(6, "is without friction and does not slip (margin ", margin,
                              "): the derivative by its friction is one-sided, and another one next to it");
 }

@@ -76,8 +76,9 @@ struct Reliability {
 
   /// Counts an event that the derivative passes through.
   void pass(const Motion& motion, int event);
-  /// `margin`: EventLinearization::frictionFromZero.
-  void passFriction(const Motion& motion, int event, double margin);
+  /// `margin`: how far the contacts are from not slipping, where they are without friction; `shared`: they share their
+  /// load as the least friction chooses.
+  void passFriction(const Motion& motion, int event, double margin, bool shared);
   /// Counts an arc of a body that the derivative passes through. Where corners, edges and faces hold the body, the margin is
   /// how near a contact comes to lifting, slipping, sticking or leaving its feature, and does not: as a share of the forces,
   /// speeds and lengths of the path.

@@ -106,19 +106,19 @@ EventLinearization::EventLinearization(const Motion& motion, int index)
   setStart(pathStartOf(motion, event()));
 }
 
-double EventLinearization::frictionFromZero() const {
-  if (event().kind == EventKind::transition || event().kind == EventKind::placed) return 1;
+FromZero EventLinearization::frictionFromZero() const {
+  if (event().kind == EventKind::transition || event().kind == EventKind::placed) return {};
   const ImpactProblem& p = impact().problem();
-  if (std::none_of(p.pair.begin(), p.pair.end(), [](const PairCoefficients& c) { return c.friction == 0; })) return 1;
+  if (std::none_of(p.pair.begin(), p.pair.end(), [](const PairCoefficients& c) { return c.friction == 0; })) return {};
   if (p.contacts() > 1) {
     try {
-      return slipWithoutFriction(p);
+      return fromZero(p);
     } catch (const NotComputable&) {  // in doubles
-      return 0;
+      return {.margin = 0};
     }
   }
   const FrictionTerms<double> t(onlyContact(p));
-  return t.slides ? t.margin : 0;
+  return {.margin = t.slides ? t.margin : 0};
 }
 
 double EventLinearization::guardTangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,

@@ -19,10 +19,8 @@ class EventLinearization : public EventPass<double> {
   Tangent tangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,
                   const std::vector<BodyModelDerivative>& dmodel) const;
 
-  /// How far the event is from where it has no derivative by coefficients of friction that are 0, because a body that
-  /// does not slip there sticks with the least friction: |P_t|/P_n of the untruncated impulse, and of several contacts
-  /// the speed of the slip as a share of the fastest one at them; 1 where none is without friction.
-  double frictionFromZero() const;
+  /// How far the event is from where it has no derivative by coefficients of friction that are 0.
+  FromZero frictionFromZero() const;
 
  private:
   double guardTangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,

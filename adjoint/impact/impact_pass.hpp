@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "adjoint/impact/friction_from_zero.hpp"
 #include "adjoint/impact/law.hpp"
 #include "adjoint/numeric/dual.hpp"
 
@@ -51,9 +52,8 @@ ImpactSolutionOf<S> solveLaw(const ImpactProblemOf<S>& problem);
 template <class S>
 ImpactProblemDerivativeOf<S> lawPullback(const ImpactProblemOf<S>& problem, const VectorOf<S>& P_bar);
 
-/// Of several contacts: the slowest slip of those that an impulse keeps without friction, as a share of the fastest speed
-/// at the contacts; 0 where one does not slip, 1 where none is without friction.
-double slipWithoutFriction(const ImpactProblem& problem);
+/// Of several contacts, as friction grows from 0: impact/friction_from_zero.hpp.
+FromZero fromZero(const ImpactProblem& problem);
 
 /// An impact and its adjoint in numbers of 32 digits, from numbers to numbers of the given kind. Where masses differ
 /// much the velocity that a light body gets is the difference of the large impulses of heavy ones, which has no digits

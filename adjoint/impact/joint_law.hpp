@@ -135,20 +135,6 @@ class Branch {
     const auto row = 3 * static_cast<Index>(k);
     return loadOf(list[k], q.normal[k]) * q.normal[k].dot(V3<S>(q.K.template block<3, 3>(row, row) * q.normal[k]));
   }
-  // The same of contacts without friction that may get some: whether they slip.
-  double slipWithoutFriction() const {
-    if (!cone) return 1;
-    const ConeTerms<S>& t = cone->terms();
-    const ConeProgramOf<S>& q = *t.program;
-    double least = 1;
-    const double fastest = rounded(valueOf(q.b[largestOf(q.b)]));
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      if (q.friction[k] > S(0) || t.at.state[k] != ConeState::slides) continue;
-      const Vec3 n = roundedOf(q.normal[k]), v = roundedOf(V3<S>(t.V.template segment<3>(3 * static_cast<Index>(k))));
-      least = std::min(least, fastest == 0 ? 0 : (v - n.dot(v) * n).norm() / std::abs(fastest));
-    }
-    return least;
-  }
 
  private:
   template <class Problem>
@@ -157,12 +143,6 @@ class Branch {
   }
   static Vec3 roundedOf(const V3<S>& v) {
     return {rounded(valueOf(v[0])), rounded(valueOf(v[1])), rounded(valueOf(v[2]))};
-  }
-  static Index largestOf(const VectorOf<S>& v) {
-    Index most = 0;
-    for (Index i = 0; i < v.size(); ++i)
-      if (std::abs(rounded(valueOf(v[i]))) > std::abs(rounded(valueOf(v[most])))) most = i;
-    return most;
   }
 
   template <class Problem>

@@ -12,8 +12,9 @@ template ImpactSolutionOf<double> solveLaw(const ImpactProblemOf<double>&);
 template ImpactProblemDerivativeOf<double> lawPullback(const ImpactProblemOf<double>&, const VectorOf<double>&);
 template ImpactSolutionOf<Dual<1>> solveLaw(const ImpactProblemOf<Dual<1>>&);
 
-double slipWithoutFriction(const ImpactProblem& problem) {
-  return Branch<double>(problem, true).slipWithoutFriction();
+FromZero fromZero(const ImpactProblem& problem) {
+  const Branch<double> branch(problem, true);
+  return branch.cone ? fromZero(branch.cone->terms()) : FromZero();
 }
 
 }  // namespace carom::adjoint_detail

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "adjoint/second_order/second_order.h"
@@ -170,6 +171,52 @@ TEST(FrictionFromZero, IsMarkedWhereContactsJoinAndDoNotSlip) {
   adjoint(m, std::span(&seed, 1), &r);
   ASSERT_EQ(r.frictions, std::vector<int>{0});
   EXPECT_NE(r.friction_message.find("does not slip"), std::string::npos) << r.friction_message;
+}
+
+// A box that lands flat and spins: corners slip in several directions, and which of them rub friction chooses. Nor does
+// the order of bodies matter, nor which number of an equal load they have.
+TEST(FrictionFromZero, IsMarkedWhereItChoosesWhoBearsTheLoad) {
+  const auto marks = [](const Scene& scene, int body) {
+    const Motion m = play(scene, kEnd);
+    EXPECT_EQ(m.events.at(0).mode, ImpactMode::joint);
+    EXPECT_EQ(m.events.at(0).contacts.size(), 4u);
+    StateSeed seed = seedOf(body, Instant::at(kEnd), 0);
+    Reliability r;
+    adjoint(m, std::span(&seed, 1), &r);
+    if (!r.frictions.empty())
+      EXPECT_NE(r.friction_message.find("share their load"), std::string::npos) << r.friction_message;
+    return r.frictions == std::vector<int>{0};
+  };
+  for (std::uint64_t number = 1; number <= 20; ++number) {
+    SCOPED_TRACE("seed " + std::to_string(number));
+    Random random(number);
+    Scene scene = sliding(random.vec(2));
+    scene.bodies[0].velocity.z() = 0;
+    scene.bodies[0].angular_velocity = Vec3(0, 0, random.in(0.2, 3));
+    EXPECT_TRUE(marks(scene, 0));
+    Scene straight = scene;
+    straight.bodies[0].angular_velocity.setZero();
+    EXPECT_FALSE(marks(straight, 0));
+    std::reverse(scene.bodies.begin(), scene.bodies.end());
+    EXPECT_TRUE(marks(scene, 1));
+  }
+}
+
+// Where there is a mark the limit is another one: with the least friction other corners bear the load.
+TEST(FrictionFromZero, HasAnotherLimitWhereItChooses) {
+  const auto atEnd = [](double friction) {
+    Scene scene = sliding({1, 0.3, 0});
+    scene.bodies[0].angular_velocity = {0, 0, 2};
+    scene.materials[0].friction = friction;
+    return play(scene, kEnd);
+  };
+  const Motion none = atEnd(0), little = atEnd(1e-6);
+  ASSERT_EQ(none.events.size(), 1u);
+  ASSERT_EQ(little.events.size(), 1u);
+  DerivativeTape tape(none);
+  const Vec3 claimed = tangent(tape, byFriction(*none.scene)).at(0, Instant::at(kEnd)).velocity;
+  const Vec3 found = 1e6 * (little.stateAt(0, kEnd).velocity - none.stateAt(0, kEnd).velocity);
+  EXPECT_GT((claimed - found).norm(), 1e-2 * found.norm());
 }
 
 }  // namespace
