@@ -15,7 +15,7 @@
 namespace carom::pairs {
 namespace {
 
-constexpr int kPasses = 2;  // of each ordered pair of kinds, each at all the offsets
+constexpr int kPasses = 1;  // of each ordered pair of kinds, each at all the offsets
 const std::array<double, 8> kOffsets = {1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3};  // m, either side
 
 Scene shifted(Scene scene, const Vec3& by) {

@@ -14,7 +14,7 @@
 namespace carom::pairs {
 namespace {
 
-constexpr int kImpacts = 200;  // of each ordered pair
+constexpr int kImpacts = 100;  // of each ordered pair
 
 class Throws : public testing::TestWithParam<test::ShapePair> {
  protected:

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-const int kStacks = test::scaled(250);
+const int kStacks = test::scaled(100);
 
 struct Stack {
   Scene scene;
