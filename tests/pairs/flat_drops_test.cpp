@@ -322,7 +322,7 @@ std::string judge(const Drop& drop, DropTally& tally) {
 }
 
 TEST(FlatDrops, OfEveryKindOnEveryOther) {
-  const int each = scaled(20);
+  const int each = scaled(40);
   DropTally all;
   int failures = 0;
   for (const Maker above : kUpper)
