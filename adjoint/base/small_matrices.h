@@ -6,9 +6,11 @@
 
 #include <Eigen/Core>
 
-// Sums, differences and multiples of matrices of a fixed size up to 7x12, of any kind of number: values in place of
-// Eigen's expressions, the same to whoever writes `2 * a + b`. Eigen makes a class, of some two hundred members, for
-// every expression: a sixth of all time to compile went into these (docs/decisions.md, 16).
+// Sums, differences, products and multiples of matrices of a fixed size up to 7x12, of any kind of number: values in
+// place of Eigen's expressions, the same to whoever writes `A * x + b`. Eigen makes a class, of some two hundred members,
+// for every expression: a sixth of all time to compile went into these (docs/decisions.md, 16). And a product is summed
+// in one order, wherever its vectors lie in memory: Eigen takes two rows at a time from an even address on and the odd
+// one by itself, in another order.
 
 namespace carom {
 
@@ -25,7 +27,14 @@ template <class T>
 using ValueOf = Eigen::Matrix<typename T::Scalar, T::RowsAtCompileTime, T::ColsAtCompileTime>;
 
 template <class A, class B>
+using ProductOf = Eigen::Matrix<typename A::Scalar, A::RowsAtCompileTime, B::ColsAtCompileTime>;
+
+template <class A, class B>
 concept Alike = Small<A> && Small<B> && std::is_same_v<ValueOf<A>, ValueOf<B>>;
+
+template <class A, class B>
+concept Multiply = Small<A> && Small<B> && std::is_same_v<typename A::Scalar, typename B::Scalar> &&
+                   int(A::ColsAtCompileTime) == int(B::RowsAtCompileTime) && Small<ProductOf<A, B>>;
 
 template <class S, class A>
 concept ScalarOf = Small<A> && std::is_convertible_v<S, typename A::Scalar> && !requires(const S& s) { isMatrix(s); };
@@ -130,6 +139,33 @@ template <class A, class S>
 small_matrices::ValueOf<A> operator/(const A& a, const S& divisor) {
   const typename A::Scalar s(divisor);
   return small_matrices::entryByEntry(a, [&s](const auto& x) { return x / s; });
+}
+
+/// a b, each entry summed in order.
+template <class A, class B>
+  requires small_matrices::Multiply<A, B>
+small_matrices::ProductOf<A, B> operator*(const A& a, const B& b) {
+  using namespace small_matrices;
+  constexpr int rows = A::RowsAtCompileTime, common = A::ColsAtCompileTime;
+  // two rows at a time where columns lie in one piece
+  constexpr int paired = kInOnePlace<A> && !A::IsRowMajor ? rows / 2 * 2 : 0;
+  const auto& x = entries(a);
+  const auto& y = entries(b);
+  ProductOf<A, B> out;
+  for (int j = 0; j < B::ColsAtCompileTime; ++j) {
+    if constexpr (paired > 0)
+      for (int i = 0; i < paired; i += 2) {
+        Two sum = two(x.data() + i) * y.coeff(0, j);
+        for (int k = 1; k < common; ++k) sum += two(x.data() + rows * k + i) * y.coeff(k, j);
+        put(out.data() + rows * j + i, sum);
+      }
+    for (int i = paired; i < rows; ++i) {
+      typename A::Scalar sum = x.coeff(i, 0) * y.coeff(0, j);
+      for (int k = 1; k < common; ++k) sum += x.coeff(i, k) * y.coeff(k, j);
+      out.coeffRef(i, j) = sum;
+    }
+  }
+  return out;
 }
 
 }  // namespace carom

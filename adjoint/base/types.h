@@ -27,16 +27,6 @@ Eigen::Matrix<typename Vector::Scalar, 3, 3> skew(const Eigen::MatrixBase<Vector
   return m;
 }
 
-/// M v, a row at a time. Of a fixed odd number of doubles the matrix product sums the last or the first on its own and in
-/// another order, by where in memory they lie: bits that depend on the compiler.
-template <class Matrix, class Vector>
-Eigen::Matrix<typename Matrix::Scalar, Matrix::RowsAtCompileTime, 1> timesByRows(const Eigen::MatrixBase<Matrix>& M,
-                                                                                const Eigen::MatrixBase<Vector>& v) {
-  Eigen::Matrix<typename Matrix::Scalar, Matrix::RowsAtCompileTime, 1> product;
-  for (Eigen::Index row = 0; row < product.size(); ++row) product[row] = M.row(row).transpose().dot(v);
-  return product;
-}
-
 /// The vector d with <M, [d]x> = d . unskew(M) for every d (the adjoint of `skew`).
 template <class Matrix>
 Eigen::Matrix<typename Matrix::Scalar, 3, 1> unskew(const Eigen::MatrixBase<Matrix>& matrix) {

@@ -93,7 +93,7 @@ Vec7 contactTangent(const Part& part, const std::vector<StateDerivative>& before
     if (side.participant < 0) poses.segment<6>(at) << body.position, body.orientation;
     at += 6;
   }
-  Vec7 d = timesByRows(part.pose, poses);
+  Vec7 d = part.pose * poses;
   if (part.size_a.cols() > 0) d += part.size_a * dscene.bodies[static_cast<std::size_t>(part.a.body)].size;
   if (part.size_b.cols() > 0) d += part.size_b * dscene.bodies[static_cast<std::size_t>(part.b.body)].size;
   return d;

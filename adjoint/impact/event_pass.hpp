@@ -34,7 +34,7 @@ class EventPass {
         projection_(event, parts_, impact_.inputs()),
         rate_before_(std::move(rate_before)),
         rate_after_(std::move(rate_after)) {
-    for (const Part& part : parts_) guard_rate_ += part.guard.dot(timesByRows(part.pose, poses(part, rate_before_)));
+    for (const Part& part : parts_) guard_rate_ += part.guard.dot(part.pose * poses(part, rate_before_));
     guard_rate_ += guard_.rate(impact_, rate_before_);
     if (wide_ || !hasLaw()) return;
     if constexpr (std::is_same_v<S, double>) {

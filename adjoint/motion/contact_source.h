@@ -56,7 +56,7 @@ struct ContactJacobian {
 
   /// d(gap, normal, point) along a direction.
   Eigen::Matrix<double, 7, 1> along(const PairTangent& direction) const {
-    Eigen::Matrix<double, 7, 1> d = timesByRows(pose, direction.pose);
+    Eigen::Matrix<double, 7, 1> d = pose * direction.pose;
     if (size_a.cols() > 0 && direction.size_a.size() > 0) d += size_a * direction.size_a;
     if (size_b.cols() > 0 && direction.size_b.size() > 0) d += size_b * direction.size_b;
     return d;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sums and multiples of small matrices have the bits of Eigen's, and are Eigen's own where a size is not fixed.
+// Sums and products of small matrices: the bits of Eigen's where it has one order, one order where it has two, and
+// Eigen's own where a size is not fixed.
 
 #include "adjoint/base/small_matrices.h"
 
@@ -52,6 +53,31 @@ TEST_P(SmallMatrices, SumsAndMultiplesHaveTheBitsOfEigens) {
   EXPECT_EQ(Vec3(v.cwiseAbs().tail<3>() * 2), Vec3(v.cwiseAbs().tail<3>().operator*(2.0)));
 }
 
+TEST_P(SmallMatrices, ProductsAreSumsInOrderWhereverTheyLie) {
+  const Mat3 a = any<Mat3>(), b = any<Mat3>();
+  Mat3 expected;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) expected(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
+  EXPECT_EQ(Mat3(a * b), expected);
+  EXPECT_EQ(Mat3(b.transpose() * a.transpose()), Mat3(expected.transpose()));
+  double memory[2 * 9 + 3];
+  for (int at : {0, 1, 2, 3}) {  // from even and odd addresses on
+    Eigen::Map<Mat3> moved(memory + at), product(memory + 9 + at % 2);
+    moved = a;
+    EXPECT_EQ(Mat3(moved * b), expected) << at;
+    product = a * b;
+    EXPECT_EQ(product, expected) << at;
+  }
+  const Eigen::Matrix<double, 7, 12> J = any<Eigen::Matrix<double, 7, 12>>();
+  const Eigen::Matrix<double, 12, 1> x = any<Eigen::Matrix<double, 12, 1>>();
+  const Eigen::Matrix<double, 7, 1> y = J * x;
+  for (int i = 0; i < 7; ++i) {
+    double sum = 0;
+    for (int k = 0; k < 12; ++k) sum += J(i, k) * x[k];
+    EXPECT_EQ(y[i], sum) << i;
+  }
+}
+
 TEST_P(SmallMatrices, OfDualsAreThoseOfTheirValuesAndRates) {
   using D = Dual<1>;
   using DualMat3 = Eigen::Matrix<D, 3, 3>;
@@ -61,8 +87,11 @@ TEST_P(SmallMatrices, OfDualsAreThoseOfTheirValuesAndRates) {
     x(i) = a(i), y(i) = b(i);
     x(i).rate[0] = da(i), y(i).rate[0] = db(i);
   }
-  const DualMat3 sum = 2.0 * x - y;
+  const DualMat3 product = x * y, sum = 2.0 * x - y;
+  const Mat3 value = a * b, rate = da * b + a * db;
   for (int i = 0; i < 9; ++i) {
+    EXPECT_EQ(product(i).value, value(i));
+    EXPECT_TRUE(std::abs(product(i).rate[0] - rate(i)) <= 1e-14 * 60) << product(i).rate[0] - rate(i);
     EXPECT_EQ(sum(i).value, 2 * a(i) - b(i));
     EXPECT_EQ(sum(i).rate[0], 2 * da(i) - db(i));
   }
@@ -75,7 +104,10 @@ TEST(SmallMatricesTypes, AreValuesWhereSizesAreFixedAndEigensElsewhere) {
   const Eigen::Matrix3Xd wide = Eigen::Matrix3Xd::Zero(3, 4);
   EXPECT_TRUE((std::is_same_v<decltype(a + a), Mat3>));
   EXPECT_TRUE((std::is_same_v<decltype(2 * a.row(1)), Eigen::RowVector3d>));
+  EXPECT_TRUE((std::is_same_v<decltype(a * a.col(1)), Vec3>));
   EXPECT_FALSE((std::is_same_v<decltype(wide + wide), Eigen::Matrix3Xd>));  // an expression
+  EXPECT_FALSE((std::is_same_v<decltype(a * wide), Eigen::Matrix3Xd>));
+  EXPECT_EQ(Eigen::Matrix3Xd(a * wide), wide);
   EXPECT_EQ(Eigen::Matrix3Xd(wide + wide), wide);
 }
 

@@ -76,12 +76,12 @@ std::pair<Velocity, Velocity> stoppedAt(const MassProperties& mass_a, const Kine
           {vb.v - mass_b.inverse_mass * P, vb.w - Jb * rb.cross(P)}};
 }
 
-Real violationOf(const JointContact& c) {
-  const Real P = c.impulse.norm(), P_n = c.n.dot(c.impulse), P_t = (c.impulse - P_n * c.n).norm();
+Real violationOf(const JointContact& c, Real largest) {
+  const Real rounding = 1e-15L * largest, P = c.impulse.norm(), P_n = c.n.dot(c.impulse), P_t = (c.impulse - P_n * c.n).norm();
   const Real spare = c.n.dot(c.after) + c.pair.elasticity * c.n.dot(c.before);
   Real worst = std::max<Real>(0, -spare);
-  if (P > 0) worst = std::max({worst, -P_n / P, (P_t - c.pair.friction * P_n) / P});
-  if (P_n > 0) worst = std::max(worst, spare);
+  if (P > rounding) worst = std::max({worst, -P_n / P, (P_t - c.pair.friction * P_n) / P});
+  if (P_n > rounding) worst = std::max(worst, spare);
   return worst;
 }
 

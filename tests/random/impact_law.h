@@ -33,7 +33,7 @@ struct JointContact {
   Coefficients pair;
 };
 /// By how much it fails what equation 4.4 asks of it, in m/s and shares of the impulse: P_n >= 0, |P_t| <= mu P_n,
-/// u_n+ >= -e u_n, and equal where P_n > 0.
-Real violationOf(const JointContact& c);
+/// u_n+ >= -e u_n, and equal where P_n > 0. What is below the rounding of the `largest` impulse of them is none.
+Real violationOf(const JointContact& c, Real largest);
 
 }  // namespace carom::brute

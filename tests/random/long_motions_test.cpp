@@ -121,23 +121,23 @@ struct Row {
   const char* name;
   Scene scene;
   double duration;
-  std::size_t impacts;  // at the most; so many there are, but in free flight
+  std::size_t impacts;  // events at the most; so many there are, but in free flight
   std::uint64_t hash;
 };
 
 std::vector<Row> rows() {
   return {
-      {"thirty boxes", pen(30, {Box{{0.1, 0.14, 0.08}}}, 0.97, 0.2), 100, 1200, 0x1ee6c47f00d7f0fe},
-      {"boxes and balls", pen(27, {Box{{0.14, 0.1, 0.1}}, Sphere{0.1}}, 0.95, 0.3), 100, 800, 0x50e72c379a78990f},
-      {"balls alone", pen(125, {Sphere{0.1}}, 1, 0), 100, 4000, 0xe4c95cc9ae0a9c29},
-      {"billiard with friction", pen(8, {Sphere{0.12}}, 0.99, 0.4), 100, 1000, 0xbe376b2b3bfbb233},
+      {"thirty boxes", pen(30, {Box{{0.1, 0.14, 0.08}}}, 0.97, 0.2), 100, 1200, 0xf11700d17d0e255c},
+      {"boxes and balls", pen(27, {Box{{0.14, 0.1, 0.1}}, Sphere{0.1}}, 0.95, 0.3), 100, 800, 0x3c8ca72eaba2fb07},
+      {"balls alone", pen(125, {Sphere{0.1}}, 1, 0), 100, 4000, 0xcc07dedeba2b5a7a},
+      {"billiard with friction", pen(8, {Sphere{0.12}}, 0.99, 0.4), 100, 1000, 0xa21fba128f461742},
       {"capsules and cylinders", pen(8, {Capsule{0.05, 0.1}, Cylinder{0.07, 0.1}}, 0.97, 0.2), 100, 250,
-       0xddddddf8c168934e},
-      {"stones", pen(8, {stone()}, 0.97, 0.2), 100, 250, 0xcec6439b3e80fcb3},
-      {"stars", pen(4, {star()}, 0.97, 0.1), 100, 150, 0x6690b92dae17691d},
-      {"hammers", pen(6, {hammer(), Sphere{0.09}}, 0.97, 0.2), 100, 200, 0x75b0bf2c41898ba0},
+       0x68bab49d6cebc2d9},
+      {"stones", pen(8, {stone()}, 0.97, 0.2), 100, 250, 0xbabe6e08d64094e1},
+      {"stars", pen(4, {star()}, 0.97, 0.1), 100, 150, 0x3c349fc81a02e23f},
+      {"hammers", pen(6, {hammer(), Sphere{0.09}}, 0.97, 0.2), 100, 200, 0x5479cbefa2d262b6},
       {"cones", pen(8, {Cone{0.09, 0.14}, Box{{0.12, 0.1, 0.1}}, Cone{0.06, 0.18}}, 0.97, 0.2), 100, 200,
-       0xd8db8d47e7bd6789},
+       0x886b3d1cfc82ddcb},
       {"triaxial spin", spinning({0.3, 0.2, 0.1}, {0.2, 7, 0.1}), 5000, 10, 0xdba312752931f131},
       {"spin near the separatrix", spinning({0.3, 0.2, 0.1}, {1e-7, 5, 1e-8}), 500, 10, 0xe142d74632eaa94b},
   };
@@ -147,7 +147,7 @@ TEST(LongMotions, HaveTheBitsThatTheyAlwaysHad) {
   for (const Row& row : rows()) {
     const Motion motion = play(row.scene, row.duration, row.impacts);
     if (row.impacts > 10) {
-      EXPECT_EQ(motion.impacts, row.impacts) << row.name << ": " << motion.message;
+      EXPECT_EQ(motion.events.size(), row.impacts) << row.name << ": " << motion.message;
     }
     const std::uint64_t hash = hashOf(motion);
     EXPECT_EQ(hash, row.hash) << row.name << " has the hash 0x" << std::hex << hash;
