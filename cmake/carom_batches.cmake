@@ -2,13 +2,14 @@
 # carom_batches(<variable> SIZE <count> SOURCES <source>...): puts into the variable what to compile for the sources: a
 # file for each <count> of them that includes them, by paths relative to the project, so that it is the same in every
 # clone (CMake's own unity builds name absolute ones). Sources with properties of their own, and generated ones, stay
-# alone. Call it after set_source_files_properties.
+# alone, and come last: what they share with a batch is linked from there. Call it after set_source_files_properties.
 #   CAROM_ALONE ON, a property of sources: not in a batch, where many would wait for it
 define_property(SOURCE PROPERTY CAROM_ALONE BRIEF_DOCS "Compiled alone")
 
 function(carom_batches variable)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "SIZE" "SOURCES")
   set(compiled "")
+  set(lone "")
   set(batch "")
   foreach(source IN LISTS arg_SOURCES)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
@@ -22,7 +23,7 @@ function(carom_batches variable)
     cmake_path(IS_PREFIX PROJECT_SOURCE_DIR ${source} ours)
     cmake_path(IS_PREFIX PROJECT_BINARY_DIR ${source} generated)
     if(alone OR NOT CAROM_UNITY OR NOT ours OR generated OR NOT source MATCHES "\\.cpp$")
-      list(APPEND compiled ${source})
+      list(APPEND lone ${source})
     else()
       list(APPEND batch ${source})
     endif()
@@ -44,5 +45,5 @@ function(carom_batches variable)
     list(APPEND compiled ${file})
     math(EXPR number "${number} + 1")
   endwhile()
-  set(${variable} ${compiled} PARENT_SCOPE)
+  set(${variable} ${compiled} ${lone} PARENT_SCOPE)
 endfunction()
