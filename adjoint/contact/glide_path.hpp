@@ -66,7 +66,7 @@ class GlidePath {
         share_(share),
         inertia_(inertia),
         turns_(primalOf(inertia) > 0),
-        slip_(s, alongFace(in.normal, in.gravity), in.friction * pressingGravity(in) / share, scale) {
+        slip_(in.begins ? ratesOnly(s) : s, alongFace(in.normal, in.gravity), in.friction * pressingGravity(in) / share, scale) {
     if (turns_) {
       lever_ = in.normal * ((1.0 - share) / in.reach);
       spin_ = in.L / inertia;
@@ -74,6 +74,11 @@ class GlidePath {
     end_ = slip_.end();
   }
 
+  // A slip that begins is 0, and only what it varies by counts.
+  static V3<S> ratesOnly(V3<S> s) {
+    for (S& x : s) x -= primalOf(x);
+    return s;
+  }
   // What an end that moves along has of the time past it: nothing but rates.
   S beyondEnd(const S& t) const {
     S late = t - *end_;

@@ -139,8 +139,14 @@ class GlideSlip {
 
   std::array<S, 3> hyperbolic(const S& xi) const;
 
+  // Of a slip that goes straight. The one of a slope is better known: a slow slip is rounding of the speeds that it is a
+  // difference of, and a steep slope would not let what it has across live on.
+  V3<S> lineDirection() const {
+    if (!steep_) return s0_ / u_;
+    return primalOf(h_) < 0 ? V3<S>(-along_) : along_;
+  }
   Slip<S> alongLine(const S& t) const {
-    const V3<S> direction = s0_ / u_;
+    const V3<S> direction = lineDirection();
     return {s0_ + (g_ - direction * c_) * t, (s0_ + (g_ - direction * c_) * (0.5 * t)) * t, direction};
   }
   // Slip that begins goes along the slope. Rates of the slip at the start count as far as they do.
@@ -198,7 +204,7 @@ Slip<S> GlideSlip<S>::atEnd() const {
   const S c2 = c_ * c_, a2 = g_.squaredNorm();
   Slip<S> slip;
   slip.s = V3<S>::Zero();
-  slip.direction = straight_ ? V3<S>(s0_ / u_) : V3<S>(g_ / sqrt(a2));  // it turns down the slope, be it ever so small
+  slip.direction = straight_ ? lineDirection() : V3<S>(g_ / sqrt(a2));  // it turns down the slope, be it ever so small
   if (steep_) {
     const S first = reverses_ ? S(0) : S(P_ * P_ / (2.0 * (c_ - a_)));
     const S across = reverses_ ? S(0) : S(P_ / (2.0 * c_ - a_));

@@ -25,6 +25,7 @@ struct PathInputs {
   M3<S> J = M3<S>::Identity();     ///< kg m^2 in principal axes: diagonal in value
   S reach = 1;                     ///< m, from the centre of mass to the face: radius, or height of a block
   V3<S> axis = V3<S>::UnitZ();     ///< roll_axle: in principal axes, unit, a constant of the body
+  bool begins = false;             ///< glide: its slip is 0 at the start, but for rounding, and begins along the slope
 };
 
 template <class S>

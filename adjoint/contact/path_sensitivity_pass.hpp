@@ -59,7 +59,7 @@ PathInputs<ColumnsOf<S>> asConstants(const PathInputs<S>& in) {
   const auto vector = [](const V3<S>& v) { return V3<C>(v[0], v[1], v[2]); };
   const auto matrix = [](const M3<S>& m) { return M3<C>(m.unaryExpr([](const S& x) { return C(x); })); };
   return {vector(in.x), vector(in.v), vector(in.L), matrix(in.R), vector(in.gravity), vector(in.normal),
-          C(in.friction), C(in.mass), matrix(in.J), C(in.reach), vector(in.axis)};
+          C(in.friction), C(in.mass), matrix(in.J), C(in.reach), vector(in.axis), in.begins};
 }
 
 /// The inputs whose columns have to be computed: of a place, all that moves with it; of a ball, one moment for three.

@@ -22,6 +22,7 @@ PathInputs<Num> inputsOf(const Lanes& lanes, int body, int k) {
   in.J = lanes.model(body).J;
   in.reach = Num(path.inputs.reach);
   in.axis = constant(path.inputs.axis);
+  in.begins = path.inputs.begins;
   for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
     const auto& bodies = lanes.direction(lane).scene.bodies;
     setRates(in.normal, Vec3(bodies[static_cast<std::size_t>(path.face)].orientation.cross(path.inputs.normal)), lane);

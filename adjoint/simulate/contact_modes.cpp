@@ -21,7 +21,7 @@ class Chooser {
  public:
   Chooser(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
       : motion_(motion), index_(body), state_(state), closed_(closed), body_(motion, body, state, closed) {
-    no_slip_ = least_slip_ = kNoSlip * std::sqrt(body_.gravity().norm() * body_.reach());
+    no_slip_ = least_slip_ = leastSlip(body_.reach());
   }
 
   void ignoreSlips(double slower) { no_slip_ = std::max(no_slip_, slower); }
@@ -29,6 +29,7 @@ class Chooser {
 
   ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
     body_.hold(contacts);
+    for (const Contact* c : contacts) least_slip_ = std::max(least_slip_, leastSlip(body_.armOf(*c).norm()));
     return stays(form, form == PathForm::rest ? 1 : body_.height());
   }
 
@@ -73,6 +74,7 @@ class Chooser {
   }
 
  private:
+  double leastSlip(double reach) const { return kNoSlip * std::sqrt(body_.gravity().norm() * reach); }
   bool isSlow(const Vec3& v) const { return v.norm() <= no_slip_; }
 
   ContactChoice onHeldPath() const {
@@ -148,11 +150,31 @@ class Chooser {
   }
 
   ContactChoice block() {
-    const PathInputs<double> in = body_.inputs(body_.height());
+    PathInputs<double> in = body_.inputs(body_.height());
+    beginSlip(in, PathForm::glide_block);
+    const bool stands = !in.begins && in.friction > 0 && alongFace(in.normal, in.v).norm() <= least_slip_;
+    if (stands) return {};  // but cannot rest: it tips
     const Vec3 ahead = slipDirectionAt<double>(PathForm::glide_block, in, 0);
     const SupportPolygon support(body_.pressed(), in.normal);
     if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > 0)) return {};
     return stays(PathForm::glide_block, in.reach);
+  }
+
+  // A slip that is next to none says nothing of its direction, be it rounding or not: what gravity keeps up begins along the
+  // slope (11.6). What is left of it is stopped at the contact, as where a ball rolls.
+  void beginSlip(PathInputs<double>& in, PathForm form) const {
+    const GlidePath<double> path = glideOf(form, in);
+    const Vec3& s = path.slip().start();
+    const double friction = path.slip().friction();
+    if (!(friction > 0) || !(path.slip().slope().norm() > friction) || s.norm() > least_slip_) return;
+    in.begins = true;
+    if (form == PathForm::glide_block) {
+      in.v -= s;
+      return;
+    }
+    const double inertia = ballInertia(in), k = inertia / (in.mass * in.reach * in.reach);
+    in.v -= k / (1 + k) * s;
+    in.L += inertia * in.normal.cross(s) / ((1 + k) * in.reach);
   }
 
   ContactChoice beyond(std::string what) const {
@@ -186,6 +208,7 @@ class Chooser {
       path.reach_rates = -(body_.pressed().front()->a == index_ ? J.size_a : J.size_b).row(0);
     }
     if (form == PathForm::glide_block) path.inputs.L.setZero();
+    if (glides(form)) beginSlip(path.inputs, form);
     const PathState<double> start = pathStateAt<double>(form, path.inputs, 0);
     choice.start = {start.x, state_.q, start.v, start.L};
     path.inputs.v = start.v;
