@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/held/held_start.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
@@ -217,20 +218,38 @@ std::optional<std::size_t> HeldPath::contactThatStops() const {
 }
 
 // Where a slip is 0 it goes along its acceleration, u' = -|u'| d, which the direction at a node comes near to: Newton's
-// method on (n x d).u' = 0.
+// method on (n x d).u' = 0, for all that stop there together.
 void HeldPath::alignStop(HeldInstant& now) const {
-  const std::optional<std::size_t> stops = contactThatStops();
-  if (!stops) return;
-  const std::size_t k = *stops;
-  ContactInstant<double>& c = now.contacts[k];
-  if (!(c.friction > 0) || now.slipAt(k).norm() > kStraightAnyway * scene_.speed) return;
+  const std::optional<std::size_t> first = contactThatStops();
+  const auto stops = [&](std::size_t k) {
+    return contacts_[k].mode == HeldMode::slides && contacts_[k].friction > 0 &&
+           !(now.slipAt(k).norm() > kStraightAnyway * scene_.speed);
+  };
+  if (!first || !stops(*first)) return;
+  std::vector<std::size_t> turning;
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    if (stops(k)) turning.push_back(k);
+  const auto size = static_cast<Eigen::Index>(turning.size());
+  Eigen::MatrixXd J(size, size);
+  Eigen::VectorXd r(size);
   for (int round = 0; round < kAlignRounds; ++round) {
     const HeldDynamics forces(now.body, now.contacts, redundant_);
-    const Vec3 rate = forces.slipRate(k), across = c.n.cross(c.slip);
-    const Vec3 turned = forces.responseAt(c.r, forces.answerToTurn(k, redundant_));
-    const double turn = -across.dot(rate) / (across.dot(turned) - c.slip.dot(rate));
-    if (!(std::abs(turn) < kMostAlign)) return;
-    c.slip = (c.slip + turn * across).normalized();
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const std::vector<Vec3> answer = forces.answerToTurn(turning[static_cast<std::size_t>(j)], redundant_);
+      for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t k = turning[static_cast<std::size_t>(i)];
+        const ContactInstant<double>& c = now.contacts[k];
+        const Vec3 across = c.n.cross(c.slip), rate = forces.slipRate(k);
+        J(i, j) = across.dot(forces.responseAt(c.r, answer)) - (i == j ? c.slip.dot(rate) : 0.0);
+        r[i] = across.dot(rate);
+      }
+    }
+    const Eigen::VectorXd turn = -PartialLu(J).solve(r);
+    if (!(turn.cwiseAbs().maxCoeff() < kMostAlign)) return;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      ContactInstant<double>& c = now.contacts[turning[static_cast<std::size_t>(i)]];
+      c.slip = (c.slip + turn[i] * c.n.cross(c.slip)).normalized();
+    }
   }
 }
 

@@ -16,6 +16,9 @@ using Eigen::MatrixXd;
 // straight, if its acceleration has no more than kStillTurns of itself across it, and slower than kNoDirectionLeft in any case.
 constexpr double kReach = 0.7, kNoSlip = 1e-8, kStillTurns = 1e-6, kNoDirectionLeft = 1e-11, kNeverSlips = 1e-13;
 
+// Of what a slip has left at its end, which is rounding: what is no larger across its way there is rounding, too.
+constexpr double kLeftAcross = 4;
+
 // Of the acceleration by a force: what turns a slip less than that does not turn it.
 constexpr double kNoTurn = 1e-9;
 
@@ -69,6 +72,8 @@ void through(const HeldPath& path, const HeldInputs& inputs, const HeldStep& ste
   }
 }
 
+Vec3 acrossSlip(const HeldInstant& now, std::size_t k) { return now.contacts[k].n.cross(now.contacts[k].slip); }
+
 // A stretch of a step that tangents are taken over in one go, and of each contact the direction that its slip keeps: what
 // a slip u has across its direction goes as a power of |u|, also where the path itself is straight, and polynomials follow
 // that only while |u| does not change by much.
@@ -77,7 +82,16 @@ struct Stretch {
   std::vector<Vec3> straight;
 };
 
-Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, double t) {
+// Where slips end with the path: its instant there.
+using SlipEnds = std::optional<HeldInstant>;
+
+// Whether a slip that comes to its end goes straight to it, as far as rounding lets anybody tell.
+bool goesStraightTo(const HeldInstant& end, std::size_t k, const HeldInstant& now) {
+  const double left = end.slipAt(k).norm(), across = std::abs(acrossSlip(end, k).dot(now.slipAt(k)));
+  return left < kLeftAcross * now.slipAt(k).norm() && across <= kLeftAcross * left;
+}
+
+Stretch stretchFrom(const HeldPath& path, const SlipEnds& end, const HeldStep& step, double from, double t) {
   const HeldInstant now = path.instantAt(from);
   const HeldDynamics forces(now.body, now.contacts, path.redundant());
   Stretch out{t, followSlips(path)};
@@ -91,9 +105,10 @@ Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, dou
     }
     if (c.begins && !(from > path.start())) continue;
     const Vec3 rate = forces.slipRate(k);
-    const bool turns = rate.cross(now.slipAt(k)).norm() > kStillTurns * rate.norm() * slip;
+    const bool stops = end && end->slipAt(k).norm() <= kNoDirectionLeft * path.scene().speed;
+    const bool turns = rate.cross(now.slipAt(k)).norm() > kStillTurns * rate.norm() * slip && !(stops && goesStraightTo(*end, k, now));
     if (!(slip > (turns ? kNoDirectionLeft : kNoSlip) * path.scene().speed)) {
-      out.straight[k] = (path.contactThatStops() == k ? path.instantAt(path.end()->time) : now).contacts[k].slip;
+      out.straight[k] = (stops ? *end : now).contacts[k].slip;
     } else {
       const double reach = kReach * slip / rate.norm();
       if (from + 1.2 * reach < out.until) out.until = from + reach;
@@ -103,9 +118,10 @@ Stretch stretchFrom(const HeldPath& path, const HeldStep& step, double from, dou
 }
 
 // Takes the tangent at the start of a step to a time in it.
-void throughStep(const HeldPath& path, const HeldInputs& inputs, const HeldStep& step, double t, MatrixXd& D) {
+void throughStep(const HeldPath& path, const HeldInputs& inputs, const SlipEnds& end, const HeldStep& step, double t,
+                 MatrixXd& D) {
   for (double from = step.start; from < t;) {
-    const Stretch stretch = stretchFrom(path, step, from, t);
+    const Stretch stretch = stretchFrom(path, end, step, from, t);
     through(path, inputs, step, from, stretch.until, stretch.straight, D);
     from = stretch.until;
   }
@@ -131,8 +147,6 @@ std::vector<std::size_t> contactsThatStop(const HeldPath& path, const HeldInstan
     if (k != *first && stops(k)) found.push_back(k);
   return found;
 }
-
-Vec3 acrossSlip(const HeldInstant& now, std::size_t k) { return now.contacts[k].n.cross(now.contacts[k].slip); }
 
 // The tangents of slips across their ways, by all inputs: a row of each contact.
 MatrixXd acrossSlips(const HeldPath& path, const HeldInputs& inputs, double t, const HeldInstant& now,
@@ -174,8 +188,9 @@ void endAcross(const HeldPath& path, const HeldInputs& inputs, double t, MatrixX
   const FullLu turns(turned, kNoTurn);
   if (!(std::abs(turned(0, 0)) > kNoTurn)) return;  // it goes round another
   const MatrixXd left = HeldInputs::chained(acrossSlips(path, inputs, t, now, stop), D);
-  if (turns.isInvertible()) {
-    D.bottomRows<6>() -= change * turns.solveColumns(left);
+  const MatrixXd turn = turns.solveColumns(left);
+  if ((turned * turn - left).norm() <= kNoTurn * left.norm()) {  // of four corners two turn the rest
+    D.bottomRows<6>() -= change * turn;
   } else {  // those that do not turn by themselves follow the first
     D.bottomRows<6>() -= change.col(0) * left.row(0) / turned(0, 0);
   }
@@ -200,10 +215,12 @@ MatrixXd heldSensitivity(const HeldPath& path, const HeldInputs& inputs, double 
   requireSlips(path);
   HeldStartDerivative start = heldStartDerivative(path, inputs);
   MatrixXd& D = start.state;
+  SlipEnds end;
+  if (path.contactThatStops()) end = path.instantAt(path.end()->time);
   for (const HeldStep& step : path.allSteps()) {
     if (!(step.length > 0) || !(step.start < t)) break;
     const bool last = &step == &path.allSteps().back();
-    throughStep(path, inputs, step, last ? t : std::min(t, step.start + step.length), D);
+    throughStep(path, inputs, end, step, last ? t : std::min(t, step.start + step.length), D);
   }
   endAcross(path, inputs, t, D);
   if (!start.time.isZero(0)) D -= asVector(path.rateAt(t)) * start.time;
