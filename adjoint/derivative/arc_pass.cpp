@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/derivative/arc_pass.hpp"
 
+#include "adjoint/contact/block_spin.hpp"
+#include "adjoint/motion/guard.hpp"
+
 namespace carom::adjoint_detail {
 
 PathInputsDerivative<double> PathLinearization::inputs(const ContactPath& path, const SceneTangent& dscene,
@@ -23,6 +26,27 @@ PathInputsDerivative<double> PathLinearization::inputs(const ContactPath& path, 
 
 namespace {
 
+// Of a block that does not turn, what its angular momentum about the normal makes of it.
+void addSpin(const Motion& motion, const ContactPath& path, double elapsed, PathSensitivity<double>& sensitivity) {
+  const PathInputs<double>& in = path.inputs;
+  const BodyModel& model = (*motion.models)[static_cast<std::size_t>(path.body)];
+  const Pose own{in.x, model.shapeToWorld(in.R)};
+  const Pose face = shapePose(motion, path.face, motion.world_lines[static_cast<std::size_t>(path.face)].arcs[0].startState());
+  std::vector<BlockSupport> supports;
+  for (const FaceContact& c : path.supports) {
+    const ContactGeometry& geometry = *motion.geometry;
+    const int a = c.is_first ? path.body : path.face, b = c.is_first ? path.face : path.body;
+    const Pose &of_a = c.is_first ? own : face, &of_b = c.is_first ? face : own;
+    supports.push_back({geometry.contact(a, b, c.features, of_a, of_b).point - in.x,
+                        geometry.jacobian(a, b, c.features, of_a, of_b).pose.block<3, 3>(4, c.is_first ? 0 : 6)});
+  }
+  const BlockSpin by = blockSpin(in, supports, elapsed, elapsed == path.slip_end);
+  const Vec3 &n = in.normal, momentum = in.R * (in.J * (in.R.transpose() * n));  // of 1 rad/s
+  Eigen::Matrix<double, 12, 1> column;
+  column << by.x, by.turn * n, by.v, by.spin * momentum;
+  sensitivity.J.block<12, 3>(0, 9) += column * n.transpose() / n.dot(momentum);
+}
+
 const Material& materialOfBody(const Scene& scene, int body) {
   return materialOf(scene, scene.bodies[static_cast<std::size_t>(body)]);
 }
@@ -32,6 +56,7 @@ const Material& materialOfBody(const Scene& scene, int body) {
 PathLinearization::PathLinearization(const Motion& motion, const ContactPath& path, double elapsed)
     : scene(*motion.scene),
       friction(rulesOf(materialOfBody(scene, path.body), materialOfBody(scene, path.face)).friction),
+      motion_(motion),
       path_(path),
       elapsed_(elapsed),
       orientation_(motion.plan.bodies[static_cast<std::size_t>(path.body)].derivative_tier != Tier::none) {
@@ -47,8 +72,14 @@ const Eigen::MatrixXd& PathLinearization::matrix() const {
 const PathSensitivity<double>& PathLinearization::sensitivity(bool turns) const {
   if (whole_) return *whole_;
   std::optional<PathSensitivity<double>>& slot = turns && orientation_ ? whole_ : without_turn_;
-  if (!slot) slot = pathSensitivity<double>(path_.form, path_.inputs, elapsed_, turns && orientation_);
+  if (!slot) slot = closedForm(turns && orientation_);
   return *slot;
+}
+
+PathSensitivity<double> PathLinearization::closedForm(bool orientation) const {
+  PathSensitivity<double> out = pathSensitivity<double>(path_.form, path_.inputs, elapsed_, orientation);
+  if (path_.form == PathForm::glide_block) addSpin(motion_, path_, elapsed_, out);
+  return out;
 }
 
 std::shared_ptr<const PathLinearization> linearizedPath(const Motion& motion, const ContactPath& path,

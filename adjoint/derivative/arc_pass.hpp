@@ -51,6 +51,9 @@ class PathLinearization {
   Rule<double> friction;  // of the materials, the body's first
 
  private:
+  PathSensitivity<double> closedForm(bool orientation) const;
+
+  const Motion& motion_;
   const ContactPath& path_;
   double elapsed_;
   bool orientation_;  // is asked for

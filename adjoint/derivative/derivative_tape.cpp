@@ -49,6 +49,12 @@ std::string doubtOf(const Event& event, double tilt) {
   return {};
 }
 
+bool beginsToSlip(const Arc& arc) {
+  if (!arc.integrated()) return arc.path() && arc.path()->inputs.begins;
+  const auto& path = static_cast<const HeldPath&>(*arc.integrated());
+  return std::ranges::any_of(path.contacts(), [](const HeldContact& c) { return c.begins; });
+}
+
 ArcSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
   const auto b = static_cast<std::size_t>(body);
   const BodyPlan& plan = motion.plan.bodies[b];
@@ -151,12 +157,29 @@ void Reliability::passArc(const Motion& motion, int body, int k) {
   const std::vector<Arc>& arcs = motion.world_lines[b].arcs;
   const Arc& arc = arcs[checkedIndex("Reliability::passArc", "arc", k, arcs.size())];
   if (arc.integrated()) passHeld(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
-  if (arc.kind() != ArcKind::slide || arc.path()->form != PathForm::glide_block) return;
-  if (std::find(sliding.begin(), sliding.end(), body) != sliding.end()) return;
-  sliding.push_back(body);
-  if (!sliding_message.empty()) return;
-  sliding_message = textOf(6, "'", motion.scene->bodies[b].name, "' slides without turning from t = ", arc.start(),
-                           " s on: its derivative by its spin leaves out the turn that friction would make of it");
+  if (beginsToSlip(arc)) passBeginning(motion, body, k);
+}
+
+// What has no slip goes on along the slope. There is a derivative only as long as it has none, whatever varies: after an
+// impact that sticks, or where it stuck before.
+void Reliability::passBeginning(const Motion& motion, int body, int k) {
+  const std::size_t b = static_cast<std::size_t>(body);
+  const int index = motion.world_lines[b].events[static_cast<std::size_t>(k) - 1];
+  const Event& event = motion.events[static_cast<std::size_t>(index)];
+  if (event.kind == EventKind::transition) return;
+  const std::string& name = motion.scene->bodies[b].name;
+  if (event.kind == EventKind::placed) {
+    if (std::find(beginning.begin(), beginning.end(), body) != beginning.end()) return;
+    beginning.push_back(body);
+    if (beginning_message.empty())
+      beginning_message = textOf(6, "'", name, "' begins to slip at the start, from no slip at all: its derivative by its ",
+                                 "velocity and spin is one-sided");
+    return;
+  }
+  if (event.mode == ImpactMode::joint) return;  // says so itself
+  if (!reliable || (event.mode == ImpactMode::stick && event.contacts[0].pair.tangential_elasticity == 0)) return;
+  reliable = false, smallest_margin = 0;
+  message = sentenceOf(motion, index) + "leaves '" + name + "' no slip, though it does not stick: one-sided derivative";
 }
 
 void Reliability::passHeld(const Motion& motion, int body, const Arc& arc, double until) {
@@ -184,6 +207,6 @@ void doubt(Reliability& reliability, const std::vector<int>& doubtful, int asked
 }  // namespace
 
 void Reliability::askFriction(int material) { doubt(*this, frictions, material, friction_message); }
-void Reliability::askSpin(int body) { doubt(*this, sliding, body, sliding_message); }
+void Reliability::askVelocity(int body) { doubt(*this, beginning, body, beginning_message); }
 
 }  // namespace carom

@@ -69,10 +69,10 @@ struct Reliability {
   /// Materials by whose friction, which is 0, the derivative cannot be trusted; and why, by the first such event.
   std::vector<int> frictions;
   std::string friction_message;  ///< why; empty where there are none
-  /// Bodies by whose spin the derivative cannot be trusted: they slide without turning, and the turn that friction
-  /// would make of a little spin is left out.
-  std::vector<int> sliding;
-  std::string sliding_message;  ///< why; empty where there are none
+  /// Bodies by whose velocity and spin at the start the derivative cannot be trusted: they begin to slip there from no slip
+  /// at all, so that it is one-sided, along the slope.
+  std::vector<int> beginning;
+  std::string beginning_message;  ///< why; empty where there are none
 
   /// Counts an event that the derivative passes through.
   void pass(const Motion& motion, int event);
@@ -85,11 +85,14 @@ struct Reliability {
   void passArc(const Motion& motion, int body, int arc);
   /// The derivative by the friction of a material is asked for, too.
   void askFriction(int material);
-  /// The derivative by the spin of a body is asked for, too.
-  void askSpin(int body);
+  /// The derivative by the velocity of a body is asked for, too.
+  void askVelocity(int body);
+  /// The derivative by its spin.
+  void askSpin(int body) { askVelocity(body); }
 
  private:
   void passHeld(const Motion& motion, int body, const Arc& arc, double until);
+  void passBeginning(const Motion& motion, int body, int arc);
 };
 
 /// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.

@@ -6,6 +6,7 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/errors.h"
+#include "adjoint/contact/contact_path.hpp"
 #include "adjoint/derivative/derivative_arguments.hpp"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/derivative/seed_pass.hpp"
@@ -231,9 +232,13 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 }  // namespace
 
 bool hasSecondOrder(const Motion& motion) {
-  const auto isHeld = [](const Arc& arc) { return arc.integrated() != nullptr; };
+  // What a spin makes of a block that slides is known to first order (11.26).
+  const auto isFirstOrder = [](const Arc& arc) {
+    const ContactPath* path = arc.path();
+    return path && (path->integrated || (path->form == PathForm::glide_block && path->inputs.friction > 0));
+  };
   return std::ranges::none_of(motion.events, [](const Event& event) { return event.cause == TransitionCause::tips; }) &&
-         std::ranges::none_of(motion.world_lines, [&](const WorldLine& line) { return std::ranges::any_of(line.arcs, isHeld); });
+         std::ranges::none_of(motion.world_lines, [&](const WorldLine& line) { return std::ranges::any_of(line.arcs, isFirstOrder); });
 }
 
 SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, const SeedRates& seed_rates,
@@ -243,7 +248,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   const Motion& motion = tape.motion();
   for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
   if (!hasSecondOrder(motion))
-    throw NotComputable("second derivatives are not known of a motion in which a body tips, or moves on corners, edges or faces");
+    throw NotComputable("second derivatives are not known of a motion in which a body tips, slides without turning, or moves on corners, edges or faces");
   for (const ReadingDirection& d : directions) {
     checkDirection("secondOrder", *motion.scene, d.scene);
     if (d.time.size() > 0)

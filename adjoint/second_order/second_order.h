@@ -15,8 +15,8 @@ namespace carom {
 /// where the weights are constant.
 using SeedRates = std::function<std::vector<StateSeed>(std::span<const BodyStateRate> rates)>;
 
-/// Whether second derivatives are known all through a motion. They are not where a body begins to tip
-/// or moves on corners, edges or faces.
+/// Whether second derivatives are known all through a motion. They are not where a body begins to tip,
+/// slides against friction without turning, or moves on corners, edges or faces.
 bool hasSecondOrder(const Motion& motion);
 
 /// Derivatives, along each direction, of the gradient of the sum of the seeds.

@@ -170,7 +170,7 @@ MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& val
 void askControls(const ControlSet& controls, Reliability& reliability) {
   for (const BoundControl& c : controls.controls()) {
     if (c.kind->is_friction) reliability.askFriction(static_cast<int>(c.owner.material));
-    if (c.kind->is_spin) reliability.askSpin(c.owner.body);
+    if (c.kind->is_velocity) reliability.askVelocity(c.owner.body);
   }
 }
 

@@ -48,7 +48,7 @@ struct ControlKind {
   bool keeps_triangle = false;  ///< three moments of inertia: none is larger than the sum of the others
   bool changes_shape = false;   ///< features come to lie elsewhere on the body
   bool is_friction = false;     ///< a coefficient of friction
-  bool is_spin = false;         ///< an angular velocity
+  bool is_velocity = false;     ///< a velocity or an angular velocity
   bool is_turn = false;         ///< its numbers are a rotation vector from where the body was
 };
 

@@ -87,6 +87,7 @@ const ControlKind kVelocityControl{
     .gather = Velocity::gather,
     .scatter = Velocity::scatter,
     .scale = bodyScale<&NaturalScales::velocity>,
+    .is_velocity = true,
 };
 
 const ControlKind kAngularVelocityControl{
@@ -98,7 +99,7 @@ const ControlKind kAngularVelocityControl{
     .gather = AngularVelocity::gather,
     .scatter = AngularVelocity::scatter,
     .scale = bodyScale<&NaturalScales::angular_velocity>,
-    .is_spin = true,
+    .is_velocity = true,
 };
 
 const ControlKind kGravityControl{
