@@ -29,6 +29,10 @@ struct ConePrecision<Wide> {
   static constexpr double kRounding = 1e-27, kExact = 1e-30, kSettled = 1e-13;
 };
 
+// Offsets below this share of velocities have forces in units of their own; less yet is none.
+constexpr double kSlight = 1e-2, kNoLoad = 1e-9;
+constexpr int kCarefulSteps = 40;
+
 template <class T>
 T lengthOf(const V3<T>& v) {
   using std::sqrt;
@@ -79,7 +83,8 @@ struct Evened {
 template <class T>
 class ActiveSet {
  public:
-  explicit ActiveSet(const ConeProgramOf<T>& q) : q_(q) {}
+  /// `unit`: of forces, see forceScale.
+  ActiveSet(const ConeProgramOf<T>& q, const T& unit) : q_(q), unit_(unit) {}
 
   // The solution, when found from this point within some steps.
   std::optional<ConePointOf<T>> from(ConePointOf<T> at, int steps) const {
@@ -97,6 +102,44 @@ class ActiveSet {
       before = off;
       now.step(VectorOf<T>(-symmetricInverse<T>(now.M, VectorOf<T>::Ones(now.M.rows())) * now.residual));
       at = changed(ConeTerms<T>(q_, now.at));
+    }
+    return std::nullopt;
+  }
+
+  // The same with one change of the set at a time: a step ends where the first pressure would turn negative, and once the
+  // set is solved what violates it most is put where it belongs. Where contacts are redundant and all slide nearly alike,
+  // their loads are decided by so little that whole steps leave the cones of several at once.
+  std::optional<ConePointOf<T>> carefullyFrom(ConePointOf<T> at, int steps) const {
+    T before = T(0);
+    bool kept = false;
+    for (int i = 0; i <= steps; ++i) {
+      ConeTerms<T> now(q_, std::move(at));
+      const T off = largestOf<T>(now.residual), size = T(1) + largestOf<T>(now.f);
+      if (!std::isfinite(rounded(off))) return std::nullopt;
+      if (off <= T(ConePrecision<T>::kSettled) * size &&
+          (off <= T(ConePrecision<T>::kExact) * size || (kept && !(off < T(0.1) * before)))) {
+        const std::optional<std::size_t> k = firstThatFails(now);
+        if (!k) return finished(now);
+        const auto row = 3 * static_cast<Index>(*k);
+        classify(*k, now.f.template segment<3>(row), now.V.template segment<3>(row), now.at);
+        if (now.at.state[*k] == ConeState::slides && !(now.at.pressure[*k] > T(0))) return std::nullopt;
+        kept = false;
+        at = std::move(now.at);
+        continue;
+      }
+      const VectorOf<T> step = -symmetricInverse<T>(now.M, VectorOf<T>::Ones(now.M.rows())) * now.residual;
+      T share = T(1);
+      std::optional<std::size_t> first;
+      for (std::size_t k = 0; k < now.at.state.size(); ++k) {
+        if (now.at.state[k] != ConeState::slides) continue;
+        const T p = now.at.pressure[k], change = step[now.first[k]];
+        if (p + share * change < T(0)) share = p > T(0) ? T(-p / change) : T(0), first = k;
+      }
+      now.step(VectorOf<T>(share * step));
+      if (first) now.at.state[*first] = ConeState::apex;
+      kept = !first;
+      before = off;
+      at = std::move(now.at);
     }
     return std::nullopt;
   }
@@ -167,10 +210,16 @@ class ActiveSet {
     return true;
   }
 
-  // Where f - V, put back into the cone, stands in it.
+  std::optional<std::size_t> firstThatFails(const ConeTerms<T>& t) const {
+    for (std::size_t k = 0; k < t.at.state.size(); ++k)
+      if (!holds(t, k)) return k;
+    return std::nullopt;
+  }
+
+  // Where f - V, in units that make them alike, put back into the cone, stands in it.
   void classify(std::size_t k, const V3<T>& f, const V3<T>& v, ConePointOf<T>& at) const {
-    const V3<T> n = q_.normal[k], w = f - v;
-    const T mu = q_.friction[k], w_n = n.dot(w) + q_.offset[k];
+    const V3<T> n = q_.normal[k], w = f / unit_ - v;
+    const T mu = q_.friction[k], w_n = n.dot(w) + q_.offset[k] / unit_;
     const V3<T> w_t = w - n.dot(w) * n;
     const T side = lengthOf<T>(w_t), onto = (w_n + mu * side) / (T(1) + mu * mu);
     at.f[k] = f;
@@ -180,7 +229,7 @@ class ActiveSet {
       at.state[k] = ConeState::apex;
     } else {
       at.state[k] = ConeState::slides;
-      at.pressure[k] = onto;
+      at.pressure[k] = onto * unit_;
       at.direction[k] = mu > T(0) ? V3<T>(w_t / side) : against(k, v);
     }
   }
@@ -199,7 +248,17 @@ class ActiveSet {
   }
 
   const ConeProgramOf<T>& q_;
+  T unit_;
 };
+
+// How large forces are where velocities are about 1: what slides fast and is pressed on little bears no more than that.
+template <class T>
+T forceScale(const ConeProgramOf<T>& q) {
+  T most = T(0);
+  for (const T& x : q.offset) most = std::max({most, x, T(-x)});
+  for (const T& x : q.rise) most = std::max({most, x, T(-x)});
+  return most > T(kNoLoad) && most < T(kSlight) ? most : T(1);
+}
 
 template <class T>
 ConeProgramOf<double> inDoubles(const ConeProgramOf<T>& q) {
@@ -217,18 +276,27 @@ ConeProgramOf<double> inDoubles(const ConeProgramOf<T>& q) {
 template <class T>
 ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
   const Evened<T> even(program);
-  const ActiveSet<T> set(even.q);
+  const T unit = forceScale(even.q);
+  const ActiveSet<T> set(even.q, unit);
   for (const bool slides : {false, true})
     if (auto at = set.from(set.guess(slides), slides ? 5 : 2)) return even.asWritten(*at);
-  InteriorPoint point(inDoubles<T>(even.q));
+  ConeProgramOf<double> in_units = inDoubles<T>(even.q);
+  const double scale = rounded(unit);
+  in_units.K *= scale;
+  for (double& offset : in_units.offset) offset /= scale;
+  InteriorPoint point(in_units);
+  std::vector<ConePointOf<T>> closest;
   for (int i = 0; i < 60; ++i) {
     point.step();
     if (!std::isfinite(point.gap())) break;
     if (i % 2 == 0 || point.gap() > 1e-5) continue;
-    const auto near = set.near(point.forces().template cast<T>(), point.velocities().template cast<T>(),
-                               point.multipliers().template cast<T>());
+    const auto near = set.near(VectorOf<T>(scale * point.forces().template cast<T>()), point.velocities().template cast<T>(),
+                               VectorOf<T>(scale * point.multipliers().template cast<T>()));
     if (auto at = set.from(near, 6)) return even.asWritten(*at);
+    closest.push_back(near);
   }
+  for (const ConePointOf<T>& near : closest)
+    if (auto at = set.carefullyFrom(near, kCarefulSteps)) return even.asWritten(*at);
   throw NotComputable("the friction of its contacts, which are many or unlike, was not found");
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "adjoint/base/types.h"
 #include "adjoint/contact/symmetric_inverse.hpp"
@@ -15,6 +16,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
+
+// Equations that differ from combinations of others by less than this share are these.
+constexpr double kRedundant = 1e-10;
 
 // s_0^2 - |s_1|^2, which is positive inside the cone.
 double squareOf(const VectorXd& s) { return s[0] * s[0] - s.tail(s.size() - 1).squaredNorm(); }
@@ -55,12 +59,37 @@ InteriorPoint::InteriorPoint(const ConeProgramOf<double>& program) {
     G_.row(e) = program.normal[static_cast<std::size_t>(k)].transpose() * program.K.middleRows(3 * k, 3) * J_;
     g_[e] = program.rise[static_cast<std::size_t>(e)];
   }
+  makeIndependent();
   y_ = VectorXd::Zero(columns);
   lambda_ = VectorXd::Zero(G_.rows());
   s_ = a_, z_ = VectorXd::Zero(rows);
   for (const Cone& c : cones_) {
     s_[c.at] = std::max(s_[c.at], 1e-2);
     z_[c.at] = 1;
+  }
+}
+
+// Equations of redundant contacts are combinations of others: as many orthonormal ones say the same.
+void InteriorPoint::makeIndependent() {
+  combined_ = MatrixXd::Identity(G_.rows(), G_.rows());
+  if (G_.rows() == 0) return;
+  const ThinSvd svd(G_);
+  Index rank = 0;
+  while (rank < svd.s.size() && svd.s[rank] > kRedundant * svd.s[0]) ++rank;
+  combined_ = svd.U.leftCols(rank) * svd.s.head(rank).cwiseInverse().asDiagonal();
+  g_ = combined_.transpose() * g_;
+  G_ = svd.V.leftCols(rank).transpose();
+}
+
+InteriorPoint::InteriorPoint(const MatrixXd& D, const VectorXd& a, const VectorXd& b)
+    : D_(D), K_(MatrixXd::Zero(D.cols(), D.cols())), G_(0, D.cols()), b_(b), g_(0), a_(a) {
+  y_ = VectorXd::Zero(D.cols());
+  lambda_.resize(0);
+  s_ = a_, z_ = VectorXd::Zero(a.size());
+  for (Index at = 0; at < a.size(); at += 3) {
+    cones_.push_back({at, 3, 1, {}, {}});
+    s_[at] = std::max(s_[at], s_.segment<2>(at + 1).norm() + 1e-1);
+    z_[at] = 3.0 / static_cast<double>(a.size());
   }
 }
 
@@ -88,7 +117,8 @@ void InteriorPoint::addContact(const ConeProgramOf<double>& program, int k, Inde
 VectorXd InteriorPoint::velocities() const { return J_ * (D_.transpose() * z_); }
 
 double InteriorPoint::gap() const {
-  return cones_.empty() ? 0 : std::max(s_.dot(z_), 0.0) / static_cast<double>(cones_.size());
+  const double all = s_.dot(z_);
+  return cones_.empty() ? 0 : (all < 0 ? 0 : all) / static_cast<double>(cones_.size());
 }
 
 void InteriorPoint::scale(Cone& c) {
@@ -149,6 +179,10 @@ void InteriorPoint::step() {
     scale(c);
     const MatrixXd rows = c.inverse * D_.middleRows(c.at, c.size);
     H += rows.transpose() * rows;
+  }
+  if (!H.allFinite()) {  // it has come as near as numbers let it
+    s_.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
   }
   H_inverse_ = inverseOfSymmetric(H);
   S_inverse_ = symmetricInverse<double>(G_ * H_inverse_ * G_.transpose(), VectorXd::Ones(G_.rows()));

@@ -14,12 +14,16 @@ namespace carom::adjoint_detail {
 class InteriorPoint {
  public:
   explicit InteriorPoint(const ConeProgramOf<double>& program);
+  /// Minimise b.y, where every three rows of D y + a are in the cone s_0 >= |(s_1, s_2)|.
+  InteriorPoint(const Eigen::MatrixXd& D, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
   void step();
   double gap() const;  ///< of the cones, f.V each on the average
   Eigen::VectorXd forces() const { return J_ * y_; }
+  const Eigen::VectorXd& unknowns() const { return y_; }
+  const Eigen::VectorXd& duals() const { return z_; }  ///< of the rows of D y + a
   Eigen::VectorXd velocities() const;  ///< V of ConeTerms
-  const Eigen::VectorXd& multipliers() const { return lambda_; }
+  Eigen::VectorXd multipliers() const { return combined_ * lambda_; }
 
  private:
   struct Cone {
@@ -28,13 +32,15 @@ class InteriorPoint {
     Eigen::MatrixXd W, inverse;  // the scaling: W z = W^-1 s
   };
   void addContact(const ConeProgramOf<double>& program, int k, Eigen::Index& column);
+  void makeIndependent();
   void scale(Cone& cone);
   /// Directions of y, lambda, s and z for W^-1 ds + W dz = q.
   void direction(const Eigen::VectorXd& q);
   double longest(const Eigen::VectorXd& from, const Eigen::VectorXd& along) const;
 
   std::vector<Cone> cones_;
-  Eigen::MatrixXd J_, D_, K_, G_;  // df/dy, ds/dy, in y; the equations
+  Eigen::MatrixXd J_, D_, K_, G_;  // df/dy, ds/dy, in y; the equations, independent
+  Eigen::MatrixXd combined_;       // of these by the equations of the program
   Eigen::VectorXd b_, g_, a_;      // s = D y + a
   Eigen::VectorXd y_, lambda_, s_, z_, dy_, dlambda_, ds_, dz_;
   Eigen::MatrixXd H_inverse_, S_inverse_;

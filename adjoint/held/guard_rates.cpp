@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/held/held_force_rates.hpp"
 #include "adjoint/held/held_share.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -52,20 +53,38 @@ LaneNumber roomOf(const ContactInstant<LaneNumber>& c, const V3<LaneNumber>& for
   return c.friction * pressing - sqrt(V3<LaneNumber>(force - c.n * pressing).squaredNorm());
 }
 
-// At the best share the room that is least does not change with what the two push; where both have that room, it is that
-// mean of them which does not.
+// At the best share the least room does not change with what contacts push against each other, so pushes may change in
+// any way that leaves them without sum and moment, as arms move: by the least.
 LaneNumber sharedRate(const HeldShare& share, const std::vector<ContactInstant<LaneNumber>>& contacts,
-                  const ForceLanes& forces, std::size_t k, bool slips) {
-  const std::array<std::size_t, 2>& pair = share.contact;
-  const V3<LaneNumber> between = contacts[pair[1]].r - contacts[pair[0]].r;
-  const V3<LaneNumber> push = between * (LaneNumber(share.push) / sqrt(between.squaredNorm()));
-  const std::array<V3<LaneNumber>, 2> force{forces.force(pair[0]) - push, forces.force(pair[1]) + push};
-  const std::size_t own = k == pair[0] ? 0 : 1;
-  if (!slips) return contacts[k].n.dot(force[own]);
-  if (!(share.weight[own] > 0)) return roomOf(contacts[k], force[own]);
+                  const ForceLanes& forces) {
+  const auto n = static_cast<Eigen::Index>(share.contact.size());
+  Eigen::MatrixXd W(6, 3 * n);
+  V3<LaneNumber> moment = V3<LaneNumber>::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto ii = static_cast<std::size_t>(i);
+    const V3<LaneNumber>& r = contacts[share.contact[ii]].r;
+    W.middleCols<3>(3 * i) << Mat3::Identity(), skew(Vec3(r.unaryExpr([](const LaneNumber& x) { return x.value; })));
+    moment += r.cross(V3<LaneNumber>(share.push[ii].cast<LaneNumber>()));
+  }
+  Eigen::MatrixXd left(6, HeldLanes::kColumns);
+  left.setZero();
+  for (int row = 0; row < 3; ++row)
+    for (int lane = 0; lane < HeldLanes::kColumns; ++lane)
+      left(3 + row, lane) = -moment[row].rate[static_cast<std::size_t>(lane)];
+  const Eigen::MatrixXd pushed = CompleteOrthogonal(W, 1e-9).pseudoInverse() * left;
   LaneNumber room = 0;
-  for (const std::size_t i : {0u, 1u})
-    if (share.weight[i] > 0) room += LaneNumber(share.weight[i]) * roomOf(contacts[pair[i]], force[i]);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto ii = static_cast<std::size_t>(i);
+    if (!(share.weight[ii] > 0)) continue;
+    const ContactInstant<LaneNumber>& c = contacts[share.contact[ii]];
+    V3<LaneNumber> force = forces.force(share.contact[ii]) + V3<LaneNumber>(share.push[ii].cast<LaneNumber>());
+    for (int row = 0; row < 3; ++row)
+      for (int lane = 0; lane < HeldLanes::kColumns; ++lane)
+        force[row].rate[static_cast<std::size_t>(lane)] += pushed(3 * i + row, lane);
+    const LaneNumber pressing = c.n.dot(force);
+    room += LaneNumber(share.weight[ii]) * c.friction * pressing +
+            V3<LaneNumber>(share.turn[ii].cast<LaneNumber>()).dot(V3<LaneNumber>(force - c.n * pressing));
+  }
   return room;
 }
 
@@ -79,9 +98,8 @@ LaneNumber guardRateOf(const HeldGuard& guard, const HeldPath& path, const HeldI
   if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.velocityAt(c.r));
   const ForceLanes forces = force_rates.in(lanes);
   const bool slips = guard.cause == TransitionCause::slips;
-  if (const auto share = shareOf<LaneNumber>(lanes.contacts, forces);
-      share && (k == share->contact[0] || k == share->contact[1]))
-    return sharedRate(*share, lanes.contacts, forces, k, slips);
+  if (c.mode == HeldMode::sticks)  // a force that comes to 0 leaves no room either
+    if (const auto share = shareOf<LaneNumber>(lanes.contacts, forces)) return sharedRate(*share, lanes.contacts, forces);
   return slips ? roomOf(c, forces.force(k)) : c.n.dot(forces.force(k));
 }
 

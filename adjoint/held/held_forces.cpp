@@ -66,7 +66,7 @@ void HeldForces::solve(const HeldInstant& now, bool redundant) {
 void HeldForces::share() {
   const std::optional<HeldShare> share = shareOf<double>(now_->contacts, *this);
   if (!share) return;
-  for (const std::size_t i : {0u, 1u}) force_[share->contact[i]] += share->pushOn(i);
+  for (std::size_t i = 0; i < share->contact.size(); ++i) force_[share->contact[i]] += share->push[i];
 }
 
 void HeldForces::assemble() {

@@ -18,7 +18,7 @@ class HeldForces {
   /// least norm.
   void solve(const HeldInstant& now, bool redundant);
 
-  /// Two contacts that stick share what they push against each other so that most room is left (HeldShare).
+  /// Contacts that stick share what they push against each other so that most room is left (HeldShare).
   void share();
 
   /// On the body.

@@ -18,6 +18,8 @@ constexpr double kModeRounding = 1e-10, kAtLimit = 1e-7;
 constexpr int kModeRounds = 60, kDirectionRounds = 60;
 constexpr double kMostTurn = 0.5;  // rad, of a direction in one round
 constexpr std::size_t kEnumerated = 5;
+// Contacts nearer to each other than this share of their arms are at one point; so are normals whose sine is less.
+constexpr double kOnePoint = 1e-9;
 
 enum class Way : char { off, sticks, slides, begins };  // begins: from no slip
 
@@ -90,7 +92,7 @@ class ModeSearch {
     solved.force.clear();
     for (std::size_t i = 0; i < solved.on.size(); ++i) solved.force.push_back(solved.forces->force(i));
     if (const std::optional<HeldShare> share = shareOf<double>(solved.contacts, *solved.forces))
-      for (const std::size_t i : {0u, 1u}) solved.force[share->contact[i]] += share->pushOn(i);
+      for (std::size_t i = 0; i < share->contact.size(); ++i) solved.force[share->contact[i]] += share->push[i];
     solved.redundant = false;
     if (unknowns > 1) {
       solved.redundant = FullLu(solved.forces->matrix(), kModeRounding).rank() < unknowns;
@@ -129,6 +131,7 @@ class ModeSearch {
       if (!(along.norm() > 0)) return false;
       direction[k] = -along.normalized();
     }
+    alongGrooves(solved, ways, direction);
     for (int round = 0; round < kDirectionRounds; ++round) {
       solve(solved, ways, direction);
       const double turned = turnBegins(solved, ways, direction);
@@ -138,6 +141,20 @@ class ModeSearch {
     }
     used_ = direction;
     return true;
+  }
+
+  // A corner that stays on two planes can begin to slip along their line alone.
+  void alongGrooves(const Solved& solved, const std::vector<Way>& ways, std::vector<Vec3>& direction) const {
+    for (std::size_t i = 0; i < solved.on.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const std::size_t k = solved.on[i], l = solved.on[j];
+        if (ways[k] != Way::begins || ways[l] != Way::begins) continue;
+        const ContactInstant<double>&c = now_.contacts[k], &d = now_.contacts[l];
+        const Vec3 line = c.n.cross(d.n);
+        if (!((c.r - d.r).norm() <= kOnePoint * c.r.norm()) || !(line.norm() > kOnePoint)) continue;
+        const Vec3 pulled = solved.force[i] + solved.force[j];
+        direction[k] = direction[l] = (pulled.dot(line) > 0 ? -1 : 1) * line.normalized();
+      }
   }
 
   // A step of Newton's method on (n x d).u' = 0 for the directions d of all that begin; gives the largest turn, rad.

@@ -19,7 +19,7 @@
 namespace carom::brute {
 namespace {
 
-constexpr int kScenes = 300, kBlocks = 4, kSamples = 200;
+constexpr int kScenes = 300, kBlocks = 4, kSamplesOfScenes = 200;
 constexpr std::uint64_t kFirstSeed = 20250;
 
 class Tally {
@@ -41,7 +41,7 @@ class Tally {
     const Motion motion = simulate(random.scene, contacts, random.duration, options);
     const double simulated = seconds();
     Findings findings;
-    checkStates(motion, kSamples, findings);
+    checkStates(motion, kSamplesOfScenes, findings);
     checkEnergy(motion, findings);
     checkSequence(motion, findings);
     ++statuses_[nameOf(motion.status)];

@@ -34,6 +34,13 @@ Body onOneCorner(const Vec3& size, const Quat& q, const Vec3& spin) {
   return spinning(turned(makeBox("box", size, {0, 0, height}), q), spin);
 }
 
+// With that corner at the origin.
+Body cornerAtOrigin(const Vec3& size, const Quat& q) {
+  const Mat3 R = q.toRotationMatrix();
+  const Vec3 up = R.row(2).transpose().cwiseSign();
+  return turned(makeBox("box", size, 0.5 * (R * size.cwiseProduct(up))), q);
+}
+
 }  // namespace
 
 std::vector<HeldCase> heldScenes() {
@@ -52,6 +59,8 @@ std::vector<HeldCase> heldScenes() {
   const Vec3 left(0, -std::cos(0.7), std::sin(0.7)), right(0, std::cos(0.7), std::sin(0.7));
   const Body in_v = spinning(makeBall("ball", 0.1, {0, 0, 0.1 / std::sin(0.7)}, {0.5, 0, 0}), {0, 2, 9});
   const Body stone = shaped(dropped, Hull{convexHull(boxTriangles({0.2, 0.15, 0.1}).vertices), 1, ""});
+  const Body in_a_corner = cornerAtOrigin({0.1, 0.2, 0.3}, about(0.9, {1, 0.8, 0.3}));
+  const Body low = makePlane("left", {0, -std::cos(1.2), std::sin(1.2)}, 0), high = makePlane("right", {0, std::cos(1.2), std::sin(1.2)}, 0);
   return {
       {"falls over an edge", makeScene(kDownward, 0, 0.5, {tall, floorAt()}), 1.5},
       {"slides and turns", makeScene(kDownward, 0, 0.4, {plate, floorAt()}), 1},
@@ -63,6 +72,7 @@ std::vector<HeldCase> heldScenes() {
       {"ball over an edge", makeScene(kDownward, 0, 0.5, {ball, tableTop(), floorAt(-0.75)}), 1},
       {"box over an edge", makeScene(kDownward, 0.2, 0.3, {pushed, tableTop(), floorAt(-0.75)}), 0.6},
       {"ball spins in a V", makeScene(kDownward, 0, 0.3, {in_v, makePlane("left", left, 0), makePlane("right", right, 0)}), 0.14, 0.045},
+      {"corner in a V", makeScene(kDownward, 0, 0.2, {in_a_corner, low, high}), 0.25},
       {"dropped", makeScene(kDownward, 0.2, 0.4, {dropped, floorAt()}), 3},
       {"hull", makeScene(kDownward, 0, 0.4, {stone, floorAt()}), 0.8},
   };

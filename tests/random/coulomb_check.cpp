@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "tests/random/coulomb_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+namespace carom::test {
+namespace among_planes {
+namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kDepth = 1e-9, kEnergy = 1e-11, kForce = 1e-5, kImpulse = 1e-6;
+constexpr double kTouches = 2e-8;   // m, of a point
+constexpr double kFlat = 1e-7;      // rad, of a rim
+constexpr double kNoSlip = 1e-7;    // of the speeds there are
+// s, between the times of differences: of states that are known to 1e-16 shorter ones tell nothing.
+constexpr double kLongest = 2e-5, kShortest = 1e-8;
+// m/s: where contacts would bounce below the lowest one, n.u = 0 is kept by a pull, of redundant ones by more than that bounce.
+constexpr double kLowBounce = 5e-4;
+constexpr int kDirections = 48, kOfRim = 64;
+
+// Of a shape about its origin, turned by R, the points that may be the lowest ones along n.
+std::vector<Vec3> lowest(const Shape& shape, const Mat3& R, const Vec3& n) {
+  std::vector<Vec3> points;
+  const Vec3 axis = R.col(2);
+  const auto rim = [&](double height, double radius) {
+    Vec3 down = -(n - n.dot(axis) * axis);
+    if (down.norm() > kFlat) return points.push_back(height * axis + radius * down.normalized());
+    for (int i = 0; i < kOfRim; ++i) {
+      const double a = 2 * std::numbers::pi * i / kOfRim;
+      points.push_back(height * axis + radius * (std::cos(a) * R.col(0) + std::sin(a) * R.col(1)));
+    }
+  };
+  if (const auto* ball = std::get_if<Sphere>(&shape)) points.push_back(-ball->radius * n);
+  if (const auto* capsule = std::get_if<Capsule>(&shape))
+    for (const double s : {-0.5, 0.5}) points.push_back(s * capsule->height * axis - capsule->radius * n);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    for (const double s : {-0.5, 0.5}) rim(s * cylinder->height, cylinder->radius);
+  if (const auto* cone = std::get_if<Cone>(&shape)) {
+    points.push_back(0.5 * cone->height * axis);
+    rim(-0.5 * cone->height, cone->radius);
+  }
+  if (const auto* box = std::get_if<Box>(&shape))
+    for (int v = 0; v < 8; ++v)
+      points.push_back(0.5 * (R * Vec3(v & 1 ? box->size[0] : -box->size[0], v & 2 ? box->size[1] : -box->size[1],
+                                       v & 4 ? box->size[2] : -box->size[2])));
+  if (const auto* hull = std::get_if<Hull>(&shape))
+    for (const Vec3& v : hull->surface->vertices) points.push_back(hull->scale * (R * v));
+  return points;
+}
+
+struct Touch {
+  Vec3 n, r;  // normal of the plane; from the centre of mass
+  double friction = 0;
+};
+
+// min |G y - w| over y >= 0, by Lawson and Hanson's active set; gives the rest.
+Vec6 leastRest(const Eigen::Matrix<double, 6, Eigen::Dynamic>& G, const Vec6& w) {
+  std::vector<Eigen::Index> in;
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(G.cols());
+  for (int round = 0; round < 400; ++round) {
+    const Eigen::VectorXd pull = G.transpose() * (w - G * y);
+    Eigen::Index best = -1;
+    for (Eigen::Index i = 0; i < G.cols(); ++i)
+      if (std::ranges::find(in, i) == in.end() && (best < 0 || pull[i] > pull[best])) best = i;
+    if (best < 0 || !(pull[best] > 1e-13 * w.norm())) break;
+    in.push_back(best);
+    while (!in.empty()) {
+      Eigen::Matrix<double, 6, Eigen::Dynamic> part(6, static_cast<Eigen::Index>(in.size()));
+      for (std::size_t c = 0; c < in.size(); ++c) part.col(static_cast<Eigen::Index>(c)) = G.col(in[c]);
+      const Eigen::VectorXd to = part.completeOrthogonalDecomposition().solve(w);
+      double step = 1;
+      std::size_t leave = in.size();
+      for (std::size_t c = 0; c < in.size(); ++c) {
+        const double from = y[in[c]], next = to[static_cast<Eigen::Index>(c)];
+        if (next <= 0 && from / (from - next + 1e-300) < step) step = from / (from - next + 1e-300), leave = c;
+      }
+      for (std::size_t c = 0; c < in.size(); ++c) y[in[c]] += step * (to[static_cast<Eigen::Index>(c)] - y[in[c]]);
+      if (leave == in.size()) break;
+      y[in[leave]] = 0;
+      in.erase(in.begin() + static_cast<std::ptrdiff_t>(leave));
+    }
+  }
+  return w - G * y;
+}
+
+class Check {
+ public:
+  explicit Check(const Motion& motion) : motion_(motion), model_((*motion.models)[0]), shape_(motion.scene->bodies[0].shape) {
+    size_ = kindOf(shape_).boundingRadius(shape_) + model_.center.norm();
+    for (std::size_t b = 1; b < motion.scene->bodies.size(); ++b) {
+      const Body& body = motion.scene->bodies[b];
+      const auto& plane = std::get<Plane>(body.shape);
+      const Vec3 n = body.orientation * plane.normal.normalized();
+      planes_.push_back({n, plane.offset + n.dot(body.position)});
+    }
+    friction_ = motion.scene->materials[0].friction;
+    gravity_ = motion.scene->gravity;
+  }
+
+  CoulombFindings run() {
+    const std::vector<Arc>& arcs = motion_.world_lines[0].arcs;
+    for (std::size_t a = 0; a < arcs.size(); ++a) {
+      const double from = arcs[a].start(), until = a + 1 < arcs.size() ? arcs[a + 1].start() : motion_.end;
+      for (int i = 0; i <= 8; ++i) look(arcs[a].stateAt(std::min(until, from + (until - from) * i / 8)), from);
+      const double h = std::min(kLongest, 0.004 * (until - from));
+      for (const double share : {0.2, 0.5, 0.8}) rates(arcs[a], from + share * (until - from), h);
+      if (a + 1 < arcs.size()) jump(arcs[a].stateAt(until), arcs[a + 1].startState(), until);
+    }
+    return found_;
+  }
+
+ private:
+  struct Face {
+    Vec3 n;
+    double offset;
+  };
+  Mat3 turned(const State& s) const { return model_.shapeToWorld(s.q.toRotationMatrix()); }
+  Vec3 spin(const State& s) const { return model_.inverseInertiaWorld(s.q.toRotationMatrix()) * s.L; }
+
+  double speedOf(const State& s) const {
+    return s.v.norm() + size_ * spin(s).norm() + std::sqrt(gravity_.norm() * size_) * 1e-2;
+  }
+
+  void fail(double value, double allowed, double& worst, double time, const char* what) {
+    if (!(value <= worst)) worst = value;
+    if (value <= allowed || !found_.first.empty()) return;
+    std::ostringstream out;
+    out << what << " by " << value << " at t = " << time;
+    found_.first = out.str();
+  }
+
+  std::vector<Touch> touching(const State& s, double reach) {
+    const Mat3 R = turned(s);
+    const Vec3 origin = -(R * model_.center);
+    std::vector<Touch> touches;
+    for (const Face& face : planes_)
+      for (const Vec3& p : lowest(shape_, R, face.n)) {
+        const Vec3 r = origin + p;
+        if (face.n.dot(s.x + r) - face.offset <= reach) touches.push_back({face.n, r, friction_});
+      }
+    return touches;
+  }
+
+  void look(const State& s, double time) {
+    const Mat3 R = turned(s);
+    double depth = 0;
+    for (const Face& face : planes_)
+      for (const Vec3& p : lowest(shape_, R, face.n))
+        depth = std::max(depth, face.offset - face.n.dot(s.x - R * model_.center + p));
+    fail(depth, kDepth, found_.worst_depth, time, "in a plane");
+    const double energy = 0.5 * model_.mass * s.v.squaredNorm() + 0.5 * s.L.dot(spin(s)) - model_.mass * gravity_.dot(s.x);
+    const double unit = model_.mass * gravity_.norm() * (size_ + s.x.norm());
+    fail((energy - least_) / (std::abs(energy) + unit), kEnergy, found_.worst_growth, time, "energy grows");
+    least_ = std::min(least_, energy);
+  }
+
+  // What forces of Coulomb's law at the points in touch cannot give; moments over the size of the body.
+  double rest(const std::vector<Touch>& touches, const State& s, const Vec3& force, const Vec3& moment, bool slips) {
+    Vec6 w;
+    w << force, moment / size_;
+    const Vec3 omega = spin(s);
+    const double speed = speedOf(s);
+    std::vector<Vec6> columns;
+    const auto add = [&](const Touch& t, const Vec3& f) {
+      Vec6 column;
+      column << f, t.r.cross(f) / size_;
+      columns.push_back(column.normalized());
+    };
+    for (const Touch& t : touches) {
+      Vec3 u = s.v + omega.cross(t.r);
+      u -= t.n.dot(u) * t.n;
+      if (t.friction <= 0) {
+        add(t, t.n);
+      } else if (slips && u.norm() > kNoSlip * speed) {
+        add(t, t.n - t.friction * u.normalized());
+      } else {
+        const Vec3 along = t.n.unitOrthogonal(), across = t.n.cross(along);
+        const double outer = t.friction / std::cos(std::numbers::pi / kDirections);
+        for (int i = 0; i < kDirections; ++i) {
+          const double a = 2 * std::numbers::pi * i / kDirections;
+          add(t, t.n + outer * (std::cos(a) * along + std::sin(a) * across));
+        }
+      }
+    }
+    if (columns.empty()) return w.norm();
+    Eigen::Matrix<double, 6, Eigen::Dynamic> G(6, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t c = 0; c < columns.size(); ++c) G.col(static_cast<Eigen::Index>(c)) = columns[c];
+    return leastRest(G, w).norm();
+  }
+
+  // Over times that are short beside those in which slips turn.
+  double shortEnough(const State& s, double h) {
+    const Vec3 omega = spin(s);
+    for (const Touch& t : touching(s, kTouches)) {
+      Vec3 u = s.v + omega.cross(t.r);
+      u -= t.n.dot(u) * t.n;
+      if (t.friction > 0 && u.norm() > kNoSlip * speedOf(s)) h = std::min(h, 0.002 * u.norm() / gravity_.norm());
+    }
+    return h;
+  }
+
+  void rates(const Arc& arc, double t, double longest) {
+    const State s = arc.stateAt(t);
+    const double h = shortEnough(s, longest);
+    if (!(h > kShortest)) return;
+    const State far = arc.stateAt(t - 2 * h), near = arc.stateAt(t - h), next = arc.stateAt(t + h), last = arc.stateAt(t + 2 * h);
+    const auto rate = [&](const Vec3 State::* of) -> Vec3 {
+      return ((far.*of - last.*of) + 8 * (next.*of - near.*of)) / (12 * h);
+    };
+    ++found_.looks;
+    const double speed = s.v.norm() + std::sqrt(gravity_.norm() * size_);
+    fail((rate(&State::x) - s.v).norm() / speed, kForce, found_.worst_force, t, "dx/dt is not v,");
+    const Vec3 force = model_.mass * (rate(&State::v) - gravity_), moment = rate(&State::L);
+    const double unit = model_.mass * gravity_.norm() + force.norm() + moment.norm() / size_ +
+                        1e-7 * model_.mass * speed / h;
+    fail(rest(touching(s, kTouches), s, force, moment, true) / unit, kForce, found_.worst_force, t,
+         "Coulomb's law is broken");
+  }
+
+  void jump(const State& before, const State& after, double t) {
+    const Vec3 force = model_.mass * (after.v - before.v), moment = after.L - before.L;
+    const double size = force.norm() + moment.norm() / size_;
+    const double unit = size + kLowBounce / kImpulse * model_.mass;
+    if (!(size > 0)) return;
+    fail(rest(touching(before, kTouches), before, force, moment, false) / unit, kImpulse, found_.worst_impulse, t,
+         "an impulse leaves the cones of friction");
+  }
+
+  const Motion& motion_;
+  const BodyModel& model_;
+  const Shape& shape_;
+  std::vector<Face> planes_;
+  double friction_ = 0, size_ = 1, least_ = std::numeric_limits<double>::infinity();
+  Vec3 gravity_ = Vec3::Zero();
+  CoulombFindings found_;
+};
+
+}  // namespace
+}  // namespace among_planes
+
+CoulombFindings checkAmongPlanes(const Motion& motion) { return among_planes::Check(motion).run(); }
+
+}  // namespace carom::test
