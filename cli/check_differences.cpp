@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <sstream>
 #include <utility>
 
 #include "adjoint/base/errors.h"
-#include "adjoint/numeric/so3.hpp"
 #include "adjoint/simulate/simulate.h"
+#include "cli/check_excuses.h"
+#include "cli/rounded_scene.h"
 #include "editing/problem/rows/refined_times.hpp"
 
 namespace carom::cli {
@@ -24,10 +24,11 @@ constexpr double kSteps[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};  // of t
 /// Scenes beside the one that is checked, whose numbers differ by a few roundings: what an entry changes by in them is
 /// rounding, of terms that cancel in it or that a motion amplifies.
 constexpr int kRoundedScenes = 12;
-constexpr double kFewRoundings = 8 * std::numeric_limits<double>::epsilon();
 constexpr double kMostRoundings = 20;  // of the largest such change
 /// Columns smaller than this, of the largest one, are compared on its scale: they may be nothing but rounding.
 constexpr double kSmallColumn = 1e-3;
+/// Entries below this on their natural scales are 0, or below kDifferencesTolerance where differences alone see them.
+constexpr double kNothing = 1e-12;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The impacts, and changes of what lasts, up to the last one that can matter to the rows.
@@ -63,28 +64,6 @@ Sample sampleAt(const EditProblem& problem, const Eigen::VectorXd& values, const
   return sample;
 }
 
-/// The numbers of a scene changed by a few roundings, the same ones for the same `draw`; zeros stay. Every third one is turned,
-/// too, which what lands flat may not survive.
-Scene rounded(Scene scene, unsigned draw) {
-  std::mt19937 engine(draw);
-  const auto change = [&](double& x) { x *= 1 + kFewRoundings * (std::ldexp(engine(), -31) - 1); };
-  const auto changeAll = [&](Vec3& v) {
-    for (double& x : v) change(x);
-  };
-  changeAll(scene.gravity);
-  for (Material& m : scene.materials) change(m.friction), change(m.tangential_elasticity);
-  for (Body& b : scene.bodies) {
-    changeAll(b.position), changeAll(b.velocity), changeAll(b.angular_velocity);
-    if (b.mass) change(*b.mass);
-    if (b.density) change(*b.density);
-    if (draw % 3 != 0) continue;
-    Vec3 turn = Vec3::Constant(0.5);
-    changeAll(turn);
-    b.orientation = (expSO3(turn - Vec3::Constant(0.5)) * b.orientation).normalized();
-  }
-  return scene;
-}
-
 /// f'(x) from samples at x + offset h: sum_k weight[k] f(x + offset[k] h) / h. Second order all.
 struct Scheme {
   const char* name;
@@ -96,14 +75,16 @@ constexpr Scheme kBackward{"backward", {0, -1, -2}, {1.5, -2, 0.5}};
 
 class Checker {
  public:
-  Checker(const EditProblem& problem, const Eigen::VectorXd& values) : problem_(problem), values_(values) {
+  Checker(const EditProblem& problem, const Eigen::VectorXd& values, const CheckedPasses& passes)
+      : problem_(problem), passes_(passes), values_(values) {
     const Motion motion = simulateAt(problem, values, problem.horizon);
     times_ = refinedTimes(problem.constraints, motion);
     const RowValues rows = problem.constraints.evaluate(motion, times_);
     signature_ = signatureOf(problem, motion, times_);
     check_.sequence = sequenceOf(problem, motion, times_);
-    check_.by_adjoint = jacobianByAdjoint(problem, values, motion, rows);
-    check_.by_tangent = jacobianByTangent(problem, values, motion, rows);
+    check_.by_adjoint = passes.by_adjoint(problem, values, motion, rows);
+    check_.by_tangent = passes.by_tangent(problem, values, motion, rows);
+    excused_ = Eigen::MatrixXd::Zero(check_.by_adjoint.rows(), check_.by_adjoint.cols());
     check_.by_differences = Eigen::MatrixXd::Constant(check_.by_adjoint.rows(), check_.by_adjoint.cols(), kNone);
     check_.steps.assign(std::begin(kSteps), std::end(kSteps));
     findScales();
@@ -156,8 +137,8 @@ class Checker {
         if (!beside.available || signatureOf(problem_, motion, times_) != signature_) continue;
         row_rounding_ = row_rounding_.cwiseMax((beside.values - rows).cwiseAbs());
         for (const auto& [found, here] :
-             {std::pair(jacobianByAdjoint(problem_, values_, motion, beside), check_.by_adjoint),
-              std::pair(jacobianByTangent(problem_, values_, motion, beside), check_.by_tangent)})
+             {std::pair(passes_.by_adjoint(problem_, values_, motion, beside), check_.by_adjoint),
+              std::pair(passes_.by_tangent(problem_, values_, motion, beside), check_.by_tangent)})
           rounding_ = rounding_.cwiseMax((found - here).cwiseAbs());
       } catch (const InputError&) {  // a scene at the border of what is possible
       }
@@ -195,6 +176,13 @@ class Checker {
     }
     entry.disagreement = std::isnan(entry.disagreement) ? entry.disagreement : std::max(entry.disagreement, 0.0);
     return entry;
+  }
+  /// Remembers which entries of a column were excused.
+  void excuse(const Eigen::VectorXd& column, Eigen::Index j, const Allowed& allowed) {
+    for (Eigen::Index i = 0; i < column.size(); ++i) {
+      const double by_adjoint = check_.by_adjoint(i, j), d = disagreement(i, j, column[i], by_adjoint);
+      if (isRounding(allowed, i, std::abs(column[i] - by_adjoint), d)) excused_(i, j) = std::max(excused_(i, j), d);
+    }
   }
   DerivativeCheck::Entry worstDifference(const DifferenceColumn& column, Eigen::Index j) const {
     const Allowed allowed{kDifferencesTolerance, column.rounding};
@@ -264,7 +252,9 @@ class Checker {
     check_.best_step.push_back(best);
     if (best < 0) return;
     check_.by_differences.col(j) = steps[static_cast<std::size_t>(best)].values;
-    take(worstDifference(steps[static_cast<std::size_t>(best)], j), check_.differences);
+    const DifferenceColumn& column = steps[static_cast<std::size_t>(best)];
+    excuse(column.values, j, {kDifferencesTolerance, column.rounding});
+    take(worstDifference(column, j), check_.differences);
   }
 
   /// The worst entry of all columns, and how many of them are rounding.
@@ -278,8 +268,22 @@ class Checker {
   void compareTangent() {
     for (Eigen::Index j = 0; j < values_.size(); ++j) {
       const Allowed allowed{kTangentTolerance, rounding_.col(j)};
+      excuse(check_.by_tangent.col(j), j, allowed);
       take(worst(check_.by_tangent.col(j), j, &allowed), check_.adjoint_tangent);
     }
+  }
+
+  /// Entries that are not 0.
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> counting() const {
+    Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> counts(excused_.rows(), excused_.cols());
+    for (Eigen::Index j = 0; j < counts.cols(); ++j)
+      for (Eigen::Index i = 0; i < counts.rows(); ++i) {
+        const double unit = row_scale_[i] / control_scale_[j];
+        const auto is = [&](const Eigen::MatrixXd& by, double least) { return std::abs(by(i, j)) > least * unit; };
+        counts(i, j) = is(check_.by_adjoint, kNothing) || is(check_.by_tangent, kNothing) ||
+                       is(check_.by_differences, kDifferencesTolerance);
+      }
+    return counts;
   }
 
   void conclude() {
@@ -292,6 +296,10 @@ class Checker {
     } else if (check_.differences.row >= 0 && !(check_.differences.disagreement <= kDifferencesTolerance)) {
       text << "Failed: differences disagree by " << check_.differences.disagreement << " at the best step, more than "
            << kDifferencesTolerance << ".";
+    } else if (const std::string left_out = tooManyExcused(counting(), excused_); !left_out.empty()) {
+      text << "Not compared: " << left_out;
+    } else if (check_.not_compared > 0 && check_.differences.row < 0) {
+      text << "Not compared: in every column every step leads to another impact sequence, or to a scene that is not possible.";
     } else {
       check_.passed = true;
       text << "Passed: adjoint and tangent agree to " << check_.adjoint_tangent.disagreement;
@@ -307,8 +315,10 @@ class Checker {
   }
 
   const EditProblem& problem_;
+  const CheckedPasses& passes_;
   Eigen::VectorXd values_, times_, control_scale_, row_scale_, column_scale_, row_rounding_;
   Eigen::MatrixXd rounding_;
+  Eigen::MatrixXd excused_;  // what entries that were excused differ by, as a share of their column's scale
   std::string signature_;
   DerivativeCheck check_;
 };
@@ -316,8 +326,8 @@ class Checker {
 }  // namespace
 
 DerivativeCheck checkDerivatives(const EditProblem& problem, const Eigen::VectorXd& values,
-                                 const std::function<void(const std::string&)>& progress) {
-  return Checker(problem, values).run(progress);
+                                 const std::function<void(const std::string&)>& progress, const CheckedPasses& passes) {
+  return Checker(problem, values, passes).run(progress);
 }
 
 }  // namespace carom::cli
