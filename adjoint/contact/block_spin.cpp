@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "adjoint/held/gauss.hpp"
-#include "adjoint/impact/complementarity.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::adjoint_detail {
@@ -12,6 +11,8 @@ namespace {
 
 // What is left of a slip when the rest of its time is rounding.
 constexpr double kNothingLeft = 1e-18;
+// Stretches of the clock, of the inverse of the rates on it: 12 nodes are exact over them.
+constexpr double kReach = 3;
 // Two rates whose decays differ by less: a difference over theirs is taken as an integral between them.
 constexpr double kAlike = 1;
 // A pull by more of the weight is none that a contact can have.
@@ -31,6 +32,7 @@ struct Loads {
     for (const Vec3& r : arms) length = std::max(length, r.norm());
     unit = in.mass * length;
     for (std::size_t k = 0; k < arms.size(); ++k) rows.col(static_cast<Index>(k)) << 1, tilts(arms[k].cross(push));
+    inverse = Mat3(rows * rows.transpose()).inverse();
     pressing = leastNorm(Vec3(in.mass * pressingGravity(in), 0, 0));
   }
 
@@ -39,9 +41,8 @@ struct Loads {
     const Vec3 spin = A * moment * unit;
     return {across.dot(spin), in.normal.cross(across).dot(spin)};
   }
-  Eigen::VectorXd leastNorm(const Vec3& of_rows) const {
-    return rows.transpose() * LeastNormSolve(rows * rows.transpose(), Vec3(-of_rows)).y;
-  }
+  // A block stands on three corners at least, not in one line.
+  Eigen::VectorXd leastNorm(const Vec3& of_rows) const { return rows.transpose() * (inverse * of_rows); }
   std::size_t least() const {
     Index at = 0;
     pressing.minCoeff(&at);
@@ -62,7 +63,7 @@ struct Loads {
   const PathInputs<double>& in;
   const std::vector<Vec3>& arms;
   Vec3 direction, push, across;
-  Mat3 A;
+  Mat3 A, inverse;
   double unit;
   Eigen::Matrix<double, 3, Eigen::Dynamic> rows;
   Eigen::VectorXd pressing;
@@ -72,7 +73,10 @@ class Turning {
  public:
   Turning(const PathInputs<double>& in, const std::vector<BlockSupport>& supports)
       : in_(in), supports_(supports), path_(GlidePath<double>::block(in)), lever_(in.friction * in.reach) {
-    for (const BlockSupport& s : supports) steady_ = steady_ && (s.follows - Mat3::Identity()).isZero(1e-12);
+    for (const BlockSupport& s : supports) {
+      steady_ = steady_ && (s.follows - Mat3::Identity()).isZero(1e-12);
+      arms_.push_back(s.arm);
+    }
   }
 
   BlockSpin after(double elapsed, bool at_end) const {
@@ -83,9 +87,10 @@ class Turning {
   }
 
  private:
-  double decayAt(const Vec3& x, const Vec3& direction) const {
+  double decayAt(double xi, const Vec3& direction) const {
+    if (steady_) return spinDecay(in_, arms_, direction);
     std::vector<Vec3> arms;
-    const Vec3 moved = x - in_.x;
+    const Vec3 moved = path_.centerOf(path_.slip().onClock(xi), path_.slip().timeAt(xi)).x - in_.x;
     for (const BlockSupport& s : supports_) arms.push_back(s.arm + (s.follows - Mat3::Identity()) * moved);
     return spinDecay(in_, arms, direction);
   }
@@ -95,7 +100,7 @@ class Turning {
     const GlideSlip<double>& slip = path_.slip();
     const Vec3 direction = path_.directionAt(0);
     const double u = slip.start().norm(), c = slip.friction(), slows = c - slip.slope().dot(direction);
-    const double alpha = decayAt(in_.x, direction), side = -c * lever_;
+    const double alpha = decayAt(0, direction), side = -c * lever_;
     BlockSpin out;
     if (at_end) {
       out.turn = u / (alpha + slows);
@@ -142,8 +147,8 @@ class Turning {
     const double stop = at_end ? std::numeric_limits<double>::infinity() : slip.xiAt(elapsed);
     State now;
     while (now.xi < stop && !(slip.speedAt(now.xi) < kNothingLeft * start)) {
-      const double decay = decayAt(path_.centerOf(slip.onClock(now.xi), slip.timeAt(now.xi)).x, directionOn(now.xi));
-      through(std::min(1 / (a + c + std::abs(decay)), stop - now.xi), now);
+      const double decay = decayAt(now.xi, directionOn(now.xi));
+      through(std::min(kReach / (a + c + std::abs(decay)), stop - now.xi), now);
     }
     if (at_end) {  // there is only p; that of the energy-like c |s| + s.g, whose rate is constant (11.5)
       now.sum.v = path_.directionAt(elapsed) * (-c * lever_ * now.bend / (c + a));
@@ -166,9 +171,9 @@ class Turning {
     for (int i = 0; i < n; ++i) {
       const double xi = now.xi + h * gauss.node[i];
       const auto at = static_cast<std::size_t>(i);
-      along[at] = directionOn(xi), across[at] = in_.normal.cross(along[at]);
-      speed[i] = slip.speedAt(xi), turning[i] = slip.slope().dot(across[at]);
-      decay[i] = decayAt(path_.centerOf(slip.onClock(xi), slip.timeAt(xi)).x, along[at]);
+      speed[i] = slip.speedAt(xi);
+      along[at] = slip.slipAt(xi) / speed[i], across[at] = in_.normal.cross(along[at]);
+      turning[i] = slip.slope().dot(across[at]), decay[i] = decayAt(xi, along[at]);
     }
     const Eigen::Matrix<double, n, 1> decayed = gauss.integral * decay;
     for (int i = 0; i < n; ++i) spin[i] = elementary::exp(now.log_spin - h * decayed[i]);
@@ -204,6 +209,7 @@ class Turning {
   const std::vector<BlockSupport>& supports_;
   GlidePath<double> path_;
   double lever_;
+  std::vector<Vec3> arms_;
   bool steady_ = true;
 };
 
