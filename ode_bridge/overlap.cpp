@@ -7,6 +7,7 @@
 
 #include "adjoint/numeric/elementary.hpp"
 #include "ode_bridge/leaf_pairs.hpp"
+#include "ode_bridge/near_features.hpp"
 
 namespace carom::ode_bridge_detail {
 namespace {
@@ -39,15 +40,26 @@ double depthOf(const Solid& solid, const Vec3& p) {
   return least;
 }
 
-std::optional<double> insideMesh(const Placed& a, const Placed& mesh) {
+// Whether p (solid's axes) is as near as that to a triangle of a closed mesh, so that rounding says which side it is on.
+bool isOnSurface(const Solid& solid, const Vec3& p, double tolerance) {
+  return std::ranges::any_of(solid.pieces, [&](const Piece& piece) {
+    if (piece.core != Piece::Core::triangle) return false;
+    const SolidFace& face = solid.faces[static_cast<std::size_t>(solid.featuresOf(piece, Family::face)[0])];
+    return std::abs(face.direction.dot(p - face.point)) <= tolerance && outsideFace(solid, face, p) <= tolerance;
+  });
+}
+
+std::optional<double> insideMesh(const Placed& a, const Placed& mesh, double tolerance) {
   if (!mesh.solid->closed_mesh) return std::nullopt;
   std::optional<double> deepest;
   int part = -1;
   for (const Feature& v : a.solid->vertices) {
-    if (v.part == part) continue;  // one point of each part says where all of it is, for its surface touches nothing
-    part = v.part;
+    if (v.part == part) continue;  // one point of each part, off the mesh, says where all of it is
     const Vec3 p = mesh.k.R.transpose() * (a.world(v.point) - mesh.k.x);
-    if (p.norm() < mesh.solid->bound() && inside(*mesh.solid, p))
+    const bool near = p.norm() < mesh.solid->bound();
+    if (near && isOnSurface(*mesh.solid, p, tolerance)) continue;
+    part = v.part;
+    if (near && inside(*mesh.solid, p))
       deepest = std::max(deepest.value_or(0), depthOf(*mesh.solid, p));
   }
   return deepest;
@@ -64,8 +76,8 @@ std::optional<double> overlapOf(const Placed& a, const Placed& b, double toleran
     if (separation < -tolerance) deepest = std::max(deepest.value_or(0), -separation);
   });
   if (deepest) return deepest;
-  if (const auto depth = insideMesh(a, b)) return depth;
-  return insideMesh(b, a);
+  if (const auto depth = insideMesh(a, b, tolerance)) return depth;
+  return insideMesh(b, a, tolerance);
 }
 
 }  // namespace carom::ode_bridge_detail
