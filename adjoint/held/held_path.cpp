@@ -198,6 +198,8 @@ const HeldStep& HeldPath::stepAt(double t) const {
     const std::size_t middle = (low + high) / 2;
     (steps_[middle].start < t && steps_[middle].length > 0 ? low : high) = middle;
   }
+  if (t > known_)  // a polynomial is good for about its length beyond it: rather that of a longer step before
+    while (low > 0 && steps_[low].length < t - known_ && steps_[low - 1].length > steps_[low].length) --low;
   return steps_[low];
 }
 
