@@ -10,6 +10,7 @@
 
 #include "adjoint/base/errors.h"
 #include "ode_bridge/gap_of_pair.hpp"
+#include "ode_bridge/ground_seams.hpp"
 #include "ode_bridge/held_planes.hpp"
 #include "ode_bridge/rounding.hpp"
 #include "ode_bridge/seams.hpp"
@@ -24,6 +25,9 @@ constexpr int kGlideSteps = 64;
 constexpr double kLoosest = 1000;
 // Bodies that start in touch may overlap by somewhat less than this many tolerances of contact.
 constexpr double kDeepest = 4e4;
+
+// Faces of fixed bodies are in one plane to so many tolerances of contact.
+constexpr double kFlush = 40;
 
 // The library proposes a direction when boxes first come near, grown by this share of their size.
 constexpr double kGrown = 0.01;
@@ -51,7 +55,8 @@ struct Pending {
 
 class Search {
  public:
-  Search(const PairMotion& pair, double from, double until, std::span<const FeaturePair> held)
+  Search(const PairMotion& pair, double from, double until, std::span<const FeaturePair> held,
+         std::span<const HeldElsewhere> elsewhere)
       : pair_(pair),
         from_(from),
         until_(until),
@@ -59,8 +64,10 @@ class Search {
         b_(pair.geometry.solid(pair.b), pair.arc_b, from),
         start_a_(a_),
         start_b_(b_),
-        held_features_(held) {
-    if (!held.empty()) held_.emplace(start_a_, start_b_, held);
+        held_features_(held),
+        elsewhere_(!elsewhere.empty()) {
+    if (!held.empty() || !elsewhere.empty())
+      held_.emplace(start_a_, start_b_, held, elsewhere, pair.arc_a.moving());
   }
 
   std::optional<PredictedImpact> run() {
@@ -72,7 +79,7 @@ class Search {
  private:
   // What comes to the plane of a held contact, and meets there.
   void searchPlanes() {
-    held_->firstReach(pair_, from_, end(), [&](double t) {
+    held_->firstReach(pair_, from_, end(), [&](double t, bool through, bool broken) {
       placeAt(t);
       const double tolerance = touchTolerance(a_, b_);
       bool found = false;
@@ -80,11 +87,14 @@ class Search {
         if (std::ranges::find(held_features_, f) != held_features_.end()) continue;
         const GapOfPair gap(pair_, f, from_, until_, tolerance);
         const Root root = gap.root(t, a_, b_, true);
-        if (!root.approaching) continue;
+        if (!root.approaching || isAtGroundSeam(f, root.time, tolerance)) continue;
         found = true;
         if (root.time <= until_ && (!first_ || root.time < first_->time)) first_ = PredictedImpact{root.time, f};
       }
-      return found;
+      // what goes through the plane beside these two may meet another body there, and only then
+      const bool ends = broken || (through && t > from_ && (elsewhere_ || !pair_.ground.bodies.empty()));
+      if (!found && ends) first_ = PredictedImpact{t, kSearchedSoFar};
+      return found || ends;
     });
   }
 
@@ -216,11 +226,21 @@ class Search {
     for (const FeaturePair& f : touching_) {
       const GapOfPair gap(pair_, f, from_, until_, tolerance);
       const Root root = gap.root(now_.time, a_, b_, now_.parted);
+      if (root.approaching && isAtGroundSeam(f, root.time, tolerance)) continue;
       if (!root.approaching || (now_.parted && gap.isSlowAt(a_, b_) && isAtSeam(f, room))) continue;
       found = true;
       if (root.time <= until_ && (!first_ || root.time < first_->time)) first_ = PredictedImpact{root.time, f};
     }
     return found;
+  }
+
+  // Of fixed bodies that lie flush: as it is when it is met, however deep the search has come since.
+  bool isAtGroundSeam(const FeaturePair& f, double time, double tolerance) const {
+    if (pair_.ground.bodies.empty()) return false;
+    pair_.arc_a.extendTo(time);
+    pair_.arc_b.extendTo(time);
+    const Placed a(*a_.solid, pair_.arc_a, time), b(*b_.solid, pair_.arc_b, time);
+    return isGroundSeam(a, b, f, pair_.ground, kFlush * tolerance);
   }
 
   // What rolls along a wall does not meet the edges of its parts: it touches the faces on both sides of them.
@@ -234,6 +254,7 @@ class Search {
   Placed a_, b_, start_a_, start_b_;
   std::optional<HeldPlanes> held_;
   std::span<const FeaturePair> held_features_;
+  bool elsewhere_;  // whether something else holds the body
   int steps_ = 0;
   double placed_at_ = std::numeric_limits<double>::quiet_NaN();
   Pending now_;
@@ -245,10 +266,11 @@ class Search {
 }  // namespace
 
 std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until,
-                                               std::span<const FeaturePair> held) {
+                                               std::span<const FeaturePair> held,
+                                               std::span<const HeldElsewhere> elsewhere) {
   pair.arc_a.extendTo(from);
   pair.arc_b.extendTo(from);
-  return Search(pair, from, until, held).run();
+  return Search(pair, from, until, held, elsewhere).run();
 }
 
 }  // namespace carom::ode_bridge_detail

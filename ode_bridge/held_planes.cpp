@@ -24,29 +24,30 @@ constexpr int kMostPlaneSteps = 20'000;
 const Piece& pieceOf(const Placed& body, int piece) { return body.solid->pieces[static_cast<std::size_t>(piece)]; }
 
 // The points of a feature that lie in the plane of its contact, in the axes of its solid.
-void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& contact, AffineSpan& span) {
+template <class Add>
+void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& contact, const Add& add) {
   const auto at = static_cast<std::size_t>(index);
   switch (family) {
     case Family::vertex:
-      span.add(solid.vertices[at].point);
+      add(solid.vertices[at].point);
       return;
     case Family::edge: {
       const SolidEdge& edge = solid.edges[at];
       if (isSwept(edge)) {
-        span.add(contact);
+        add(contact);
         return;
       }
-      for (const double end : {-1.0, 1.0}) span.add(edge.point + end * edge.half_length * edge.direction);
+      for (const double end : {-1.0, 1.0}) add(edge.point + end * edge.half_length * edge.direction);
       return;
     }
     case Family::face: {
       const SolidFace& face = solid.faces[at];
       const Vec3 u = face.direction.unitOrthogonal();
-      span.add(face.point), span.add(face.point + u), span.add(face.point + face.direction.cross(u));
+      add(face.point), add(face.point + u), add(face.point + face.direction.cross(u));
       return;
     }
     case Family::rim:
-      span.add(contact);
+      add(contact);
       return;
   }
 }
@@ -69,11 +70,16 @@ struct HeldPlanes::Laid {
   AffineSpan of_a, of_b;
 };
 
-HeldPlanes::HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held) : a_(a), b_(b) {
+HeldPlanes::HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held,
+                       std::span<const HeldElsewhere> elsewhere, bool moves_a)
+    : a_(a), b_(b), moves_a_(moves_a) {
   std::vector<Laid> laid;
-  for (const FeaturePair& f : held) layThrough(f, laid);
+  for (const FeaturePair& f : held) layThrough(throughOwn(f), &f, laid);
+  for (const HeldElsewhere& h : elsewhere) layThrough(through(h), nullptr, laid);
   for (Laid& each : laid) {
     fixTo(each);
+    const bool goes_with_one = each.plane.frame == Frame::body_a || each.plane.frame == Frame::body_b;
+    if (each.plane.held.empty() && !goes_with_one) continue;  // an edge of another body tells nothing of these
     planes_.push_back(std::move(each.plane));
     Plane& kept = planes_.back();
     addFollowers(kept);
@@ -84,20 +90,46 @@ HeldPlanes::HeldPlanes(const Placed& a, const Placed& b, std::span<const Feature
       return !f.is_rim || (body.k.R * f.feature.direction).cross(kept.n).norm() <= kSamePlane;
     };
     std::erase_if(kept.followers, inPlane);
+    if (kept.held.empty() && isBroken(kept)) planes_.pop_back();
   }
 }
 
-// Adds a contact to the plane that it lies in; that is a new one where it lies in none of the others.
-void HeldPlanes::layThrough(const FeaturePair& f, std::vector<Laid>& laid) const {
+// Whether something has gone through the plane, as it may beside the body that holds.
+bool HeldPlanes::isBroken(const Plane& plane) const {
+  return std::ranges::any_of(plane.followers, [&](const Follower& f) {
+    const Placed& body = f.of_a ? a_ : b_;
+    const double height = plane.n.dot(body.world(f.feature.point) - b_.k.x) - plane.level;
+    const double rim = f.is_rim ? f.feature.rim * (body.k.R * f.feature.direction).cross(plane.n).norm() : 0;
+    return (f.of_a ? height : -height) - f.feature.radius - rim < -plane.room;
+  });
+}
+
+HeldPlanes::Through HeldPlanes::throughOwn(const FeaturePair& f) const {
   const auto kind = static_cast<GapKind>(f.kind);
-  const ContactPoint c = contactAt(a_, b_, f);
+  return {contactAt(a_, b_, f), {&a_, familyOfFirst(kind), f.a}, {&b_, familyOfSecond(kind), f.b}};
+}
+
+HeldPlanes::Through HeldPlanes::through(const HeldElsewhere& h) const {
+  const auto kind = static_cast<GapKind>(h.features.kind);
+  const Placed& moving = moves_a_ ? a_ : b_;
+  const Placed &first = h.moving_first ? moving : *h.with, &second = h.moving_first ? *h.with : moving;
+  Through out{contactAt(first, second, h.features), {&first, familyOfFirst(kind), h.features.a},
+              {&second, familyOfSecond(kind), h.features.b}};
+  if (h.moving_first != moves_a_) {
+    std::swap(out.of_a, out.of_b);
+    out.at.normal = -out.at.normal;
+  }
+  return out;
+}
+
+// Adds a contact to the plane that it lies in; that is a new one where it lies in none of the others.
+void HeldPlanes::layThrough(const Through& contact, const FeaturePair* own, std::vector<Laid>& laid) const {
+  const ContactPoint& c = contact.at;
   if (!c.normal.allFinite() || !std::isfinite(c.gap)) return;
-  const Family of_a = familyOfFirst(kind), of_b = familyOfSecond(kind);
   const auto levelOf = [&] {
-    if (of_b == Family::face)
-      return c.normal.dot(b_.world(b_.solid->faces[static_cast<std::size_t>(f.b)].point) - b_.k.x);
-    if (of_a == Family::face)
-      return c.normal.dot(a_.world(a_.solid->faces[static_cast<std::size_t>(f.a)].point) - b_.k.x);
+    for (const Side* side : {&contact.of_b, &contact.of_a})
+      if (side->family == Family::face)
+        return c.normal.dot(side->body->world(side->body->solid->faces[static_cast<std::size_t>(side->index)].point) - b_.k.x);
     return c.normal.dot(c.point - b_.k.x);
   };
   const double level = levelOf(), room = kInPlane * touchTolerance(a_, b_) + std::abs(c.gap);
@@ -112,12 +144,24 @@ void HeldPlanes::layThrough(const FeaturePair& f, std::vector<Laid>& laid) const
     fresh.of_a = AffineSpan(size(a_)), fresh.of_b = AffineSpan(size(b_));
     same = laid.insert(laid.end(), std::move(fresh));
   }
-  same->plane.held.push_back(f);
   const auto isCurve = [](Family family) { return family == Family::edge || family == Family::rim; };
-  if (isCurve(of_a) && isCurve(of_b) && same->plane.held.size() == 1)
-    same->plane.edge_a = a_.solid->feature(of_a, f.a), same->plane.edge_b = b_.solid->feature(of_b, f.b);
-  addPointsInPlane(*a_.solid, of_a, f.a, a_.k.R.transpose() * (c.point - a_.k.x), same->of_a);
-  addPointsInPlane(*b_.solid, of_b, f.b, b_.k.R.transpose() * (c.point - b_.k.x), same->of_b);
+  if (own) {
+    same->plane.held.push_back(*own);
+    if (isCurve(contact.of_a.family) && isCurve(contact.of_b.family) && same->plane.held.size() == 1)
+      same->plane.edge_a = a_.solid->feature(contact.of_a.family, contact.of_a.index),
+      same->plane.edge_b = b_.solid->feature(contact.of_b.family, contact.of_b.index);
+  } else {
+    const Side& moving = moves_a_ ? contact.of_a : contact.of_b;
+    same->plane.held_elsewhere.emplace_back(moving.family, moving.index);
+  }
+  const auto addTo = [&](const Side& side, const Placed& body, AffineSpan& span) {
+    addPointsInPlane(*side.body->solid, side.family, side.index, side.body->k.R.transpose() * (c.point - side.body->k.x),
+                     [&](const Vec3& p) {
+                       span.add(side.body == &body ? p : Vec3(body.k.R.transpose() * (side.body->world(p) - body.k.x)));
+                     });
+  };
+  addTo(contact.of_a, a_, same->of_a);
+  addTo(contact.of_b, b_, same->of_b);
 }
 
 // Finds what the plane goes with.
@@ -128,9 +172,10 @@ void HeldPlanes::fixTo(Laid& laid) const {
     plane.normal = body.k.R.transpose() * plane.n;
     plane.point = span.origin();
   };
-  if (laid.of_b.isPlane()) {
+  const bool of_a = laid.of_a.isPlane();
+  if (laid.of_b.isPlane() && !(of_a && b_.spin > 0 && !(a_.spin > 0))) {  // rather with what does not turn
     goesWith(Frame::body_b, b_, laid.of_b);
-  } else if (laid.of_a.isPlane()) {
+  } else if (of_a) {
     goesWith(Frame::body_a, a_, laid.of_a);
   } else if (isRimOf(plane.edge_a) != isRimOf(plane.edge_b)) {
     plane.frame = Frame::rim;
@@ -157,13 +202,10 @@ void HeldPlanes::addFollowers(Plane& plane) {
       for (int i : features) {
         const Feature& feature = solid.feature(family, i);
         if (feature.mark) continue;
-        const bool is_held = std::ranges::any_of(plane.held, [&](const FeaturePair& f) {
-          const auto kind = static_cast<GapKind>(f.kind);
-          const Family held = of_a ? familyOfFirst(kind) : familyOfSecond(kind);
-          const int which = of_a ? f.a : f.b;
+        const auto isAt = [&](Family held, int which) {
           return (held == family && which == i) || (held == Family::edge && endsAt(solid, which, feature));
-        });
-        if (!is_held) plane.followers.push_back({of_a, feature, family == Family::rim});
+        };
+        if (!anyHeld(plane, of_a, isAt)) plane.followers.push_back({of_a, feature, family == Family::rim});
       }
     };
     add(vertices, Family::vertex);
@@ -171,12 +213,23 @@ void HeldPlanes::addFollowers(Plane& plane) {
   }
 }
 
+// Whether a feature of a or of b that lies in the plane is one that is( family, index) true of.
+template <class Is>
+bool HeldPlanes::anyHeld(const Plane& plane, bool of_a, const Is& is) const {
+  const auto isOwn = [&](const FeaturePair& f) {
+    const auto kind = static_cast<GapKind>(f.kind);
+    return of_a ? is(familyOfFirst(kind), f.a) : is(familyOfSecond(kind), f.b);
+  };
+  if (std::ranges::any_of(plane.held, isOwn)) return true;
+  return of_a == moves_a_ &&
+         std::ranges::any_of(plane.held_elsewhere, [&](const auto& held) { return is(held.first, held.second); });
+}
+
 bool HeldPlanes::holds(const Plane& plane, bool of_a, int piece) const {
   const Placed& body = of_a ? a_ : b_;
-  return std::ranges::any_of(plane.held, [&](const FeaturePair& f) {
-    const auto kind = static_cast<GapKind>(f.kind);
-    const auto features = body.solid->featuresOf(pieceOf(body, piece), of_a ? familyOfFirst(kind) : familyOfSecond(kind));
-    return std::ranges::find(features, of_a ? f.a : f.b) != features.end();
+  return anyHeld(plane, of_a, [&](Family family, int index) {
+    const auto features = body.solid->featuresOf(pieceOf(body, piece), family);
+    return std::ranges::find(features, index) != features.end();
   });
 }
 
@@ -185,8 +238,14 @@ bool HeldPlanes::staysBeyond(const Plane& plane, bool of_a, int piece) const {
   if (holds(plane, of_a, piece)) return true;
   const Placed& body = of_a ? a_ : b_;
   const PlacedPiece p{&body, &pieceOf(body, piece)};
-  if (p.halfSpace()) return false;
   const bool rigid = plane.frame == (of_a ? Frame::body_a : Frame::body_b);
+  if (p.halfSpace()) {  // beside what holds the other body: it ends at the plane itself, or not at all
+    if (!rigid || plane.held_elsewhere.empty()) return false;
+    const SolidFace& face = body.solid->faces[0];
+    const Vec3 n = of_a ? Vec3(-plane.n) : plane.n, outward = body.k.R * face.direction;
+    const double level = of_a ? -plane.level : plane.level;
+    return (outward - n).norm() <= kSamePlane && n.dot(body.world(face.point) - b_.k.x) <= level + plane.room;
+  }
   const bool turns = plane.frame == Frame::crossed || plane.frame == Frame::rim;
   const bool stands = !(body.spin > 0) && !turns && !((of_a ? b_ : a_).spin > 0);
   if (!rigid && !stands) return false;
@@ -217,8 +276,9 @@ HeldPlanes::Approach HeldPlanes::approachOf(const Follower& f, const Plane& plan
   const double fastest = dd.norm() + body.spin * f.feature.rim + second * window;
   const double furthest = d.norm() + f.feature.rim + fastest * window;
   out.bend = p.n2 * furthest + 2 * p.n1 * fastest + second;
-  if (plane.frame == Frame::body_b && !(b.spin > 0)) {  // the plane stands: only what is along its normal counts
-    out.bend = std::abs(p.n.dot(body.acceleration - b.acceleration)) + body.variation + b.variation +
+  const bool on_a = plane.frame == Frame::body_a, on_b = plane.frame == Frame::body_b;
+  if (const Placed& with = on_a ? a : b; (on_a || on_b) && !(with.spin > 0)) {  // only what is along its normal counts
+    out.bend = std::abs(p.n.dot(body.acceleration - with.acceleration)) + body.variation + with.variation +
                (body.spin * body.spin + body.spin_rate) * arm;
   }
   if (f.is_rim) {
@@ -240,12 +300,14 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
   pair.arc_b.extendTo(t);
   const Placed a(*a_.solid, pair.arc_a, t), b(*b_.solid, pair.arc_b, t);
   const double tolerance = touchTolerance(a, b), spin = a.spin + b.spin;
-  Reach reach{until - t, false};
+  Reach reach{until - t};
   if (spin > 0) reach.step = std::min(reach.step, 0.5 / spin);
-  const auto look = [&](const Approach& to, bool is_rim) {
+  const auto look = [&](const Approach& to, bool is_rim, const Plane& plane) {
     const bool there = to.gap <= tolerance;
     if (there && to.rate < -kStill * to.speed) {
       reach.touches = true;
+      reach.through = reach.through || to.gap >= -plane.room;
+      reach.broken = reach.broken || (to.gap < -plane.room && plane.held.empty());
       reach.step = std::min(reach.step, timeTo(tolerance, -to.rate, to.bend));
       return;
     }
@@ -257,12 +319,12 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
     if (plane.frame == Frame::rim && plane.side != 0) {
       Approach to = levelOfCap(plane, a, b);
       to.gap *= plane.side, to.rate *= plane.side;
-      look(to, false);
+      look(to, false, plane);
     }
     const std::optional<Lying> p = lie(plane, a, b);
     if (!p) continue;
     reach.step = std::min(reach.step, p->holds_for);
-    for (const Follower& f : plane.followers) look(approachOf(f, plane, *p, a, b, reach.step), f.is_rim);
+    for (const Follower& f : plane.followers) look(approachOf(f, plane, *p, a, b, reach.step), f.is_rim, plane);
   }
   return reach;
 }

@@ -10,6 +10,13 @@
 
 namespace carom::ode_bridge_detail {
 
+/// A contact that holds the one of two bodies that moves to a third, which is fixed as the other one is.
+struct HeldElsewhere {
+  const Placed* with = nullptr;  ///< the third
+  FeaturePair features;
+  bool moving_first = true;      ///< of the features' order
+};
+
 /// The planes of the contacts that hold two bodies to each other. Two convex pieces in contact lie on the two sides of
 /// the plane through the contact across its normal: on the plane itself, what is held; all else of them can meet the other
 /// piece only once it has come to the plane. A plane goes with the body that has three held points in it, as it has where
@@ -17,21 +24,24 @@ namespace carom::ode_bridge_detail {
 /// the edge: what else comes to the plane goes on from the same point (FeatureLimit::rolls_over).
 class HeldPlanes {
  public:
-  /// The bodies are placed at the start of the search.
-  HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held);
+  /// The bodies are placed at the start of the search. `elsewhere`: what stands still is one ground, so the face that a
+  /// body is held at may go on with the other one; `moves_a` says which of the two moves, where there are any.
+  HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held,
+             std::span<const HeldElsewhere> elsewhere = {}, bool moves_a = true);
 
   /// Whether two pieces are on the two sides of a plane, as long as nothing has come to it.
   bool keepApart(int piece_a, int piece_b) const;
 
   /// The first time in [from, until] at which more of the pieces that planes keep apart has come to a plane, and does not
-  /// go away from it: every vertex and rim is followed to first order, with a bound on its second derivative. `accept`: is
-  /// asked whether there is an impact there; where there is none, the search goes on.
+  /// go away from it: every vertex and rim is followed to first order, with a bound on its second derivative.
+  /// accept(t, through, broken) is asked whether to end there, as at an impact; where not, the search goes on. `through`: it
+  /// is about to go through a plane; `broken`: it has gone through one of contacts elsewhere, which tells nothing then.
   template <class Accept>
   std::optional<double> firstReach(const PairMotion& pair, double from, double until, const Accept& accept) const {
     double t = from;
     for (int steps = 0; t <= until; ++steps) {
       const Reach reach = reachAt(pair, t, until, steps);
-      if (reach.touches && accept(t)) return t;
+      if (reach.touches && accept(t, reach.through, reach.broken)) return t;
       if (!(t + reach.step < until)) break;
       t = std::max(t + reach.step, std::nextafter(t, until));
     }
@@ -51,6 +61,7 @@ class HeldPlanes {
     Vec3 n;                           // at the start, from b to a
     double level, room;               // of n.(p - x_b) at the start
     std::vector<FeaturePair> held;
+    std::vector<std::pair<Family, int>> held_elsewhere;  // features of the body that moves
     Vec3 normal = Vec3::Zero(), point = Vec3::Zero();  // in the axes of its body, where it goes with one
     Feature edge_a, edge_b;           // crossed; one is a rim in a frame of that name
     double side = 0;                  // rim: the side of the cap that the edge is on; 0 where it lies in it
@@ -58,7 +69,7 @@ class HeldPlanes {
   };
   struct Reach {
     double step = 0;
-    bool touches = false;
+    bool touches = false, through = false, broken = false;
   };
 
   // A plane at an instant: its normal with the bounds |n'| <= n1, |n''| <= n2, and a point of it that goes with a body.
@@ -77,9 +88,24 @@ class HeldPlanes {
   };
   struct Laid;
 
-  void layThrough(const FeaturePair& f, std::vector<Laid>& laid) const;
+  // A feature of a contact, and the body that has it.
+  struct Side {
+    const Placed* body;
+    Family family;
+    int index;
+  };
+  struct Through {
+    ContactPoint at;  // normal from b to a
+    Side of_a, of_b;
+  };
+  Through throughOwn(const FeaturePair& f) const;
+  Through through(const HeldElsewhere& h) const;
+  void layThrough(const Through& contact, const FeaturePair* own, std::vector<Laid>& laid) const;
   void fixTo(Laid& laid) const;
+  template <class Is>
+  bool anyHeld(const Plane& plane, bool of_a, const Is& is) const;
   void addFollowers(Plane& plane);
+  bool isBroken(const Plane& plane) const;
   bool holds(const Plane& plane, bool of_a, int piece) const;
   bool staysBeyond(const Plane& plane, bool of_a, int piece) const;
   static bool isRimOf(const Feature& f) { return f.rim > 0 && f.apex == 0; }
@@ -92,6 +118,7 @@ class HeldPlanes {
   Reach reachAt(const PairMotion& pair, double t, double until, int steps) const;
 
   const Placed &a_, &b_;
+  bool moves_a_;  // of contacts elsewhere
   std::vector<Plane> planes_;
 };
 

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 #include <string>
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/errors.h"
-#include "ode_bridge/ball_impact.hpp"
 #include "ode_bridge/first_impact.hpp"
-#include "ode_bridge/neighbours.hpp"
+#include "ode_bridge/ode_contacts_state.hpp"
 #include "ode_bridge/overlap.hpp"
 #include "ode_bridge/parting.hpp"
 #include "ode_bridge/rounding.hpp"
@@ -63,39 +60,6 @@ BodyExtent extentOf(const Solid& solid, const Arc& arc) {
 
 }  // namespace
 
-// Impacts among balls that move and planes have a closed form.
-enum class Quick : char { fixed, moving, ball, plane };
-bool isQuick(Quick q) { return q == Quick::ball || q == Quick::plane; }
-
-struct OdeContacts::State {
-  Neighbours neighbours;
-  NarrowPhase narrow_phase;
-  std::shared_ptr<const FeatureGeometry> geometry;
-  std::vector<SolidSource> sources;  // of its solids
-  std::vector<Quick> quick;     // of each body
-  std::map<int, Arc> varied;    // moving bodies whose acceleration varies
-  std::vector<char> in_series;  // whether its arcs have to be extended; known here, arcs are far away in memory
-  int opened = -1;              // body whose window was asked for last, when and up to where
-  double opened_from = 0, opened_until = 0, end = 0;
-
-  std::size_t checkedBody(const char* call, int body) const {
-    return checkedIndex(call, "body", body, quick.size());
-  }
-  std::vector<StartOverlap> overlaps;
-  std::vector<PlacedContact> placed;
-  std::set<std::pair<std::string, std::string>> accepted;  // names of pairs that overlap in the scene it was made for
-
-  void takeSolids(const Scene& scene);
-  void lookAtStart(const std::vector<Arc>& arcs, WorkCount* work);
-  bool isAccepted(const Scene& scene, const StartOverlap& overlap) const;
-  BallImpact quickImpact(int a, int b, double from, double until) const;
-  FeaturePair quickFeatures(int a, int b) const;
-  double quickGap(int a, int b, const Arc& arc_a, const Arc& arc_b, double t) const;
-  void keepVaried(int body, const Arc& arc);
-  void placeVaried(int body, double t);
-  void keepThoseThatMayMeet(int body, std::vector<int>& others) const;
-};
-
 OdeContacts::OdeContacts() : state_(std::make_unique<State>()) {}
 
 OdeContacts::OdeContacts(const Scene& scene, WorkCount* work) : OdeContacts() {
@@ -136,6 +100,7 @@ void OdeContacts::take(const Scene& scene) {
     if (solids[i].plane) state_->quick[i] = Quick::plane;
     if (models[i].moving) state_->quick[i] = solids[i].ball ? Quick::ball : Quick::moving;
   }
+  state_->takeGround(arcs, extents);
   state_->neighbours.begin(std::move(extents), scene.gravity, Neighbours::kFew, CollisionClasses(scene));
   state_->lookAtStart(arcs, work());
 }
@@ -166,7 +131,7 @@ void OdeContacts::State::lookAtStart(const std::vector<Arc>& arcs, WorkCount* wo
     const double tolerance = touchTolerance(a, b);
     if (const auto depth = overlapOf(a, b, kOverlap * tolerance, work)) {
       overlaps.push_back({first, second, *depth, std::nullopt});
-    } else if (auto features = touchingFeatures(a, b, kPlaced * tolerance); !features.empty()) {
+    } else if (auto features = touchingFeatures(a, b, kPlaced * tolerance, ground.besideOf(first, second)); !features.empty()) {
       placed.push_back({first, second, std::move(features)});
     }
     if (overlaps.size() > kMostOverlaps)
@@ -309,7 +274,7 @@ std::optional<PredictedImpact> OdeContacts::firstImpact(int a, int b, Arc& arc_a
     if (inSeries(b)) arc_b.extendTo(quick.time);
     return PredictedImpact{quick.time, state_->quickFeatures(a, b)};
   }
-  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work()}, from, until);
+  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work(), state_->ground.besideOf(a, b)}, from, until);
 }
 
 std::optional<PredictedImpact> OdeContacts::firstImpactBeside(int a, int b, std::span<const FeaturePair> held,
@@ -319,7 +284,7 @@ std::optional<PredictedImpact> OdeContacts::firstImpactBeside(int a, int b, std:
   for (const FeaturePair& f : held) state_->geometry->checkFeatures(a, b, f);
   const auto quick = [&](int body) { return isQuick(state_->quick[static_cast<std::size_t>(body)]); };
   if (!held.empty() && quick(a) && quick(b)) return std::nullopt;  // a ball touches a plane in one place only
-  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work()}, from, until, held);
+  return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work(), state_->ground.besideOf(a, b)}, from, until, held);
 }
 
 std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
@@ -335,7 +300,8 @@ std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, c
     return {state_->quickFeatures(a, b)};
   }
   const Placed placed_a(state_->geometry->solid(a), arc_a, t), placed_b(state_->geometry->solid(b), arc_b, t);
-  return touchingFeatures(placed_a, placed_b, std::max(tolerance, 4 * touchTolerance(placed_a, placed_b)));
+  return touchingFeatures(placed_a, placed_b, std::max(tolerance, 4 * touchTolerance(placed_a, placed_b)),
+                          state_->ground.besideOf(a, b));
 }
 
 std::shared_ptr<const ContactGeometry> OdeContacts::geometry() const { return state_->geometry; }

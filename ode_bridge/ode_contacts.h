@@ -32,6 +32,9 @@ class OdeContacts final : public ContactSource {
   std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
   std::optional<PredictedImpact> firstImpactBeside(int a, int b, std::span<const FeaturePair> held, Arc& arc_a,
                                                    Arc& arc_b, double from, double until) override;
+  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,
+                                                     Arc& arc_b, double from, double until) override;
+  std::span<const int> groundBeside(int body) const override;
   std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,
                                     double tolerance) override;
   std::shared_ptr<const ContactGeometry> geometry() const override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "ode_bridge/ground.hpp"
 #include "ode_bridge/narrow_phase.hpp"
 #include "ode_bridge/separation.hpp"
 
@@ -14,6 +15,7 @@ struct PairMotion {
   Arc& arc_a;
   Arc& arc_b;
   WorkCount* work = nullptr;  ///< where steps are counted
+  GroundBeside ground = {};   ///< beside the one that is fixed
 };
 
 }  // namespace carom::ode_bridge_detail

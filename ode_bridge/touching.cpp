@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ode_bridge/ground_seams.hpp"
 #include "ode_bridge/leaf_pairs.hpp"
 #include "ode_bridge/near_features.hpp"
 #include "ode_bridge/rounding.hpp"
@@ -310,7 +311,7 @@ std::vector<FeaturePair> oneEach(std::vector<Candidate>& all) {
 
 }  // namespace
 
-std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double reach) {
+std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double reach, const GroundBeside& ground) {
   std::vector<Candidate> all;
   std::vector<FeaturePair> of_pieces;
   std::vector<int> pieces_a, pieces_b;
@@ -331,6 +332,8 @@ std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, doub
   });
   std::vector<FeaturePair> found = oneEach(all);
   if (found.size() > 1 && pieces_a.size() > 1) dropSeams(a, b, pieces_a, pieces_b, 10 * reach, found);
+  if (!ground.bodies.empty())
+    std::erase_if(found, [&](const FeaturePair& f) { return isGroundSeam(a, b, f, ground, 10 * reach); });
   return found;
 }
 

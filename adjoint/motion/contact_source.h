@@ -101,17 +101,28 @@ class ContactGeometry {
 };
 
 /// The first impact of a pair: gap = 0 with a decreasing gap. Without features (kind -1) the bodies come to overlap
-/// from then on, and no features say how they meet: the motion cannot go on.
+/// from then on, and no features say how they meet: the motion cannot go on. With those of kSearchedSoFar they do not meet
+/// before that time, and what comes later is to be asked for then: something else may be met first.
 struct PredictedImpact {
   double time = 0;       ///< s
   FeaturePair features;  ///< how they meet
 };
+
+/// See PredictedImpact.
+inline constexpr FeaturePair kSearchedSoFar{-2, -1, -1, 1};
 
 /// Two bodies that touch at the start of a scene (see ContactSource::placed).
 struct PlacedContact {
   int a = 0;                          ///< body
   int b = 0;                          ///< body, above a
   std::vector<FeaturePair> features;  ///< at which they touch: one at least, more where an edge or a face lies on a face
+};
+
+/// A contact that lasts: the bodies that it holds to each other, a below b, and their features.
+struct HeldFeatures {
+  int a = -1;            ///< body
+  int b = -1;            ///< body
+  FeaturePair features;  ///< of a and b
 };
 
 /// Who may touch whom, and when: collision detection as the simulator sees it.
@@ -167,6 +178,25 @@ class ContactSource {
                                                            Arc& arc_b, double from, double until) {
     (void)a, (void)b, (void)held, (void)arc_a, (void)arc_b, (void)from, (void)until;
     return std::nullopt;
+  }
+
+  /// The same where the moving one of a and b is held by what stands still: `held` are its contacts with fixed bodies, the
+  /// other one of a and b among them or not. What stands still is one ground, so a face that goes on from one fixed body to
+  /// the next is one face.
+  virtual std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,
+                                                             Arc& arc_b, double from, double until) {
+    std::vector<FeaturePair> own;
+    for (const HeldFeatures& h : held)
+      if (h.a == a && h.b == b) own.push_back(h.features);
+    return own.empty() ? firstImpact(a, b, arc_a, arc_b, from, until)
+                       : firstImpactBeside(a, b, own, arc_a, arc_b, from, until);
+  }
+
+  /// Fixed bodies that the fixed body `body` touches, in increasing order; may name too many, never too few. Where their
+  /// faces go on beside its own, its borders carry no contact.
+  virtual std::span<const int> groundBeside(int body) const {
+    (void)body;
+    return {};
   }
 
   /// All feature pairs of a and b with a gap of at most `reach` at time t, at which the bodies touch: more than one

@@ -58,7 +58,7 @@ class Search {
       const FeatureLimit& limit = limits[i];
       if (limit.point_weight.isZero(0) || (only >= 0 && only != static_cast<int>(i))) continue;
       if (limit.body == path_.body && path_.form != PathForm::glide_block) continue;
-      if (limit.body == path_.face && limit.radius > 0) {
+      if (limit.body != path_.body && limit.radius > 0) {
         leaveDisc(bodies, k, static_cast<int>(i));
         continue;
       }

@@ -75,7 +75,9 @@ std::vector<const Contact*> PressedBody::wholeFaces(const std::vector<const Cont
   for (std::size_t k = 0; k < closed.size(); ++k) {
     const bool on_face = std::ranges::any_of(active, [&](int i) {
       const Contact& c = *closed[asIndex(i)];
-      return otherOf(c) == otherOf(*closed[k]) && (normalOf(c) - normalOf(*closed[k])).norm() <= kSameNormal;
+      if ((normalOf(c) - normalOf(*closed[k])).norm() > kSameNormal) return false;
+      if (otherOf(c) == otherOf(*closed[k])) return true;  // what stands still is one ground
+      return std::abs(normalOf(c).dot(c.at.point - closed[k]->at.point)) <= kSameNormal * reach_;
     });
     const bool is_active = std::ranges::binary_search(active, static_cast<int>(k));
     if (is_active || (stays[k] && on_face)) pressed.push_back(closed[k]);

@@ -197,6 +197,7 @@ int Simulator::tiltOf(int body, int impact) const {
 void Simulator::solveDraft() {
   Event& event = draft_.event;
   if (any_lasted_) addHeld();
+  dropDoubles();
   const std::size_t n = event.contacts.size();
   work_.step(n + n * n * n / 10);  // what many contacts at once cost
   for (const Participant& p : event.participants) in_draft_[index(p.body)] = -1;
@@ -244,7 +245,9 @@ bool Simulator::joinInstant() {
       const auto joined = [&](int body) { return in_draft_[index(body)] >= 0 && isMoved(body); };
       if (!joined(p.a) && !joined(p.b)) continue;
       // a contact that was separating before is an impact of its own, after this one
-      if (makeContact(event.time, p.a, p.b, p.features).approach > kLowestBounce) continue;
+      const Contact meets = makeContact(event.time, p.a, p.b, p.features);
+      if (meets.approach > kLowestBounce) continue;
+      if (std::ranges::any_of(event.contacts, [&](const Contact& c) { return isDouble(c, meets); })) continue;
       if (!meetsThere(p, event.time)) continue;
       soonest = &p;
     }

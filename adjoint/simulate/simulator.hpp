@@ -149,6 +149,13 @@ class Simulator {
   std::vector<Contact> contactsAt(const Onward& from, double time, double when, double reach);
   bool strikes(const Contact& contact);
   void addBeside(const Onward& from);
+  std::vector<std::pair<int, int>> heldPairs(const Onward& from);
+
+  // simulator_ground.cpp: what stands still is one ground
+  bool onSameFace(const Onward& from, const Contact& contact) const;
+  void dropDoubles(std::size_t first = 0, bool keep_earlier = false);
+  bool isDouble(const Contact& c, const Contact& d) const;
+  bool isLeaving(const Contact& contact);
   void addHeld();
   void chooseArcs();
   void fly(std::size_t participant);

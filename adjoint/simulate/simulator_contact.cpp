@@ -29,9 +29,15 @@ const Simulator::Onward Simulator::kInFlight = {};
 // The first impact of a pair besides the contacts that hold them to each other.
 std::optional<PredictedImpact> Simulator::besideHeld(int a, int b, double from, double until) {
   std::vector<FeaturePair> held;
+  std::vector<HeldFeatures> on_ground;
+  const bool ground = isFixed(a) || isFixed(b);
   for (int body : {a, b})
-    for (const Contact& c : onwardOf(body).held)
+    for (const Contact& c : onwardOf(body).held) {
       if (c.a == a && c.b == b) held.push_back(c.features);
+      if (ground) on_ground.push_back({c.a, c.b, c.features});
+    }
+  if (on_ground.size() > held.size())
+    return contacts_.firstImpactOnGround(a, b, on_ground, pathOf(a), pathOf(b), from, until);
   if (held.empty()) return contacts_.firstImpact(a, b, pathOf(a), pathOf(b), from, until);
   return contacts_.firstImpactBeside(a, b, held, pathOf(a), pathOf(b), from, until);
 }
@@ -201,16 +207,15 @@ std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, dou
   return contactsAt(from, time, later, reach);
 }
 
-// What of the pairs that are held touches at `when`, to within `reach` or, where that is 0, to rounding, as it is at `time`.
+// What of the pairs that are held, and of the faces that go on beside theirs, touches at `when`, to within `reach` or,
+// where that is 0, to rounding, as it is at `time`.
 std::vector<Contact> Simulator::contactsAt(const Onward& from, double time, double when, double reach) {
   std::vector<Contact> contacts;
-  for (const Contact& h : from.held) {
-    if (std::ranges::any_of(contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b; })) continue;
-    for (const FeaturePair& f : contacts_.touching(h.a, h.b, arcOf(h.a), arcOf(h.b), when, reach)) {
-      Contact c = makeContact(time, h.a, h.b, f);
-      if (!(reach > 0) || std::abs(c.at.gap) <= reach) contacts.push_back(std::move(c));
+  for (const auto& [a, b] : heldPairs(from))
+    for (const FeaturePair& f : contacts_.touching(a, b, arcOf(a), arcOf(b), when, reach)) {
+      Contact c = makeContact(time, a, b, f);
+      if ((!(reach > 0) || std::abs(c.at.gap) <= reach) && onSameFace(from, c)) contacts.push_back(std::move(c));
     }
-  }
   return contacts;
 }
 
@@ -243,7 +248,8 @@ void Simulator::resolveTransition(int body) {
     if (std::ranges::any_of(beyond, [&](const Contact& c) { return strikes(c); })) return resolveLanding(beyond);
     add(from.held[index(from.why.contact)], false);
     for (const Contact& c : beyond)
-      if (!(c.features == event.contacts[0].features)) add(c, true);
+      if (!inDraft(c.a, c.b, c.features)) add(c, true);
+    dropDoubles(1);
   } else {
     const int first = from.why.contact;  // none of a body that slides without turning
     if (first >= 0) add(from.held[index(first)], event.cause != TransitionCause::lifts);
@@ -270,6 +276,7 @@ void Simulator::addBeside(const Onward& from) {
     c.lasts = true;
     contacts.push_back(std::move(c));
   }
+  dropDoubles(0, true);
 }
 
 // What a body rolls over to may come down on it instead: an impact like others.

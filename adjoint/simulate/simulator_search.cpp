@@ -36,6 +36,7 @@ void Simulator::search(int body, double from, Outlook& outlook) {
     if (!std::isfinite(impact->time))
       giveUp("approach", body, other, from, NotComputable("the time at which they meet is beyond the range of doubles"));
     until = std::min(until, std::max(impact->time, from) + kInstant);
+    if (impact->features == kSearchedSoFar) continue;
     const int version = version_[index(other)] + (in_draft_[index(other)] >= 0 && isMoved(other) ? 1 : 0);
     found_.push_back({impact->time, body, is_first ? body : other, is_first ? other : body, version, impact->features});
   }

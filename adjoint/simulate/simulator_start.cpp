@@ -108,6 +108,7 @@ bool Simulator::placeAtStart() {
       }
     }
     if (event.contacts.empty()) continue;
+    dropDoubles();
     solvePlaced(body);
     if (draft_.beyond.empty()) continue;
     finish(MotionStatus::unresolved_contact, 0, draft_.beyond);

@@ -51,6 +51,11 @@ class StoppingContacts final : public ContactSource {
                                                    Arc& arc_b, double from, double until) override {
     return inner_.firstImpactBeside(a, b, held, arc_a, arc_b, from, until);
   }
+  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,
+                                                     Arc& arc_b, double from, double until) override {
+    return inner_.firstImpactOnGround(a, b, held, arc_a, arc_b, from, until);
+  }
+  std::span<const int> groundBeside(int body) const override { return inner_.groundBeside(body); }
   std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t, double reach) override {
     return inner_.touching(a, b, arc_a, arc_b, t, reach);
   }

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/motion/body_geometry.h"
+#include "adjoint/simulate/simulator.hpp"
+
+// What stands still is one ground: contacts with fixed bodies that lie flush.
+
+namespace carom::adjoint_detail {
+namespace {
+
+// Contacts at one place, m for bodies of 1 m, with one normal.
+constexpr double kSameSpot = 1e-9, kSameWay = 1e-9;
+// A face that goes on bends by no more.
+constexpr double kStraightOn = 1e-3;
+// What is as near to a border as this lies on it, m for bodies of 1 m.
+constexpr double kOnBorder = 1e-11;
+
+}  // namespace
+
+// The pairs that hold a body, and those of it and the fixed bodies that its faces may go on with.
+std::vector<std::pair<int, int>> Simulator::heldPairs(const Onward& from) {
+  std::vector<std::pair<int, int>> pairs;
+  const auto add = [&](int a, int b) {
+    const std::pair pair{std::min(a, b), std::max(a, b)};
+    if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
+  };
+  for (const Contact& h : from.held) add(h.a, h.b);
+  const int body = isMoved(from.held.front().a) ? from.held.front().a : from.held.front().b;
+  for (const Contact& h : from.held)
+    for (int beside : contacts_.groundBeside(body == h.a ? h.b : h.a)) add(body, beside);
+  std::vector<int> near;
+  contacts_.neighbours(body, near);
+  for (int other : near)
+    if (isFixed(other)) add(body, other);
+  return pairs;
+}
+
+// Whether a contact with another fixed body than those that hold a body goes on with a face that holds it.
+bool Simulator::onSameFace(const Onward& from, const Contact& c) const {
+  return std::ranges::any_of(from.held, [&](const Contact& h) {
+    if (h.a == c.a && h.b == c.b) return true;
+    const Vec3 n = isMoved(h.a) ? h.at.normal : Vec3(-h.at.normal), m = isMoved(c.a) ? c.at.normal : Vec3(-c.at.normal);
+    return (n - m).norm() <= kStraightOn;
+  });
+}
+
+// Whether the place of a contact is at a border of the fixed body's feature and leaves it.
+bool Simulator::isLeaving(const Contact& c) {
+  const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());
+  if (!bodies) return false;
+  const Kinematics &ka = snapshots_[snapshot(c.a, draft_.event.time)].k, &kb = snapshots_[snapshot(c.b, draft_.event.time)].k;
+  const Pose A{ka.x, ka.R}, B{kb.x, kb.R};
+  const ContactMotion moves = motion_.geometry->motion(c.a, c.b, c.features, A, B, {ka.v, ka.w}, {kb.v, kb.w});
+  const double size = std::max(1.0, c.at.point.norm());
+  return std::ranges::any_of(bodies->limits(c.a, c.b, c.features, A, B), [&](const FeatureLimit& limit) {
+    if (!isFixed(limit.body)) return false;
+    const Pose& pose = limit.body == c.a ? A : B;
+    const Vec3 weight = pose.R * limit.point_weight, way = pose.R * limit.normal_weight;
+    const double value = limit.point_weight.dot(pose.R.transpose() * (c.at.point - pose.x) - limit.border) +
+                         way.dot(c.at.normal);
+    return std::abs(value) <= kOnBorder * size && weight.dot(moves.point_rate) + way.dot(moves.normal_rate) < 0;
+  });
+}
+
+// Whether two contacts of a body with fixed ones are one.
+bool Simulator::isDouble(const Contact& c, const Contact& d) const {
+  if (isFixed(c.a) == isFixed(c.b) || isFixed(d.a) == isFixed(d.b)) return false;
+  const bool first_c = isFixed(c.b), first_d = isFixed(d.b);
+  if ((first_c ? c.a : c.b) != (first_d ? d.a : d.b) || (c.a == d.a && c.b == d.b)) return false;
+  const Vec3 n = first_c ? c.at.normal : Vec3(-c.at.normal), m = first_d ? d.at.normal : Vec3(-d.at.normal);
+  return (n - m).norm() <= kSameWay && (c.at.point - d.at.point).norm() <= kSameSpot * std::max(1.0, c.at.point.norm());
+}
+
+// Of contacts that are one, that with what the body slides towards is kept, else that with the body listed first; or the
+// earlier one in any case.
+void Simulator::dropDoubles(std::size_t first, bool keep_earlier) {
+  std::vector<Contact>& contacts = draft_.event.contacts;
+  for (std::size_t i = first; i < contacts.size(); ++i)
+    for (std::size_t j = i + 1; j < contacts.size();) {
+      if (!isDouble(contacts[i], contacts[j])) {
+        ++j;
+        continue;
+      }
+      const auto listed = [&](const Contact& c) { return isFixed(c.b) ? c.b : c.a; };
+      const auto isBetter = [&] {
+        const bool leaves_i = isLeaving(contacts[i]), leaves_j = isLeaving(contacts[j]);
+        return leaves_i != leaves_j ? leaves_i : listed(contacts[j]) < listed(contacts[i]);
+      };
+      const bool swap = !keep_earlier && isBetter();
+      if (swap) contacts[i] = contacts[j];
+      contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(j));
+      if (swap) j = i + 1;
+    }
+}
+
+}  // namespace carom::adjoint_detail
