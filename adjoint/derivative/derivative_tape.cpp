@@ -9,6 +9,7 @@
 #include "adjoint/contact/contact_path.hpp"
 #include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
+#include "adjoint/derivative/ground_seams.hpp"
 #include "adjoint/derivative/single_impact.hpp"
 #include "adjoint/held/held_path.hpp"
 #include "adjoint/impact/tilt.hpp"
@@ -117,6 +118,7 @@ const EventLinearization& DerivativeTape::event(int event) {
 void Reliability::pass(const Motion& motion, int index) {
   const Event& event = motion.events[checkedIndex("Reliability::pass", "event", index, motion.events.size())];
   ++events;
+  passSeams(motion, index);
   if (!event.counts()) return;
   const double tilt = tiltMarginOf(event);
   smallest_margin = std::min({smallest_margin, event.margins.smallest(), tilt});
@@ -125,6 +127,17 @@ void Reliability::pass(const Motion& motion, int index) {
   if (doubt.empty()) return;
   reliable = false;
   message = sentenceOf(motion, index) + doubt;
+}
+
+void Reliability::passSeams(const Motion& motion, int index) {
+  const Event& event = motion.events[static_cast<std::size_t>(index)];
+  for (const int body : flushBodiesOf(motion, event)) {
+    if (std::find(seams.begin(), seams.end(), body) != seams.end()) continue;
+    seams.push_back(body);
+    if (seam_message.empty())
+      seam_message = textOf(6, "at t = ", event.time, " s a contact with '", motion.scene->bodies[static_cast<std::size_t>(body)].name,
+                            "' is at its seam with a fixed body that lies flush: moved alone, one of them makes a step of it");
+  }
 }
 
 void Reliability::passFriction(const Motion& motion, int index, double margin, bool shared) {
@@ -208,5 +221,6 @@ void doubt(Reliability& reliability, const std::vector<int>& doubtful, int asked
 
 void Reliability::askFriction(int material) { doubt(*this, frictions, material, friction_message); }
 void Reliability::askVelocity(int body) { doubt(*this, beginning, body, beginning_message); }
+void Reliability::askPlace(int body) { doubt(*this, seams, body, seam_message); }
 
 }  // namespace carom

@@ -73,6 +73,9 @@ struct Reliability {
   /// at all, so that it is one-sided, along the slope.
   std::vector<int> beginning;
   std::string beginning_message;  ///< why; empty where there are none
+  /// Fixed bodies by whose pose or size alone the derivative cannot be trusted: contacts are at a seam between them.
+  std::vector<int> seams;
+  std::string seam_message;  ///< why; empty where there are none
 
   /// Counts an event that the derivative passes through.
   void pass(const Motion& motion, int event);
@@ -89,10 +92,13 @@ struct Reliability {
   void askVelocity(int body);
   /// The derivative by its spin.
   void askSpin(int body) { askVelocity(body); }
+  /// The derivative by the pose or the size of a body is asked for, too.
+  void askPlace(int body);
 
  private:
   void passHeld(const Motion& motion, int body, const Arc& arc, double until);
   void passBeginning(const Motion& motion, int body, int arc);
+  void passSeams(const Motion& motion, int event);
 };
 
 /// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.

@@ -99,6 +99,58 @@ TEST(FlushBodies, BlockStandsOnAMesh) {
   expectAsOnPlane(kDown, 0.2, 0.3, makeBox("block", {0.5, 0.4, 0.2}, {0.2, 0.5, 0.1}, {1, 0, 0}), {fixedBody(ground)}, 0.5);
 }
 
+// What of tiles moved alone makes of a seam has no derivative; a tile that nothing crosses has one.
+TEST(FlushBodies, PosesOfSinglePiecesAreMarked) {
+  Body ball = makeBall("ball", 0.1, {-0.4, 0, 0.1}, {1, 0, 0});
+  ball.angular_velocity = {0, 10, 0};
+  const Scene scene = makeScene(kDown, 0, 0.3, {ball, tile("l", {1, 2, 1}, {-0.5, 0, 0}), tile("r", {1, 2, 1}, {0.5, 0, 0}), tile("far", {1, 2, 1}, {1.5, 0, 0})});
+  const Motion m = play(scene, 0.8);
+  ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
+  const auto reliableBy = [&](int body) {
+    const StateSeed seed = seedOf(0, Instant::at(0.8), 0);
+    Reliability r;
+    adjoint(m, std::span(&seed, 1), &r);
+    r.askPlace(body);
+    EXPECT_TRUE(r.reliable || !r.message.empty());
+    return r.reliable;
+  };
+  EXPECT_TRUE(reliableBy(0));
+  EXPECT_FALSE(reliableBy(1));
+  EXPECT_FALSE(reliableBy(2));
+  EXPECT_TRUE(reliableBy(3));
+}
+
+// A seam between unlike materials: derivatives through the crossing against differences.
+TEST(FlushBodies, CrossesToAnotherMaterial) {
+  for (const bool block : {false, true}) {
+    SCOPED_TRACE(block ? "block" : "ball");
+    Body body = block ? makeBox("body", {0.4, 0.3, 0.2}, {-0.6, 0, 0.1}, {2, 0, 0}) : makeBall("body", 0.1, {-0.4, 0, 0.1}, {2, 0, 0});
+    Scene scene = makeScene(kDown, 0, 0.3, {body, tile("l", {1, 2, 1}, {-0.5, 0, 0}), tile("r", {1, 2, 1}, {0.5, 0, 0})});
+    scene.materials.push_back(makeMaterial("n", 0, 0.6));
+    scene.materials[0].friction = 0.1;
+    scene.bodies[2].material = "n";
+    const double end = 0.5;
+    const Motion m = play(scene, end);
+    ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
+    const SceneGradient g = gradientOf(m, 0, end, 0);
+    const auto place = [&](double v, double mu, double nu, double shift) {
+      Scene s = scene;
+      s.bodies[0].velocity.x() += v, s.materials[0].friction += mu, s.materials[1].friction += nu;
+      for (const int b : {1, 2}) s.bodies[static_cast<std::size_t>(b)].position.x() += shift;
+      return play(s, end).stateAt("body", end).position.x();
+    };
+    const double h = 1e-5;
+    const double by_v = (place(h, 0, 0, 0) - place(-h, 0, 0, 0)) / (2 * h), by_mu = (place(0, h, 0, 0) - place(0, -h, 0, 0)) / (2 * h),
+                 by_nu = (place(0, 0, h, 0) - place(0, 0, -h, 0)) / (2 * h), by_x = (place(0, 0, 0, h) - place(0, 0, 0, -h)) / (2 * h);
+    EXPECT_TRUE(std::abs(g.bodies[0].velocity.x() - by_v) <= 1e-7) << g.bodies[0].velocity.x() << " " << by_v;
+    EXPECT_TRUE(std::abs(g.materials[0].friction - by_mu) <= 1e-7) << g.materials[0].friction << " " << by_mu;
+    EXPECT_TRUE(std::abs(g.materials[1].friction - by_nu) <= 1e-7) << g.materials[1].friction << " " << by_nu;
+    const double pieces = g.bodies[1].position.x() + g.bodies[2].position.x();
+    EXPECT_TRUE(std::abs(pieces - by_x) <= 1e-7) << pieces << " " << by_x;
+    EXPECT_TRUE(std::abs(by_nu) > 1e-3 && std::abs(by_x) > 1e-3);
+  }
+}
+
 // A lip of a micrometre is a step.
 TEST(FlushBodies, StepIsMet) {
   Body ball = makeBall("ball", 0.1, {-0.3, 0, 0.1}, {1, 0, 0});
