@@ -203,9 +203,22 @@ const HeldStep& HeldPath::stepAt(double t) const {
   return steps_[low];
 }
 
+// Where what lies beyond a border is looked for, the path is seen a little beyond its end: further than a step is long its
+// polynomial tells nothing there, but how the body moves at the end.
 State HeldPath::stateAt(double t) const {
-  if (!(t > start_) || steps_.empty() || !(steps_.front().length > 0)) return start_state_;
-  return stepAt(t).stateAt(t);
+  if (!(t > start_)) return start_state_;
+  const bool moves = !steps_.empty() && steps_.front().length > 0;
+  if (moves) {
+    const HeldStep& step = stepAt(t);
+    if (!(t > known_) || t - step.start <= 2 * step.length) return step.stateAt(t);
+  }
+  const State& end = moves ? last_ : start_state_;
+  const double beyond = t - known_;
+  if (!(beyond > 0)) return end;
+  HeldVector change = HeldVector::Zero();
+  change.head<3>() = beyond * end.v;
+  change.segment<3>(3) = beyond * (scene_.model->inverseInertiaWorld(end.q.toRotationMatrix()) * end.L);
+  return HeldStep::moved(end, change);
 }
 
 Vec3 HeldPath::velocityAt(double t) const {

@@ -99,6 +99,19 @@ TEST(FlushBodies, BlockStandsOnAMesh) {
   expectAsOnPlane(kDown, 0.2, 0.3, makeBox("block", {0.5, 0.4, 0.2}, {0.2, 0.5, 0.1}, {1, 0, 0}), {fixedBody(ground)}, 0.5);
 }
 
+// The lower edge of a block lies along a flat inner edge of the mesh.
+TEST(FlushBodies, EdgeLiesAlongAFlatEdgeOfAMesh) {
+  const std::vector<Vec3> corners{{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}, {-3, 0, 0}, {3, 0, 0}};
+  Body ground = makeBox("ground", {1, 1, 1}, Vec3::Zero());
+  ground.shape = Mesh{meshSurface(corners, {{0, 1, 5}, {0, 5, 4}, {4, 5, 2}, {4, 2, 3}}), 1, ""};
+  for (const double beside : {0.0, 1e-9}) {
+    SCOPED_TRACE(beside);
+    Body block = makeBox("block", {0.5, 0.25, 0.125}, {-1, 0.125 + beside, 0.0625}, {2, -0.5, 0});
+    block.angular_velocity = {0, 0, -1};
+    expectAsOnPlane(kDown, 0.2, 0.3, block, {fixedBody(ground)}, 1);
+  }
+}
+
 // What of tiles moved alone makes of a seam has no derivative; a tile that nothing crosses has one.
 TEST(FlushBodies, PosesOfSinglePiecesAreMarked) {
   Body ball = makeBall("ball", 0.1, {-0.4, 0, 0.1}, {1, 0, 0});
