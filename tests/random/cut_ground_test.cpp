@@ -192,16 +192,21 @@ Motion played(const Scene& scene) {
   OdeContacts contacts(scene);
   SimulateOptions options;
   options.impact_limit = 20000;
-  options.step_limit = 3'000'000;
+  options.step_limit = 150'000;
+  options.lowest_bounce = 5e-12;  // the same for both: by itself it is that of the largest body
   return simulate(scene, contacts, kDuration, options);
 }
 
-// The largest entry of the derivatives of a motion's states up to a time by all numbers of the scene.
+// The largest entry of the derivatives of a motion's states up to a time by all numbers of the scene: at its events, as short
+// bounces amplify what lies between them, and between.
 double largestTangent(const Motion& motion, int body, double time) {
+  std::vector<double> times;
+  for (int k = 1; k <= 8; ++k) times.push_back(time * k / 8);
+  for (const Event& e : motion.events)
+    if (e.time < time && times.size() < 80) times.push_back(e.time);
   double largest = 0;
-  for (int k = 1; k <= 8; ++k)
-    for (int i = 0; i < 12; ++i)
-      largest = std::max(largest, flatten(gradientOf(motion, body, time * k / 8, i)).cwiseAbs().maxCoeff());
+  for (const double t : times)
+    for (int i = 0; i < 12; ++i) largest = std::max(largest, flatten(gradientOf(motion, body, t, i)).cwiseAbs().maxCoeff());
   return largest;
 }
 
@@ -248,15 +253,18 @@ TEST(CutGround, CarriesBodiesAsTheWholeOneDoes) {
   for (std::uint64_t seed = kFirst; seed < kFirst + static_cast<std::uint64_t>(scaled(40)); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Play play = playOf(seed);
-    const Motion whole = played(play.whole), cut = played(play.cut);
+    const Motion whole = played(play.whole);
     auto& [all, incomplete, other_end, apart] = count[play.what];
     ++all;
-    const bool complete = whole.status == MotionStatus::complete;
-    incomplete += !complete;
-    const double end = std::min(whole.end, cut.end);
-    if (complete && !(cut.end >= whole.end)) {
+    if (whole.status != MotionStatus::complete) {  // what it comes to on any ground is held elsewhere
+      ++incomplete;
+      continue;
+    }
+    const Motion cut = played(play.cut);
+    const double end = whole.end;
+    if (cut.status != MotionStatus::complete) {
       ++other_end;
-      ADD_FAILURE() << play.what << ": the cut ground ends at " << cut.end << " s: " << cut.message << "; the whole one at " << whole.end;
+      ADD_FAILURE() << play.what << ": the cut ground ends at " << cut.end << " s: " << cut.message;
       continue;
     }
     bool off = false;
@@ -273,7 +281,7 @@ TEST(CutGround, CarriesBodiesAsTheWholeOneDoes) {
       break;
     }
     apart += off;
-    if (off || !complete || !hasDerivatives(whole, bodyIndex(play.whole, "body"), end)) continue;
+    if (off || !hasDerivatives(whole, bodyIndex(play.whole, "body"), end)) continue;
     const int of_whole = bodyIndex(play.whole, "body"), of_cut = bodyIndex(play.cut, "body");
     Eigen::VectorXd one, other;
     double size = 0, most = 0;
