@@ -8,7 +8,6 @@
 #include "adjoint/contact/integrated_path.hpp"
 #include "adjoint/contact/rest_path.hpp"
 #include "adjoint/contact/roll_path.hpp"
-#include "adjoint/motion/contact_source.h"
 #include "adjoint/scene/body_model.h"
 
 /// Lasting contact with one fixed face in closed form, in any kind of number: docs/equations.md, section 11.
@@ -93,12 +92,6 @@ class OwnPath {
   std::shared_ptr<IntegratedPath> path_;
 };
 
-/// A contact with the face, frozen.
-struct FaceContact {
-  FeaturePair features;
-  bool is_first = true;  ///< the path's body is the first one of the pair
-};
-
 /// A path as an arc keeps it, with what its derivative needs of the scene; but for what is integrated.
 struct PathSetting {
   PathForm form = PathForm::rest;
@@ -107,7 +100,6 @@ struct PathSetting {
   int body = -1;      ///< which is on the path
   int face = -1;      ///< the fixed body that has the face
   Eigen::RowVectorXd reach_rates;  ///< of the reach by the dimensions of the body
-  std::vector<FaceContact> supports;  ///< glide_block: what it slides on
   double start = 0;   ///< s
   /// Elapsed at the end of slip, where the slip is exactly 0; infinite where there is none.
   double slip_end = std::numeric_limits<double>::infinity();

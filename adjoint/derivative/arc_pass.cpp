@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/derivative/arc_pass.hpp"
 
-#include "adjoint/contact/block_spin.hpp"
+#include <algorithm>
+
+#include "adjoint/held/block_spin.hpp"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom::adjoint_detail {
@@ -26,19 +28,28 @@ PathInputsDerivative<double> PathLinearization::inputs(const ContactPath& path, 
 
 namespace {
 
+// The event with which a path starts.
+const Event& startOf(const Motion& motion, const ContactPath& path) {
+  const WorldLine& line = motion.world_lines[static_cast<std::size_t>(path.body)];
+  auto arc = std::ranges::lower_bound(line.arcs, path.start, {}, &Arc::start);
+  while (arc->path() != &path) ++arc;
+  return motion.events[static_cast<std::size_t>(line.events[static_cast<std::size_t>(arc - line.arcs.begin()) - 1])];
+}
+
 // Of a block that does not turn, what its angular momentum about the normal makes of it.
 void addSpin(const Motion& motion, const ContactPath& path, double elapsed, PathSensitivity<double>& sensitivity) {
   const PathInputs<double>& in = path.inputs;
   const BodyModel& model = (*motion.models)[static_cast<std::size_t>(path.body)];
   const Pose own{in.x, model.shapeToWorld(in.R)};
-  const Pose face = shapePose(motion, path.face, motion.world_lines[static_cast<std::size_t>(path.face)].arcs[0].startState());
   std::vector<BlockSupport> supports;
-  for (const FaceContact& c : path.supports) {
-    const ContactGeometry& geometry = *motion.geometry;
-    const int a = c.is_first ? path.body : path.face, b = c.is_first ? path.face : path.body;
-    const Pose &of_a = c.is_first ? own : face, &of_b = c.is_first ? face : own;
-    supports.push_back({geometry.contact(a, b, c.features, of_a, of_b).point - in.x,
-                        geometry.jacobian(a, b, c.features, of_a, of_b).pose.block<3, 3>(4, c.is_first ? 0 : 6)});
+  for (const Contact& c : startOf(motion, path).contacts) {
+    if (!c.lasts || (c.a != path.body && c.b != path.body)) continue;
+    const bool is_first = c.a == path.body;
+    const int other = is_first ? c.b : c.a;  // stands still
+    const Pose with = shapePose(motion, other, motion.world_lines[static_cast<std::size_t>(other)].arcs[0].startState());
+    const Pose &of_a = is_first ? own : with, &of_b = is_first ? with : own;
+    supports.push_back({motion.geometry->contact(c.a, c.b, c.features, of_a, of_b).point - in.x,
+                        motion.geometry->jacobian(c.a, c.b, c.features, of_a, of_b).pose.block<3, 3>(4, is_first ? 0 : 6)});
   }
   const BlockSpin by = blockSpin(in, supports, elapsed, elapsed == path.slip_end);
   const Vec3 &n = in.normal, momentum = in.R * (in.J * (in.R.transpose() * n));  // of 1 rad/s

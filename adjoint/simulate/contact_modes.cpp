@@ -207,10 +207,7 @@ class Chooser {
       const ContactJacobian J = body_.jacobianOf(*body_.pressed().front());
       path.reach_rates = -(body_.pressed().front()->a == index_ ? J.size_a : J.size_b).row(0);
     }
-    if (form == PathForm::glide_block) {
-      path.inputs.L.setZero();
-      for (const Contact* c : body_.pressed()) path.supports.push_back({c->features, c->a == index_});
-    }
+    if (form == PathForm::glide_block) path.inputs.L.setZero();
     if (glides(form)) beginSlip(path.inputs, form);
     const PathState<double> start = pathStateAt<double>(form, path.inputs, 0);
     choice.start = {start.x, state_.q, start.v, start.L};

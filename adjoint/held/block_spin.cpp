@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adjoint/contact/block_spin.hpp"
+#include "adjoint/held/block_spin.hpp"
 
 #include <cmath>
 
@@ -107,7 +107,7 @@ class Turning {
       out.x = in_.normal.cross(direction) * (side * u / ((alpha + slows) * (c + slows)));
       return out;
     }
-    const double share = slows * elapsed / u, xi = slows == 0 ? elapsed / u : -std::log1p(-share) / slows;
+    const double xi = clockOf(elapsed / u, slows);
     out.turn = u * decayIntegral(alpha + slows, xi);
     out.spin = elementary::exp(-alpha * xi);
     // (exp(-alpha xi) - exp(-c xi))/(c - alpha), and its integral over u dxi
@@ -126,6 +126,14 @@ class Turning {
     out.v = in_.normal.cross(direction) * (side * velocity);
     out.x = in_.normal.cross(direction) * (side * u * place);
     return out;
+  }
+  // -log(1 - slows t)/slows, smooth where it does not slow down.
+  static double clockOf(double t, double slows) {
+    const double share = slows * t;
+    if (std::abs(share) > 0.1) return -elementary::log(1 - share) / slows;
+    double sum = 0;
+    for (int k = 18; k >= 0; --k) sum = sum * share + 1.0 / (k + 1);
+    return t * sum;
   }
   // Integral of y exp(-rate y) over [0, xi].
   static double firstMoment(double rate, double xi) {
