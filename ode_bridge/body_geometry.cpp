@@ -146,6 +146,45 @@ void addFeatureLimits(const Limits& limits, Family family, int index, const Vec3
   if (family == Family::rim) ofRim(limits, index, point);
 }
 
+// A mark of a rim may hang over the border of a face by this share of the radius, where the rim there runs along the
+// border to within so many rad: beside the border itself it crosses it at no angle, and has no contact with a normal.
+constexpr double kHangs = 1e-6, kAlongBorder = 1e-3;
+
+// Of the rim whose cap has a mark: from its centre to the mark; 0 where `v` is none.
+Vec3 toMark(const Solid& solid, int v) {
+  const Feature& mark = solid.vertices[static_cast<std::size_t>(v)];
+  if (!mark.mark) return Vec3::Zero();
+  for (const Feature& rim : solid.rims) {
+    const Vec3 to = mark.point - rim.point;
+    if (rim.part == mark.part && std::abs(to.norm() - rim.rim) <= 1e-9 * rim.rim) return to;
+  }
+  return Vec3::Zero();
+}
+
+// A rim that crosses an edge does so until it runs along the edge to within this angle, rad: where they touch, both places
+// at which they cross are one, without an angle and with endless speed. `line`, `point`: in the axes of the rim.
+constexpr double kCrosses = 3e-4;
+
+void ofCrossedRim(const Limits& limits, int r, const Vec3& line, const Vec3& point) {
+  const Feature& rim = limits.solid.rims[static_cast<std::size_t>(r)];
+  Vec3 along = line - rim.direction.dot(line) * rim.direction;
+  if (!(along.norm() > 0)) return;
+  along.normalize();
+  const double at = along.dot(point - rim.point), room = std::ldexp(1.0, std::ilogb(kCrosses * rim.rim));
+  const Vec3 weight = at < 0 ? Vec3(-along) : along;
+  limits.point(weight, rim.point + room * weight, rim, "where " + nameOf(limits.solid, Family::rim, r) + " runs along the edge");
+}
+
+// `to`: in the axes of the face.
+void letMarkHang(std::vector<FeatureLimit>& limits, int face_of, const Vec3& to) {
+  const double radius = to.norm();
+  if (!(radius > 0)) return;
+  const double hangs = std::ldexp(1.0, std::ilogb(kHangs * radius));  // a little change of the radius leaves it as it is
+  for (FeatureLimit& limit : limits)
+    if (limit.body == face_of && limit.radius == 0 && limit.point_weight.cross(to).norm() < kAlongBorder * radius)
+      limit.border -= hangs * limit.point_weight;
+}
+
 }  // namespace
 
 double FeatureGeometry::boundingRadius(int body) const {
@@ -169,6 +208,18 @@ std::vector<FeatureLimit> FeatureGeometry::limits(int a, int b, const FeaturePai
                    A.R.transpose() * at.normal);
   addFeatureLimits({solid(b), 1, b, dimensionOf(of_a), limits}, of_b, f.b, B.R.transpose() * (at.point - B.x),
                    B.R.transpose() * at.normal);
+  if (of_a == Family::vertex && of_b == Family::face) letMarkHang(limits, b, B.R.transpose() * (A.R * toMark(solid(a), f.a)));
+  if (of_b == Family::vertex && of_a == Family::face) letMarkHang(limits, a, A.R.transpose() * (B.R * toMark(solid(b), f.b)));
+  const auto isLine = [](const Solid& solid, int e) {
+    const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
+    return edge.radius == 0 && edge.apex == 0;
+  };
+  if (of_a == Family::rim && of_b == Family::edge && isLine(solid(b), f.b))
+    ofCrossedRim({solid(a), -1, a, 1, limits}, f.a, A.R.transpose() * (B.R * solid(b).edges[static_cast<std::size_t>(f.b)].direction),
+                 A.R.transpose() * (at.point - A.x));
+  if (of_b == Family::rim && of_a == Family::edge && isLine(solid(a), f.a))
+    ofCrossedRim({solid(b), 1, b, 1, limits}, f.b, B.R.transpose() * (A.R * solid(a).edges[static_cast<std::size_t>(f.a)].direction),
+                 B.R.transpose() * (at.point - B.x));
   return limits;
 }
 

@@ -20,13 +20,14 @@ Eigen::VectorXd solveForces(const Eigen::MatrixXd& B, const Eigen::VectorXd& b, 
     if (inverse) *inverse = B.cwiseInverse();
     return -b / B(0, 0);
   }
-  if (redundant) {
-    const CompleteOrthogonal whole(B, kRank);
-    if (inverse) *inverse = whole.pseudoInverse();
-    return -whole.solve(b);
+  if (!redundant) {
+    const PartialLu whole(B);
+    const Eigen::VectorXd y = whole.solve(b);
+    if (inverse) *inverse = whole.inverse();
+    if (y.allFinite() && (!inverse || inverse->allFinite())) return -y;
   }
-  const PartialLu whole(B);
-  if (inverse) *inverse = whole.inverse();
+  const CompleteOrthogonal whole(B, kRank);
+  if (inverse) *inverse = whole.pseudoInverse();
   return -whole.solve(b);
 }
 

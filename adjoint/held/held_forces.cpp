@@ -40,6 +40,7 @@ void HeldForces::solve(const HeldInstant& now, bool redundant) {
   const std::size_t unknowns = row_.size();
   wrench_.setZero();
   if (unknowns == 0) return;
+  if (!redundant_ && !solveSquare()) redundant_ = true;  // contacts that move come to one point at an end of the path
   if (redundant_) {
     factorReduced();
     Column z = Column::Zero(rank_);
@@ -47,12 +48,6 @@ void HeldForces::solve(const HeldInstant& now, bool redundant) {
     T_.topLeftCorner(rank_, rank_).triangularView<Eigen::Upper>().solveInPlace(z);
     const Column x = solveReduced(z);
     for (std::size_t i = 0; i < unknowns; ++i) y_[i] = V_[i].head(rank_).dot(x);
-  } else if (unknowns == 1) {
-    y_[0] = -b_[0] / row_[0].dot(moved_[0]);
-  } else {
-    factorSquare();
-    const Column y = square_.solve(Eigen::Map<const Eigen::VectorXd>(b_.data(), static_cast<Eigen::Index>(unknowns)));
-    for (std::size_t i = 0; i < unknowns; ++i) y_[i] = -y[static_cast<Eigen::Index>(i)];
   }
   for (std::size_t i = 0; i < unknowns; ++i) wrench_ += y_[i] * wrenches_[i];
   if (!wrench_.allFinite()) throw NotComputable("forces at its contacts are beyond the range of doubles");
@@ -61,6 +56,18 @@ void HeldForces::solve(const HeldInstant& now, bool redundant) {
     force_[k] = now.contacts[k].mode == HeldMode::sticks ? Vec3(y_[i], y_[i + 1], y_[i + 2])
                                                          : Vec3(y_[i] * wrenches_[i].head<3>());
   }
+}
+
+// False where constraints are not independent to the last bit.
+bool HeldForces::solveSquare() {
+  if (row_.size() == 1) {
+    y_[0] = -b_[0] / row_[0].dot(moved_[0]);
+    return true;
+  }
+  factorSquare();
+  const Column y = square_.solve(Eigen::Map<const Eigen::VectorXd>(b_.data(), static_cast<Eigen::Index>(row_.size())));
+  for (std::size_t i = 0; i < row_.size(); ++i) y_[i] = -y[static_cast<Eigen::Index>(i)];
+  return y.allFinite();
 }
 
 void HeldForces::share() {

@@ -47,6 +47,7 @@ class HeldForces {
     return a;
   }
   void assemble();
+  bool solveSquare();
   void factorSquare();
   void factorReduced();
   void findBasis();

@@ -131,7 +131,14 @@ HeldStep HeldPath::nextStep() {
       length *= 0.4;
       continue;
     }
-    std::optional<End> end = firstEnd(*step);
+    std::optional<End> end;
+    try {
+      end = firstEnd(*step);
+    } catch (const NotComputable&) {  // as in HeldStepper::tried
+      if (!(known_ + 1e-3 * length > known_)) throw;
+      length *= 0.4;
+      continue;
+    }
     const double error = stepper.errorOf(*step);
     if (!(error <= 1)) {
       length = shorterLength(length, error, end);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/base/errors.h"
 #include "adjoint/held/held_forces.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/so3.hpp"
@@ -107,8 +108,14 @@ std::optional<HeldStep> HeldStepper::tried(const Start& start, double length, co
   nodes.slip_rate.resize(turning), nodes.slope_by_turn.resize(turning);
   nodes.rate_by_turn.resize(turning);
   for (auto& row : nodes.rate_by_turn) row.resize(turning);
-  HeldSlopes F = guess(step, like);
-  if (!solve(step, F)) return std::nullopt;
+  HeldSlopes F;
+  try {
+    F = guess(step, like);
+    if (!solve(step, F)) return std::nullopt;
+  } catch (const NotComputable&) {
+    if (step.start + 1e-3 * length > step.start) return std::nullopt;  // beyond an end of the path there may be no contact
+    throw;
+  }
   step.slopes = F * Gauss::get().coefficients.transpose();
   return step;
 }

@@ -17,6 +17,9 @@ constexpr double kNoSlip = 1e-9;
 // Where a slip ends, all that are slower than so many times the slowest end with it.
 constexpr double kEndTogether = 1e3;
 
+// A block on whose border of support the force is, to this share of its size, tips.
+constexpr double kTips = 1e-12;
+
 class Chooser {
  public:
   Chooser(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
@@ -156,7 +159,7 @@ class Chooser {
     if (stands) return {};  // but cannot rest: it tips
     const Vec3 ahead = slipDirectionAt<double>(PathForm::glide_block, in, 0);
     const SupportPolygon support(body_.pressed(), in.normal);
-    if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > 0)) return {};
+    if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > kTips * body_.reach())) return {};
     return stays(PathForm::glide_block, in.reach);
   }
 

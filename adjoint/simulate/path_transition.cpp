@@ -41,11 +41,53 @@ class Search {
     return body == path_.body ? choice_.start : motion_.world_lines[asIndex(body)].arcs.back().startState();
   }
 
-  // How the point of a contact moves with the centre of mass.
-  Mat3 pointBy(const Contact& c) const {
-    const ContactJacobian J = motion_.geometry->jacobian(c.a, c.b, c.features, poseOf(c.a, stateOf(c.a)),
-                                                         poseOf(c.b, stateOf(c.b)));
+  // How the point of a contact moves with the centre of mass, at the start or some time after it.
+  Mat3 pointBy(const Contact& c, double elapsed = 0) const {
+    const Pose A = poseAfter(c.a, elapsed), B = poseAfter(c.b, elapsed);
+    const ContactJacobian J = motion_.geometry->jacobian(c.a, c.b, c.features, A, B);
     return J.pose.block<3, 3>(4, c.a == path_.body ? 0 : 6);
+  }
+  Pose poseAfter(int body, double elapsed) const {
+    return poseOf(body, body == path_.body && elapsed > 0 ? path_.stateAt(choice_.start, path_.start + elapsed) : stateOf(body));
+  }
+
+  // Where a rim crosses an edge the point moves as the root of what the centre does.
+  bool movesAlike(const Contact& c, const Mat3& by) const {
+    const double speed = choice_.start.v.norm();
+    if (path_.form != PathForm::glide_block || !(speed > 0)) return true;
+    const Mat3 later = pointBy(c, std::min(found_.elapsed, 1e-3 * (c.at.point - choice_.start.x).norm() / speed));
+    return (later - by).norm() <= 1e-9 * by.norm();
+  }
+
+  // From tangent to tangent, which come from above where the point slows down along its edge; halved where they pass by.
+  void leaveCrossing(const BodyGeometry& bodies, int k, std::size_t i) {
+    const Contact& c = *choice_.contacts[asIndex(k)];
+    const auto look = [&](double t, double& rate) {
+      const Pose A = poseAfter(c.a, t), B = poseAfter(c.b, t);
+      const FeatureLimit limit = bodies.limits(c.a, c.b, c.features, A, B)[i];
+      const Pose& pose = limit.body == c.a ? A : B;
+      const Vec3 v = pathCenterAt(path_.form, path_.inputs, t).v, weight = pose.R * limit.point_weight;
+      const Vec3 moves = pointBy(c, t) * v - (limit.body == path_.body ? v : Vec3(Vec3::Zero()));
+      rate = weight.dot(moves);
+      return weight.dot(motion_.geometry->contact(c.a, c.b, c.features, A, B).point - pose.x) - limit.point_weight.dot(limit.border);
+    };
+    const double end = std::min(found_.elapsed, 1e9), far = 0.1 * (c.at.point - choice_.start.x).norm();
+    double above = 0, below = kInfinity, t = 0;
+    for (int step = 0; step < 2000 && above < end; ++step) {
+      double rate;
+      const double room = look(t, rate);
+      if (room > 0) {
+        above = t;
+        const double speed = pathCenterAt(path_.form, path_.inputs, t).v.norm();
+        t += std::min(far / speed, rate < 0 ? std::max(room / -rate, 1e-15 * t) : kInfinity);
+      } else {
+        below = t;
+      }
+      if (!(t < below)) t = 0.5 * (above + below);
+      if (!(above < t && t < below) && below < kInfinity) break;
+      t = std::min(t, end);
+    }
+    if (below < end) take(below, TransitionCause::leaves, k, static_cast<int>(i));
   }
 
   // The body turns about an axis that leaves its contacts where they are below it, so a point moves as the centre does.
@@ -60,6 +102,10 @@ class Search {
       if (limit.body == path_.body && path_.form != PathForm::glide_block) continue;
       if (limit.body != path_.body && limit.radius > 0) {
         leaveDisc(bodies, k, static_cast<int>(i));
+        continue;
+      }
+      if (!movesAlike(c, by)) {
+        leaveCrossing(bodies, k, i);
         continue;
       }
       const Pose pose = poseOf(limit.body, stateOf(limit.body));

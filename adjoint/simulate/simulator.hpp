@@ -146,6 +146,7 @@ class Simulator {
   void resolveTransition(int body);
   void resolveLanding(const std::vector<Contact>& on);
   std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
+  bool hasLeft(const Contact& c, double time, double room);
   std::vector<Contact> contactsAt(const Onward& from, double time, double when, double reach);
   bool strikes(const Contact& contact);
   void addBeside(const Onward& from);

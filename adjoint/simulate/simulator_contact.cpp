@@ -13,6 +13,8 @@ namespace {
 
 // What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
 constexpr double kBeyond = 2e-7;
+// What comes out of its features by more than this share of that way has left.
+constexpr double kLeft = 1e-2;
 // What touches: to so many times the lowest bounce.
 constexpr double kTouching = 10;
 // No contact approaches with a smaller share of its speed.
@@ -204,7 +206,21 @@ std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, dou
   }
   const double further = kBeyond * size, later = time + further / speed;
   const double reach = kTouching * motion_.lowest_bounce + further * further / arm;
-  return contactsAt(from, time, later, reach);
+  std::vector<Contact> contacts = contactsAt(from, time, later, reach);
+  std::erase_if(contacts, [&](const Contact& c) { return hasLeft(c, later, kLeft * further); });
+  return contacts;
+}
+
+// Whether a contact has come out of its features by more than `room`, as a rim that ceases to cross an edge has.
+bool Simulator::hasLeft(const Contact& c, double time, double room) {
+  const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());
+  if (!bodies) return false;
+  const Pose A = poseAt(c.a, time), B = poseAt(c.b, time);
+  const Vec3 point = motion_.geometry->contact(c.a, c.b, c.features, A, B).point;
+  return std::ranges::any_of(bodies->limits(c.a, c.b, c.features, A, B), [&](const FeatureLimit& limit) {
+    const Pose& pose = limit.body == c.a ? A : B;
+    return limit.radius == 0 && limit.point_weight.dot(pose.R.transpose() * (point - pose.x) - limit.border) < -room;
+  });
 }
 
 // What of the pairs that are held, and of the faces that go on beside theirs, touches at `when`, to within `reach` or,
