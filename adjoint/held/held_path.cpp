@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/held/held_dynamics.hpp"
 #include "adjoint/held/held_start.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/elementary.hpp"
@@ -32,6 +34,9 @@ constexpr int kTries = 200;
 // Of the unit of speed: slower than that is what rounding leaves of speeds that an impact law stops.
 constexpr double kStopped = 1e-14;
 constexpr std::size_t kMostSteps = 20'000;
+
+// A contact whose gap answers to its push by less than this share of its answer to the normal alone jams.
+constexpr double kJams = 1e-3;
 
 // By which a step may be longer, or has to be shorter.
 double factorFor(double error) {
@@ -163,7 +168,26 @@ HeldStep HeldPath::nextStep() {
     end_ = end;
     return *step;
   }
-  throw NotComputable("its path in contact cannot be followed beyond t = " + std::to_string(known_) + " s");
+  throw NotComputable("its path in contact cannot be followed beyond t = " + std::to_string(known_) + " s" + jamAt(start));
+}
+
+// Of a contact that slides: how its gap answers to the push n - mu d, while the others hold, over how it does to n. Where that
+// comes down to 0 its force grows beyond any bound: it jams (Painleve).
+std::string HeldPath::jamAt(const HeldStepper::Start& start) const {
+  const HeldInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+  Eigen::MatrixXd inverse;
+  const HeldDynamics forces(now.body, now.contacts, redundant_, &inverse);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (contacts_[k].mode != HeldMode::slides || !(contacts_[k].friction > 0)) continue;
+    const ContactInstant<double>& c = now.contacts[k];
+    const Eigen::Index at = forces.unknown(k);
+    const double share = 1 / (inverse(at, at) * c.n.dot(forces.responseAt(c.r, k, c.n)));
+    if (!(share < kJams)) continue;
+    return textOf(3, ": it jams there, as n.K(n - mu d) of a contact that slides, by which its force is divided, has come down to ", share,
+                  " of n.K n, and the force has grown to ", forces.pressing(k) / (scene_.model->mass * scene_.gravity.norm()),
+                  " times the weight");
+  }
+  return {};
 }
 
 // What lies beyond an end need not be followed.

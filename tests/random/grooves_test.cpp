@@ -176,6 +176,13 @@ TEST(Grooves, ThatWereHandedOver) {
   }
 }
 
+// A cylinder whose friction of 1 presses it into a corner all the more the more it is pressed.
+TEST(Grooves, AJamIsSaidToBeOne) {
+  const Motion m = play(intoGroove(kKindsInGrooves[3], 2, 17), kAskedOfGrooves);
+  EXPECT_EQ(m.status, MotionStatus::not_computable);
+  EXPECT_NE(m.message.find("it jams there"), std::string::npos) << m.message;
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, GroovesOf, testing::ValuesIn(kKindsInGrooves),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
