@@ -229,14 +229,12 @@ Eigen::VectorXd byWhole(const Scene& scene, const SceneGradient& g) {
   return out;
 }
 
-// What slides flat in a closed form has none by its spin; where contacts of an integrated path come to stick they are known
-// to some 1e-6 only, in which paths of other lengths differ.
+// What begins to slip at the start has one-sided ones.
 bool hasDerivatives(const Motion& motion, int body, double time) {
-  if (std::ranges::any_of(motion.events, [](const Event& e) { return e.cause == TransitionCause::sticks; })) return false;
   const StateSeed seed = seedOf(body, Instant::at(time), 0);
   Reliability reliability;
   adjoint(motion, std::span(&seed, 1), &reliability);
-  return reliability.sliding.empty();
+  return reliability.beginning.empty();
 }
 
 // A pose has two quaternions.

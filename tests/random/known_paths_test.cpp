@@ -25,7 +25,7 @@ constexpr double kTime = 1e-8;
 // Of a scene in which most bodies meet the floor alone.
 constexpr std::uint64_t kQuiet = 1;
 // With fewer the shares that are asked for are left to chance.
-const int kScenes = std::max(9, scaled(30));
+const int kKnownScenes = std::max(9, scaled(30));
 
 /// Bodies of several kinds above a floor, in pairs that often meet; contact lasts where bounces have become low.
 Scene thrownPairs(std::uint64_t seed) {
@@ -138,7 +138,7 @@ struct Tally {
 
 TEST(KnownPaths, AreThoseThatAreWorkedOut) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kScenes); ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kKnownScenes); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Scene scene = thrownPairs(seed), other = changed(scene, seed);
     tally.add(scene, other);
@@ -155,7 +155,7 @@ TEST(KnownPaths, AreThoseThatAreWorkedOut) {
 // With many bodies neighbours are listed in windows.
 TEST(KnownPaths, AmongManyAreTheSame) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kScenes / 4); ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(kKnownScenes / 4); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Scene scene = thrownPairs(seed);
     for (int i = 0; i < 45; ++i)

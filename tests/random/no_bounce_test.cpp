@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kScenes = 800;
+constexpr int kScenesWithoutBounce = 800;
 
 Shape randomShape(Random& random) {
   const double size = random.in(0.05, 0.2);
@@ -61,7 +61,7 @@ Motion playUntilItLasts(const Scene& scene) {
 // corners soon touch at once, and what they leave flying flies on. Nothing else tells the two apart.
 TEST(NoBounce, IsTheLimitOfASmallOne) {
   int cascades = 0, events = 0, alike = 0;
-  for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kScenesWithoutBounce; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Motion none = playUntilItLasts(randomFall(seed, 0)), small = playUntilItLasts(randomFall(seed, 1e-9));
     ASSERT_FALSE(none.events.empty());
@@ -75,8 +75,8 @@ TEST(NoBounce, IsTheLimitOfASmallOne) {
     const double rattled = small.events.back().time - small.events[small.events.size() - 5].time;
     EXPECT_TRUE(small.status == MotionStatus::cascade && rattled < 1e-6) << none.message << "\n" << small.message;
   }
-  std::printf("%d of %d scenes alike, %d cascades, %d impacts\n", alike, kScenes, cascades, events);
-  EXPECT_GE(alike, kScenes - kScenes / 50);
+  std::printf("%d of %d scenes alike, %d cascades, %d impacts\n", alike, kScenesWithoutBounce, cascades, events);
+  EXPECT_GE(alike, kScenesWithoutBounce - kScenesWithoutBounce / 50);
 }
 
 // A capsule that spins is thrown off the floor by its own turning.
