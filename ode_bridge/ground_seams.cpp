@@ -8,8 +8,9 @@
 #include <numbers>
 #include <vector>
 
+#include "adjoint/numeric/elementary.hpp"
+#include "ode_bridge/contact_at.hpp"
 #include "ode_bridge/near_features.hpp"
-#include "ode_bridge/touching.hpp"
 
 namespace carom::ode_bridge_detail {
 namespace {
@@ -195,7 +196,7 @@ struct SharpContact {
   bool isNoCorner(const std::vector<Area>& areas) const {
     const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
     std::vector<double> angles;
-    const auto add = [&](const Vec3& d) { angles.push_back(std::atan2(d.dot(v), d.dot(u))); };
+    const auto add = [&](const Vec3& d) { angles.push_back(elementary::atan2(d.dot(v), d.dot(u))); };
     for (const Area& area : areas) {
       if (area.outside(p) < -flush) return true;
       const Solid& solid = *area.body->solid;

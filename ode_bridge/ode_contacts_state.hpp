@@ -16,12 +16,16 @@
 
 namespace carom {
 
-using namespace adjoint_detail;
-using namespace ode_bridge_detail;
+namespace ode_bridge_detail {
 
 // Impacts among balls that move and planes have a closed form.
 enum class Quick : char { fixed, moving, ball, plane };
 inline bool isQuick(Quick q) { return q == Quick::ball || q == Quick::plane; }
+
+}  // namespace ode_bridge_detail
+
+using namespace adjoint_detail;
+using namespace ode_bridge_detail;
 
 struct OdeContacts::State {
   Neighbours neighbours;

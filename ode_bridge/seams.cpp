@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ode_bridge/contact_at.hpp"
 #include "ode_bridge/near_features.hpp"
-#include "ode_bridge/touching.hpp"
 
 namespace carom::ode_bridge_detail {
 namespace {

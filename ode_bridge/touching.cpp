@@ -237,19 +237,6 @@ double sizeOf(const PlacedPiece& a, const PlacedPiece& b) {
 
 }  // namespace
 
-ContactPoint contactAt(const Placed& a, const Placed& b, const FeaturePair& f) {
-  const auto kind = static_cast<GapKind>(f.kind);
-  return contactOf(kind, placeFeature(a.solid->feature(familyOfFirst(kind), f.a), {a.k.x, a.k.R}),
-                   placeFeature(b.solid->feature(familyOfSecond(kind), f.b), {b.k.x, b.k.R}), f.sign);
-}
-
-double touchTolerance(const Placed& a, const Placed& b) {
-  double scale = 1;
-  for (const Placed* p : {&a, &b})
-    if (!p->solid->plane) scale = std::max({scale, p->k.x.cwiseAbs().maxCoeff(), p->solid->bound()});
-  return kTouch * scale;
-}
-
 void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
                  std::vector<FeaturePair>& found) {
   if (a.piece->core == Piece::Core::point && b.piece->core == Piece::Core::point && found.empty()) {

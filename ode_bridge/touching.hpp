@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ode_bridge/contact_at.hpp"
 #include "ode_bridge/ground.hpp"
 #include "ode_bridge/separation.hpp"
 
@@ -20,11 +21,5 @@ inline constexpr double kOverlap = 1e4;
 /// The same of all pieces of two bodies: gaps of at most `reach`, and overlaps that small. A contact where parts of a
 /// body lie flush, or fixed bodies do, is one with the faces.
 std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, double reach, const GroundBeside& ground = {});
-
-/// The contact of two features.
-ContactPoint contactAt(const Placed& a, const Placed& b, const FeaturePair& f);
-
-/// Length below which a separation cannot be told from contact, for bodies where these are, m.
-double touchTolerance(const Placed& a, const Placed& b);
 
 }  // namespace carom::ode_bridge_detail

@@ -110,20 +110,16 @@ class ActiveSet {
   // set is solved what violates it most is put where it belongs. Where contacts are redundant and all slide nearly alike,
   // their loads are decided by so little that whole steps leave the cones of several at once.
   std::optional<ConePointOf<T>> carefullyFrom(ConePointOf<T> at, int steps) const {
-    T before = T(0);
-    bool kept = false;
     for (int i = 0; i <= steps; ++i) {
       ConeTerms<T> now(q_, std::move(at));
       const T off = largestOf<T>(now.residual), size = T(1) + largestOf<T>(now.f);
       if (!std::isfinite(rounded(off))) return std::nullopt;
-      if (off <= T(ConePrecision<T>::kSettled) * size &&
-          (off <= T(ConePrecision<T>::kExact) * size || (kept && !(off < T(0.1) * before)))) {
+      if (off <= T(ConePrecision<T>::kExact) * size) {  // no less: loads that are all but decided would stay on the way
         const std::optional<std::size_t> k = firstThatFails(now);
         if (!k) return finished(now);
         const auto row = 3 * static_cast<Index>(*k);
         classify(*k, now.f.template segment<3>(row), now.V.template segment<3>(row), now.at);
         if (now.at.state[*k] == ConeState::slides && !(now.at.pressure[*k] > T(0))) return std::nullopt;
-        kept = false;
         at = std::move(now.at);
         continue;
       }
@@ -137,8 +133,6 @@ class ActiveSet {
       }
       now.step(VectorOf<T>(share * step));
       if (first) now.at.state[*first] = ConeState::apex;
-      kept = !first;
-      before = off;
       at = std::move(now.at);
     }
     return std::nullopt;

@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <random>
-#include <regex>
 #include <sstream>
 
 #include "cli/command_line.h"
@@ -147,9 +147,13 @@ class Captured {
   std::streambuf* was_;
 };
 
-bool hasNoNumber(const std::string& text) {
-  static const std::regex word(R"((^|[^A-Za-z0-9_])-?(nan|inf)([^A-Za-z0-9_]|$))", std::regex::icase);
-  return std::regex_search(text, word);
+bool hasNoNumber(std::string text) {
+  const auto isOfWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  std::ranges::transform(text, text.begin(), [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
+  for (const char* word : {"nan", "inf"})
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+      if ((at == 0 || !isOfWord(text[at - 1])) && (at + 3 == text.size() || !isOfWord(text[at + 3]))) return true;
+  return false;
 }
 
 /// Where a gradient says that it is reliable, it is made of numbers.
