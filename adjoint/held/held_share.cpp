@@ -43,11 +43,11 @@ HeldShare shareOfPair(const ShareSide& a, const ShareSide& b, const Vec3& along)
   }
   HeldShare share;
   share.push = {-low * along, low * along};
-  share.room = {roomOfA(low), roomOfB(low)};
+  const double room_a = roomOfA(low), room_b = roomOfB(low);
   const double slope_a = slopeOfA(low), slope_b = slopeOfB(low), turn = slope_a - slope_b;
-  if (std::abs(share.room[0] - share.room[1]) <= kSameRoom * size && slope_a * slope_b < 0) {
+  if (std::abs(room_a - room_b) <= kSameRoom * size && slope_a * slope_b < 0) {
     share.weight = {-slope_b / turn, slope_a / turn};
-  } else if (share.room[0] < share.room[1]) {
+  } else if (room_a < room_b) {
     share.weight = {1, 0};
   } else {
     share.weight = {0, 1};
@@ -110,9 +110,7 @@ HeldShare shareOfMany(const std::vector<ShareSide>& sides) {
   HeldShare share;
   const Eigen::VectorXd push = size * (without * best.unknowns().head(free));
   for (Index k = 0; k < n; ++k) {
-    const ShareSide& side = sides[static_cast<std::size_t>(k)];
     share.push.push_back(push.segment<3>(3 * k));
-    share.room.push_back(side.room(share.push.back()));
     const Vec3 z = best.duals().segment<3>(3 * k);
     share.weight.push_back(z[0]);
     share.turn.push_back(rows[static_cast<std::size_t>(k)].bottomRows<2>().transpose() * z.tail<2>());
@@ -121,12 +119,6 @@ HeldShare shareOfMany(const std::vector<ShareSide>& sides) {
 }
 
 }  // namespace
-
-std::optional<std::size_t> HeldShare::placeOf(std::size_t k) const {
-  const auto at = std::ranges::find(contact, k);
-  if (at == contact.end()) return std::nullopt;
-  return static_cast<std::size_t>(at - contact.begin());
-}
 
 double ShareSide::room(const Vec3& push) const {
   const Vec3 f = force + push;

@@ -15,13 +15,9 @@ namespace carom::adjoint_detail {
 struct HeldShare {
   std::vector<std::size_t> contact;  ///< of the path: those that stick, in their order
   std::vector<Vec3> push;            ///< N, on each; without sum and moment
-  std::vector<double> room;          ///< N, of each
   /// How the least room changes with the forces: by the sum of weight mu n.f + turn.f_t; weights have the sum 1.
   std::vector<double> weight;
   std::vector<Vec3> turn;
-
-  /// The place of a contact of the path among them.
-  std::optional<std::size_t> placeOf(std::size_t k) const;
 };
 
 /// One of them, with the forces of some share.

@@ -197,7 +197,7 @@ Motion played(const Scene& scene) {
   return simulate(scene, contacts, kDuration, options);
 }
 
-// The largest entry of the derivatives of a motion's states up to a time by all numbers of the scene: at its events, as short
+// The largest derivative of a motion's states up to a time with respect to any scene parameter: at its events, as short
 // bounces amplify what lies between them, and between.
 double largestTangent(const Motion& motion, int body, double time) {
   std::vector<double> times;
@@ -210,7 +210,7 @@ double largestTangent(const Motion& motion, int body, double time) {
   return largest;
 }
 
-// By the numbers of the body, of the material and of gravity, and by the pose of all of the ground together, about the origin.
+// With respect to the parameters of the body, the material and gravity, and to the pose of all of the ground together, about the origin.
 Eigen::VectorXd byWhole(const Scene& scene, const SceneGradient& g) {
   Eigen::VectorXd out(25);
   Vec3 moves = Vec3::Zero(), turns = Vec3::Zero();
