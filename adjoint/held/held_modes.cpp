@@ -6,6 +6,8 @@
 #include <set>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/held/held_jam.hpp"
 #include "adjoint/held/held_share.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/elementary.hpp"
@@ -49,7 +51,7 @@ class ModeSearch {
     }
     if (settle(ways) || enumerate()) return answer();
     HeldModes modes;
-    modes.unresolved = "no forces within the cones of friction hold them, and none part them";
+    modes.unresolved = whyNone();
     return modes;
   }
 
@@ -72,6 +74,20 @@ class ModeSearch {
 
     double pressing(std::size_t i) const { return contacts[i].n.dot(force[i]); }
   };
+
+  std::string whyNone() const {
+    std::vector<ContactInstant<double>> contacts = now_.contacts;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      contacts[k].mode = closedWay(k) == Way::sticks ? HeldMode::sticks : HeldMode::slides;
+      contacts[k].slip = direction_[k];
+    }
+    const std::optional<HeldJam> jam = jamOf(now_.body, contacts);
+    if (!jam && tried_ > 0)
+      return textOf(3, "they jam (Painleve): of the ", tried_, " ways in which they may stick, slide, begin to slip or part none keeps to Coulomb's law");
+    if (!jam) return "no forces within the cones of friction hold them, and none part them";
+    return textOf(3, "they jam (Painleve): every force within the cones of friction presses some of them deeper, in a weighted mean by ",
+                  jam->deeper, " m/s^2 or more");
+  }
 
   bool rubs(std::size_t k) const { return candidates_[k].friction > 0; }
   Way closedWay(std::size_t k) const { return slips_[k] || !rubs(k) ? Way::slides : Way::sticks; }
@@ -263,11 +279,16 @@ class ModeSearch {
       return std::ranges::count_if(ways, [](Way w) { return w != Way::sticks; });
     };
     std::ranges::stable_sort(all, {}, loose);
+    bool solved = true;
     for (const std::vector<Way>& ways : all) {
-      if (!solveBegins(found_, ways) || violated(found_, ways)) continue;
-      ways_ = ways;
-      return true;
+      if (!solveBegins(found_, ways)) {
+        solved = false;
+      } else if (!violated(found_, ways)) {
+        ways_ = ways;
+        return true;
+      }
     }
+    if (solved) tried_ = all.size();
     return false;
   }
 
@@ -295,6 +316,7 @@ class ModeSearch {
   std::vector<Vec3> direction_, used_;
   std::vector<Way> ways_;
   int lifted_ = -1;
+  std::size_t tried_ = 0;  // all ways there are, where none is consistent
   Solved found_;
 };
 
