@@ -121,6 +121,10 @@ double InteriorPoint::gap() const {
   return cones_.empty() ? 0 : (all < 0 ? 0 : all) / static_cast<double>(cones_.size());
 }
 
+double InteriorPoint::unbalanced() const {
+  return (D_.transpose() * z_ + G_.transpose() * lambda_ - K_ * y_ - b_).cwiseAbs().maxCoeff();
+}
+
 void InteriorPoint::scale(Cone& c) {
   const VectorXd s = s_.segment(c.at, c.size), z = z_.segment(c.at, c.size);
   const double s2 = squareOf(s), z2 = squareOf(z), beta = std::sqrt(std::sqrt(s2 / z2));

@@ -19,6 +19,8 @@ class InteriorPoint {
 
   void step();
   double gap() const;  ///< of the cones, f.V each on the average
+  /// The largest component of D^T z + G^T lambda - K y - b, which is 0 at the solution.
+  double unbalanced() const;
   Eigen::VectorXd forces() const { return J_ * y_; }
   const Eigen::VectorXd& unknowns() const { return y_; }
   const Eigen::VectorXd& duals() const { return z_; }  ///< of the rows of D y + a

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "adjoint/contact/interior_point.hpp"
 #include "adjoint/numeric/decompositions.hpp"
@@ -23,7 +24,7 @@ constexpr double kSameRoom = 1e-12;
 constexpr double kOnePoint = 1e-9;
 // The interior point goes on until the room is known to this share of the forces, or no better.
 constexpr double kRoomKnown = 1e-15;
-constexpr int kRoomSteps = 60;
+constexpr int kRoomSteps = 60, kNoBetter = 4;
 
 Vec3 acrossNormal(const Vec3& n, const Vec3& f) { return f - n.dot(f) * n; }
 
@@ -101,11 +102,18 @@ HeldShare shareOfMany(const std::vector<ShareSide>& sides) {
   b[free] = -1;
   InteriorPoint point(D, a, b);
   InteriorPoint best = point;
-  for (int i = 0; i < kRoomSteps; ++i) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0, since = 0; i < kRoomSteps && since < kNoBetter; ++i) {
     point.step();
     if (!std::isfinite(point.gap()) || !point.unknowns().allFinite()) break;
-    best = point;
-    if (point.gap() < kRoomKnown) break;
+    if (point.gap() < kRoomKnown) {
+      best = point;
+      break;
+    }
+    // Where many shares are as good, rounding takes it away again.
+    const double off = std::max(point.gap(), point.unbalanced());
+    since = off < least ? 0 : since + 1;
+    if (since == 0) least = off, best = point;
   }
   HeldShare share;
   const Eigen::VectorXd push = size * (without * best.unknowns().head(free));
