@@ -246,8 +246,11 @@ ContactChoice chooseContactPath(const Motion& motion, int body, const State& sta
                                 const std::vector<const Contact*>& closed, const ModeHint& hint) {
   Chooser chooser(motion, body, state, closed);
   chooser.ignoreSlips(hint.no_slip);
-  if (hint.cause == TransitionCause::sticks || hint.cause == TransitionCause::slip_ends) chooser.slipEnds();
-  return chooser.choose(hint);
+  if (hint.cause != TransitionCause::sticks && hint.cause != TransitionCause::slip_ends) return chooser.choose(hint);
+  Chooser ends = chooser;
+  ends.slipEnds();
+  ContactChoice choice = ends.choose(hint);
+  return choice.beyond.empty() ? choice : chooser.choose(hint);  // not all end together
 }
 
 ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
