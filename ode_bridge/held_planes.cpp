@@ -15,42 +15,9 @@
 namespace carom::ode_bridge_detail {
 namespace {
 
-// What is within so many tolerances of contact of a held plane lies in it.
-constexpr double kInPlane = 10;
-// Normals that differ by less are one.
-constexpr double kSamePlane = 1e-9;
 constexpr int kMostPlaneSteps = 20'000;
 
 const Piece& pieceOf(const Placed& body, int piece) { return body.solid->pieces[static_cast<std::size_t>(piece)]; }
-
-// The points of a feature that lie in the plane of its contact, in the axes of its solid.
-template <class Add>
-void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& contact, const Add& add) {
-  const auto at = static_cast<std::size_t>(index);
-  switch (family) {
-    case Family::vertex:
-      add(solid.vertices[at].point);
-      return;
-    case Family::edge: {
-      const SolidEdge& edge = solid.edges[at];
-      if (isSwept(edge)) {
-        add(contact);
-        return;
-      }
-      for (const double end : {-1.0, 1.0}) add(edge.point + end * edge.half_length * edge.direction);
-      return;
-    }
-    case Family::face: {
-      const SolidFace& face = solid.faces[at];
-      const Vec3 u = face.direction.unitOrthogonal();
-      add(face.point), add(face.point + u), add(face.point + face.direction.cross(u));
-      return;
-    }
-    case Family::rim:
-      add(contact);
-      return;
-  }
-}
 
 // Whether a line of the side of a capsule, cylinder or cone ends at this vertex or rim: where the line lies in a plane it
 // does, too.
@@ -64,36 +31,6 @@ bool endsAt(const Solid& solid, int edge, const Feature& end) {
 
 }  // namespace
 
-// A plane, and what is known to lie in it: of each body, in the axes of its solid.
-struct HeldPlanes::Laid {
-  Plane plane;
-  AffineSpan of_a, of_b;
-};
-
-HeldPlanes::HeldPlanes(const Placed& a, const Placed& b, std::span<const FeaturePair> held,
-                       std::span<const HeldElsewhere> elsewhere, bool moves_a)
-    : a_(a), b_(b), moves_a_(moves_a) {
-  std::vector<Laid> laid;
-  for (const FeaturePair& f : held) layThrough(throughOwn(f), &f, laid);
-  for (const HeldElsewhere& h : elsewhere) layThrough(through(h), nullptr, laid);
-  for (Laid& each : laid) {
-    fixTo(each);
-    const bool goes_with_one = each.plane.frame == Frame::body_a || each.plane.frame == Frame::body_b;
-    if (each.plane.held.empty() && !goes_with_one) continue;  // an edge of another body tells nothing of these
-    planes_.push_back(std::move(each.plane));
-    Plane& kept = planes_.back();
-    addFollowers(kept);
-    const auto inPlane = [&](const Follower& f) {
-      const Placed& body = f.of_a ? a_ : b_;
-      const AffineSpan& span = f.of_a ? each.of_a : each.of_b;
-      if (!span.contains(f.feature.point)) return false;
-      return !f.is_rim || (body.k.R * f.feature.direction).cross(kept.n).norm() <= kSamePlane;
-    };
-    std::erase_if(kept.followers, inPlane);
-    if (kept.held.empty() && isBroken(kept)) planes_.pop_back();
-  }
-}
-
 // Whether something has gone through the plane, as it may beside the body that holds.
 bool HeldPlanes::isBroken(const Plane& plane) const {
   return std::ranges::any_of(plane.followers, [&](const Follower& f) {
@@ -102,85 +39,6 @@ bool HeldPlanes::isBroken(const Plane& plane) const {
     const double rim = f.is_rim ? f.feature.rim * (body.k.R * f.feature.direction).cross(plane.n).norm() : 0;
     return (f.of_a ? height : -height) - f.feature.radius - rim < -plane.room;
   });
-}
-
-HeldPlanes::Through HeldPlanes::throughOwn(const FeaturePair& f) const {
-  const auto kind = static_cast<GapKind>(f.kind);
-  return {contactAt(a_, b_, f), {&a_, familyOfFirst(kind), f.a}, {&b_, familyOfSecond(kind), f.b}};
-}
-
-HeldPlanes::Through HeldPlanes::through(const HeldElsewhere& h) const {
-  const auto kind = static_cast<GapKind>(h.features.kind);
-  const Placed& moving = moves_a_ ? a_ : b_;
-  const Placed &first = h.moving_first ? moving : *h.with, &second = h.moving_first ? *h.with : moving;
-  Through out{contactAt(first, second, h.features), {&first, familyOfFirst(kind), h.features.a},
-              {&second, familyOfSecond(kind), h.features.b}};
-  if (h.moving_first != moves_a_) {
-    std::swap(out.of_a, out.of_b);
-    out.at.normal = -out.at.normal;
-  }
-  return out;
-}
-
-// Adds a contact to the plane that it lies in; that is a new one where it lies in none of the others.
-void HeldPlanes::layThrough(const Through& contact, const FeaturePair* own, std::vector<Laid>& laid) const {
-  const ContactPoint& c = contact.at;
-  if (!c.normal.allFinite() || !std::isfinite(c.gap)) return;
-  const auto levelOf = [&] {
-    for (const Side* side : {&contact.of_b, &contact.of_a})
-      if (side->family == Family::face)
-        return c.normal.dot(side->body->world(side->body->solid->faces[static_cast<std::size_t>(side->index)].point) - b_.k.x);
-    return c.normal.dot(c.point - b_.k.x);
-  };
-  const double level = levelOf(), room = kInPlane * touchTolerance(a_, b_) + std::abs(c.gap);
-  auto same = std::ranges::find_if(laid, [&](const Laid& o) {
-    return (o.plane.n - c.normal).norm() <= kSamePlane && std::abs(o.plane.level - level) <= room + o.plane.room;
-  });
-  if (same == laid.end()) {
-    Laid fresh;
-    fresh.plane.frame = Frame::crossed;
-    fresh.plane.n = c.normal, fresh.plane.level = level, fresh.plane.room = room;
-    const auto size = [](const Placed& p) { return p.solid->plane ? 1.0 : p.solid->bound(); };
-    fresh.of_a = AffineSpan(size(a_)), fresh.of_b = AffineSpan(size(b_));
-    same = laid.insert(laid.end(), std::move(fresh));
-  }
-  const auto isCurve = [](Family family) { return family == Family::edge || family == Family::rim; };
-  if (own) {
-    same->plane.held.push_back(*own);
-    if (isCurve(contact.of_a.family) && isCurve(contact.of_b.family) && same->plane.held.size() == 1)
-      same->plane.edge_a = a_.solid->feature(contact.of_a.family, contact.of_a.index),
-      same->plane.edge_b = b_.solid->feature(contact.of_b.family, contact.of_b.index);
-  } else {
-    const Side& moving = moves_a_ ? contact.of_a : contact.of_b;
-    same->plane.held_elsewhere.emplace_back(moving.family, moving.index);
-  }
-  const auto addTo = [&](const Side& side, const Placed& body, AffineSpan& span) {
-    addPointsInPlane(*side.body->solid, side.family, side.index, side.body->k.R.transpose() * (c.point - side.body->k.x),
-                     [&](const Vec3& p) {
-                       span.add(side.body == &body ? p : Vec3(body.k.R.transpose() * (side.body->world(p) - body.k.x)));
-                     });
-  };
-  addTo(contact.of_a, a_, same->of_a);
-  addTo(contact.of_b, b_, same->of_b);
-}
-
-// Finds what the plane goes with.
-void HeldPlanes::fixTo(Laid& laid) const {
-  Plane& plane = laid.plane;
-  const auto goesWith = [&](Frame frame, const Placed& body, const AffineSpan& span) {
-    plane.frame = frame;
-    plane.normal = body.k.R.transpose() * plane.n;
-    plane.point = span.origin();
-  };
-  const bool of_a = laid.of_a.isPlane();
-  if (laid.of_b.isPlane() && !(of_a && b_.spin > 0 && !(a_.spin > 0))) {  // rather with what does not turn
-    goesWith(Frame::body_b, b_, laid.of_b);
-  } else if (of_a) {
-    goesWith(Frame::body_a, a_, laid.of_a);
-  } else if (isRimOf(plane.edge_a) != isRimOf(plane.edge_b)) {
-    plane.frame = Frame::rim;
-    if (plane.held.size() == 1) plane.side = sideOfCap(plane);
-  }
 }
 
 // Everything of the pieces with held features that is not held itself; what a plane goes with lies behind it.

@@ -10,6 +10,9 @@
 
 namespace carom::ode_bridge_detail {
 
+/// Normals that differ by less are those of one plane.
+inline constexpr double kSamePlane = 1e-9;
+
 /// A contact that holds the one of two bodies that moves to a third, which is fixed as the other one is.
 struct HeldElsewhere {
   const Placed* with = nullptr;  ///< the third
@@ -101,6 +104,8 @@ class HeldPlanes {
   Through throughOwn(const FeaturePair& f) const;
   Through through(const HeldElsewhere& h) const;
   void layThrough(const Through& contact, const FeaturePair* own, std::vector<Laid>& laid) const;
+  std::vector<Laid> laidApart(Laid laid) const;
+  void span(Laid& laid, bool with_ends) const;
   void fixTo(Laid& laid) const;
   template <class Is>
   bool anyHeld(const Plane& plane, bool of_a, const Is& is) const;
