@@ -35,8 +35,11 @@ struct Touching {
     const Solid& solid = p.solid();
     if (p.halfSpace()) return {{Family::face, 0}};
     const Vec3 d = p.body->k.R.transpose() * direction;
-    const double furthest = d.dot(supportOf(solid, *p.piece, d).at) - level;
+    const double extent = d.dot(supportOf(solid, *p.piece, d).at), furthest = extent - level;
     const auto vertex = [&](int v) { return solid.vertices[static_cast<std::size_t>(v)].point.dot(d) >= furthest; };
+    // of a long one the direction, which is known to a share of the tolerance over a small one, takes the ends away
+    const double nearly = extent - std::max(level, kSame * scale);
+    const auto end = [&](int v) { return solid.vertices[static_cast<std::size_t>(v)].point.dot(d) >= nearly; };
     int marks = 0;
     for (int v : p.featuresOf(Family::vertex)) {
       if (!vertex(v)) continue;
@@ -45,12 +48,12 @@ struct Touching {
     }
     for (int e : p.featuresOf(Family::edge)) {
       const SolidEdge& edge = solid.edges[static_cast<std::size_t>(e)];
-      if (edge.from >= 0 ? vertex(edge.from) && vertex(edge.to) : liesInFront(edge, d))
+      if (edge.from >= 0 ? end(edge.from) && end(edge.to) : liesInFront(edge, d))
         front.push_back({Family::edge, e});
     }
     for (int f : p.featuresOf(Family::face)) {
       const SolidFace& face = solid.faces[static_cast<std::size_t>(f)];
-      if (liesInFront(solid, face, d, vertex)) front.push_back({Family::face, f});
+      if (liesInFront(solid, face, d, end)) front.push_back({Family::face, f});
     }
     if (marks < 3) std::erase_if(front, [&](const FeatureName& f) { return isMark(solid, f); });
     for (int r : p.featuresOf(Family::rim)) {
