@@ -23,6 +23,8 @@ namespace {
 // After so many such steps in a row it is doubled, up to kLoosest times; what they may overlap by stays below 1e-10 m.
 constexpr int kGlideSteps = 64;
 constexpr double kLoosest = 1000;
+// In lasting contact after so many steps they are asked how long they go on so.
+constexpr int kGlides = 4;
 // Bodies that start in touch may overlap by somewhat less than this many tolerances of contact.
 constexpr double kDeepest = 4e4;
 
@@ -202,9 +204,27 @@ class Search {
     } else {
       now_.gliding = 0, now_.parted = true;
     }
+    if (held_ && now_.gliding >= kGlides)
+      if (const double h = glidesFor(a, b, tolerance); h > 0) return step(h);
     double loose = 1;
     for (int i = now_.gliding / kGlideSteps; i > 0 && loose < kLoosest; --i) loose *= 2;
     return step(safeStep(a, b, witness, std::min(loose, kLoosest) * tolerance, end() - now_.time));
+  }
+
+  // A body in lasting contact that glides along another one goes on doing so for as long as it is in touch at every one of some
+  // times, as the guards of its path are looked at.
+  double glidesFor(const PlacedPiece& a, const PlacedPiece& b, double tolerance) const {
+    const double spin = a_.spin + b_.spin, left = end() - now_.time, longest = spin > 0 ? std::min(left, 0.5 / spin) : left;
+    constexpr int kLooks = 12;
+    for (int i = 1; i <= kLooks; ++i) {
+      const double t = now_.time + longest * i / kLooks;
+      pair_.arc_a.extendTo(t);
+      pair_.arc_b.extendTo(t);
+      const Placed then_a(*a_.solid, pair_.arc_a, t), then_b(*b_.solid, pair_.arc_b, t);
+      const Witness witness = findWitness({&then_a, a.piece}, {&then_b, b.piece}, now_.n);
+      if (!(std::abs(witness.separation) <= tolerance)) return longest * (i - 1) / kLooks;
+    }
+    return longest;
   }
 
   // The library's direction, if the exact geometry says that the boxes are apart along it.

@@ -16,6 +16,8 @@ namespace carom::ode_bridge_detail {
 namespace {
 
 constexpr int kMostPlaneSteps = 20'000;
+// What is nearer to a plane than so many tolerances of contact may glide along it.
+constexpr double kNear = 100;
 
 const Piece& pieceOf(const Placed& body, int piece) { return body.solid->pieces[static_cast<std::size_t>(piece)]; }
 
@@ -160,6 +162,7 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
   const double tolerance = touchTolerance(a, b), spin = a.spin + b.spin;
   Reach reach{until - t};
   if (spin > 0) reach.step = std::min(reach.step, 0.5 / spin);
+  reach.apart = reach.step;
   const auto look = [&](const Approach& to, bool is_rim, const Plane& plane) {
     const bool there = to.gap <= tolerance;
     if (there && to.rate < -kStill * to.speed) {
@@ -170,8 +173,14 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
       return;
     }
     const double room = std::max(to.gap, 0.0) + tolerance * (there ? 1 : 0);
-    reach.step = std::min(reach.step, is_rim ? to.rim.timeTo(room, to.rate + to.rim.belowRate(), to.bend, reach.step)
-                                             : timeTo(room, -to.rate, to.bend));
+    const double step = is_rim ? to.rim.timeTo(room, to.rate + to.rim.belowRate(), to.bend, reach.step)
+                               : timeTo(room, -to.rate, to.bend);
+    reach.step = std::min(reach.step, step);
+    if (to.gap <= kNear * tolerance && std::abs(to.rate) <= kStill * to.speed) {
+      reach.glides = true;
+    } else {
+      reach.apart = std::min(reach.apart, step);
+    }
   };
   for (const Plane& plane : planes_) {
     if (plane.frame == Frame::rim && plane.side != 0) {
@@ -181,10 +190,49 @@ HeldPlanes::Reach HeldPlanes::reachAt(const PairMotion& pair, double t, double u
     }
     const std::optional<Lying> p = lie(plane, a, b);
     if (!p) continue;
-    reach.step = std::min(reach.step, p->holds_for);
+    reach.step = std::min(reach.step, p->holds_for), reach.apart = std::min(reach.apart, p->holds_for);
     for (const Follower& f : plane.followers) look(approachOf(f, plane, *p, a, b, reach.step), f.is_rim, plane);
   }
   return reach;
+}
+
+// For how long what lies next to a plane, and neither comes nor goes, stays there: of the longest step the part up to the first
+// of some times at which something of it has come nearer by half of its distance, or by the tolerance of contact.
+double HeldPlanes::glidesFor(const PairMotion& pair, double t, double longest) const {
+  struct Gliding {
+    const Plane* plane;
+    const Follower* follower;
+    double gap;
+  };
+  const auto look = [&](double at, const auto& use) {
+    pair.arc_a.extendTo(at);
+    pair.arc_b.extendTo(at);
+    const Placed a(*a_.solid, pair.arc_a, at), b(*b_.solid, pair.arc_b, at);
+    const double tolerance = touchTolerance(a, b);
+    const auto gapOf = [&](const Plane& plane, const Follower& f) {
+      const std::optional<Lying> p = lie(plane, a, b);
+      return p ? approachOf(f, plane, *p, a, b, 0).gap : -std::numeric_limits<double>::infinity();
+    };
+    return use(gapOf, tolerance);
+  };
+  std::vector<Gliding> gliding;
+  look(t, [&](const auto& gapOf, double tolerance) {
+    for (const Plane& plane : planes_)
+      for (const Follower& f : plane.followers)
+        if (const double gap = gapOf(plane, f); gap <= kNear * tolerance) gliding.push_back({&plane, &f, gap});
+    return true;
+  });
+  constexpr int kLooks = 12;
+  for (int i = 1; i <= kLooks; ++i) {
+    if (pair.work) pair.work->step();
+    const bool stays = look(t + longest * i / kLooks, [&](const auto& gapOf, double tolerance) {
+      return std::ranges::all_of(gliding, [&](const Gliding& g) {
+        return gapOf(*g.plane, *g.follower) >= (g.gap > tolerance ? 0.5 * g.gap : -tolerance);
+      });
+    });
+    if (!stays) return longest * (i - 1) / kLooks;
+  }
+  return longest;
 }
 
 }  // namespace carom::ode_bridge_detail

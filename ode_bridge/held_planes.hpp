@@ -36,7 +36,8 @@ class HeldPlanes {
   bool keepApart(int piece_a, int piece_b) const;
 
   /// The first time in [from, until] at which more of the pieces that planes keep apart has come to a plane, and does not
-  /// go away from it: every vertex and rim is followed to first order, with a bound on its second derivative.
+  /// go away from it: every vertex and rim is followed to first order, with a bound on its second derivative. What stays in a
+  /// plane without being held there is looked at at some times of a step, as the guards of a path are.
   /// accept(t, through, broken) is asked whether to end there, as at an impact; where not, the search goes on. `through`: it
   /// is about to go through a plane; `broken`: it has gone through one of contacts elsewhere, which tells nothing then.
   template <class Accept>
@@ -45,8 +46,10 @@ class HeldPlanes {
     for (int steps = 0; t <= until; ++steps) {
       const Reach reach = reachAt(pair, t, until, steps);
       if (reach.touches && accept(t, reach.through, reach.broken)) return t;
-      if (!(t + reach.step < until)) break;
-      t = std::max(t + reach.step, std::nextafter(t, until));
+      double step = reach.step;
+      if (reach.glides && step < reach.apart) step = std::max(step, glidesFor(pair, t, std::min(reach.apart, until - t)));
+      if (!(t + step < until)) break;
+      t = std::max(t + step, std::nextafter(t, until));
     }
     return std::nullopt;
   }
@@ -73,6 +76,8 @@ class HeldPlanes {
   struct Reach {
     double step = 0;
     bool touches = false, through = false, broken = false;
+    bool glides = false;  // something lies in a plane and neither comes to it nor goes
+    double apart = 0;     // s: the step that all else allows
   };
 
   // A plane at an instant: its normal with the bounds |n'| <= n1, |n''| <= n2, and a point of it that goes with a body.
@@ -121,6 +126,7 @@ class HeldPlanes {
   Approach approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a, const Placed& b,
                       double window) const;
   Reach reachAt(const PairMotion& pair, double t, double until, int steps) const;
+  double glidesFor(const PairMotion& pair, double t, double longest) const;
 
   const Placed &a_, &b_;
   bool moves_a_;  // of contacts elsewhere
