@@ -19,6 +19,9 @@ void checkMesh(const Shape& shape, const validation::ShapeCheck& at) {
   const Mesh& s = as<Mesh>(shape);
   if (!s.surface) validation::fail(at.where, "no surface", "one made by meshSurface");
   if (s.surface->faces.empty()) validation::fail(at.where, "no triangles", "a triangle or more");
+  for (const Surface::Face& face : s.surface->faces)
+    if (face.count != 3)
+      validation::fail(at.where, "a face with " + std::to_string(face.count) + " corners", "triangles alone, as meshSurface makes them");
   requireScale(at, s.scale, *s.surface);
   if (at.derived && !s.surface->closed)
     validation::fail(at.where, "an open mesh (" + borderOf(*s.surface) + ") on a moving body, whose " + at.derived,
