@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "adjoint/base/errors.h"
@@ -17,6 +18,8 @@ namespace {
 
 // What of a force or an acceleration is rounding, as a share of the unit; and of a contact that is at its limit.
 constexpr double kModeRounding = 1e-10, kAtLimit = 1e-7;
+// By what every way is to be inconsistent for a proof that none is.
+constexpr double kClearly = 1e-6;
 constexpr int kModeRounds = 60, kDirectionRounds = 60;
 constexpr double kMostTurn = 0.5;  // rad, of a direction in one round
 constexpr std::size_t kEnumerated = 5;
@@ -212,13 +215,14 @@ class ModeSearch {
   struct Change {
     std::size_t contact = 0;
     Way to = Way::off;
+    double by = 0;  // share of the unit of force or acceleration
   };
   std::optional<Change> violated(const Solved& solved, const std::vector<Way>& ways) const {
     double most = 0;
     std::optional<Change> change;
     for (std::size_t i = 0; i < solved.on.size(); ++i) {
       const double share = -solved.pressing(i) / force_;
-      if (share > std::max(most, kModeRounding)) most = share, change = {solved.on[i], Way::off};
+      if (share > std::max(most, kModeRounding)) most = share, change = {solved.on[i], Way::off, share};
     }
     if (change) return change;
     for (std::size_t i = 0; i < solved.on.size(); ++i) {
@@ -227,7 +231,7 @@ class ModeSearch {
       if (ways[k] == Way::sticks) {
         const double share =
             ((solved.force[i] - pressing * now_.contacts[k].n).norm() - now_.contacts[k].friction * pressing) / force_;
-        if (share > std::max(most, kModeRounding)) most = share, change = {k, Way::begins};
+        if (share > std::max(most, kModeRounding)) most = share, change = {k, Way::begins, share};
       }
     }
     if (change) return change;
@@ -235,13 +239,13 @@ class ModeSearch {
       const std::size_t k = solved.on[i];
       if (ways[k] != Way::begins) continue;
       const double against = -solved.forces->slipRate(i).dot(used_[k]) / pull_;
-      if (against > std::max(most, kAtLimit)) most = against, change = {k, Way::sticks};
+      if (against > std::max(most, kAtLimit)) most = against, change = {k, Way::sticks, against};
     }
     if (change) return change;
     for (std::size_t k = 0; k < ways.size(); ++k) {
       if (ways[k] != Way::off || static_cast<int>(k) == lifted_) continue;
       const double falls = -solved.forces->gapAcceleration(now_.contacts[k]) / pull_;
-      if (falls > std::max(most, kModeRounding)) most = falls, change = {k, closedWay(k)};
+      if (falls > std::max(most, kModeRounding)) most = falls, change = {k, closedWay(k), falls};
     }
     return change;
   }
@@ -279,16 +283,16 @@ class ModeSearch {
       return std::ranges::count_if(ways, [](Way w) { return w != Way::sticks; });
     };
     std::ranges::stable_sort(all, {}, loose);
-    bool solved = true;
+    double least = std::numeric_limits<double>::infinity();
     for (const std::vector<Way>& ways : all) {
-      if (!solveBegins(found_, ways)) {
-        solved = false;
-      } else if (!violated(found_, ways)) {
+      const std::optional<Change> change = solveBegins(found_, ways) ? violated(found_, ways) : Change{};
+      if (!change) {
         ways_ = ways;
         return true;
       }
+      least = std::min(least, change->by);
     }
-    if (solved) tried_ = all.size();
+    if (least > kClearly) tried_ = all.size();
     return false;
   }
 
