@@ -63,7 +63,15 @@ double heightAt(const Ground& ground, const PlacedShape& placed, double angle) {
   return least + n.dot(placed.x) - offsetAt(ground, angle);
 }
 
-// The angle from which they are seen farthest apart: the best of many, and a golden section about it.
+// d/d angle of that height.
+double heightRate(const Ground& ground, const PlacedShape& placed, double angle) {
+  const Vec3 n = normalAt(ground, angle), along = normalAt(ground, angle + kRight);
+  const std::vector<Vec3> points = lowestOf(placed.shape, placed.R, n);
+  const Vec3 p = *std::ranges::min_element(points, {}, [&](const Vec3& q) { return n.dot(q); });
+  return along.dot(p + placed.x) - offsetAt(ground, angle + kRight);
+}
+
+// The angle from which they are seen farthest apart: the best of many, and from there on to where the height falls.
 double bestAngle(const Ground& ground, const PlacedShape& placed) {
   if (!ground.wall) return 0;
   int best = 0;
@@ -71,17 +79,10 @@ double bestAngle(const Ground& ground, const PlacedShape& placed) {
   for (int i = 0; i <= kNormals; ++i)
     if (const double h = heightAt(ground, placed, kRight * i / kNormals); h > most) most = h, best = i;
   double low = kRight * std::max(0, best - 1) / kNormals, high = kRight * std::min(kNormals, best + 1) / kNormals;
-  constexpr double kGolden = 0.6180339887498949;
-  double one = high - kGolden * (high - low), two = low + kGolden * (high - low);
-  double at_one = heightAt(ground, placed, one), at_two = heightAt(ground, placed, two);
-  for (int i = 0; i < 70; ++i)
-    if (at_one >= at_two) {
-      high = two, two = one, at_two = at_one;
-      one = high - kGolden * (high - low), at_one = heightAt(ground, placed, one);
-    } else {
-      low = one, one = two, at_one = at_two;
-      two = low + kGolden * (high - low), at_two = heightAt(ground, placed, two);
-    }
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (heightRate(ground, placed, middle) > 0 ? low : high) = middle;
+  }
   double angle = (low + high) / 2;
   for (const double end : {0.0, kRight})
     if (heightAt(ground, placed, end) >= heightAt(ground, placed, angle)) angle = end;
