@@ -48,6 +48,8 @@ void checkOptions(const SessionOptions& options) {
   check("release_iterations", options.release_iterations, options.release_iterations >= 0, "0 or more");
   check("drag_seconds", options.drag_seconds, options.drag_seconds >= 0, "a number >= 0");
   check("release_seconds", options.release_seconds, options.release_seconds >= 0, "a number >= 0");
+  check("drag_steps", options.drag_steps, options.drag_steps >= 0, "a number >= 0");
+  check("release_steps", options.release_steps, options.release_steps >= 0, "a number >= 0");
 }
 
 }  // namespace
@@ -136,9 +138,10 @@ void EditSession::unnail(NailId id) {
   s.record(std::move(gesture));
 }
 
-SessionUpdate EditSession::grab(const std::string& body, When at, const Grip& grip, std::vector<Control> also_vary) {
+SessionUpdate EditSession::grab(const std::string& body, When at, const Grip& grip, std::vector<Control> also_vary,
+                                AlsoVary wanted) {
   state_->requireNoDrag("grab");
-  state_->grab(body, at, grip, std::move(also_vary));
+  state_->grab(body, at, grip, std::move(also_vary), wanted);
   return last();
 }
 

@@ -35,6 +35,12 @@ enum class NailAt {
   where_it_got,  ///< where the body is, in reach
 };
 
+/// When a grab lets more vary.
+enum class AlsoVary {
+  always,
+  where_nothing_moves_it,  ///< no control that there is moves what is held, to first order
+};
+
 /// Direct manipulation of a motion: a body is taken hold of at some moment of its flight and dragged, and the causes
 /// that may vary follow, many times a second.
 ///
@@ -93,8 +99,9 @@ class EditSession {
   void unnail(NailId id);
 
   /// Takes hold of a moving body at a time or an impact of the motion, or at rest. From here to `release` is one step
-  /// for undo; the controls `also_vary` are there from here on, in the same step.
-  SessionUpdate grab(const std::string& body, When at, const Grip& grip = {}, std::vector<Control> also_vary = {});
+  /// for undo; the controls `also_vary` are there from here on, in the same step, where they are wanted.
+  SessionUpdate grab(const std::string& body, When at, const Grip& grip = {}, std::vector<Control> also_vary = {},
+                     AlsoVary wanted = AlsoVary::always);
   /// Takes hold of a nail: what is dragged is the place that it holds the body to. It does not hold that meanwhile, but
   /// what it has besides place and orientation. `release` puts it where the body got to, `cancel` back.
   SessionUpdate grabNail(NailId id);

@@ -39,6 +39,11 @@ struct SessionOptions {
   int release_iterations = 200;  ///< at most, when a gesture ends
   double drag_seconds = 0.25;    ///< of the clock, for one update
   double release_seconds = 2;    ///< of the clock, when a gesture ends
+  /// Steps of simulations (SimulateOptions::step_limit): where motions take many, an update makes fewer of them, so that
+  /// it takes about so many steps; three of them in any case.
+  double drag_steps = std::numeric_limits<double>::infinity();
+  /// Steps after which the search at the end of a gesture begins no more.
+  double release_steps = std::numeric_limits<double>::infinity();
   /// Nails from the start of the session that its motion does not meet are off, so that nothing moves by itself:
   /// EditSession::meetNails switches them on.
   bool unmet_nails_off = false;
@@ -50,6 +55,7 @@ struct Grip {
   bool orientation = false;             ///< its orientation as well: as it is, until dragTo gives another
   /// "x", "y", "z" of the place that count; empty: all. The others are free.
   std::vector<std::string> components = {};
+  bool place = true;  ///< false: the orientation alone, which has to be held then; the place goes where it likes
 };
 
 /// What a nail holds; see Nail in edit.h.

@@ -15,6 +15,9 @@ constexpr double kCounted = 5;
 /// Bodies that do not matter any more leave the part after so many updates since the last one came in.
 constexpr int kUpdatesToShrink = 10;
 
+/// An update makes so many simulations at least, however long they take.
+constexpr double kFewSimulations = 3;
+
 bool contains(const std::vector<bool>& all, const std::vector<bool>& some) {
   for (std::size_t i = 0; i < all.size(); ++i)
     if (some[i] && !all[i]) return false;
@@ -92,8 +95,17 @@ void SessionSolver::shrinkPart() {
   if (stays_whole_ || std::count(counts.begin(), counts.end(), true) < division_.moving) divide(counts);
 }
 
-void SessionSolver::improve(Budget& budget, const std::function<void()>& better) {
+/// What one motion of all bodies counts.
+double SessionSolver::priceOfAll() const {
+  const double bodies = std::max(1.0, division_.all_moving / kCounted);
+  if (!sparing_) return bodies;
+  const double limit = options_.drag_simulations, steps = static_cast<double>(start_->motion.steps);
+  return std::max(bodies, std::min(limit * steps / options_.drag_steps, limit / kFewSimulations));
+}
+
+void SessionSolver::improve(Budget& budget, const std::function<void()>& better, bool sparing) {
   better_ = better;
+  sparing_ = sparing;
   improveDivided(budget);
   better_ = {};
 }
@@ -102,7 +114,7 @@ void SessionSolver::improveDivided(Budget& budget) {
   if (is_part_) return improveHere(budget);
   if (division_.bodies.empty()) divide(bodiesThatCount(problem_, *start_));
   shrinkPart();
-  const double whole = std::max(1.0, division_.all_moving / kCounted);
+  const double whole = priceOfAll();
   if (part_) keepIfBetter(start_);
   for (bool goes_on = true; part_ && goes_on;) {
     const int before = part_->iterations();

@@ -85,6 +85,10 @@ Constraint editing_detail::goalOf(const SessionDrag& drag) {
   const SessionGesture& record = drag.record;
   Constraint goal{record.body, record.at, {}};
   const std::vector<double> place = heldPlace(drag.place, record.grip);
+  if (!record.grip.place) {
+    goal.targets.push_back({"orientation", numbersOf(*drag.orientation)});
+    return goal;
+  }
   if (record.grip.body_point) {
     goal.targets.push_back({"point", place, *record.grip.body_point});
   } else {
@@ -108,27 +112,37 @@ std::unique_ptr<SessionSolver> EditSession::State::solverFor(const SessionMoment
                                          from_start ? moment.changes : Eigen::VectorXd(), options);
 }
 
-void EditSession::State::grab(const std::string& body, const When& at, const Grip& grip,
-                              std::vector<Control> also_vary) {
+void EditSession::State::grab(const std::string& body, const When& at, const Grip& grip, std::vector<Control> also_vary,
+                              AlsoVary wanted) {
   const BodyState state = stateAtMoment(*last.motion, body, at, "grab");
   SessionDrag next;
   next.record = newGesture(SessionGesture::Kind::drag);
   next.record.body = body, next.record.at = at, next.record.grip = grip;
   if (now.scene->bodies[static_cast<std::size_t>(bodyIndex(*now.scene, body))].fixed)
     throw InputError("grab", "found the fixed body '" + body + "', expected a moving body");
+  if (!grip.place && !grip.orientation)
+    throw InputError("grab", "found a grip that holds nothing, expected a place, an orientation or both");
   if (grip.body_point) requireFinite(*grip.body_point, "grab/body_point");
   next.place = state.position + state.orientation * grip.body_point.value_or(Vec3::Zero());
   if (grip.orientation) next.orientation = state.orientation;
+  HeldNails held = heldNails(now.nails);
+  next.left_out = std::move(held.left_out);
   SessionMoment moment = now;
+  std::unique_ptr<SessionSolver> solver;
+  if (!also_vary.empty() && wanted == AlsoVary::where_nothing_moves_it) {
+    std::vector<Constraint> all = held.constraints;
+    all.push_back(goalOf(next));
+    solver = solverFor(now, all, static_cast<int>(all.size()) - 1);
+    if (solver->isMoved()) also_vary.clear();
+  }
   if (!also_vary.empty()) {
     std::vector<Control> all = now.controls;
     all.insert(all.end(), also_vary.begin(), also_vary.end());
     next.record.controls = std::move(also_vary);
     moment.setControls(std::move(all));
+    solver.reset();
   }
-  HeldNails held = heldNails(now.nails);
-  next.left_out = std::move(held.left_out);
-  beginDrag(std::move(next), std::move(moment), std::move(held.constraints));
+  beginDrag(std::move(next), std::move(moment), std::move(held.constraints), std::move(solver));
 }
 
 void EditSession::State::grabNail(NailId id) {
@@ -172,12 +186,13 @@ void EditSession::State::grabNail(NailId id) {
   beginDrag(std::move(next), now, std::move(held.constraints));
 }
 
-void EditSession::State::beginDrag(SessionDrag next, SessionMoment moment, std::vector<Constraint> held) {
+void EditSession::State::beginDrag(SessionDrag next, SessionMoment moment, std::vector<Constraint> held,
+                                   std::unique_ptr<SessionSolver> solver) {
   const auto began_at = Clock::now();
   held.push_back(goalOf(next));
   next.record.constraint = held.back();
   if (next.orientation) next.turn_target = static_cast<int>(held.back().targets.size()) - 1;
-  next.solver = solverFor(moment, held, static_cast<int>(held.size()) - 1);
+  next.solver = solver ? std::move(solver) : solverFor(moment, held, static_cast<int>(held.size()) - 1);
   next.solver->takeOverFrom(last.motion);
   next.before = last.motion;
   next.began = std::move(now);
@@ -197,7 +212,7 @@ SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<
   if (orientation) requireUnit(*orientation, "dragTo");
 
   drag->place = place;
-  drag->solver->aim(0, heldPlace(place, drag->record.grip));
+  if (drag->record.grip.place) drag->solver->aim(0, heldPlace(place, drag->record.grip));
   if (orientation) {
     drag->orientation = orientation;
     drag->solver->aim(drag->turn_target, numbersOf(*orientation));
@@ -251,7 +266,7 @@ SessionUpdate EditSession::State::follow(DragTarget target, Budget budget, const
       budget.end(Halt::cancelled);
     }
   };
-  solver.improve(budget, better ? std::function<void()>(tell) : std::function<void()>());
+  solver.improve(budget, better ? std::function<void()>(tell) : std::function<void()>(), !target.dwell);
 
   SessionUpdate update = measured();
   putEnd(budget, update);

@@ -86,6 +86,12 @@ std::string SessionSolver::nothingMoves() const {
          wordsOf(problem_.constraints.constraints()[static_cast<std::size_t>(goal_)]) + ".";
 }
 
+bool SessionSolver::isMoved() const {
+  if (problem_.controls.size() == 0) return false;
+  if (!differentiate(problem_, *start_)) return true;  // nobody knows
+  return !stepProblem(*start_).soft.J.isZero(0);
+}
+
 SessionObstacle SessionSolver::obstacle() {
   if (reached()) return {};
   if (problem_.controls.size() == 0)

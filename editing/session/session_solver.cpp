@@ -136,7 +136,7 @@ void SessionSolver::finishHere(Budget& budget) {
     options.progress = [&](const EditProgress&) {
       if (!budget.take()) return false;
       counted = search.best();
-      return !budget.expired();
+      return !budget.expired() && search.work() < options_.release_steps;
     };
     if (!reached()) {
       found = findSolution(search).point;

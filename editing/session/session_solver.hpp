@@ -41,13 +41,17 @@ class SessionSolver {
   void aim(int target, const std::vector<double>& value);
   /// Comes nearer to the constraints and makes the change smaller, by differential updates. Where few of the bodies
   /// matter, it works with a scene of those alone, and what came of that is verified with all. `better` is called
-  /// whenever a better point was found, of all bodies.
-  void improve(Budget& budget, const std::function<void()>& better = {});
+  /// whenever a better point was found, of all bodies. `sparing`: a motion of many steps counts as several
+  /// (SessionOptions::drag_steps).
+  void improve(Budget& budget, const std::function<void()>& better = {}, bool sparing = false);
   /// Minimises the change, or searches further where the constraints are not met. Work is counted in iterations.
   void finish(Budget& budget);
 
   /// Largest scaled error of the rows that are not of the goal.
   double nailError(const RowValues& rows) const;
+
+  /// Whether something that varies moves what the goal holds, to first order at the start.
+  bool isMoved() const;
 
   /// What stands between the point and the constraints, as far as first derivatives tell.
   SessionObstacle obstacle();
@@ -80,6 +84,7 @@ class SessionSolver {
 
   // session_division.cpp: with some of them
   void divide(const std::vector<bool>& moving);
+  double priceOfAll() const;
   void improveDivided(Budget& budget);
   void shrinkPart();
   void startAt(const Eigen::VectorXd& changes);
@@ -102,6 +107,7 @@ class SessionSolver {
   int iterations_ = 0;
   int samples_ = 0;  // taken so far, in lookElsewhere
   std::function<void()> better_;  // of the improvement under way
+  bool sparing_ = false;          // likewise
 
   bool is_part_;
   bool stays_whole_;      // too many bodies matter

@@ -123,9 +123,11 @@ struct EditSession::State {
   // session_gesture.cpp
   std::unique_ptr<SessionSolver> solverFor(const SessionMoment& moment, const std::vector<Constraint>& constraints,
                                            int goal) const;
-  void grab(const std::string& body, const When& at, const Grip& grip, std::vector<Control> also_vary);
+  void grab(const std::string& body, const When& at, const Grip& grip, std::vector<Control> also_vary, AlsoVary wanted);
   void grabNail(NailId id);
-  void beginDrag(SessionDrag next, SessionMoment moment, std::vector<Constraint> held);
+  /// `solver`: of just that, where there is one.
+  void beginDrag(SessionDrag next, SessionMoment moment, std::vector<Constraint> held,
+                 std::unique_ptr<SessionSolver> solver = nullptr);
   SessionUpdate dragTo(const Vec3& place, const std::optional<Quat>& orientation, std::stop_token stop);
   SessionUpdate dwell(std::stop_token stop, const Better& better);
   SessionUpdate follow(DragTarget target, Budget budget, const Better& better);

@@ -114,6 +114,7 @@ void EditSession::State::measureDrag(SessionUpdate& update) const {
   const std::vector<std::string>& held = record.grip.components;
   for (int k = 0; k < 3; ++k)
     if (!held.empty() && std::find(held.begin(), held.end(), std::string(1, "xyz"[k])) == held.end()) away[k] = 0;
+  if (!record.grip.place) away.setZero();
   update.distance = away.norm();
   if (drag->orientation) update.turn = logSO3(state.orientation * drag->orientation->normalized().conjugate()).norm();
 }
@@ -146,17 +147,20 @@ void EditSession::State::describe(SessionSolver& solver, const Motion& before, c
           wordsOf(solver.problem().constraints.constraints()[static_cast<std::size_t>(solver.goal())]);
       if (drag && update.distance > 0)
         sentences.push_back(name + " stays " + brief(update.distance) + " m from where it is dragged to.");
+      else if (drag && update.turn > 0)
+        sentences.push_back(name + " stays " + brief(update.turn) + " rad from how it is turned.");
       if (!drag && update.scaled_distance > options.tolerance)
         sentences.push_back("The nail of " + name + " is not met.");
     }
-    if (update.cut_by_clock && replays) {
-      update.obstacle = {Kind::clock, {}, "It was ended there when it was recorded."};
-    } else if (update.cut_by_clock) {
-      update.obstacle = {Kind::clock, {}, "The time for one update was over before it got there."};
-    } else if (update.stopped) {
-      update.obstacle = {Kind::work, {}, "It was stopped on the way."};
-    } else {
-      update.obstacle = solver.obstacle();
+    // what is in the way comes first: that it was ended early is a reason only where nothing is
+    update.obstacle = solver.obstacle();
+    const bool nothing_else = update.obstacle.kind == Kind::work;
+    if (nothing_else && update.cut_by_clock) {
+      update.obstacle.kind = Kind::clock;
+      update.obstacle.sentence = replays ? "It was ended there when it was recorded."
+                                         : "The time for one update was over before it got there.";
+    } else if (nothing_else && update.stopped) {
+      update.obstacle.sentence = "It was stopped on the way.";
     }
     sentences.push_back(update.obstacle.sentence);
   }

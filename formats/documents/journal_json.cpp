@@ -52,6 +52,8 @@ SessionOptions readOptions(const Json& document) {
   options.release_iterations = o.value("release_iterations", options.release_iterations);
   options.drag_seconds = stopOr(o, "drag_seconds", options.drag_seconds);
   options.release_seconds = stopOr(o, "release_seconds", options.release_seconds);
+  options.drag_steps = stopOr(o, "drag_steps", options.drag_steps);
+  options.release_steps = stopOr(o, "release_steps", options.release_steps);
   options.unmet_nails_off = o.value("unmet_nails_off", false);
   return options;
 }
@@ -93,14 +95,19 @@ void readGrab(SessionGesture& gesture, const std::string& where) {
   const Constraint& held = *gesture.constraint;
   if (held.at.span || !held.relative_to.empty() || !held.regions.empty())
     fail(where, "a grab with a span of time, relative to a body or with a region", "one at a time, an impact or rest");
+  gesture.body = held.body, gesture.at = held.at;
+  if (held.targets.size() == 1 && held.targets[0].quantity == "orientation") {
+    gesture.grip.orientation = true, gesture.grip.place = false;
+    return;
+  }
   const bool place =
       !held.targets.empty() && (held.targets[0].quantity == "position" || held.targets[0].quantity == "point");
   const bool turn = held.targets.size() == 2 && held.targets[1].quantity == "orientation";
   if (!place || held.targets.size() > 2 || (held.targets.size() == 2 && !turn))
-    fail(where, "other targets", "\"position\" or \"point\", and \"orientation\" after it where that is held");
+    fail(where, "other targets",
+         "\"position\" or \"point\", and \"orientation\" after it where that is held, or \"orientation\" alone");
   const Target& target = held.targets[0];
   if (!target.min.empty() || !target.max.empty()) fail(where, "a range", "numbers, or null for what is free");
-  gesture.body = held.body, gesture.at = held.at;
   if (target.quantity == "point") gesture.grip.body_point = target.body_point;
   gesture.grip.orientation = turn;
   const char* const kNames[] = {"x", "y", "z"};

@@ -25,6 +25,8 @@ void writeOptions(JsonWriter& out, const SessionOptions& options) {
   out.members("tolerance", options.tolerance, "drag_simulations", options.drag_simulations);
   out.members("dwell_simulations", options.dwell_simulations, "release_iterations", options.release_iterations);
   out.members("drag_seconds", stop(options.drag_seconds), "release_seconds", stop(options.release_seconds));
+  if (std::isfinite(options.drag_steps)) out.members("drag_steps", options.drag_steps);
+  if (std::isfinite(options.release_steps)) out.members("release_steps", options.release_steps);
   if (options.unmet_nails_off) out.members("unmet_nails_off", true);
   out.endObject();
 }

@@ -42,6 +42,9 @@ SessionJournal recorded() {
   session.grab("box", 0.3, {.orientation = true});
   session.dragTo(session.grabbedPlace(), session.grabbedOrientation());
   session.cancel();
+  session.grab("box", 0.3, {.orientation = true, .place = false});
+  session.dragTo(session.grabbedPlace(), session.grabbedOrientation());
+  session.cancel();
   session.undo();
   session.redo();
   session.unnail(session.nails().back());
@@ -57,6 +60,7 @@ TEST(Journal, ReadsBackAsItWasAndPlaysTheSame) {
   EXPECT_EQ(read.journal.nails.size(), 1u);
   EXPECT_EQ(read.journal.gestures[0].grip.components, (std::vector<std::string>{"x", "z"}));
   EXPECT_EQ(read.journal.gestures[0].grip.body_point->x(), 0.1);
+  EXPECT_TRUE(read.journal.gestures[3].grip.place && !read.journal.gestures[4].grip.place);
 
   OdeContacts contacts(read.journal.scene);
   SessionReplay replay(read.journal, contacts);
@@ -102,6 +106,7 @@ SessionJournal recordedInAStudio() {
   SessionOptions options;
   options.drag_seconds = options.release_seconds = std::numeric_limits<double>::infinity();
   options.dwell_simulations = 7;
+  options.drag_steps = 1234567.5, options.release_steps = 7e8;
   options.unmet_nails_off = true;
   std::vector<Constraint> goals = document.constraints;
   goals.push_back(heldConstraint("box", 0.2, {.position = Vec3(0.4, any, any)}));
@@ -212,9 +217,9 @@ TEST(Journal, BadOnesAreRefused) {
       {"\"drag_simulations\": 28", "\"drag_simulations\": -1", "/options/drag_simulations", "an integer"},
       {"\"ending\": \"cancel\"", "\"ending\": \"escape\"", "/gestures/3/ending", "release_nailed"},
       {"\"ending\": \"cancel\"", "\"end\": \"cancel\"", "/gestures/3/end", "an unknown member"},
-      {"\"undo\": true", "\"undone\": true", "/gestures/4/undone", "an unknown member"},
-      {"\"undo\": true", "\"undo\": true, \"redo\": true", "/gestures/4", "exactly one of"},
-      {"\"unnail\": 2", "\"unnail\": \"2\"", "/gestures/6/unnail", "the number of a nail"},
+      {"\"undo\": true", "\"undone\": true", "/gestures/5/undone", "an unknown member"},
+      {"\"undo\": true", "\"undo\": true, \"redo\": true", "/gestures/5", "exactly one of"},
+      {"\"unnail\": 2", "\"unnail\": \"2\"", "/gestures/7/unnail", "the number of a nail"},
       {"\"nail\": { \"body\": \"box\"", "\"nail\": { \"body\": \"hat\"", "/gestures/2/nail/body", "\"hat\""},
       {"\"drag\": { \"body\": \"box\", \"at\": 0.3", "\"drag\": { \"body\": \"box\", \"at\": 9", "/gestures/3/drag/at",
        "found 9"},
