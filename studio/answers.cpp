@@ -158,6 +158,7 @@ std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::st
   const EditSession& session = scene->session();
   state["path"] = scene->path() ? Json(*scene->path()) : Json();
   state["name"] = scene->opened().name;
+  if (!scene->path()) state["suggested"] = scene->suggestedName();
   state["saved"] = scene->isSaved();
   state["duration"] = session.duration();
   state["controls"] = controlsOf(session.controls());
@@ -231,6 +232,7 @@ std::string motionMembers(const MotionNews& news) {
   members["nail_error"] = number(update.nail_error);
   members["stopped"] = update.stopped;
   members["more"] = news.more;
+  if (news.freed) members["freed"] = true;
   members["obstacle"] = {{"kind", nameOf(update.obstacle.kind)},
                          {"numbers", update.obstacle.at_bounds},
                          {"sentence", update.obstacle.sentence}};

@@ -52,6 +52,7 @@ struct MotionNews {
   std::int64_t rev = 0;
   std::int64_t gesture = 0, seq = -1;  ///< that it came of; 0: none, below 0: none
   bool more = false;                   ///< it goes on towards the same target
+  bool freed = false;                  ///< the throw of what is held may vary since it was taken hold of
   const SessionUpdate* update = nullptr;
   const Motion* before = nullptr;  ///< that its changes are counted from; null: unknown
 };

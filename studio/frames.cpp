@@ -132,12 +132,14 @@ Json bodyOf(const BodyView& body, std::size_t index, Blocks& blocks) {
 
 std::string motionFrame(const MotionView& view, std::string_view members, const MotionView* sent) {
   Json header = headerOf("motion", members);
+  if (sent && sent->scene != view.scene) sent = nullptr;
   Blocks blocks;
   Json tracks = Json::array();
   for (std::size_t body = 0; body < view.tracks.size(); ++body) {
     const bool known = sent && body < sent->tracks.size() && sent->tracks[body] == view.tracks[body];
     if (!known) tracks.push_back(trackOf(view.tracks[body], body, blocks));
   }
+  add(header, "scene", view.scene);
   add(header, "end", view.end);
   add(header, "status", nameOf(view.status));
   add(header, "message", view.message);
@@ -149,12 +151,14 @@ std::string motionFrame(const MotionView& view, std::string_view members, const 
 
 std::string sceneFrame(const SceneView& view, std::string_view members, const SceneView* sent) {
   Json header = headerOf("scene", members);
+  if (sent && sent->scene != view.scene) sent = nullptr;
   Blocks blocks;
   Json bodies = Json::array();
   for (std::size_t body = 0; body < view.bodies.size(); ++body) {
     const bool known = sent && body < sent->bodies.size() && sent->bodies[body].looksLike(view.bodies[body]);
     if (!known) bodies.push_back(bodyOf(view.bodies[body], body, blocks));
   }
+  add(header, "scene", view.scene);
   add(header, "count", view.bodies.size());
   add(header, "extent", {{"min", listOf(view.low)}, {"max", listOf(view.high)}});
   add(header, "bodies", std::move(bodies));

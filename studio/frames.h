@@ -14,16 +14,18 @@
 /// functions throw InputError for one that is none or has members of theirs.
 namespace carom::studio {
 
-/// Type "motion": end, status, message, gravity, impacts [{t, point, bodies, nth, pairs, mode}] and tracks
+/// Type "motion": scene, end, status, message, gravity, impacts [{t, point, bodies, nth, pairs, mode}] and tracks
 /// [{body, arcs, stride, turns, center}]. Rows of `arcs` are float64 [t, position, velocity, acceleration], 10 numbers;
 /// where the track has a `stride` of 19, followed by [third, fourth, fifth]. Rows of `turns` are float32
-/// [t, w, x, y, z]. See DisplayTrack. Tracks that equal those of `sent`, which the reader has, are left out.
+/// [t, w, x, y, z]. See DisplayTrack. Tracks that equal those of `sent`, which the reader has, are left out where that
+/// was of the same scene.
 std::string motionFrame(const MotionView& view, std::string_view members = "{}", const MotionView* sent = nullptr);
 
-/// Type "scene": count (bodies that the scene has), extent {min, max} and bodies [{body, name, fixed, colour, center,
+/// Type "scene": scene (its number), count (bodies that the scene has), extent {min, max} and bodies [{body, name, fixed, colour, center,
 /// radius, pose {position, orientation}, and either plane {normal, offset} or vertices, normals, triangles, accent}],
 /// where rows of `vertices` and `normals` are float32 [x, y, z] and those of `triangles` and `accent` uint32, three
-/// vertices each. Equal meshes share their blocks. Bodies that look like those of `sent` are left out.
+/// vertices each. Equal meshes share their blocks. Bodies that look like those of `sent` are left out where that was the
+/// same scene.
 std::string sceneFrame(const SceneView& view, std::string_view members = "{}", const SceneView* sent = nullptr);
 
 }  // namespace carom::studio

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -25,9 +26,9 @@ struct Letter {
   Command command;    ///< what it asks for
 };
 
-/// Commands for the thread of the session, in the order in which they came; of the drags of a socket only the newest is
-/// kept, as what the hand wants now. A command that ends a drag takes the place of one that waits. May be used from any
-/// thread.
+/// Commands for the thread of the session, in the order in which they came; of the drags of a gesture that wait only the
+/// newest is kept, as what the hand wants now. What comes of the commands is what would come of all of them. May be used
+/// from any thread.
 class Mailbox {
  public:
   /// A socket with so many commands that wait should not be read.
@@ -36,8 +37,7 @@ class Mailbox {
   /// Adds a command and stops the work that it interrupts. False: its socket should not be read until `onRoom` says so.
   bool put(Letter letter) {
     const std::lock_guard lock(mutex_);
-    const bool is_drag = std::holds_alternative<Drag>(letter.command.what);
-    if (is_drag || endsDrag(letter.command)) dropDrag(letter.from);
+    dropDragBefore(letter);
     if (interrupts(letter.command)) work_.request_stop();
     if (endsHold(letter.command)) drag_.request_stop();
     rest_.request_stop();
@@ -99,13 +99,16 @@ class Mailbox {
     if (closed_ || std::any_of(letters_.begin(), letters_.end(), interrupts_it)) source.request_stop();
     return source.get_token();
   }
-  void dropDrag(SocketId from) {
-    const auto old = std::find_if(letters_.begin(), letters_.end(), [&](const Letter& letter) {
-      return letter.from == from && std::holds_alternative<Drag>(letter.command.what);
+  // The drag that waits before a letter, where the letter makes it needless.
+  void dropDragBefore(const Letter& letter) {
+    const auto old = std::find_if(letters_.rbegin(), letters_.rend(), [&](const Letter& other) {
+      return other.from == letter.from && !passesDrags(other.command);
     });
-    if (old == letters_.end()) return;
-    letters_.erase(old);
-    leave(from);
+    if (old == letters_.rend()) return;
+    const Drag* drag = std::get_if<Drag>(&old->command.what);
+    if (drag == nullptr || !makesNeedless(letter.command, *drag)) return;
+    letters_.erase(std::next(old).base());
+    leave(letter.from);
   }
   // Whether its socket may be read again, which it was not.
   bool leave(SocketId from) {

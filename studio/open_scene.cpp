@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 
 #include "adjoint/scene/scene.h"
@@ -83,7 +84,7 @@ void takeOver(Scene& scene, const Scene& now, const Json& after, const Json& bef
 }  // namespace
 
 OpenScene::OpenScene(OpenedFile file, const std::string& name, std::optional<std::string> path, SessionOptions options)
-    : opened_(parseDocument(file.text, name, file.folder)), path_(std::move(path)) {
+    : opened_(parseDocument(file.text, name, file.folder)), name_(name), path_(std::move(path)) {
   inFile(name, [&] {
     first_ = last_ = {std::move(file), writeDocument(opened_)};
     options.unmet_nails_off = true;
@@ -101,6 +102,11 @@ Document OpenScene::document() const {
   document.constraints.clear();
   for (const NailId id : session_->nails()) document.constraints.push_back(session_->constraintOf(id));
   return document;
+}
+
+std::string OpenScene::suggestedName() const {
+  const std::filesystem::path file = name_;
+  return file.stem().string() + "-copy.json";
 }
 
 bool OpenScene::isChanged() const { return writeDocument(document()) != last_.document; }

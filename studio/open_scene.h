@@ -24,6 +24,8 @@ class OpenScene {
   const EditSession& session() const { return *session_; }
   const Document& opened() const { return opened_; }  ///< as it was read
   const std::optional<std::string>& path() const { return path_; }
+  /// A name for it where it has no file: "hat-copy.json" of "hat.json".
+  std::string suggestedName() const;
 
   /// As it is now; with what is grabbed left out.
   Document document() const;
@@ -50,6 +52,7 @@ class OpenScene {
 
   Document opened_;
   Written first_, last_;  // as it was opened, and as it was opened or saved last
+  std::string name_;  // of the file that it was read from
   std::optional<std::string> path_;
   std::unique_ptr<OdeContacts> contacts_;
   std::unique_ptr<EditSession> session_;

@@ -36,6 +36,8 @@ Grip readGrip(const Json& value) {
   Grip grip;
   if (value.contains("point")) grip.body_point = readVector(value["point"]);
   grip.orientation = value.value("orientation", false);
+  grip.place = value.value("place", true);
+  if (!grip.place && !grip.orientation) fail("/grip/place", "false", "true, or an orientation that is held");
   grip.components = value.value("components", std::vector<std::string>());
   const std::set<std::string> once(grip.components.begin(), grip.components.end());
   if (once.size() != grip.components.size())
@@ -58,7 +60,12 @@ What readGrab(const Json& m) {
   grab.body = m["body"].get<std::string>();
   grab.at = readAt(m["at"]);
   if (m.contains("grip")) grab.grip = readGrip(m["grip"]);
+  if (m.contains("grip")) grab.contact = m["grip"].value("contact", false);
+  if (grab.contact && (grab.at.impact == 0 || grab.grip.body_point))
+    fail("/grip/contact", "true", "false: there is no impact, or another point is held");
   if (m.contains("also_vary")) grab.also_vary = compactText(m["also_vary"]);
+  grab.free = m.value("free", false);
+  if (grab.free && !grab.also_vary.empty()) fail("/free", "true", "false: also_vary says what varies");
   return grab;
 }
 
@@ -172,7 +179,17 @@ bool interrupts(const Command& command) { return !isOneOf<Hello, Drag, Release, 
 
 bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
 
-bool endsDrag(const Command& command) { return isOneOf<Release, Cancel, Undo, Redo, Gone>(command); }
+bool makesNeedless(const Command& later, const Drag& waiting) {
+  // an orientation that is not said anew stays the one that was said last
+  const auto says_all = [&](const auto& hand) { return hand.orientation || !waiting.orientation; };
+  if (const Drag* drag = std::get_if<Drag>(&later.what)) return drag->gesture == waiting.gesture && says_all(*drag);
+  if (const Release* release = std::get_if<Release>(&later.what))
+    return release->gesture == waiting.gesture && release->place && release->seq > waiting.seq && says_all(*release);
+  if (const Cancel* cancel = std::get_if<Cancel>(&later.what)) return cancel->gesture == waiting.gesture;
+  return isOneOf<Undo, Gone>(later);
+}
+
+bool passesDrags(const Command& command) { return isOneOf<Stop, Save, List, Gallery>(command); }
 
 Command readCommand(std::string_view text) {
   std::int64_t number = 0;

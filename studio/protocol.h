@@ -32,7 +32,9 @@ struct Grab {
   std::string body;          ///< its name
   When at = 0.0;             ///< when, of the motion
   Grip grip;                 ///< how
+  bool contact = false;      ///< by the middle of its contacts there, at an impact, in place of Grip::body_point
   std::string also_vary;     ///< controls, a JSON array; empty: none
+  bool free = false;         ///< where nothing that varies moves it, its throw varies from here on
 };
 /// Takes hold of the target of a nail.
 struct GrabNail {
@@ -116,8 +118,11 @@ struct Command {
 bool interrupts(const Command& command);
 /// Ends a gesture as if it had not been, or asks for less: what a drag under way comes to does not matter.
 bool endsHold(const Command& command);
-/// After it, where the hand was before does not matter.
-bool endsDrag(const Command& command);
+/// What a drag that waits would come to does not matter once this command of the same page comes: it says where the
+/// hand is now, or puts everything back. A release without a target of its own needs the drag before it.
+bool makesNeedless(const Command& later, const Drag& waiting);
+/// Comes to the same before and after a drag that waits.
+bool passesDrags(const Command& command);
 
 /// What is wrong with a message; `re` is its number, where it could be read.
 class MessageError : public InputError {

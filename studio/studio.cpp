@@ -2,6 +2,7 @@
 #include "studio/studio.h"
 
 #include <filesystem>
+#include <limits>
 #include <thread>
 
 #include "adjoint/base/errors.h"
@@ -20,6 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kSessionName = 8;  // random bytes
 constexpr std::size_t kNonce = 16;
+/// Steps of simulations: a quarter of a second's worth for an update, and two seconds' for a release, where this was chosen.
+constexpr double kDragSteps = 1e5, kReleaseSteps = 1.5e6;
 
 /// The folder of the workspace, and the name of the first scene in it.
 struct Start {
@@ -57,6 +60,13 @@ WorkerOptions workerOptions(const StudioOptions& options, const fs::path& share)
 }
 
 }  // namespace
+
+SessionOptions countedWork() {
+  SessionOptions options;
+  options.drag_seconds = options.release_seconds = std::numeric_limits<double>::infinity();
+  options.drag_steps = kDragSteps, options.release_steps = kReleaseSteps;
+  return options;
+}
 
 int studio(const StudioOptions& options) {
   const std::string share = options.share.empty() ? studioFolder() : options.share;

@@ -10,6 +10,9 @@
 
 namespace carom::studio {
 
+/// Work is counted and never timed, so that a hand comes to the same on every machine.
+SessionOptions countedWork();
+
 /// How the studio is started.
 struct StudioOptions {
   std::string scene;        ///< document that is open at first; empty: none
@@ -17,7 +20,7 @@ struct StudioOptions {
   unsigned short port = 0;  ///< 0: one that is free
   std::string share;        ///< folder of the page, three.js and the example scenes; empty: as installed
   Limits limits;            ///< what clients may take
-  SessionOptions solving;   ///< how sessions solve
+  SessionOptions solving = countedWork();  ///< how sessions solve
   std::function<void(const std::string& address)> ready;  ///< it serves; called once, with the address of the page
   std::stop_token stop;                                   ///< ends it
 };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "adjoint/base/errors.h"
+#include "adjoint/scene/scene.h"
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/drawing/palette.hpp"
 #include "formats/shapes/rows.hpp"
@@ -43,12 +45,36 @@ ImpactView impactOf(const Event& event) {
 }  // namespace
 
 MotionView viewOf(const Motion& motion) {
-  MotionView view{motion.scene->gravity, motion.end, motion.status, motion.message, {}, {}};
+  MotionView view{motion.scene->gravity, motion.end, motion.status, motion.message, {}, {}, 0};
   for (const Event& event : motion.events)
     if (event.counts()) view.impacts.push_back(impactOf(event));
   for (int body = 0; body < static_cast<int>(motion.scene->bodies.size()); ++body)
     view.tracks.push_back(displayTrack(motion, body));
   return view;
+}
+
+namespace {
+
+/// Throws InputError where it does not come.
+int impactAt(const Motion& motion, int index, const std::string& body, const When& at) {
+  const auto event = motion.findImpact(index, at.impact, at.with.empty() ? -1 : bodyIndex(*motion.scene, at.with));
+  if (!event)
+    throw InputError("/at", "found an impact " + std::to_string(at.impact) + " of '" + body + "' that does not come, " +
+                                "expected one of the motion");
+  return *event;
+}
+
+}  // namespace
+
+Vec3 contactPlace(const Motion& motion, const std::string& body, const When& at) {
+  const int event = impactAt(motion, bodyIndex(*motion.scene, body), body, at);
+  return impactOf(motion.events[static_cast<std::size_t>(event)]).point;
+}
+
+Vec3 contactPoint(const Motion& motion, const std::string& body, const When& at) {
+  const int index = bodyIndex(*motion.scene, body);
+  const BodyState state = motion.stateBefore(impactAt(motion, index, body, at), index);
+  return state.orientation.conjugate() * (contactPlace(motion, body, at) - state.position);
 }
 
 bool BodyView::looksLike(const BodyView& other) const {
@@ -60,7 +86,7 @@ bool BodyView::looksLike(const BodyView& other) const {
 SceneView sceneViewOf(const Motion& motion) {
   const Scene& scene = *motion.scene;
   const Extent extent = motionExtent(motion);
-  SceneView view{{}, extent.min(), extent.max()};
+  SceneView view{{}, extent.min(), extent.max(), 0};
   for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {
     const Body& written = scene.bodies[static_cast<std::size_t>(body)];
     BodyView drawn;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "adjoint/motion/motion.h"
+#include "editing/constraint.h"
 #include "formats/drawing/display.h"
 
 /// What a page shows of scenes and motions: by value, so that any thread may keep, compare and send it.
@@ -32,9 +34,15 @@ struct MotionView {
   std::string message;                           ///< one sentence
   std::vector<ImpactView> impacts;               ///< in increasing order of time
   std::vector<DisplayTrack> tracks;              ///< one a body, fixed ones included
+  std::int64_t scene = 0;                        ///< of which scene: counted as they are opened
 };
 /// Throws InputError as displayTrack does.
 MotionView viewOf(const Motion& motion);
+
+/// The middle of the contacts of a body's impact, in the axes of its shape, m. Throws InputError where that does not come.
+Vec3 contactPoint(const Motion& motion, const std::string& body, const When& at);
+/// The same in the world.
+Vec3 contactPlace(const Motion& motion, const std::string& body, const When& at);
 
 /// An endless plane: its points x, in the axes of the shape, have normal . x = offset.
 struct PlaneView {
@@ -65,6 +73,7 @@ struct SceneView {
   std::vector<BodyView> bodies;  ///< all of them, in the order of the scene
   Vec3 low = Vec3::Zero();       ///< corner of a box around everything that moves, shapes included, m
   Vec3 high = Vec3::Zero();      ///< the other corner
+  std::int64_t scene = 0;        ///< counted as scenes are opened: nothing of one belongs to another
 };
 /// `motion` is of the scene that is shown.
 SceneView sceneViewOf(const Motion& motion);

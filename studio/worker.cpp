@@ -6,6 +6,15 @@
 #include "studio/refusal.h"
 
 namespace carom::studio {
+namespace {
+
+/// The throw of a body, cheap beside the numbers that a person let vary.
+std::vector<Control> throwOf(const std::string& body) {
+  constexpr double kWeight = 0.2;
+  return {velocity(body).weighted(kWeight), angularVelocity(body).weighted(kWeight)};
+}
+
+}  // namespace
 
 Worker::Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions options)
     : mailbox_(mailbox), workspace_(workspace), options_(std::move(options)), tabs_(std::move(post)) {
@@ -80,9 +89,10 @@ template <class Take>
 void Worker::beginGesture(const Asker& asker, std::int64_t gesture, const Take& take) {
   if (hold_) cancelHold({});  // of a page that forgot it
   const std::shared_ptr<const Motion> before = session().last().motion;
+  const std::size_t varied = session().controls().size();
   const SessionUpdate update = take();
-  hold_ = Hold{asker.socket, gesture, -1, before, false};
   const std::vector<Control>& controls = session().controls();
+  hold_ = Hold{asker.socket, gesture, -1, before, controls.size() > varied};
   sizes_vary_ = std::any_of(controls.begin(), controls.end(), [](const Control& c) { return c.vary == "size"; });
   sayMotion(asker, update, false, false);
   sayState(asker);
@@ -93,10 +103,15 @@ void Worker::beginGesture(const Asker& asker, std::int64_t gesture, const Take& 
 
 void Worker::sayMotion(const Asker& asker, const SessionUpdate& update, bool more, bool gives_way) {
   if (sizes_vary_ && viewed_ != update.motion) sayScene({}, *update.motion);
-  if (viewed_ != update.motion) view_ = std::make_shared<const MotionView>(viewOf(*update.motion));
+  if (viewed_ != update.motion) {
+    auto view = std::make_shared<MotionView>(viewOf(*update.motion));
+    view->scene = opened_;
+    view_ = std::move(view);
+  }
   viewed_ = update.motion;
   const std::int64_t gesture = hold_ ? hold_->gesture : 0, seq = hold_ ? hold_->seq : -1;
-  const MotionNews news{rev_, gesture, seq, more, &update, hold_ ? hold_->before.get() : nullptr};
+  const bool freed = hold_ && hold_->freed;
+  const MotionNews news{rev_, gesture, seq, more, freed, &update, hold_ ? hold_->before.get() : nullptr};
   tabs_.showMotion(asker.socket, asker.id, view_, motionMembers(news), gives_way);
 }
 
@@ -105,7 +120,8 @@ void Worker::sayState(const Asker& asker) {
 }
 
 void Worker::sayScene(const Asker& asker, const Motion& motion) {
-  auto view = std::make_shared<const SceneView>(sceneViewOf(motion));
+  auto view = std::make_shared<SceneView>(sceneViewOf(motion));
+  view->scene = opened_;
   const bool same = scene_view_ && std::ranges::equal(scene_view_->bodies, view->bodies, &BodyView::looksLike);
   if (same && asker.id == 0) return;
   scene_view_ = std::move(view);
@@ -120,18 +136,40 @@ void Worker::sayAll(const Asker& asker) {
 
 // --------------------------------------------------------------------------------------------------------------- drags
 
+/// A contact that is held may be another point of the body at its new place: what is held goes there with it.
 void Worker::dragThere(const Vec3& place, const std::optional<Quat>& orientation) {
+  constexpr int kRounds = 4;
+  constexpr double kNear = 1e-5;  // m
   const std::stop_token stop = mailbox_.beginDrag();
-  const SessionUpdate update =
-      orientation ? session().dragTo(place, *orientation, stop) : session().dragTo(place, stop);
-  hold_->resting = !update.reached;
+  EditSession& session = this->session();
+  const auto beside = [&]() -> Vec3 {  // from the contact to the held point
+    if (!hold_->contact) return Vec3::Zero();
+    return session.grabbedPlace() - contactPlace(session.motion(), hold_->body, *hold_->contact);
+  };
+  hold_->asked = place;
+  Vec3 off = beside();
+  for (int round = 0;; ++round) {
+    const Vec3 held = place + off;
+    const SessionUpdate update = orientation ? session.dragTo(held, *orientation, stop) : session.dragTo(held, stop);
+    hold_->resting = !update.reached;
+    const Vec3 now = beside();
+    if (!update.reached || (now - off).norm() <= kNear || round == kRounds || stop.stop_requested()) return;
+    off = now;
+  }
 }
 
 void Worker::perform(const Asker& asker, const Grab& grab) {
   EditSession& session = sessionFor(asker);
   std::vector<Control> also_vary;
   if (!grab.also_vary.empty()) also_vary = readControlsText(grab.also_vary, session.scene(), "/also_vary");
-  beginGesture(asker, grab.gesture, [&] { return session.grab(grab.body, grab.at, grab.grip, also_vary); });
+  if (grab.free) also_vary = throwOf(grab.body);
+  const AlsoVary wanted = grab.free ? AlsoVary::where_nothing_moves_it : AlsoVary::always;
+  Grip grip = grab.grip;
+  beginGesture(asker, grab.gesture, [&] {
+    if (grab.contact) grip.body_point = contactPoint(session.motion(), grab.body, grab.at);
+    return session.grab(grab.body, grab.at, grip, also_vary, wanted);
+  });
+  if (grab.contact) hold_->contact = grab.at, hold_->body = grab.body;
 }
 
 void Worker::perform(const Asker& asker, const GrabNail& grab) {
@@ -152,7 +190,8 @@ void Worker::rest() {
   const SessionUpdate update =
       session.dwell(stop, [this](const SessionUpdate& better) { sayMotion({}, better, true, true); });
   hold_->resting = update.stopped || (!update.reached && update.moved);
-  if (!update.stopped || update.moved) sayMotion({}, update, hold_->resting, true);
+  if (hold_->contact && update.reached) dragThere(*hold_->asked, std::nullopt);
+  if (!update.stopped || update.moved) sayMotion({}, session.last(), hold_->resting, true);
 }
 
 void Worker::perform(const Asker& asker, const Release& release) {

@@ -51,6 +51,10 @@ class Worker {
     SocketId socket = 0;
     std::int64_t gesture = 0, seq = -1;
     std::shared_ptr<const Motion> before;
+    bool freed = false;    // its throw varies since
+    std::optional<When> contact = std::nullopt;  // the impact whose contact is held
+    std::string body = {};
+    std::optional<Vec3> asked = std::nullopt;  // where the hand was last
     bool resting = false;  // the hand rests before its target was reached
   };
 
@@ -91,6 +95,7 @@ class Worker {
   template <class Take>
   void beginGesture(const Asker& asker, std::int64_t gesture, const Take& take);
   void dragThere(const Vec3& place, const std::optional<Quat>& orientation);
+  bool isExample(const std::string& path) const;
   void show(const OpenedFile& file, const std::string& name, std::optional<std::string> path);
   void sayMotion(const Asker& asker, const SessionUpdate& update, bool more, bool gives_way);
   void sayState(const Asker& asker);
@@ -108,6 +113,7 @@ class Worker {
   std::optional<Hold> hold_;
   std::vector<Letter> saves_;  // asked for in a gesture: they wait for its end
   std::int64_t rev_ = 0;
+  std::int64_t opened_ = 0;  // scenes so far
   bool sizes_vary_ = false;               // in the gesture under way
   std::shared_ptr<const Motion> viewed_;  // what view_ shows
   std::shared_ptr<const MotionView> view_;

@@ -30,7 +30,7 @@ void Worker::perform(const Asker& asker, const Hello& hello) {
   tabs_.tell(asker.socket, answering(asker.id, welcomeMessage(options_.session, workspace_.folder(), options_.limits)));
   if (scene_) {
     tabs_.showSceneTo(asker.socket, asker.id, scene_view_);
-    const MotionNews news{rev_, 0, -1, false, &scene_->session().last(), nullptr};
+    const MotionNews news{rev_, 0, -1, false, false, &scene_->session().last(), nullptr};
     tabs_.showMotionTo(asker.socket, asker.id, view_, motionMembers(news), false);
   }
   tabs_.tell(asker.socket, answering(asker.id, stateMessage(rev_, scene_.get(), heldBy())));
@@ -110,13 +110,20 @@ void Worker::perform(const Asker& asker, const SetNumbers& set) {
 void Worker::show(const OpenedFile& file, const std::string& name, std::optional<std::string> path) {
   auto opened = std::make_unique<OpenScene>(file, name, std::move(path), options_.solving);
   scene_ = std::move(opened);
+  ++opened_;
   scene_view_.reset();
   hold_.reset();
+  sizes_vary_ = false;
   ++rev_;
 }
 
+/// Examples are nobody's own files: they open as copies that are not saved.
+bool Worker::isExample(const std::string& path) const {
+  return gallery_ && workspace_.folderOf(path) == gallery_->folder();
+}
+
 void Worker::openFirst(const std::string& path) {
-  show(workspace_.open(path), path, path);
+  show(workspace_.open(path), path, isExample(path) ? std::nullopt : std::optional(path));
   sayAll({});
 }
 
@@ -127,7 +134,8 @@ void Worker::perform(const Asker& asker, const Open& open) {
   if (open.gallery && !gallery_) throw InputError("found no gallery, expected one beside the page");
   tabs_.tell(asker.socket, answering(asker.id, progressMessage("opening " + open.path)));
   const OpenedFile file = (open.gallery ? *gallery_ : workspace_).open(open.path);
-  show(file, open.path, open.gallery ? std::nullopt : std::optional(open.path));
+  const bool example = open.gallery || isExample(open.path);
+  show(file, open.path, example ? std::nullopt : std::optional(open.path));
   sayAll(asker);
 }
 

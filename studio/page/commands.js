@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a person can do besides dragging: called by keys, buttons and menus alike.
 
-import { hitAt } from './gesture.js';
+import { hitAt } from './take.js';
 import { moves } from './motion.js';
 
 /** @typedef {import('./types.js').State} State */
@@ -64,7 +64,7 @@ export class Commands {
       this.savingWaits = true;
       return;
     }
-    const where = path ?? document.path ?? (await this.askName('scene.json'));
+    const where = path ?? document.path ?? (await this.askName(document.suggested ?? 'scene.json'));
     if (!where) return;
     try {
       const answer = await this.tell('save', { ...(path || !document.path ? { path: where } : {}), ...(replace ? { replace } : {}) });
@@ -85,7 +85,7 @@ export class Commands {
   }
 
   async saveAs() {
-    const name = await this.askName(this.store.state.document?.path ?? 'scene.json');
+    const { document } = this.store.state, name = await this.askName(document?.path ?? document?.suggested ?? 'scene.json');
     if (name) await this.save(name);
   }
 
@@ -96,7 +96,12 @@ export class Commands {
       await this.tell('open', { ...what, ...(replace ? { replace } : {}) });
     } catch (error) {
       this.store.set({ progress: '' });
-      if (await this.ask(/** @type {any} */ (error).message, 'Open, and lose the steps')) return this.open(what, true);
+      const how = await this.choose(/** @type {any} */ (error).message, [['lose', 'Open, and lose the steps'], ['save', 'Save, then open']]);
+      if (how === 'lose') return this.open(what, true);
+      if (how === 'save') {
+        await this.save();
+        if (this.store.state.document?.saved) return this.open(what);
+      }
     }
     this.store.set({ progress: '' });
   }

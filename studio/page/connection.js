@@ -116,11 +116,13 @@ export class DragSender {
     this.unanswered = false;
     /** @type {DragTarget | null} */
     this.waiting = null;
+    /** @type {DragTarget | null} */
+    this.newest = null;
   }
 
   /** @param {DragTarget} target */
   offer(target) {
-    this.waiting = target;
+    this.waiting = this.newest = target;
     this.go();
   }
 
@@ -139,10 +141,10 @@ export class DragSender {
     this.send({ gesture: this.gesture, seq: ++this.seq, ...target });
   }
 
-  /** What goes with the release: the target that has not been sent, if there is one. */
+  /** What goes with the release: the newest target, whether it has been sent or not, so that none is lost. */
   last() {
-    const target = this.waiting;
+    if (this.waiting) ++this.seq;
     this.waiting = null;
-    return { gesture: this.gesture, seq: target ? ++this.seq : this.seq, ...target };
+    return { gesture: this.gesture, seq: this.seq, ...this.newest };
   }
 }

@@ -3,17 +3,16 @@
 // screen through `space` and the server through `connection`, so that tests can stand in for both.
 
 import { DragSender } from './connection.js';
-import { controlsMove, throwOf } from './causes.js';
-import { pointAt, turnAt } from './motion.js';
 import { evaluate } from './number_field_text.js';
 import { idleGesture } from './store.js';
-import { Move, nextAxis } from './tools/move.js';
+import { gripOf, refusal, toolFor } from './take.js';
+import { nextAxis } from './tools/move.js';
 import { Turn } from './tools/turn.js';
 
 /** @typedef {import('./types.js').Hit} Hit */
 /** @typedef {import('./types.js').Vec3} Vec3 */
-/** @typedef {{ray: (x: number, y: number) => import('./tools/move.js').Ray, project: (p: Vec3) => [number, number],
- *    camera: () => {view: Vec3, right: Vec3, up: Vec3, perPixel: (p: Vec3) => number}}} Space */
+/** @typedef {import('./take.js').Space} Space */
+/** @typedef {import('./tools/move.js').Move} Move */
 /** @typedef {{store: import('./store.js').Store<import('./types.js').State>, space: Space,
  *    connection: Pick<import('./connection.js').Connection, 'send' | 'request'>,
  *    select: (hit: Hit | null) => void, ended: (how: 'released' | 'cancelled', answer: any, nailed: boolean) => void,
@@ -79,7 +78,8 @@ export class Gesture {
 
   /** @param {number} x @param {number} y */
   up(x, y) {
-    this.pointer = [x, y];
+    // a quick hand comes here without a move before it
+    if (!this.byKey && (x !== this.pointer[0] || y !== this.pointer[1])) this.move(x, y);
     const { state, hit } = this.now;
     if (state === 'pressed') {
       this.store.set({ gesture: idleGesture });
@@ -100,15 +100,15 @@ export class Gesture {
 
   /** @param {Hit} hit @param {boolean} by_key */
   begin(hit, by_key) {
-    const refusal = this.refusal(hit);
-    if (refusal) {
-      this.store.set({ gesture: idleGesture, notice: { message: refusal } });
+    const why_not = refusal(this.store.state, hit);
+    if (why_not) {
+      this.store.set({ gesture: idleGesture, notice: { message: why_not } });
       return;
     }
     const { motion } = this.store.state;
     if (!motion) return;
     this.byKey = by_key;
-    this.tool = this.makeTool(hit);
+    this.tool = toolFor(this.store.state, this.space, hit, this.from);
     this.store.set({
       before: motion, changesShown: false, card: null, selected: hit.body, time: hit.time,
       gesture: { ...idleGesture, state: 'dragging', hit, axis: this.tool.axis },
@@ -116,34 +116,9 @@ export class Gesture {
     this.grab();
   }
 
-  /** Why a body cannot be held; empty where it can. @param {Hit} hit */
-  refusal(hit) {
-    const { document, locked } = this.store.state, body = document?.bodies[hit.body];
-    if (!document || !body) return 'Nothing is open.';
-    if (body.fixed) return `'${body.name}' is fixed: it does not move.`;
-    if (body.kinematic) return `'${body.name}' moves as it is written: nothing moves it.`;
-    if (locked.has(body.name)) return `'${body.name}' is locked; the switch is in the list of bodies.`;
-    return '';
-  }
-
-  /** @param {Hit} hit */
-  makeTool(hit) {
-    const { motion, tool } = this.store.state, track = motion?.tracks[hit.body];
-    if (!track) throw new Error('a body without a track is held');
-    const { view, right, up } = this.space.camera(), handle = hit.handle ?? '';
-    const turn = turnAt(track, hit.time);
-    if (hit.kind !== 'nail' && (handle.startsWith('ring') || (!handle && tool === 'turn'))) {
-      const centre = this.space.project(hit.place);
-      return new Turn({ start: hit.place, turn, view, right, up, pointer: this.from, centre, axis: handle.replace('ring ', '') });
-    }
-    const move = new Move({ start: hit.place, turn, ray: this.space.ray(...this.from), view });
-    if (handle) move.setAxis(handle);
-    return move;
-  }
-
   /** Tells the server what is held; again where the axis changes what is held. */
   grab() {
-    const { hit } = this.now, { document, motion, leaveRestFree } = this.store.state;
+    const { hit } = this.now, { document, motion } = this.store.state;
     if (!hit || !document || !motion || !this.tool) return;
     const gesture = ++this.number;
     this.sender = new DragSender((members) => void (this.dragId = this.connection.send('drag', members)), gesture);
@@ -152,16 +127,10 @@ export class Gesture {
     if (hit.kind === 'nail') {
       asked = this.connection.request('grab_nail', { gesture, nail: hit.nail });
     } else {
-      const body = document.bodies[hit.body].name, { center } = motion.tracks[hit.body];
-      const components = leaveRestFree ? this.tool.components() : null;
-      const grip = {
-        ...(center.some((c) => Math.abs(c) > 1e-12) ? { point: center } : {}),
-        ...(this.tool instanceof Turn ? { orientation: true } : {}),
-        ...(components ? { components } : {}),
-      };
-      const free = !controlsMove(document, motion.impacts, hit.body, hit.time);
-      asked = this.connection.request('grab', { gesture, body, at: hit.at, grip, ...(free ? { also_vary: throwOf(body) } : {}) });
-      if (free) this.sayThatThrowVaries(body);
+      const body = document.bodies[hit.body].name, grip = gripOf(this.store.state, hit, this.tool);
+      asked = this.connection.request('grab', { gesture, body, at: hit.at, grip, free: true }).then((answer) => {
+        if (answer.freed) this.sayThatThrowVaries(body);
+      });
     }
     asked.catch((error) => {
       if (this.now.number !== gesture) return;
@@ -191,9 +160,22 @@ export class Gesture {
   setAxis(letter, plane) {
     if (this.now.state !== 'dragging' || !this.tool) return;
     const axis = nextAxis(this.tool.axis, letter, plane);
-    this.tool.setAxis(axis);
-    this.put({ axis: this.tool.axis });
-    if (this.store.state.leaveRestFree && this.now.hit?.kind !== 'nail') {
+    this.alter((tool) => tool.setAxis(axis));
+  }
+
+  /** Off the surface that the drag slides on, or back onto it. */
+  lift() {
+    if (this.now.state === 'dragging') this.alter((tool) => void tool.lift());
+  }
+
+  /** Another way to move: where other components are held, the body is taken hold of anew. @param {(tool: Move | Turn) => void} change */
+  alter(change) {
+    const { tool } = this, free = this.store.state.leaveRestFree;
+    if (!tool) return;
+    const before = String(tool.held(free));
+    change(tool);
+    this.put({ axis: tool.axis });
+    if (String(tool.held(free)) !== before && this.now.hit?.kind !== 'nail') {
       this.connection.send('cancel', { gesture: this.now.number });
       this.grab();
     }
@@ -290,11 +272,4 @@ export class Gesture {
     if (state !== 'idle') this.store.set({ gesture: idleGesture, before: null });
     return was_held;
   }
-}
-
-/** What a body is held by where the play head is. @param {import('./types.js').Motion} motion @param {number} body
- * @param {number} time @returns {Hit} */
-export function hitAt(motion, body, time) {
-  const track = motion.tracks[body];
-  return { kind: 'body', body, time, at: time, place: pointAt(track, track.center, time) };
 }

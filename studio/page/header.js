@@ -80,11 +80,12 @@ function showTools(store, commands) {
   const move = button('tool-move', () => store.set({ tool: 'move' })), turn = button('tool-turn', () => store.set({ tool: 'turn' }));
   button('tool-nail', () => void commands.nailHere());
   const nailing = button('nail-on-release', () => store.set({ nailOnRelease: !store.state.nailOnRelease }));
-  const free = button('leave-rest-free', () => store.set({ leaveRestFree: !store.state.leaveRestFree }));
-  store.on(['tool', 'nailOnRelease', 'leaveRestFree'], ({ tool, nailOnRelease, leaveRestFree }) => {
+  const free = button('leave-rest-free', () => store.set(store.state.tool === 'turn' ? { turnLeavesPlace: !store.state.turnLeavesPlace } : { leaveRestFree: !store.state.leaveRestFree }));
+  store.on(['tool', 'nailOnRelease', 'leaveRestFree', 'turnLeavesPlace'], ({ tool, nailOnRelease, leaveRestFree, turnLeavesPlace }) => {
     move.setAttribute('aria-pressed', String(tool === 'move'));
     turn.setAttribute('aria-pressed', String(tool === 'turn'));
     nailing.setAttribute('aria-pressed', String(nailOnRelease));
-    free.setAttribute('aria-pressed', String(leaveRestFree));
+    free.setAttribute('aria-pressed', String(tool === 'turn' ? turnLeavesPlace : leaveRestFree));
+    free.title = tool === 'turn' ? 'Turns leave the place free' : 'Drags along an axis leave the rest free';
   });
 }

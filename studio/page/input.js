@@ -132,7 +132,7 @@ export function listenToKeys({ store, gesture, commands, frame, overlay }) {
     /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
     const acts = {
       'axis x': () => gesture.setAxis('x', shift), 'axis y': () => gesture.setAxis('y', shift), 'axis z': () => gesture.setAxis('z', shift),
-      confirm: () => gesture.release(), cancel: () => void (gesture.cancel() || store.set({ selected: -1, selectedNail: -1 })),
+      lift: () => gesture.lift(), confirm: () => gesture.release(), cancel: () => void (gesture.cancel() || store.set({ selected: -1, selectedNail: -1 })),
       earlier: () => commands.stepFrame(-1), later: () => commands.stepFrame(1), 'impact before': () => commands.stepImpact(-1),
       'impact after': () => commands.stepImpact(1), 'body before': () => commands.selectNext(-1), 'body after': () => commands.selectNext(1),
       start: () => commands.seek(0), end: () => commands.seek(Infinity),

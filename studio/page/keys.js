@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What keys do. None acts while a field has the focus.
 
-/** @typedef {'move' | 'turn' | 'nail' | 'remove' | 'axis x' | 'axis y' | 'axis z' | 'confirm' | 'cancel' | 'play' |
+/** @typedef {'move' | 'turn' | 'nail' | 'remove' | 'axis x' | 'axis y' | 'axis z' | 'lift' | 'confirm' | 'cancel' | 'play' |
  *    'earlier' | 'later' | 'impact before' | 'impact after' | 'start' | 'end' | 'undo' | 'redo' | 'save' | 'open' |
  *    'frame' | 'frame all' | 'before' | 'panel' | 'keys' | 'body before' | 'body after'} Action */
 
@@ -14,6 +14,7 @@ export const keyTable = [
   { action: 'axis x', name: 'in a drag: along x, again: its own x', blender: ['X'], maya: ['X'] },
   { action: 'axis y', name: 'in a drag: along y', blender: ['Y'], maya: ['Y'] },
   { action: 'axis z', name: 'in a drag: along z', blender: ['Z'], maya: ['Z'] },
+  { action: 'lift', name: 'in a drag: off the surface, back onto it', blender: ['L'], maya: ['L'] },
   { action: 'confirm', name: 'confirm', blender: ['Enter'], maya: ['Enter'] },
   { action: 'cancel', name: 'cancel', blender: ['Escape'], maya: ['Escape'] },
   { action: 'play', name: 'play', blender: ['Space'], maya: ['Space'] },
@@ -37,7 +38,7 @@ export const keyTable = [
 ];
 
 /** Actions of a drag under way; all others wait for its end. @type {ReadonlySet<string>} */
-const inDrag = new Set(['axis x', 'axis y', 'axis z', 'confirm', 'cancel', 'nail', 'before', 'save']);
+const inDrag = new Set(['axis x', 'axis y', 'axis z', 'lift', 'confirm', 'cancel', 'nail', 'before', 'save']);
 
 /** "Ctrl+Shift+Z" of a key event. @param {{key: string, ctrlKey: boolean, metaKey: boolean, shiftKey: boolean}} event */
 export function chordOf({ key, ctrlKey, metaKey, shiftKey }) {

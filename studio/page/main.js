@@ -16,6 +16,7 @@ import { showNotices } from './notice.js';
 import { Overlay } from './overlay/overlay.js';
 import { showBodies } from './panels/bodies.js';
 import { showNails } from './panels/nails.js';
+import { forPeople } from './number_field_text.js';
 import { showNumbers } from './panels/numbers.js';
 import { showPlayer } from './player.js';
 import { initialState, Store } from './store.js';
@@ -23,6 +24,7 @@ import { addTestHooks } from './test_hooks.js';
 import { TimeLine } from './timeline.js';
 import { frameView } from './view/framing.js';
 import { isHardware, qualityFor, rendererName } from './view/quality.js';
+import { touchedAt } from './view/touched.js';
 import { View } from './view/view.js';
 
 const query = new URLSearchParams(location.search);
@@ -67,13 +69,10 @@ function start() {
   let gesture = null;
   const connection = new Connection({
     url: `ws://${location.host}/socket`, token: takeToken(), tab: store.state.tab,
-    listener: listener({ store, gesture: () => gesture, opened: () => {
-      store.set({ selected: -1, selectedNail: -1, card: null, time: 0, playing: false, loopRange: null });
-      frame(-1, true);
-    } }),
+    listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true) }),
   });
   gesture = new Gesture({
-    store, connection, space: { ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
+    store, connection, space: { touched: (hit) => touchedAt(store.state, view.bodies.meshes, hit), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
     select: (hit) => {
       if (!hit) return;
       store.set({ selected: hit.body, selectedNail: hit.kind === 'nail' ? (hit.nail ?? -1) : -1, ...(hit.kind === 'handle' || hit.kind === 'body' ? {} : { time: hit.time }) });
@@ -128,7 +127,7 @@ function showLayout(store) {
   store.on(['motion', 'document'], ({ motion, document: shown }) => {
     const early = motion && shown?.open && motion.end < shown.duration - 1e-9;
     byId('ended').hidden = !early;
-    byId('ended').textContent = byId('ended').title = early ? motion.message || `The motion ends at ${motion.end.toFixed(3)} s.` : '';
+    byId('ended').textContent = byId('ended').title = early ? forPeople(motion.message || `The motion ends at ${motion.end.toFixed(3)} s.`) : '';
   });
   store.on(['panel'], ({ panel }) => {
     document.body.classList.toggle('folded', !panel);

@@ -4,6 +4,7 @@
 import { changesText } from './changes.js';
 import { motionOf, shapesOf } from './frames.js';
 import { timeOf } from './motion.js';
+import { closedDocument, nothingOfAScene } from './store.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {{store: import('./store.js').Store<State>, gesture: () => import('./gesture.js').Gesture | null,
@@ -11,25 +12,30 @@ import { timeOf } from './motion.js';
 
 /** @param {Parts} parts @returns {import('./connection.js').Listener} */
 export function listener({ store, gesture, opened }) {
-  let session = '', fresh = true;
+  // whose scene is shown, and whether the motion that comes next is its first one
+  let session = '', scene = NaN, first = false;
 
   /** @param {any} message */
   const welcome = (message) => {
     const restarted = session !== '' && session !== message.session, back = session === message.session;
     session = message.session;
-    fresh = !back;
+    if (!back) scene = NaN;
     const notice = restarted ? { message: 'The server was started again: steps that were not saved are lost.', kind: /** @type {const} */ ('amber') }
       : back && store.state.notice?.key === 'lost' ? null : store.state.notice;
     store.set({ connected: 'loading', folder: message.folder, notice });
   };
 
-  /** @param {import('./types.js').DocumentState} message */
+  /** Without a scene it has few members. @param {Partial<import('./types.js').DocumentState>} message */
   const state = (message) => {
-    const was_saved = store.state.document?.saved;
-    store.set({ document: message, connected: 'open', progress: '' });
-    if (message.saved && (!was_saved || !store.state.savedMotion)) store.set({ savedMotion: store.state.motion });
-    if (!message.open) store.set({ scene: null, motion: null, opened: null, before: null, selected: -1 });
-    if (!message.nails.some((nail) => nail.id === store.state.selectedNail)) store.set({ selectedNail: -1 });
+    const was_saved = store.state.document?.saved, document = { ...closedDocument, ...message };
+    if (!document.open) {
+      scene = NaN;
+      store.set({ ...nothingOfAScene(), document, connected: 'open', progress: '' });
+      return;
+    }
+    store.set({ document, connected: 'open', progress: '' });
+    if (document.saved && (!was_saved || !store.state.savedMotion)) store.set({ savedMotion: store.state.motion });
+    if (!document.nails.some((nail) => nail.id === store.state.selectedNail)) store.set({ selectedNail: -1 });
   };
 
   /** @param {any} message */
@@ -58,17 +64,21 @@ export function listener({ store, gesture, opened }) {
     },
     frame(frame) {
       if (frame.header.type === 'scene') {
-        store.set({ scene: shapesOf(frame, fresh ? null : store.state.scene) });
-        if (frame.header.count === frame.header.bodies.length) fresh = true;
+        const other = frame.header.scene !== scene;
+        const shapes = shapesOf(frame, other ? null : store.state.scene);
+        if (other) first = true;
+        scene = frame.header.scene;
+        const { notice } = store.state, stays = notice && (notice.kind ?? 'plain') !== 'plain' ? notice : null;
+        store.set({ ...(other ? { ...nothingOfAScene(), notice: stays } : {}), scene: shapes });
         return;
       }
       if (frame.header.type !== 'motion') return;
-      const motion = motionOf(frame, fresh ? null : store.state.motion);
-      const first = fresh;
-      fresh = false;
-      store.set({ motion, time: timeShown(store.state, motion), ...(first ? { opened: motion, savedMotion: motion, before: null, changesShown: false } : {}) });
+      if (frame.header.scene !== scene) throw new Error(`a motion is of scene ${frame.header.scene}, and scene ${scene} is shown`);
+      const motion = motionOf(frame, first ? null : store.state.motion), is_first = first;
+      first = false;
+      store.set({ motion, time: timeShown(store.state, motion), ...(is_first ? { opened: motion, savedMotion: motion } : {}) });
       gesture()?.answered(motion);
-      if (first) opened();
+      if (is_first) opened();
     },
   };
 }

@@ -41,6 +41,13 @@ export function velocityAt({ arcs, stride = parabolaNumbers }, t) {
   return [along(row + 1), along(row + 2), along(row + 3)];
 }
 
+/** m/s^2, of the centre of mass. @param {Track} track @param {number} t s @returns {Vec3} */
+export function accelerationAt({ arcs, stride = parabolaNumbers }, t) {
+  const row = rowAt(arcs, stride, t) * stride, s = t - arcs[row];
+  const along = (/** @type {number} */ k) => arcs[k + 6] + (stride > parabolaNumbers ? s * (6 * arcs[k + 9] + s * (12 * arcs[k + 12] + s * 20 * arcs[k + 15])) : 0);
+  return [along(row + 1), along(row + 2), along(row + 3)];
+}
+
 /** Shape to world. @param {Track} track @param {number} t s @returns {Quat} */
 export function turnAt({ turns }, t) {
   const i = rowAt(turns, turnNumbers, t), k = i * turnNumbers, next = k + turnNumbers;
@@ -157,13 +164,20 @@ export function timeOf(at, body, motion, names) {
   if (typeof at === 'number') return at <= motion.end ? at : null;
   if ('between' in at) return null;
   if ('rest' in at) return restTime(motion.tracks[body]);
+  return impactAt(at, body, motion, names)?.t ?? null;
+}
+
+/** The impact that documents name so. @param {import('./types.js').When} at @param {number} body
+ * @param {import('./types.js').Motion} motion @param {string[]} names @returns {import('./types.js').Impact | null} none: it does not come */
+export function impactAt(at, body, motion, names) {
+  if (typeof at === 'number' || !('impact' in at)) return null;
   let n = 0;
   for (const impact of motion.impacts) {
     const met = metBy(impact, body);
     if (at.with === undefined) {
-      if (impact.nth[impact.bodies.indexOf(body)] === at.impact) return impact.t;
+      if (impact.nth[impact.bodies.indexOf(body)] === at.impact) return impact;
     } else if (met.some((other) => names[other] === at.with) && ++n === at.impact) {
-      return impact.t;
+      return impact;
     }
   }
   return null;

@@ -2,8 +2,12 @@
 // One notice at a time, the card that says why a target was not reached, and what screen readers hear of them.
 
 import { byId, el, iconButton } from './dom.js';
+import { forPeople } from './number_field_text.js';
 
 /** @typedef {import('./types.js').Notice} Notice */
+
+/** ms, until what is no warning fades; with a button to press longer. */
+const fades = 6000, fadesWithButtons = 15000;
 
 /** @param {import('./store.js').Store<import('./types.js').State>} store */
 export function showNotices(store) {
@@ -18,14 +22,25 @@ export function showNotices(store) {
       act();
       if (name === 'Undo') close();
     } }, name));
-    place.append(el('span', {}, shown.message), ...buttons, iconButton('close', 'Close', close));
+    place.append(el('span', {}, forPeople(shown.message)), ...buttons, iconButton('close', 'Close', close));
   };
+  const close = () => store.set({ notice: null, changesShown: false });
+  /** What says that something went wrong stays until it is read; what is looked at or pointed at, too. */
+  const fade = () => {
+    const shown = store.state.notice;
+    if (!shown || (shown.kind ?? 'plain') !== 'plain') return;
+    if (notice.matches(':hover, :focus-within') || store.state.changesShown) timer = setTimeout(fade, 1000);
+    else close();
+  };
+  let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
   store.on(['notice'], (state) => {
-    show(notice, state.notice, () => store.set({ notice: null, changesShown: false }));
-    if (state.notice) live.textContent = state.notice.message;
+    show(notice, state.notice, close);
+    clearTimeout(timer);
+    if (state.notice) timer = setTimeout(fade, state.notice.actions?.length ? fadesWithButtons : fades);
+    if (state.notice) live.textContent = forPeople(state.notice.message);
   });
   store.on(['card'], (state) => {
     show(card, state.card, () => store.set({ card: null }));
-    if (state.card) live.textContent = state.card.message;
+    if (state.card) live.textContent = forPeople(state.card.message);
   });
 }

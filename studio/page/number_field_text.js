@@ -49,10 +49,21 @@ export function stepOf(scale) {
   return 10 ** Math.floor(Math.log10(Math.max(Math.abs(scale), 1e-9) / 10 + 1e-12));
 }
 
-/** A length or an angle with its unit. @param {number} metres */
+/** A length with its unit. @param {number} metres */
 export function lengthText(metres) {
   const size = Math.abs(metres);
-  if (size < 9.995e-4) return `${(metres * 1e6).toPrecision(3)} µm`;
+  if (size < 5e-6) return 'less than 0.01 mm';
+  if (size < 9.95e-4) return `${(metres * 1e3).toFixed(2)} mm`;
   if (size < 0.0995) return `${(metres * 1e3).toPrecision(size < 0.00995 ? 2 : 3)} mm`;
   return `${Number(metres.toPrecision(3))} m`;
+}
+
+/** A sentence for people: numbers with more decimals than anybody reads have three digits. What stands between quotes
+ * is a name. @param {string} text */
+export function forPeople(text) {
+  const short = (/** @type {string} */ digits) => {
+    const value = Number(digits), size = Math.abs(value);
+    return size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toPrecision(3) : String(Number(value.toPrecision(3)));
+  };
+  return text.split(/('[^']*')/).map((part, i) => (i % 2 ? part : part.replace(/-?\d+\.\d{4,}(?:e[-+]?\d+)?/g, short))).join('');
 }

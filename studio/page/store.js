@@ -9,16 +9,29 @@ export const idleGesture = {
   nailing: false,
 };
 
+/** What belongs to one scene, as it is before anything of the scene is there: nothing of another is kept.
+ * @returns {Pick<State, 'document' | 'scene' | 'motion' | 'opened' | 'savedMotion' | 'before' | 'changesShown' | 'time' | 'playing' |
+ *    'loopRange' | 'selected' | 'hover' | 'gesture' | 'locked' | 'card' | 'selectedNail'>} */
+export function nothingOfAScene() {
+  return {
+    document: null, scene: null, motion: null, opened: null, savedMotion: null, before: null, changesShown: false, time: 0,
+    playing: false, loopRange: null, selected: -1, hover: null, gesture: idleGesture, locked: new Set(), card: null, selectedNail: -1,
+  };
+}
+
 /** @returns {State} as it is before the server has answered */
 export function initialState() {
   return {
-    connected: 'connecting', progress: '', folder: '', document: null, scene: null, motion: null, opened: null,
-    savedMotion: null, before: null, showBefore: 'none', changesShown: false, time: 0, playing: false, speed: 1,
-    loop: false, loopRange: null, dots: 24, selected: -1, hover: null, tool: 'move', gesture: idleGesture, nailOnRelease: false,
-    leaveRestFree: false, keymap: 'blender', locked: new Set(), panel: true, quality: 'high', notice: null, card: null,
-    selectedNail: -1, tab: '',
+    ...nothingOfAScene(), connected: 'connecting', progress: '', folder: '', showBefore: 'none', speed: 1, loop: false, dots: 24,
+    tool: 'move', nailOnRelease: false, leaveRestFree: false, turnLeavesPlace: true, keymap: 'blender', panel: true, quality: 'high', notice: null, tab: '',
   };
 }
+
+/** A document where nothing is open, with all its members. @type {import('./types.js').DocumentState} */
+export const closedDocument = {
+  type: 'state', rev: 0, open: false, path: null, name: '', saved: true, duration: 0, controls: [], numbers: [], nails: [],
+  undo: null, redo: null, held_by: null, bodies: [], materials: [],
+};
 
 /** Subscribers are called once a change, after all members of a patch are in place; a patch made by a subscriber is
  * told after the one under way, so that all see changes in the same order.

@@ -72,6 +72,8 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
       const box = overlay.canvas.getBoundingClientRect(), [x, y] = view.camera.project(point);
       return [box.left + x, box.top + y];
     },
+    /** m a pixel has there. @param {import('./types.js').Vec3} point */
+    perPixel: (point) => view.camera.axes().perPixel(point),
     /** @param {string} name @param {number} time s */
     bodyOnScreen: (name, time) => {
       const body = store.state.document?.bodies.findIndex((one) => one.name === name) ?? -1, track = store.state.motion?.tracks[body];

@@ -18,7 +18,7 @@
  *    error: number, message: string}} NailState */
 /** @typedef {{name: string, fixed: boolean, kinematic?: boolean, mass: number | null, material?: string}} BodyState */
 /** @typedef {{type: 'state', re?: number, rev: number, open: boolean, path: string | null, name?: string,
- *    saved: boolean, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
+ *    suggested?: string, saved: boolean, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
  *    undo: string | null, redo: string | null, held_by: string | null, bodies: BodyState[],
  *    materials?: {name: string, elasticity: number, friction: number}[]}} DocumentState */
 
@@ -32,7 +32,7 @@
  *    center: Vec3}} Track  stride: numbers a row of arcs, 10 unless it says so */
 /** @typedef {{rev: number, stage: string, reached: boolean, distance: number, turn: number, nailError: number,
  *    stopped: boolean, more: boolean, obstacle: Obstacle | null, changes: SequenceChange[], end: number,
- *    status: string, message: string, impacts: Impact[], tracks: Track[], gesture?: number, seq?: number,
+ *    status: string, message: string, gravity: Vec3, impacts: Impact[], tracks: Track[], gesture?: number, seq?: number,
  *    re?: number}} Motion  everything that the page knows about one motion; tracks in the order of bodies */
 /** @typedef {{body: number, name: string, fixed: boolean, plane: {normal: Vec3, offset: number} | null,
  *    colour: string, vertices: Float32Array, normals: Float32Array | null, triangles: Uint32Array | null,
@@ -55,7 +55,7 @@
  *    before: Motion | null, showBefore: 'none' | 'opened' | 'saved' | 'changes', changesShown: boolean,
  *    time: number, playing: boolean,
  *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn',
- *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, keymap: 'blender' | 'maya',
+ *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
  *    selectedNail: number, tab: string}} State */
 

@@ -37,14 +37,35 @@ TEST(Mailbox, KeepsTheNewestDragOfEachSocket) {
   EXPECT_TRUE(mailbox.isEmpty());
 }
 
-TEST(Mailbox, WhatEndsADragTakesItsPlace) {
-  Mailbox mailbox;
-  mailbox.put(drag(1, 3));
-  mailbox.put(drag(2, 4));
-  mailbox.put(letter<Release>(1, 9));
-  EXPECT_EQ(takeId(mailbox), 104);
-  EXPECT_EQ(takeId(mailbox), 9);
-  EXPECT_TRUE(mailbox.isEmpty());
+TEST(Mailbox, ADragIsLeftOutOnlyWhereNothingIsLostByIt) {
+  Release own;
+  own.gesture = 1, own.seq = 4, own.place = Vec3::Zero();
+  Release bare = own, turned = own, other = own;
+  bare.place.reset();
+  other.gesture = 2;
+  turned.orientation = Quat::Identity();
+  const auto kept = [](Letter waiting, Letter next) {
+    Mailbox mailbox;
+    mailbox.put(std::move(waiting));
+    mailbox.put(std::move(next));
+    mailbox.take({});
+    return !mailbox.isEmpty();
+  };
+  EXPECT_FALSE(kept(drag(1, 3), letter<Release>(1, 9, own)));
+  EXPECT_TRUE(kept(drag(1, 3), letter<Release>(1, 9, bare))) << "it has no target of its own";
+  EXPECT_TRUE(kept(drag(1, 4), letter<Release>(1, 9, own))) << "its target is not a newer one";
+  EXPECT_TRUE(kept(drag(1, 3), letter<Release>(1, 9, other)));
+  EXPECT_TRUE(kept(drag(2, 3), letter<Release>(1, 9, own)));
+  EXPECT_TRUE(kept(drag(1, 3), letter<Redo>(1, 9))) << "which is refused while a body is held";
+  EXPECT_FALSE(kept(drag(1, 3), letter<Undo>(1, 9)));
+  EXPECT_FALSE(kept(drag(1, 3), letter<Cancel>(1, 9, Cancel{1})));
+  EXPECT_TRUE(kept(drag(1, 3), letter<Cancel>(1, 9, Cancel{2})));
+  EXPECT_FALSE(kept(drag(1, 3), letter<Gone>(1, 0)));
+  Letter with_turn = drag(1, 3);
+  std::get<Drag>(with_turn.command.what).orientation = Quat::Identity();
+  EXPECT_TRUE(kept(with_turn, letter<Release>(1, 9, own))) << "the turn would be lost";
+  EXPECT_TRUE(kept(with_turn, drag(1, 4)));
+  EXPECT_FALSE(kept(with_turn, letter<Release>(1, 9, turned)));
 }
 
 TEST(Mailbox, WorkIsStoppedByCommandsThatChangeSomething) {

@@ -173,6 +173,25 @@ TEST(Protocol, AGrabIsAtATimeAnImpactOrAtRest) {
   EXPECT_TRUE(std::get<Grab>(readCommand(message.dump()).what).at.isTime());
 }
 
+TEST(Protocol, AGrabMayHoldATurnAloneOrAContact) {
+  Json message = examples().at("grab");
+  message.erase("also_vary");
+  message["free"] = true;
+  message["grip"] = {{"orientation", true}, {"place", false}};
+  const Grab turn = std::get<Grab>(readCommand(message.dump()).what);
+  EXPECT_TRUE(turn.free && turn.grip.orientation && !turn.grip.place && !turn.contact);
+  message["grip"] = {{"contact", true}};
+  EXPECT_TRUE(std::get<Grab>(readCommand(message.dump()).what).contact);
+  const auto refused = [&](const Json& grip, const Json& at, const std::string& where) {
+    Json bad = message;
+    bad["grip"] = grip, bad["at"] = at;
+    EXPECT_NE(errorOf(bad.dump()).find(where), std::string::npos) << errorOf(bad.dump());
+  };
+  refused({{"place", false}}, 0.5, "/grip/place");
+  refused({{"contact", true}}, 0.5, "/grip/contact");
+  refused({{"contact", true}, {"point", {0, 0, 0}}}, {{"impact", 1}}, "/grip/contact");
+}
+
 TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
   const std::map<std::string, std::vector<const char*>> optional = {
       {"grab", {"grip", "also_vary"}},  {"drag", {"orientation"}},     {"release", {"orientation", "nail"}},

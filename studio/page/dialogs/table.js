@@ -2,7 +2,7 @@
 // The motion as a table, and moving a body by numbers: what the mouse does, without one.
 
 import { el } from '../dom.js';
-import { hitAt } from '../gesture.js';
+import { hitAt } from '../take.js';
 import { centreAt, velocityAt } from '../motion.js';
 import { dialog } from './ask.js';
 

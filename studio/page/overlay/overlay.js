@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The canvas above the view: all marks that are no thing in the scene, and what can be pressed.
 
-import { moves, pathTimes, pointAt } from '../motion.js';
+import { impactAt, moves, pathTimes, pointAt } from '../motion.js';
 import { sagOf } from '../view/paths.js';
 import { drawHandles, handleShapes, handleUnder } from './handles.js';
 import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
@@ -53,8 +53,9 @@ export class Overlay {
     if (!dragging) drawHandles(pen, this.handles(), hover?.handle ?? '');
     if (hover && gesture.state === 'idle') drawHover(pen, hover, bodies.length > 1 ? (state.document?.bodies[hover.body]?.name ?? '') : '', project, scale);
     if (gesture.hit && gesture.state !== 'idle') {
-      const track = motion.tracks[gesture.hit.body];
-      drawHeld(pen, state, project(pointAt(track, track.center, Math.min(state.time, motion.end))), project, scale);
+      const { body, at } = gesture.hit, track = motion.tracks[body];
+      const contact = gesture.hit.kind === 'impact' && impactAt(at, body, motion, state.document?.bodies.map((one) => one.name) ?? []);
+      drawHeld(pen, state, project(contact ? contact.point : pointAt(track, track.center, Math.min(state.time, motion.end))), project, scale);
     }
   }
 

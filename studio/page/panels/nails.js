@@ -4,7 +4,7 @@
 import { byId, el, iconButton } from '../dom.js';
 import { icon } from '../icons.js';
 import { pointAt, turnAt } from '../motion.js';
-import { lengthText } from '../number_field_text.js';
+import { forPeople, lengthText } from '../number_field_text.js';
 import { atText, placeHeld } from '../overlay/hoops.js';
 
 /** @typedef {import('../types.js').Constraint} Constraint */
@@ -27,7 +27,7 @@ export function showNails(store, commands) {
   /** @param {NailState} nail @param {State} state */
   function row(nail, state) {
     const { constraint, id } = nail, title = `${constraint.body}, ${atText(constraint.at)}`;
-    const standing = !nail.available ? ['missing', nail.message || 'does not come'] : !nail.on ? ['off', 'off'] : nail.met ? ['met', 'met'] : ['unmet', errorText(nail)];
+    const standing = !nail.available ? ['missing', forPeople(nail.message) || 'does not come'] : !nail.on ? ['off', 'off'] : nail.met ? ['met', 'met'] : ['unmet', errorText(nail)];
     const choose = el('button', { type: 'button', class: 'row name', title, 'aria-pressed': id === state.selectedNail, 'data-key': `nail ${id}`, onclick: () => {
       const selected = state.document?.bodies.findIndex((body) => body.name === constraint.body) ?? -1;
       store.set({ selectedNail: id, selected });

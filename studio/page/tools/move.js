@@ -82,6 +82,16 @@ export class Move {
     return this.axis.length === 1 ? [this.axis] : this.axis.length === 7 ? [...'xyz'].filter((c) => !this.axis.endsWith(c)) : null;
   }
 
+  /** What a grip holds; null: all of the place. @param {boolean} leave_rest_free */
+  held(leave_rest_free) {
+    return leave_rest_free ? this.components() : null;
+  }
+
+  /** @returns {boolean} whether there is a surface to lift it off */
+  lift() {
+    return false;
+  }
+
   /** @param {Ray} ray the pointer's now @returns {{place: Vec3}} */
   target(ray) {
     const from = this.pointOn(this.from), to = this.pointOn(ray);

@@ -38,8 +38,12 @@ export class Turn {
     this.angle = 0;
   }
 
-  components() {
+  held() {
     return null;
+  }
+
+  lift() {
+    return false;
   }
 
   /** @param {[number, number]} pointer now @returns {{place: Vec3, orientation: Quat}} */

@@ -93,5 +93,5 @@ test('one drag is unanswered at a time; the newest of the others goes next, at t
   assert.deepEqual(sent[1], { gesture: 4, seq: 2, place: [3, 0, 0] });
   sender.offer({ place: [4, 0, 0] });
   assert.deepEqual(sender.last(), { gesture: 4, seq: 3, place: [4, 0, 0] });
-  assert.deepEqual(sender.last(), { gesture: 4, seq: 3 });
+  assert.deepEqual(sender.last(), { gesture: 4, seq: 3, place: [4, 0, 0] }, 'what has been sent goes with the release as well');
 });

@@ -35,7 +35,7 @@ const cube = (x, y, z) => {
 
 export class FakeStudio {
   constructor({ open = true, locked = false, changedOnDisk = false } = {}) {
-    Object.assign(this, { open, locked, changedOnDisk, controls: [{ vary: 'velocity', body: 'ball <b>' }], velocity: [2, 0, 3], history: [], future: [], nails: [], rev: 1, heard: [], clients: new Set(), saved: true, session: `s${Math.random()}`, mute: false });
+    Object.assign(this, { open, locked, changedOnDisk, controls: [{ vary: 'velocity', body: 'ball <b>' }], velocity: [2, 0, 3], history: [], future: [], nails: [], rev: 1, scene: 1, heard: [], clients: new Set(), saved: true, session: `s${Math.random()}`, mute: false });
     this.server = createServer((request, response) => this.file(request, response));
     this.server.on('upgrade', (request, socket) => {
       const client = accept(request, socket, { message: (text) => this.hear(client, JSON.parse(text)), closed: () => this.clients.delete(client) });
@@ -71,7 +71,7 @@ export class FakeStudio {
       const still = (body, x) => ({ body, arcs: block(new Float64Array([0, ...x, 0, 0, 0, 0, 0, 0]), 1), turns: block(new Float32Array([0, 1, 0, 0, 0]), 1), center: [0, 0, 0] });
       const turns = Array.from({ length: 31 }, (_, k) => [k / 20, Math.cos(k / 10), 0, Math.sin(k / 10), 0]);
       const ball = { body: 1, arcs: block(new Float64Array(arcs.flat()), arcs.length), turns: block(new Float32Array(turns.flat()), turns.length), center: [0, 0, 0] };
-      return { type: 'motion', rev: this.rev, stage: 'improved', reached: true, distance: 0, turn: 0, nail_error: 0, stopped: false, more: false,
+      return { type: 'motion', scene: this.scene, rev: this.rev, stage: 'improved', reached: true, distance: 0, turn: 0, nail_error: 0, stopped: false, more: false,
         obstacle: { kind: 'none', numbers: [], sentence: '' }, changes: [], end, status: 'complete', message: '', gravity: [0, 0, gravity], impacts, ...members, tracks: [still(0, [0, 0, 0]), ball, still(2, [0.9, 0.5, 0.4])] };
     });
   }
@@ -79,7 +79,7 @@ export class FakeStudio {
   sceneFrame(members) {
     return makeFrame((block) => {
       const mesh = (shape) => ({ vertices: block(shape.vertices, 8), triangles: block(shape.triangles, 12) });
-      return { type: 'scene', ...members, count: 3, extent: { min: [-1.1, -0.2, 0], max: [2, 0.6, 1.6] }, bodies: [
+      return { type: 'scene', ...members, scene: this.scene, count: 3, extent: { min: [-1.1, -0.2, 0], max: [2, 0.6, 1.6] }, bodies: [
         { body: 0, name: 'floor', fixed: true, colour: '#b9bec4', center: [0, 0, 0], plane: { normal: [0, 0, 1], offset: 0 } },
         { body: 1, name: 'ball <b>', fixed: false, colour: '#2468b8', center: [0, 0, 0], radius, ...mesh(cube(0.07, 0.07, 0.07)) },
         { body: 2, name: 'post', fixed: true, colour: '#a7adb5', center: [0, 0, 0], radius: 0.42, ...mesh(cube(0.05, 0.05, 0.4)) }] };
@@ -93,7 +93,7 @@ export class FakeStudio {
       nails: this.nails, undo: this.history.length ? "drag of 'ball <b>'" : null, redo: this.future.length ? 'drag' : null, held_by: null,
       bodies: [{ name: 'floor', fixed: true, kinematic: false, mass: null, material: 'wood' }, { name: 'ball <b>', fixed: false, kinematic: false, mass: 1, material: 'felt' }, { name: 'post', fixed: true, kinematic: false, mass: null, material: 'wood' }],
       materials: [{ name: 'felt', elasticity: 0.7, friction: 0.3 }, { name: 'wood', elasticity: 0.5, friction: 0.3 }],
-    } : { type: 'state', re, rev: 0, open: false, path: null, saved: true, duration: 0, controls: [], numbers: [], nails: [], undo: null, redo: null, held_by: null, bodies: [], materials: [] });
+    } : { type: 'state', re, rev: 0, open: false });  // no more, as of the real one
   }
 
   everything(client, re) {
@@ -173,6 +173,7 @@ export class FakeStudio {
       client.send(JSON.stringify({ type: 'files', re: id, path: '', files: [{ path: 'throw.json', name: 'throw.json', kind: 'scene' }, { path: 'more', name: 'more', kind: 'folder' }] }));
     } else if (type === 'open') {
       this.open = true;
+      ++this.scene;
       this.everything(client, id);
     } else {
       if (type === 'nail_on') this.nails = this.nails.map((nail) => (nail.id === message.nail ? { ...nail, on: message.on } : nail));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Gesture, hitAt } from '../../../studio/page/gesture.js';
+import { Gesture } from '../../../studio/page/gesture.js';
+import { hitAt } from '../../../studio/page/take.js';
 import { initialState, Store } from '../../../studio/page/store.js';
 
 // 100 px a metre, looking along +y
-function harness(more = {}) {
+function harness(more = {}, touched = null) {
   const track = (body, center = [0, 0, 0]) => ({ body, center, turns: new Float32Array([0, 1, 0, 0, 0]), arcs: new Float64Array([0, 0, 0, 0, 2, 0, 5, 0, 0, -10]) });
   const motion = { end: 1, impacts: [], tracks: [track(0), track(1, [0, 0, 0.05]), track(2)], reached: true };
   const body = (name, fixed = false) => ({ name, fixed, mass: 1, material: 'felt' });
@@ -19,6 +20,7 @@ function harness(more = {}) {
     }),
   };
   const space = {
+    touched: () => touched,
     ray: (x, y) => ({ origin: [x / 100, -10, -y / 100], direction: [0, 1, 0] }), project: ([x, , z]) => [100 * x, -100 * z],
     camera: () => ({ view: [0, 1, 0], right: [1, 0, 0], up: [0, 0, 1], perPixel: () => 0.01 }),
   };
@@ -44,7 +46,7 @@ test('a drag takes hold, follows and lets go in one gesture', async () => {
   gesture.move(20, 10);
   assert.equal(state(), 'dragging');
   assert.deepEqual([store.state.selected, store.state.time, store.state.before], [1, 0.5, store.state.motion]);
-  assert.deepEqual(sent[0], { type: 'grab', gesture: 1, body: 'hat', at: 0.5, grip: { point: [0, 0, 0.05] } });
+  assert.deepEqual(sent[0], { type: 'grab', gesture: 1, body: 'hat', at: 0.5, grip: { point: [0, 0, 0.05] }, free: true });
   const [x, , z] = hit.place;
   assert.deepEqual(sent[1].place.map((c) => Number(c.toFixed(9))), [x + 0.1, 0, z].map((c) => Number(c.toFixed(9))));
   gesture.move(30, 10);
@@ -124,19 +126,55 @@ test('an axis that leaves the rest free takes hold anew with its component alone
   assert.deepEqual([cancel.type, cancel.gesture, grab.gesture, grab.grip.components], ['cancel', 1, 2, ['x']]);
 });
 
-test('turning holds the place and asks for an orientation', () => {
+test('turning asks for an orientation alone, unless the hand holds the place as well', () => {
   const { gesture, sent, hit } = harness({ tool: 'turn' });
   gesture.press(hit, 100, -125);
   gesture.move(110, -125);
-  assert.deepEqual([sent[0].grip.orientation, sent[1].place], [true, hit.place]);
+  assert.deepEqual([sent[0].grip, sent[1].place], [{ orientation: true, place: false }, hit.place]);
   assert.ok(Math.abs(Math.hypot(...sent[1].orientation) - 1) < 1e-12);
+  const holding = harness({ tool: 'turn', turnLeavesPlace: false });
+  holding.gesture.press(holding.hit, 100, -125);
+  holding.gesture.move(110, -125);
+  assert.deepEqual(holding.sent[0].grip, { orientation: true, point: [0, 0, 0.05] });
 });
 
-test('a body that no control names is freed to be thrown; fixed and locked ones cannot be held', () => {
+test('a release carries the newest target, and a quick hand needs no move before it', () => {
+  const { gesture, sent, hit, state } = harness();
+  gesture.press(hit, 10, 10);
+  gesture.up(60, 10);
+  assert.equal(state(), 'settling');
+  assert.deepEqual(sent.map((one) => one.type), ['grab', 'drag', 'release']);
+  assert.deepEqual([sent[2].seq, sent[2].place], [1, sent[1].place], 'though it was sent as a drag');
+  assert.ok(Math.abs(sent[2].place[0] - hit.place[0] - 0.5) < 1e-9);
+});
+
+test('what is touched is slid on, its normal is free; L lifts it off', () => {
+  const slope = { point: [1, 0, 2], normal: [0, 0.6, 0.8], cut: null };
+  const { gesture, sent, hit } = harness({}, slope), impact = { t: 0.5, point: [1, 0, 2], bodies: [0, 1], pairs: [[0, 1]], nth: [0, 1], mode: 'stick' };
+  gesture.press({ ...hit, kind: 'impact', at: { impact: 1, with: 'floor' }, impact }, 100, -200);
+  gesture.move(100, -230);
+  assert.deepEqual(sent[0].grip, { contact: true, components: ['x', 'y'] });
+  const [x, y, z] = sent[1].place;
+  assert.ok(Math.abs(x - 1) < 1e-12 && Math.abs(0.6 * y + 0.8 * (z - 2)) < 1e-12 && Math.abs(z - 2.3) < 1e-12, `${[x, y, z]} is off the slope`);
+  gesture.lift();
+  const [cancel, grab, drag] = sent.slice(2);
+  assert.deepEqual([cancel.type, grab.gesture, grab.grip], ['cancel', 2, { contact: true }]);
+  assert.ok(Math.abs(drag.place[1]) < 1e-12, 'in the plane of the camera');
+  gesture.lift();
+  assert.deepEqual(sent.at(-2).grip, { contact: true, components: ['x', 'y'] });
+  gesture.setAxis('x', false);
+  assert.equal(sent.at(-1).type, 'drag', 'along the surface it is held as before');
+  gesture.setAxis('z', false);
+  assert.deepEqual(sent.at(-2).grip, { contact: true }, 'a person who says z means it');
+});
+
+test('a body that nothing moves is freed, as the server says; fixed and locked ones cannot be held', async () => {
   const free = harness();
   free.gesture.press({ ...free.hit, body: 2 }, 0, 0);
   free.gesture.move(10, 0);
-  assert.deepEqual(free.sent[0].also_vary.map((control) => control.vary), ['velocity', 'angular_velocity']);
+  assert.ok(free.sent[0].free && !free.store.state.notice);
+  free.asked[0].resolve({ freed: true });
+  await turnOver();
   assert.match(free.store.state.notice.message, /throw of 'die' may change/);
   for (const [body, options, words] of [[0, {}, /fixed/], [1, { locked: new Set(['hat']) }, /locked/]]) {
     const { gesture, sent, store, hit, state } = harness(options);

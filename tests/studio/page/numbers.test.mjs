@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { evaluate, lengthText, shortNumber, stepOf } from '../../../studio/page/number_field_text.js';
+import { evaluate, forPeople, lengthText, shortNumber, stepOf } from '../../../studio/page/number_field_text.js';
 
 test('fields take arithmetic', () => {
   const values = { '1': 1, ' 2.5 ': 2.5, '1+2*3': 7, '(1+2)*3': 9, '-4/8': -0.5, '2-3-4': -5, '1e-3': 0.001, '.5*2': 1, '−3': -3, '--2': 2, '8/2/2': 2, '1.5E2': 150 };
@@ -17,10 +17,18 @@ test('numbers for people', () => {
   assert.equal(shortNumber(NaN), '–');
   assert.equal(lengthText(0.0123), '12.3 mm');
   assert.equal(lengthText(1.23456), '1.23 m');
-  assert.equal(lengthText(2.5e-5), '25.0 µm');
+  assert.equal(lengthText(2.5e-5), '0.03 mm');
+  assert.equal(lengthText(8.16e-4), '0.82 mm');
+  assert.equal(lengthText(1e-7), 'less than 0.01 mm');
+  assert.equal(lengthText(9.96e-4), '1.0 mm');
   assert.equal(lengthText(0.0042), '4.2 mm');
 });
 
 test('a step is a hundredth to a tenth of the natural scale', () => {
   for (const scale of [1e-3, 0.02, 0.7, 1, 3, 80]) assert.ok(stepOf(scale) <= scale / 10 * 1.001 && stepOf(scale) >= scale / 101, String(scale));
+});
+
+test('sentences for people have three digits, names have all of theirs', () => {
+  assert.equal(forPeople("The motion of 'run 1.23456789' ends at 0.4312345678 s, 1.5 m away: 123456.7891."), "The motion of 'run 1.23456789' ends at 0.431 s, 1.5 m away: 123000.");
+  assert.equal(forPeople('off by 0.00001234 or 3.2109876e-9 of 12 and 2.0004'), 'off by 0.0000123 or 3.21e-9 of 12 and 2');
 });

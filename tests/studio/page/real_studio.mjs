@@ -12,13 +12,17 @@ export const command = process.env.CAROM_COMMAND ?? '';
 export const hasCommand = () => command !== '' && existsSync(command);
 
 export class RealStudio {
-  /** `change` may alter the document before it is opened. */
+  /** `scene`: null opens none. `change` may alter the document before it is opened. */
   static async start(scene, change = (document) => document) {
     const studio = new RealStudio();
     studio.folder = mkdtempSync(join(tmpdir(), 'carom-studio-'));
     cpSync(join(examples, 'scenes'), join(studio.folder, 'scenes'), { recursive: true });
     cpSync(join(examples, 'assets'), join(studio.folder, 'assets'), { recursive: true });
-    studio.path = join(studio.folder, 'scenes', scene);
+    studio.path = scene === null ? null : join(studio.folder, 'scenes', scene);
+    if (scene === null) {
+      await studio.run();
+      return studio;
+    }
     const text = readFileSync(studio.path, 'utf8'), document = change(JSON.parse(text));
     if (JSON.stringify(document) !== JSON.stringify(JSON.parse(text))) writeFileSync(studio.path, JSON.stringify(document, null, 2));
     await studio.run();
@@ -27,7 +31,7 @@ export class RealStudio {
 
   async run(port = 0) {
     const page = process.env.CAROM_STUDIO_PAGE ? ['--page', process.env.CAROM_STUDIO_PAGE] : [];
-    this.process = spawn(command, ['studio', this.path, '--no-open', ...(port ? ['--port', String(port)] : []), ...page], { stdio: ['ignore', 'pipe', 'inherit'] });
+    this.process = spawn(command, ['studio', ...(this.path ? [this.path] : ['--folder', join(this.folder, 'scenes')]), '--no-open', ...(port ? ['--port', String(port)] : []), ...page], { stdio: ['ignore', 'pipe', 'inherit'] });
     this.ended = new Promise((done) => this.process.once('exit', (code, signal) => done(code ?? signal)));
     const lines = createInterface({ input: this.process.stdout });
     this.url = await Promise.race([new Promise((done) => lines.once('line', done)), this.ended.then((how) => Promise.reject(new Error(`carom studio ended with ${how}`)))]);
