@@ -61,7 +61,7 @@ if(TARGET carom)
     install(FILES ${PROJECT_SOURCE_DIR}/studio/page/node_modules/three/${file}
       DESTINATION ${carom_studio_dir}/three/${folder} OPTIONAL)
   endforeach()
-  foreach(content examples/scenes=scenes=json examples/assets=assets=obj docs/images=gallery=svg)
+  foreach(content examples/scenes=scenes=json examples/assets=assets=obj examples/pictures=gallery=png)
     string(REPLACE "=" ";" content ${content})
     list(GET content 0 from)
     list(GET content 1 to)

@@ -36,7 +36,7 @@ endforeach()
 
 # The studio finds its page, and three.js where that was installed before: with both it comes to the scene, which is not
 # there.
-foreach(file page/index.html page/main.js page/view/view.js scenes/mug.json assets/mug.obj gallery/mug.svg)
+foreach(file page/index.html page/main.js page/view/view.js scenes/mug.json assets/mug.obj gallery/mug.png)
   if(NOT EXISTS ${WORK}/installed/share/carom/studio/${file})
     message(FATAL_ERROR "share/carom/studio/${file} was not installed")
   endif()

@@ -21,8 +21,9 @@ namespace carom::studio {
 /// was of the same scene.
 std::string motionFrame(const MotionView& view, std::string_view members = "{}", const MotionView* sent = nullptr);
 
-/// Type "scene": scene (its number), count (bodies that the scene has), extent {min, max} and bodies [{body, name, fixed, colour, center,
-/// radius, pose {position, orientation}, and either plane {normal, offset} or vertices, normals, triangles, accent}],
+/// Type "scene": scene (its number), count (bodies that the scene has), extent {min, max} and bodies [{body, name,
+/// fixed, colour, center, radius, pose {position, orientation}, and either plane {normal, offset} or vertices, normals,
+/// triangles, accent}],
 /// where rows of `vertices` and `normals` are float32 [x, y, z] and those of `triangles` and `accent` uint32, three
 /// vertices each. Equal meshes share their blocks. Bodies that look like those of `sent` are left out where that was the
 /// same scene.

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kSessionName = 8;  // random bytes
 constexpr std::size_t kNonce = 16;
-/// Steps of simulations: a quarter of a second's worth for an update, and two seconds' for a release, where this was chosen.
+/// Steps of simulations: about a quarter of a second's worth for an update, and two seconds' for a release.
 constexpr double kDragSteps = 1e5, kReleaseSteps = 1.5e6;
 
 /// The folder of the workspace, and the name of the first scene in it.
@@ -55,7 +55,7 @@ WorkerOptions workerOptions(const StudioOptions& options, const fs::path& share)
   if (fs::is_directory(share / "scenes")) worker.gallery = (share / "scenes").string();
   if (fs::is_directory(share / "gallery"))
     for (const auto& entry : fs::directory_iterator(share / "gallery"))
-      if (entry.path().extension() == ".svg") worker.pictures.push_back(entry.path().stem().string());
+      if (entry.path().extension() == ".png") worker.pictures.push_back(entry.path().stem().string());
   return worker;
 }
 

@@ -39,7 +39,7 @@ struct MotionView {
 /// Throws InputError as displayTrack does.
 MotionView viewOf(const Motion& motion);
 
-/// The middle of the contacts of a body's impact, in the axes of its shape, m. Throws InputError where that does not come.
+/// The middle of the contacts of a body's impact, in the axes of its shape, m. Throws InputError where it does not come.
 Vec3 contactPoint(const Motion& motion, const std::string& body, const When& at);
 /// The same in the world.
 Vec3 contactPlace(const Motion& motion, const std::string& body, const When& at);

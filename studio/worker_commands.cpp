@@ -170,7 +170,7 @@ void Worker::perform(const Asker& asker, const Gallery&) {
       const auto& pictures = options_.pictures;
       const bool picture = std::find(pictures.begin(), pictures.end(), stem) != pictures.end();
       const std::string name = text("name").empty() ? stem : text("name");
-      shown_in_gallery_.push_back({file.path, name, text("notes"), picture ? "/gallery/" + stem + ".svg" : ""});
+      shown_in_gallery_.push_back({file.path, name, text("notes"), picture ? "/gallery/" + stem + ".png" : ""});
     }
   }
   tabs_.tell(asker.socket, answering(asker.id, galleryMessage(shown_in_gallery_)));

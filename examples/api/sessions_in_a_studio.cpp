@@ -58,6 +58,10 @@ int main() {
   session.release();
   std::printf("the nail is at x %.2f m\n", session.constraintOf(nail).targets[0].value[0]);
 
+  // its spin may vary as well, but only where nothing else moved the ball
+  session.grab("ball", 0.5, {}, {angularVelocity("ball")}, AlsoVary::where_nothing_moves_it);
+  session.cancel();
+
   SessionContent content = session.content();
   content.scene.bodies[1].velocity.x() = 2.5;
   session.setContent(content, "velocity of the ball");

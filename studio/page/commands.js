@@ -56,24 +56,25 @@ export class Commands {
     if (answer) this.gesture.ended('released', answer, false);
   }
 
-  /** Saves what is verified; in a gesture when that has ended. @param {string} [path] @param {boolean} [replace] @returns {Promise<void>} */
+  /** Saves what is verified; in a gesture when that has ended. @param {string} [path] @param {boolean} [replace] @returns {Promise<boolean>} whether the file has it now */
   async save(path, replace = false) {
     const { document, gesture } = this.store.state;
-    if (!document?.open) return;
+    if (!document?.open) return false;
     if (gesture.state !== 'idle') {
       this.savingWaits = true;
-      return;
+      return false;
     }
     const where = path ?? document.path ?? (await this.askName(document.suggested ?? 'scene.json'));
-    if (!where) return;
+    if (!where) return false;
     try {
       const answer = await this.tell('save', { ...(path || !document.path ? { path: where } : {}), ...(replace ? { replace } : {}) });
       if (answer) this.store.set({ notice: { message: `Saved ${answer.path}.` } });
+      return !!answer;
     } catch (error) {
       const what = await this.choose(/** @type {any} */ (error).message, [['replace', 'Replace the file'], ...(document.path === where ? [/** @type {[string, string]} */ (['theirs', 'Open the file as it is'])] : []), ['other', 'Save as…']]);
-      if (what === 'replace') await this.save(where, true);
+      if (what === 'replace') return this.save(where, true);
       if (what === 'theirs') await this.open({ path: where }, true);
-      if (what === 'other') await this.saveAs();
+      return what === 'other' && this.saveAs();
     }
   }
 
@@ -86,7 +87,7 @@ export class Commands {
 
   async saveAs() {
     const { document } = this.store.state, name = await this.askName(document?.path ?? document?.suggested ?? 'scene.json');
-    if (name) await this.save(name);
+    return !!name && this.save(name);
   }
 
   /** @param {{path: string, gallery?: boolean}} what @param {boolean} [replace] @returns {Promise<void>} */
@@ -98,10 +99,7 @@ export class Commands {
       this.store.set({ progress: '' });
       const how = await this.choose(/** @type {any} */ (error).message, [['lose', 'Open, and lose the steps'], ['save', 'Save, then open']]);
       if (how === 'lose') return this.open(what, true);
-      if (how === 'save') {
-        await this.save();
-        if (this.store.state.document?.saved) return this.open(what);
-      }
+      if (how === 'save' && await this.save()) return this.open(what);
     }
     this.store.set({ progress: '' });
   }

@@ -69,7 +69,7 @@ export class Connection {
       this.listener.message({ type: 'error', code: 'internal', message: `The page did not understand an answer: ${error}` });
     }
     const re = message?.re, waiting = this.asked.get(re);
-    if (!waiting) return;
+    if (!waiting || message.type === 'progress') return;  // the answer comes after it
     this.asked.delete(re);
     if (message.type === 'error') waiting.reject(message);
     else waiting.resolve(message);
@@ -95,7 +95,7 @@ export class Connection {
     return this.id;
   }
 
-  /** The first answer to a message; rejects with the server's error.
+  /** The first answer to a message, but for how it is getting on; rejects with the server's error.
    * @param {string} type @param {object} members @returns {Promise<any>} */
   request(type, members = {}) {
     const id = this.send(type, members);

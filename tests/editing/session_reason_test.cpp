@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Why a gesture is not there: what is in the way comes before that it was ended early; work is counted, not timed; a turn
-// asks for the orientation alone; and what nothing moves, by the derivatives of the motion, is freed.
+// Why a gesture is not there: what is in the way comes before that it was ended early. Work is counted, not timed; a
+// turn asks for the orientation alone; and what nothing moves, by the derivatives of the motion, is freed.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -130,7 +130,7 @@ TEST(Gallery, ItsScenesAreShownAndOpenWithoutAName) {
   const Json scenes = lastOf(test.ask(1, {{"type", "gallery"}}), "gallery")["scenes"];
   ASSERT_EQ(scenes.size(), 2u);
   EXPECT_EQ(scenes[0]["name"], "A bounce");
-  EXPECT_EQ(scenes[0]["picture"], "/gallery/first.svg");
+  EXPECT_EQ(scenes[0]["picture"], "/gallery/first.png");
   EXPECT_EQ(scenes[1]["name"], "second");
   EXPECT_TRUE(scenes[1]["picture"].is_null());
   const std::vector<Json> opened = test.ask(1, {{"type", "open"}, {"path", "first.json"}, {"gallery", true}});

@@ -37,6 +37,15 @@ async function folderList(commands, path, enter, opened) {
   return list;
 }
 
+/** The scenes of the folder that were written last; none where there are none. @param {Commands} commands */
+async function lastFiles(commands) {
+  const answer = await commands.tell('list'), most = 6;
+  const scenes = /** @type {{path: string, kind: string, modified: number}[]} */ (answer?.files ?? []).filter(({ kind }) => kind === 'scene');
+  if (!scenes.length) return null;
+  const row = (/** @type {string} */ path) => el('li', {}, el('button', { type: 'button', class: 'row', onclick: () => void commands.open({ path }) }, path));
+  return el('ul', { class: 'files' }, ...scenes.sort((a, b) => b.modified - a.modified).slice(0, most).map(({ path }) => row(path)));
+}
+
 /** @param {Commands} commands */
 export async function openDialog(commands) {
   let close = () => {};
@@ -59,8 +68,9 @@ export function showEmpty(store, commands) {
     place.hidden = !empty;
     if (!empty || filled) return;
     filled = true;
-    const gallery = await galleryCards(commands, () => {});
+    const [gallery, files] = await Promise.all([galleryCards(commands, () => {}), lastFiles(commands)]);
     const open = el('button', { type: 'button', class: 'primary', onclick: () => void openDialog(commands) }, 'Open a scene…');
-    place.replaceChildren(el('h1', {}, 'Open a scene, or start from one of these'), open, gallery);
+    place.replaceChildren(el('h1', {}, 'Open a scene, or start from one of these'), open,
+      ...(files ? [el('h2', {}, 'Changed last in this folder'), files] : []), el('h2', {}, 'Examples'), gallery);
   });
 }

@@ -42,6 +42,17 @@ test('answers, errors and frames find what asked', async () => {
   await assert.rejects(b, { code: 'conflict' });
 });
 
+test('how a command is getting on is no answer: what goes wrong after it is told', async () => {
+  const { connection, sockets, say } = harness();
+  connection.connect();
+  sockets[0].onopen();
+  say(sockets[0], { type: 'welcome', re: 1 });
+  const asked = connection.request('open');
+  say(sockets[0], { type: 'progress', re: 2, message: 'opening' });
+  say(sockets[0], { type: 'error', re: 2, code: 'input', message: 'no scene' });
+  await assert.rejects(asked, { code: 'input' });
+});
+
 test('a broken connection refuses what waits, and is tried again, later each time', async () => {
   const { connection, sockets, heard, waits, say } = harness();
   connection.connect();

@@ -2,6 +2,8 @@
 // What a person has to be able to rely on: what is opened is shown, what is asked for is gone to, what holds is free to turn,
 // and what touches a surface stays on it. With the real mouse, server and solver.
 import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { centreAt } from '../../../studio/page/motion.js';
 import { frame, openPage, until } from './browser.mjs';
@@ -78,6 +80,11 @@ test('without a scene it greets with examples, and one of them opens', { skip },
   try {
     await until(page, '(s) => s.connected === "open" && s.document?.open === false');
     assert.ok(await page.isVisible('#empty h1') && await page.isHidden('#loading'));
+    const drawn = '(s) => [...document.querySelectorAll("#empty .scene img")].filter((one) => one.complete && one.naturalWidth > 100).length >= 25';
+    await page.evaluate(() => document.querySelectorAll('#empty .scene img').forEach((one) => (one.loading = 'eager')));
+    await until(page, drawn);
+    await picture(page, 'empty');
+    assert.equal(await page.locator('#empty .files button').count(), 6);
     await page.click('#empty .scene:has-text("coatrack")');
     await until(page, '(s) => s.document.open && s.motion');
     assert.ok(await page.isHidden('#empty'));
@@ -204,4 +211,31 @@ test('a die that rests is dragged on the table in eight directions: it rests the
       await page.keyboard.press('Escape');  // its handles lie over the mark
     }
     if (process.env.CAROM_STUDIO_PICTURES) console.log(log.join('\n'));
+  }));
+
+test('what is said fades, unless it is a warning; a broken file says what is wrong; Open asks whether to save', { skip }, () =>
+  withStudio('hat-on-coatrack.json', async (page, studio) => {
+    writeFileSync(join(dirname(studio.path), 'broken.json'), '{"carom": 1, "bodies": [{"name": "a", "shape": {"sphere": {"radius": -1}}}]}');
+    const open = async (name) => {
+      await page.click('#file');
+      await page.click('#menu >> text=Open…');
+      await page.click(`.files button:text-is("${name}.json")`);
+    };
+    await open('broken');
+    await until(page, '(s) => s.notice?.kind === "red" && !s.progress');
+    assert.match(await page.textContent('#notice'), /radius|number/);
+    assert.equal(await state(page, '(s) => s.document.path'), 'hat-on-coatrack.json', 'what is open stays');
+    const [x, y] = await place(page, 'hat', 0.4);
+    await pull(page, [x, y], [x + 15, y - 10]);
+    await letGo(page);
+    assert.ok(!(await page.textContent('#readout, #card')).includes('µm'));
+    await open('coin');
+    await page.click('dialog button:has-text("Save, then open")');
+    await until(page, '(s) => s.document?.path === "coin.json" && s.motion');
+    assert.notEqual(studio.bytes().length, 0);
+    assert.equal(await state(page, '(s) => s.notice?.kind === "red" || s.notice === null'), true, 'nothing is said of the scene before');
+    await page.keyboard.press('Control+s');
+    await until(page, '(s) => s.notice?.message.startsWith("Saved")');
+    await page.mouse.move(300, 300);
+    await until(page, '(s) => s.notice === null', 12000);
   }));
