@@ -166,17 +166,69 @@ ContactPoint FeatureGeometry::contact(int a, int b, const FeaturePair& f, const 
   return contactOf(static_cast<GapKind>(f.kind), placeFeature(pair.a, A), placeFeature(pair.b, B), f.sign);
 }
 
-// Of a vertex and a face, which is most of what lasts, written out.
+std::optional<RimOnFace> FeatureGeometry::rimOnFace(int a, int b, const FeaturePair& f) const {
+  const FoundPair pair = found(solids_, a, b, f);
+  const bool of_first = pair.row.b == Family::face;
+  if (!of_first && pair.row.a != Family::face) return std::nullopt;
+  const Solid& solid = of_first ? pair.of_a : pair.of_b;
+  const Feature &own = of_first ? pair.a : pair.b, &face = of_first ? pair.b : pair.a;
+  const Family family = of_first ? pair.row.a : pair.row.b;
+  if (family != Family::rim && !own.mark) return std::nullopt;
+  for (std::size_t i = 0; i < solid.rims.size(); ++i) {
+    const Feature& rim = solid.rims[i];
+    const bool is_own = family == Family::rim ? &rim == &own
+                                              : rim.part == own.part && std::abs((own.point - rim.point).norm() - rim.rim) <= 1e-9 * rim.rim;
+    if (!is_own) continue;
+    const auto index = static_cast<std::int32_t>(i);
+    const Vec3 normal = f.sign < 0 ? Vec3(-face.direction) : face.direction;
+    return RimOnFace{of_first, rim.point, rim.direction, rim.rim, normal,
+                     {static_cast<std::int16_t>(of_first ? kRimPlane : kPlaneRim), of_first ? index : f.a, of_first ? f.b : index, f.sign}};
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+// A tilt of this sine is rounding: axes are known to some 1e-16.
+constexpr double kNoTilt = 1e-14;
+
+// Of a rim and a face: with x = d x N, t = x/|x| and u = d x t the point is C + rho u, and t' = (x' - t t.x')/|x|. Where it
+// lies flat and tilts about an axis that stays, t = x'/|x'| and t' = 0.
+ContactMotion rimMotion(const WorldFeature& rim, const Vec3& N, const Vec3& on_face, const PoseRate& of_rim, const PoseRate& of_face,
+                        const Vec3& rim_arm, const Vec3& face_arm) {
+  const Vec3 N_rate = of_face.w.cross(N), d_rate = of_rim.w.cross(rim.direction);
+  const Vec3 x = rim.direction.cross(N), x_rate = d_rate.cross(N) + rim.direction.cross(N_rate);
+  const double sine = x.norm();
+  const bool flat = sine <= kNoTilt;
+  const Vec3 t = flat ? Vec3(x_rate / x_rate.norm()) : Vec3(x / sine);
+  const Vec3 t_rate = flat ? Vec3(Vec3::Zero()) : Vec3((x_rate - t.dot(x_rate) * t) / sine);
+  const Vec3 u = rim.direction.cross(t), u_rate = d_rate.cross(t) + rim.direction.cross(t_rate);
+  const Vec3 moves = of_rim.v + of_rim.w.cross(rim_arm), apart = rim.point - on_face;
+  return {{N.dot(apart) - rim.rim * sine, N, rim.point + rim.rim * u},
+          N.dot(moves - of_face.v - of_face.w.cross(face_arm)) + N_rate.dot(apart) - rim.rim * t.dot(x_rate),
+          N_rate,
+          moves + rim.rim * u_rate};
+}
+
+}  // namespace
+
+// Of a vertex or a rim and a face, which is most of what lasts, written out.
 ContactMotion FeatureGeometry::motion(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B,
                                       const PoseRate& of_a, const PoseRate& of_b) const {
-  if (f.kind != kPointPlane && f.kind != kPlanePoint) return ContactGeometry::motion(a, b, f, A, B, of_a, of_b);
+  const bool is_rim = f.kind == kRimPlane || f.kind == kPlaneRim;
+  if (f.kind != kPointPlane && f.kind != kPlanePoint && !is_rim) return ContactGeometry::motion(a, b, f, A, B, of_a, of_b);
   const FoundPair pair = found(solids_, a, b, f);
-  const bool swapped = f.kind == kPlanePoint;
+  const bool swapped = f.kind == kPlanePoint || f.kind == kPlaneRim;
   const Feature &point = swapped ? pair.b : pair.a, &face = swapped ? pair.a : pair.b;
   const Pose &P = swapped ? B : A, &Q = swapped ? A : B;
   const PoseRate &of_point = swapped ? of_b : of_a, &of_face = swapped ? of_a : of_b;
   const Vec3 arm = P.R * point.point, arm_face = Q.R * face.point;
   const Vec3 N = (f.sign < 0 ? -1.0 : 1.0) * (Q.R * face.direction), N_rate = of_face.w.cross(N);
+  if (is_rim) {
+    ContactMotion m = rimMotion(placeFeature(point, P), N, Q.x + arm_face, of_point, of_face, arm, arm_face);
+    if (swapped) m.at.normal = -m.at.normal, m.normal_rate = -m.normal_rate;
+    return m;
+  }
   const Vec3 apart = P.x + arm - Q.x - arm_face, moves = of_point.v + of_point.w.cross(arm);
   const double side = swapped ? -1 : 1;
   return {{N.dot(apart) - point.radius, side * N, P.x + arm - point.radius * N},

@@ -3,6 +3,7 @@
 
 #include "adjoint/motion/body_distance.hpp"
 #include "adjoint/motion/body_geometry.h"
+#include "adjoint/motion/rim_geometry.hpp"
 #include "ode_bridge/solids/solid.hpp"
 
 namespace carom::ode_bridge_detail {
@@ -79,13 +80,15 @@ int branches(GapKind kind);
 /// so that tangents may be parallel. The search for impacts has no use for them.
 ///
 /// Where nothing is defined (parallel edges, points that coincide, rims in parallel planes) the gap is NaN. Of a rim
-/// that lies flat before a plane the gap is defined and the point is NaN.
+/// that lies flat before a plane the gap is defined and the point is NaN; where it tilts, `motion` gives the point that
+/// goes down, the limit of a tilt about an axis that stays.
 ContactPoint contactOf(GapKind kind, const WorldFeature& of_a, const WorldFeature& of_b, int sign);
 
 /// The gaps above, for the solids of a scene. Where contactOf returns NaN so does the Jacobian. Throws InputError for
 /// bodies and features that are not there.
 class FeatureGeometry final : public ContactGeometry,
                               public BodyGeometry,
+                              public adjoint_detail::RimGeometry,
                               public adjoint_detail::BodyDistance {
  public:
   explicit FeatureGeometry(std::vector<Solid> solids) : solids_(std::move(solids)) {}
@@ -100,6 +103,7 @@ class FeatureGeometry final : public ContactGeometry,
   /// Throws InputError for a pair of features that is not there.
   void checkFeatures(int a, int b, const FeaturePair& f) const;
 
+  std::optional<adjoint_detail::RimOnFace> rimOnFace(int a, int b, const FeaturePair& f) const override;
   double boundingRadius(int body) const override;
   double overlap(int a, int b, const Pose& A, const Pose& B) const override;
   std::vector<FeatureLimit> limits(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;

@@ -38,7 +38,7 @@ void addPointsInPlane(const Solid& solid, Family family, int index, const Vec3& 
       return;
     }
     case Family::rim:
-      add(contact);
+      if (contact.allFinite()) add(contact);  // one that lies flat has no point of its own
       return;
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/base/refuse.hpp"
 #include "adjoint/derivative/held_pass.hpp"
 #include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/impact/impact.hpp"
@@ -12,6 +13,7 @@
 #include "adjoint/impact/tilt_frame.hpp"
 #include "adjoint/impact/wide_impact.hpp"
 #include "adjoint/motion/guard.hpp"
+#include "adjoint/simulate/followed_path.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -60,7 +62,17 @@ EventGuard<double> guardOf(const Motion& motion, const Event& event, std::vector
                                       event.contacts[0].at.point, parts[0]);
 }
 
+// Where a rim lands flat its lowest point jumps, and a motion beside this one goes round: it has no derivative but along
+// motions that come to lie flat as well, which is not built.
+void refuseFlatRims(const Motion& motion, const Event& event) {
+  if (landsFlat(motion, event))
+    throw NotComputable(textOf(10, "the derivative through the landing of a rim that comes to lie flat is not known; '",
+                               motion.scene->bodies[static_cast<std::size_t>(event.participants[0].body)].name,
+                               "' does so at t = ", event.time, " s"));
+}
+
 Pass passOf(const Motion& motion, const Event& event) {
+  refuseFlatRims(motion, event);
   std::vector<Part> parts;
   const std::vector<double> weights = guardWeights(event);
   parts.reserve(weights.size());

@@ -34,9 +34,10 @@ constexpr int kTries = 200;
 // Of the unit of speed: slower than that is what rounding leaves of speeds that an impact law stops.
 constexpr double kStopped = 1e-14;
 constexpr std::size_t kMostSteps = 20'000;
-
-// A contact whose gap answers to its push by less than this share of its answer to the normal alone jams.
-constexpr double kJams = 1e-3;
+// What a step leaves of speeds that contacts keep at 0 is less than this share of the unit of speed.
+constexpr double kMostTakenBack = 1e-10;
+// A rim that comes to lie flat before so many steps have passed is brought there by the next one.
+constexpr double kLooksForFlat = 1.5;
 
 // By which a step may be longer, or has to be shorter.
 double factorFor(double error) {
@@ -65,6 +66,7 @@ HeldPath::HeldPath(HeldScene scene, std::vector<HeldContact> contacts, bool redu
       until_(until),
       known_(time),
       stopped_(std::move(stopped)) {
+  findRims();
   const HeldInstant now = instantOf(scene_, contacts_, start, slipAfter());
   const double spin = now.body.omega.norm() + std::sqrt(scene_.gravity.norm() / scene_.length);
   next_length_ = kFirstTurn / spin;
@@ -128,6 +130,13 @@ HeldStep HeldPath::nextStep() {
   HeldStepper stepper(scene_, contacts_, redundant_);
   HeldStepper::Start start{last_, known_, slipAfter(), std::vector<char>(contacts_.size(), 0)};
   double length = std::min(next_length_, lookAtSlips(start));  // however long the motion is: that must not matter
+  if (const std::optional<FlatAhead> ahead = flatAhead(start); ahead && ahead->time < kLooksForFlat * length) {
+    if (std::optional<HeldStep> last = stepToFlat(stepper, start, *ahead)) {
+      end_ = End{last->start + last->length, {TransitionCause::leaves, static_cast<int>(ahead->contact), -1, {}}};
+      return *std::move(last);
+    }
+    length = std::min(length, 0.5 * ahead->time);
+  }
   const HeldStep* like = steps_.empty() ? nullptr : &steps_.back();
   std::optional<HeldStep> too_long;
   for (int tries = 0; tries < kTries && known_ + length > known_; ++tries) {
@@ -152,6 +161,10 @@ HeldStep HeldPath::nextStep() {
       continue;
     }
     next_length_ = factorFor(error) * length;
+    if (!end && passesFlat(*step)) {
+      length *= 0.5;
+      continue;
+    }
     if (!end) return *step;
     if (!(end->time > known_)) {  // at once
       step->length = 0;
@@ -169,25 +182,6 @@ HeldStep HeldPath::nextStep() {
     return *step;
   }
   throw NotComputable("its path in contact cannot be followed beyond t = " + std::to_string(known_) + " s" + jamAt(start));
-}
-
-// Of a contact that slides: how its gap answers to the push n - mu d, while the others hold, over how it does to n. Where that
-// comes down to 0 its force grows beyond any bound: it jams (Painleve).
-std::string HeldPath::jamAt(const HeldStepper::Start& start) const {
-  const HeldInstant now = instantOf(scene_, contacts_, start.state, start.slip);
-  Eigen::MatrixXd inverse;
-  const HeldDynamics forces(now.body, now.contacts, redundant_, &inverse);
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    if (contacts_[k].mode != HeldMode::slides || !(contacts_[k].friction > 0)) continue;
-    const ContactInstant<double>& c = now.contacts[k];
-    const Eigen::Index at = forces.unknown(k);
-    const double share = 1 / (inverse(at, at) * c.n.dot(forces.responseAt(c.r, k, c.n)));
-    if (!(share < kJams)) continue;
-    return textOf(3, ": it jams there, as n.K(n - mu d) of a contact that slides, by which its force is divided, has come down to ", share,
-                  " of n.K n, and the force has grown to ", forces.pressing(k) / (scene_.model->mass * scene_.gravity.norm()),
-                  " times the weight");
-  }
-  return {};
 }
 
 // What lies beyond an end need not be followed.
@@ -218,7 +212,10 @@ void HeldPath::take(HeldStep step) {
     bounds_.spin = std::max(bounds_.spin, spin);
     bounds_.spin_rate = std::max(bounds_.spin_rate, bend + spin * spin);
     known_ = step.start + step.length;
-    last_ = stayingOn(step.stateAt(known_));
+    const State end = step.stateAt(known_);
+    last_ = endsFlat() ? end : stayingOn(end);
+    if (!((last_.v - end.v).norm() <= kMostTakenBack * scene_.speed))
+      throw NotComputable("what its path in contact leaves of speeds through the contacts is more than rounding");
   }
   steps_.add(std::move(step));
 }
@@ -321,6 +318,13 @@ HeldInstant HeldPath::instantAt(double t) const {
 }
 
 StateDerivative HeldPath::rateAt(double t) const {
+  if (endsFlat() && !(t < known_)) {  // the rim that lies flat there has no lowest point
+    const HeldVector slope = steps_.back().slopeAt(known_);
+    StateDerivative rate;
+    rate.x = last_.v, rate.v = slope.segment<3>(6), rate.L = slope.tail<3>();
+    rate.theta = scene_.model->inverseInertiaWorld(last_.q.toRotationMatrix()) * last_.L;
+    return rate;
+  }
   const HeldInstant now = instantAt(t);
   HeldForces forces;
   forces.solve(now, redundant_);

@@ -7,6 +7,7 @@
 #include "adjoint/contact/integrated_path.hpp"
 #include "adjoint/held/held_guards.hpp"
 #include "adjoint/held/held_step.hpp"
+#include "adjoint/motion/rim_geometry.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -48,6 +49,10 @@ class HeldPath final : public IntegratedPath {
   const std::vector<HeldGuard>& guards() const { return guards_; }
   bool redundant() const { return redundant_; }
   const HeldSteps& allSteps() const { return steps_; }
+  /// It ends where a rim lies flat: the guard is `leaves`, without a limit.
+  bool endsFlat() const { return end_ && end_->guard.cause == TransitionCause::leaves && end_->guard.limit < 0; }
+  /// It begins where a rim lies flat, and tilts about its lowest point.
+  bool beginsFlat() const;
   /// Of two steps that meet at t the one before.
   const HeldStep& stepAt(double t) const;
   double start() const { return start_; }
@@ -76,12 +81,26 @@ class HeldPath final : public IntegratedPath {
     double above, below;  ///< times, between which a guard falls through 0
     double high, low;     ///< its values there
   };
+  // A rim that comes to lie flat, about an axis that stays.
+  struct FlatAhead {
+    std::size_t contact;
+    Vec3 axis;          // unit, about which it tilts
+    double time;        // s, from the end of what is known
+  };
+  struct Tilt {
+    Vec3 x, rate;       // d x N, and d/dt of it
+  };
+  void findRims();
+  Tilt tiltOf(std::size_t contact, const State& state) const;
+  std::optional<FlatAhead> flatAhead(const HeldStepper::Start& start) const;
+  std::optional<HeldStep> stepToFlat(HeldStepper& stepper, const HeldStepper::Start& start, const FlatAhead& ahead) const;
+  bool passesFlat(const HeldStep& step) const;
   HeldStep nextStep();
   std::vector<Vec3> slipAfter() const;
   void alignStop(HeldInstant& now) const;
   double lookAtSlips(HeldStepper::Start& start) const;
   double shorterLength(double length, double error, const std::optional<End>& end) const;
-  std::optional<End> firstEnd(const HeldStep& step) const;
+  std::optional<End> firstEnd(const HeldStep& step, bool nodes_alone = false) const;
   double rootOf(Values& values, std::size_t guard, Bracket in) const;
   bool endAt(HeldStepper& stepper, const HeldStepper::Start& start, HeldStep& step, End& end) const;
   double guardAt(std::size_t guard, double t) const;
@@ -95,6 +114,7 @@ class HeldPath final : public IntegratedPath {
   std::vector<HeldContact> contacts_;
   bool redundant_;
   std::vector<HeldGuard> guards_;
+  std::vector<std::optional<RimOnFace>> rims_;  // of contacts that have one
   State start_state_, last_;
   double start_, until_, known_, next_length_;
   std::vector<Vec3> stopped_;

@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/simulate/contact_acceleration.hpp"
 
+#include <algorithm>
 #include <span>
+#include <tuple>
+
+#include "adjoint/motion/rim_geometry.hpp"
 
 namespace carom::adjoint_detail {
+namespace {
+
+// A rim whose heights differ by less lies flat, m for bodies of 1 m.
+constexpr double kFlatRim = 1e-13;
+
+}  // namespace
 
 FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, const Vec3& gravity) {
   const Mat3 A = model.inverseInertiaWorld(state.q.toRotationMatrix());
@@ -42,6 +52,20 @@ std::optional<double> ofABall(const Motion& motion, const Contact& contact, cons
 
 }  // namespace
 
+bool rimLiesFlat(const Motion& motion, const Contact& contact, const Pose& A, const Pose& B) {
+  const auto mayHaveRim = [&](int body) {
+    const Shape& shape = motion.scene->bodies[asIndex(body)].shape;
+    return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape) || std::holds_alternative<Compound>(shape);
+  };
+  if (!mayHaveRim(contact.a) && !mayHaveRim(contact.b)) return false;
+  const auto* geometry = dynamic_cast<const RimGeometry*>(motion.geometry.get());
+  if (!geometry) return false;
+  const auto rim = geometry->rimOnFace(contact.a, contact.b, contact.features);
+  if (!rim || !(rim->features == contact.features)) return false;
+  const Vec3 d = (rim->of_first ? A : B).R * rim->axis, N = (rim->of_first ? B : A).R * rim->normal;
+  return 2 * rim->radius * RimOnFace::tilt(d, N).norm() <= kFlatRim * std::max(1.0, A.x.cwiseAbs().maxCoeff());
+}
+
 double gapAcceleration(const Motion& motion, const Contact& contact, const ContactSide& a, const ContactSide& b) {
   if (const auto alpha = ofABall(motion, contact, a, b)) return *alpha;
   Eigen::Matrix<double, 12, 1> velocity = Eigen::Matrix<double, 12, 1>::Zero(), acceleration = velocity;
@@ -56,6 +80,15 @@ double gapAcceleration(const Motion& motion, const Contact& contact, const Conta
   };
   const Pose A = place(contact.a, a, 0), B = place(contact.b, b, 6);
   const ContactGeometry& geometry = *motion.geometry;
+  if (rimLiesFlat(motion, contact, A, B)) {  // as of the point of the body there
+    double of_points = 0;
+    for (const auto& [side, at, sign] : {std::tuple{&a, 0, 1.0}, std::tuple{&b, 6, -1.0}}) {
+      const Vec3 arm = contact.at.point - side->state.x, w = velocity.segment<3>(at + 3);
+      of_points += sign * contact.at.normal.dot(Vec3(acceleration.segment<3>(at)) + Vec3(acceleration.segment<3>(at + 3)).cross(arm) +
+                                                w.cross(w.cross(arm)));
+    }
+    return of_points;
+  }
   const ContactJacobian J = geometry.jacobian(contact.a, contact.b, contact.features, A, B);
   double alpha = J.pose.row(0).dot(acceleration);
   if (velocity.isZero(0)) return alpha;

@@ -23,6 +23,8 @@ struct ContactSide {
 };
 /// Of a body that nothing touches.
 ContactSide freeSide(const Motion& motion, int body, const State& state);
+/// Whether a contact is that of a rim which lies flat on a face at these poses: it has no lowest point of its own.
+bool rimLiesFlat(const Motion& motion, const Contact& contact, const Pose& A, const Pose& B);
 /// d^2(gap)/dt^2 of a contact.
 double gapAcceleration(const Motion& motion, const Contact& contact, const ContactSide& a, const ContactSide& b);
 

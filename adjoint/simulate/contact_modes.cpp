@@ -62,6 +62,11 @@ class Chooser {
     return closed_form.path ? closed_form : held(hint);
   }
 
+  ContactChoice tilts(const std::vector<const Contact*>& contacts, const ModeHint& hint) {
+    closed_ = contacts;
+    return held(hint);
+  }
+
   ContactChoice heldAs(const std::vector<const Contact*>& contacts, const std::vector<HeldContact>& like) {
     body_.hold(contacts);
     ContactChoice choice = onHeldPath();
@@ -251,6 +256,13 @@ ContactChoice chooseContactPath(const Motion& motion, int body, const State& sta
   ends.slipEnds();
   ContactChoice choice = ends.choose(hint);
   return choice.beyond.empty() ? choice : chooser.choose(hint);  // not all end together
+}
+
+ContactChoice tiltingPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& marks,
+                            const std::vector<const Contact*>& contacts, const ModeHint& hint) {
+  Chooser chooser(motion, body, state, marks);
+  chooser.ignoreSlips(hint.no_slip);
+  return chooser.tilts(contacts, hint);
 }
 
 ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,

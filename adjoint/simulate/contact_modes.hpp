@@ -44,6 +44,11 @@ ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
                                 const std::vector<const Contact*>& closed, const ModeHint& hint = {});
 
+/// The path of a body that tilts from where a rim lay flat, at `contacts`: the lowest point of the rim is one of them, which
+/// is the limit of a tilt about the axis that it has. `marks`: those of the rim.
+ContactChoice tiltingPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& marks,
+                            const std::vector<const Contact*>& contacts, const ModeHint& hint);
+
 /// The path on which contacts hold a body in the modes of `like`, one of each.
 ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
                          const std::vector<HeldContact>& like);

@@ -77,4 +77,13 @@ void extendAlong(const Motion& motion, const FollowedPath& held, Arc& arc, doubl
   arc.extendTo(time);
 }
 
+bool landsFlat(const Motion& motion, const Event& event) {
+  return std::ranges::any_of(event.participants, [&](const Participant& p) {
+    const std::vector<Arc>& arcs = motion.world_lines[asIndex(p.body)].arcs;
+    const auto path = [&](int arc) { return static_cast<const HeldPath*>(arcs[asIndex(arc)].integrated()); };
+    const HeldPath *before = path(p.arc), *after = path(p.arc + 1);
+    return (before && before->endsFlat() && before->knownUntil() == event.time) || (after && after->beginsFlat());
+  });
+}
+
 }  // namespace carom::adjoint_detail

@@ -31,4 +31,8 @@ struct FollowedPath {
 /// anew without it: what is followed goes on there.
 void extendAlong(const Motion& motion, const FollowedPath& held, Arc& arc, double time);
 
+/// Whether a rim that holds a body comes to lie flat at an event, or tilts from there on: the lowest point of it there is that
+/// of this motion, and of none beside it.
+bool landsFlat(const Motion& motion, const Event& event);
+
 }  // namespace carom::adjoint_detail

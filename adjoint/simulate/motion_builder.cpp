@@ -38,6 +38,12 @@ void MotionBuilder::place(Contact& c, const Kinematics& a, const Kinematics& b) 
   c.approach = c.at.normal.dot(a.v + a.w.cross(c.at.point - a.x) - b.v - b.w.cross(c.at.point - b.x));
 }
 
+void MotionBuilder::placeMoving(Contact& c, const Kinematics& a, const Kinematics& b) const {
+  c.at = motion.geometry->motion(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}, {a.v, a.w}, {b.v, b.w}).at;
+  c.impulse_normal = c.at.normal;
+  c.approach = c.at.normal.dot(a.v + a.w.cross(c.at.point - a.x) - b.v - b.w.cross(c.at.point - b.x));
+}
+
 const Contact* MotionBuilder::notParted(const Event& event, const std::vector<State>& after) const {
   for (const Contact& c : event.contacts) {
     if (c.tilt_a < 0 && c.tilt_b < 0) continue;

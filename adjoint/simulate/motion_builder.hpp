@@ -25,6 +25,8 @@ class MotionBuilder {
   /// Fills in the contact at the features of `contact`, where its bodies are at `a` and `b`: geometry, the normal of the
   /// impulse with its tilts, approach.
   void place(Contact& contact, const Kinematics& a, const Kinematics& b) const;
+  /// The same of a rim that lies flat, whose lowest point follows from how it moves.
+  void placeMoving(Contact& c, const Kinematics& a, const Kinematics& b) const;
   /// The coefficients of two bodies.
   PairCoefficients pairOf(int a, int b) const { return combine(*material_[index(a)], *material_[index(b)]); }
   /// The first contact whose bodies go on into one another, as an impulse along a tilted normal may make them; null

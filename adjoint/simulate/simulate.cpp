@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "adjoint/base/arguments.hpp"
+#include "adjoint/simulate/contact_acceleration.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 namespace carom {
@@ -177,6 +178,7 @@ Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& fea
   c.features = features;
   const auto tilt = [&](int body) { return arcOf(body).moving() ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
   builder_.place(c, ka, kb);
+  if (rimLiesFlat(motion_, c, {ka.x, ka.R}, {kb.x, kb.R})) builder_.placeMoving(c, ka, kb);
   c.counted = isCounted(c, snapshots_[place_a].state, snapshots_[place_b].state);
   if (c.counted) c.tilt_a = tilt(a), c.tilt_b = tilt(b);
   if (c.tilt_a >= 0 || c.tilt_b >= 0) builder_.place(c, ka, kb);

@@ -127,6 +127,7 @@ class Follower {
       if (was.kind == EventKind::placed) c.pair.friction = 0;
     }
     if (was.kind == EventKind::placed) return meet(was, 0);
+    if (landsFlat(like_, was)) return fail(was, "a rim came to lie flat there");
     if (was.kind == EventKind::transition) return followTransition(was);
     double from = 0, flight = was.time;
     for (const Participant& p : was.participants) {

@@ -141,6 +141,18 @@ class Simulator {
   bool captureLow();
   bool isCounted(const Contact& contact, const State& a, const State& b) const;
 
+  // simulator_flat.cpp: rims that lie flat
+  void resolveFlat(const Onward& from, int body);
+  struct Lowest {
+    Contact at;
+    double tilts;  // m/s: how fast its rim goes down there against the other side
+  };
+  std::optional<Lowest> lowestOf(const Contact& of, int body, const State& state, const State& moves) const;
+  std::optional<Contact> tiltsFrom(const std::vector<Contact>& closed, int body, State& after) const;
+  void dropFlatRims(std::vector<Contact>& closed) const;
+  std::vector<Contact> marksOf(const Contact& of) const;
+  bool isSameRim(const Contact& c, const Contact& d) const;
+
   // simulator_contact.cpp: contact that lasts
   bool contactsLast() const { return motion_.lowest_bounce > 0; }
   void resolveTransition(int body);

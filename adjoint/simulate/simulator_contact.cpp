@@ -153,7 +153,16 @@ void Simulator::chooseArc(std::size_t participant) {
   }
   State& after = draft_.after[participant];
   ContactChoice choice;
-  if (!closed.empty()) choice = chooseContactPath(motion_, body, after, pointersTo(closed), hintOf(closed));
+  std::vector<Contact> marks;
+  if (const std::optional<Contact> tilts = tiltsFrom(closed, body, after)) {
+    marks = marksOf(*tilts);
+    std::erase_if(closed, [&](const Contact& c) { return isSameRim(c, *tilts); });
+    closed.push_back(*tilts);
+    choice = tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), hintOf(closed));
+  } else if (!closed.empty()) {
+    dropFlatRims(closed);
+    choice = chooseContactPath(motion_, body, after, pointersTo(closed), hintOf(closed));
+  }
   if (choice.path && choice.path->form != PathForm::held && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {
     std::vector<Contact> last;  // what begins to last fixes the pose
     for (const Contact* c : choice.contacts) last.push_back(*c);
@@ -251,6 +260,7 @@ void Simulator::resolveTransition(int body) {
   event.kind = EventKind::transition;
   snapshots_.clear();
   snapshot(body, event.time);
+  if (from.why.cause == TransitionCause::leaves && from.why.limit < 0) return resolveFlat(from, body);
   event.cause = from.why.cause;
   event.border = from.why.limit;
   const auto add = [&](const Contact& h, bool lasts) {
