@@ -138,7 +138,8 @@ class Simulator {
   const State& stateAfter(int body) const;
   double accelerationOf(const Contact& contact) const;
   bool leavesFast() const;
-  bool captureLow();
+  bool captureLow(const std::vector<std::size_t>& loose, std::vector<std::size_t>& kept);
+  bool pullsTooMuch(const std::vector<State>& before) const;
   bool isCounted(const Contact& contact, const State& a, const State& b) const;
 
   // simulator_flat.cpp: rims that lie flat
@@ -161,6 +162,7 @@ class Simulator {
   bool hasLeft(const Contact& c, double time, double room);
   std::vector<Contact> contactsAt(const Onward& from, double time, double when, double reach);
   bool strikes(const Contact& contact);
+  double strikingSpeed(const Contact& contact);
   void addBeside(const Onward& from);
   std::vector<std::pair<int, int>> heldPairs(const Onward& from);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/impact/impact.hpp"
@@ -17,19 +18,34 @@ constexpr double kUncounted = 1e-6;
 // Accelerations of contacts beyond this, m/s^2, come of spins that no bounce is low at: far most often it tells at once.
 constexpr double kFastestSpin = 1e6;
 
+// What keeping contacts may change of a body's speeds, over the fastest approach.
+constexpr double kMostPulled = 100;
+
 bool isTilted(const Contact& c) { return c.tilt_a >= 0 || c.tilt_b >= 0; }
 
 }  // namespace
 
 void Simulator::solveLaw() {
   Event& event = draft_.event;
-  do {
+  const auto solve = [&] {
     try {
       solveImpact(event, *motion_.models, draft_.after);
     } catch (const NotComputable& error) {
       giveUp("impact", event.contacts[0].a, event.contacts[0].b, event.time, error);
     }
-  } while (contactsLast() && !leavesFast() && captureLow());
+  };
+  solve();
+  std::vector<std::size_t> loose;  // contacts that are not to be kept
+  while (contactsLast() && !leavesFast()) {
+    const std::vector<State> before = draft_.after;
+    std::vector<std::size_t> kept;
+    if (!captureLow(loose, kept)) break;
+    solve();
+    if (kept.empty() || !pullsTooMuch(before)) continue;
+    for (const std::size_t k : kept) event.contacts[k].kept = false;
+    loose.insert(loose.end(), kept.begin(), kept.end());
+    solve();
+  }
   event.settles_at.reset();
   if (event.contacts[0].captured) event.settles_at = settlesAt(motion_, event, draft_.after);
 }
@@ -73,25 +89,47 @@ bool Simulator::leavesFast() const {
   return leaves * leaves > 2 * lowest_speed_;  // twice, for rounding
 }
 
+// Whether contacts that are kept change a body by far more than the speeds of the event: those of normals that differ by next to
+// nothing fix what slides along them.
+bool Simulator::pullsTooMuch(const std::vector<State>& before) const {
+  const Event& event = draft_.event;
+  double fastest = std::sqrt(2 * motion_.lowest_bounce * scene_.gravity.norm());
+  for (const Contact& c : event.contacts)
+    if (!c.held) fastest = std::max(fastest, std::abs(c.approach));
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const int body = event.participants[i].body;
+    const State &was = before[i], &now = draft_.after[i];
+    const BodyModel& model = (*motion_.models)[index(body)];
+    const double reach = kindOf(scene_.bodies[index(body)].shape).boundingRadius(scene_.bodies[index(body)].shape) + model.center.norm();
+    const Vec3 turned = model.inverseInertiaWorld(now.q.toRotationMatrix()) * (now.L - was.L);
+    if ((now.v - was.v).norm() + reach * turned.norm() > kMostPulled * fastest) return true;
+  }
+  return false;
+}
+
 // Contacts that leave so slowly that they would be back from less than the lowest bounce part without speed instead
-// (11.11); true where there are more of them than before.
-bool Simulator::captureLow() {
+// (11.11); true where there are more of them than before. `kept`: those of them that did not approach.
+bool Simulator::captureLow(const std::vector<std::size_t>& loose, std::vector<std::size_t>& kept) {
   Event& event = draft_.event;
   bool more = false;
-  for (Contact& c : event.contacts) {
+  for (std::size_t k = 0; k < event.contacts.size(); ++k) {
+    Contact& c = event.contacts[k];
     if (c.lasts || c.kept || c.captured) continue;
     double leaves = 0;
     for (int body : {c.a, c.b}) {
       if (!event.find(body)) continue;
-      const Kinematics k = arcOf(body).kinematicsOf(stateAfter(body));
-      leaves += (body == c.a ? 1 : -1) * c.at.normal.dot(k.v + k.w.cross(c.at.point - k.x));
+      const Kinematics now = arcOf(body).kinematicsOf(stateAfter(body));
+      leaves += (body == c.a ? 1 : -1) * c.at.normal.dot(now.v + now.w.cross(c.at.point - now.x));
     }
     if (!(leaves * leaves < lowest_speed_)) continue;
     const double alpha = accelerationOf(c);
     if (!(alpha < 0 && leaves * leaves < -2 * motion_.lowest_bounce * alpha)) continue;
+    const bool keeps = c.held || !(c.approach < 0);
+    if (keeps && std::ranges::find(loose, k) != loose.end()) continue;
     more = true;
-    if (c.held || !(c.approach < 0)) {
+    if (keeps) {
       c.kept = true;
+      kept.push_back(k);
       continue;
     }
     c.captured = true;

@@ -245,10 +245,11 @@ std::vector<Contact> Simulator::contactsAt(const Onward& from, double time, doub
 }
 
 // Whether what comes into touch strikes, so that it is an impact: it would bounce higher than the lowest bounce.
-bool Simulator::strikes(const Contact& c) {
-  const double speed = std::max(kSlowest * arcOf(isMoved(c.a) ? c.a : c.b).velocityAt(draft_.event.time).norm(),
-                                std::sqrt(2 * motion_.lowest_bounce * scene_.gravity.norm()));
-  return c.approach < -speed;
+bool Simulator::strikes(const Contact& c) { return c.approach < -strikingSpeed(c); }
+
+double Simulator::strikingSpeed(const Contact& c) {
+  return std::max(kSlowest * arcOf(isMoved(c.a) ? c.a : c.b).velocityAt(draft_.event.time).norm(),
+                  std::sqrt(2 * motion_.lowest_bounce * scene_.gravity.norm()));
 }
 
 // The body of a path whose time has come goes on otherwise, from the state that it has.
@@ -270,7 +271,8 @@ void Simulator::resolveTransition(int body) {
     c.lasts = lasts;
   };
   if (event.cause == TransitionCause::leaves) {
-    const std::vector<Contact> beyond = contactsBeyond(from, body, event.time);
+    std::vector<Contact> beyond = contactsBeyond(from, body, event.time);
+    std::erase_if(beyond, [&](const Contact& c) { return c.approach > strikingSpeed(c); });  // it parts from there
     if (std::ranges::any_of(beyond, [&](const Contact& c) { return strikes(c); })) return resolveLanding(beyond);
     add(from.held[index(from.why.contact)], false);
     for (const Contact& c : beyond)

@@ -18,8 +18,10 @@ constexpr double kTouches = 2e-8;   // m, of a point
 constexpr double kNoSlip = 1e-7;    // of the speeds there are
 // s, between the times of differences: of states that are known to 1e-16 shorter ones tell nothing.
 constexpr double kLongest = 2e-5, kShortest = 1e-8;
-// m/s: where contacts would bounce below the lowest one, n.u = 0 is kept by a pull, of redundant ones by more than that bounce.
-constexpr double kLowBounce = 5e-4;
+// Of the speeds there are: where contacts would bounce below the lowest one, n.u = 0 before and after is kept by a pull.
+constexpr double kKept = 1e-10;
+// Of sqrt(g size): slips that count as none, those of its own impulse among them, are stopped where a path begins.
+constexpr double kStopped = 1e-7;
 constexpr int kDirections = 48;
 
 // min |G y - w| over y >= 0, by Lawson and Hanson's active set; gives the rest.
@@ -113,17 +115,19 @@ class Check {
   }
 
   // What forces of Coulomb's law at the points in touch cannot give; moments over the size of the body.
-  double rest(const std::vector<GroundTouch>& touches, const State& s, const Vec3& force, const Vec3& moment, bool slips) {
+  Vec6 columnOf(const GroundTouch& t, const Vec3& f) const {
+    Vec6 column;
+    column << f, t.r.cross(f) / size_;
+    return column.normalized();
+  }
+
+  double rest(const std::vector<GroundTouch>& touches, const State& s, const Vec3& force, const Vec3& moment, bool slips,
+              std::vector<Vec6> columns = {}) {
     Vec6 w;
     w << force, moment / size_;
     const Vec3 omega = spin(s);
     const double speed = speedOf(s);
-    std::vector<Vec6> columns;
-    const auto add = [&](const GroundTouch& t, const Vec3& f) {
-      Vec6 column;
-      column << f, t.r.cross(f) / size_;
-      columns.push_back(column.normalized());
-    };
+    const auto add = [&](const GroundTouch& t, const Vec3& f) { columns.push_back(columnOf(t, f)); };
     for (const GroundTouch& t : touches) {
       Vec3 u = s.v + omega.cross(t.r);
       u -= t.n.dot(u) * t.n;
@@ -190,10 +194,16 @@ class Check {
 
   void jump(const State& before, const State& after, double t) {
     const Vec3 force = model_.mass * (after.v - before.v), moment = after.L - before.L;
-    const double size = force.norm() + moment.norm() / size_;
-    const double unit = size + kLowBounce / kImpulse * model_.mass;
+    const double size = force.norm() + moment.norm() / size_, speed = speedOf(before) + speedOf(after);
     if (!(size > 0)) return;
-    fail(rest(touching(before, kTouches), before, force, moment, false) / unit, kImpulse, found_.worst_impulse, t,
+    const std::vector<GroundTouch> touches = touching(before, kTouches);
+    const auto parts = [&](const State& s, const GroundTouch& of) { return of.n.dot(s.v + spin(s).cross(of.r)); };
+    std::vector<Vec6> pulls;
+    for (const GroundTouch& of : touches)
+      if (std::abs(parts(before, of)) <= kKept * speed && std::abs(parts(after, of)) <= kKept * speed)
+        pulls.push_back(columnOf(of, -of.n));
+    const double unit = size + kStopped / kImpulse * model_.mass * std::sqrt(gravity_.norm() * size_);
+    fail(rest(touches, before, force, moment, false, pulls) / unit, kImpulse, found_.worst_impulse, t,
          "an impulse leaves the cones of friction");
   }
 
