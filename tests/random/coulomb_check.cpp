@@ -20,8 +20,10 @@ constexpr double kNoSlip = 1e-7;    // of the speeds there are
 constexpr double kLongest = 2e-5, kShortest = 1e-8;
 // Of the speeds there are: where contacts would bounce below the lowest one, n.u = 0 before and after is kept by a pull.
 constexpr double kKept = 1e-10;
-// Of sqrt(g size): slips that count as none, those of its own impulse among them, are stopped where a path begins.
-constexpr double kStopped = 1e-7;
+constexpr std::size_t kMostKept = 8;  // of them any may pull, without friction
+// Of the speed of the lowest bounce: where contacts are captured from below it, slips of up to four times that speed are
+// stopped as the path begins, at up to three places that are independent.
+constexpr double kStopped = 12;
 constexpr int kDirections = 48;
 
 // min |G y - w| over y >= 0, by Lawson and Hanson's active set; gives the rest.
@@ -198,13 +200,22 @@ class Check {
     if (!(size > 0)) return;
     const std::vector<GroundTouch> touches = touching(before, kTouches);
     const auto parts = [&](const State& s, const GroundTouch& of) { return of.n.dot(s.v + spin(s).cross(of.r)); };
-    std::vector<Vec6> pulls;
-    for (const GroundTouch& of : touches)
-      if (std::abs(parts(before, of)) <= kKept * speed && std::abs(parts(after, of)) <= kKept * speed)
-        pulls.push_back(columnOf(of, -of.n));
-    const double unit = size + kStopped / kImpulse * model_.mass * std::sqrt(gravity_.norm() * size_);
-    fail(rest(touches, before, force, moment, false, pulls) / unit, kImpulse, found_.worst_impulse, t,
-         "an impulse leaves the cones of friction");
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k < touches.size() && kept.size() < kMostKept; ++k)
+      if (std::abs(parts(before, touches[k])) <= kKept * speed && std::abs(parts(after, touches[k])) <= kKept * speed) kept.push_back(k);
+    const double unit = size + kStopped / kImpulse * model_.mass * std::sqrt(2 * motion_.lowest_bounce * gravity_.norm());
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t set = 0; set < std::size_t{1} << kept.size() && !(least <= kImpulse * unit); ++set) {
+      std::vector<GroundTouch> push = touches;
+      std::vector<Vec6> pulls;
+      for (std::size_t k = kept.size(); k-- > 0;)
+        if (set >> k & 1) {
+          pulls.push_back(columnOf(touches[kept[k]], -touches[kept[k]].n));
+          push.erase(push.begin() + static_cast<std::ptrdiff_t>(kept[k]));
+        }
+      least = std::min(least, rest(push, before, force, moment, false, pulls));
+    }
+    fail(least / unit, kImpulse, found_.worst_impulse, t, "an impulse leaves the cones of friction");
   }
 
   const Motion& motion_;
