@@ -26,7 +26,7 @@ double polish(const GapAt& gap_at, double from, double t) {
     best_time = t;
     if (!(at.rate < 0)) break;
     const double next = std::max(from, t - at.gap / at.rate);
-    if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return next;
+    if (std::abs(next - t) <= 2 * kEps * t) return next;
     t = next;
   }
   return best_time;
@@ -66,7 +66,7 @@ BallImpact ballPlaneImpact(const FlightPath& ball, const Vec3& g, const Vec3& no
   };
   const auto [h, v] = gap_at(from);
   const double a = normal.dot(g);
-  const double touch = kTouch * std::max({1.0, ball.positionAt(from, g).cwiseAbs().maxCoeff(), ball.radius});
+  const double touch = kTouch * std::max(ball.positionAt(from, g).cwiseAbs().maxCoeff(), ball.radius);
   const double still = kStill * ball.velocityAt(from, g).norm();
   if (h <= touch && std::abs(v) <= std::max(still, std::sqrt(2 * std::abs(a) * touch))) {
     if (v >= 0 && a > 0) return {};  // it parts

@@ -47,7 +47,7 @@ inline bool mayTouch(const BallNow& ball, const Vec3& g, const Vec3& normal, dou
   const double h = normal.dot(ball.x) - offset - ball.radius, v = normal.dot(ball.v), a = normal.dot(g);
   const double T = until - from;
   const double lowest = std::min(h, h + T * (a < 0 ? v + 0.5 * T * a : v));
-  return lowest <= 1e-9 * (1 + std::abs(offset) + ball.radius + T * std::abs(v));
+  return lowest <= 1e-9 * (std::abs(offset) + ball.radius + T * std::abs(v));
 }
 
 /// Two balls under the same acceleration g fly straight relative to each other: with d = x_a - x_b and w = v_a - v_b at

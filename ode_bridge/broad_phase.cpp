@@ -65,6 +65,7 @@ void BroadPhase::reset(std::size_t count) {
 
 void BroadPhase::setBounds(int body, const Bounds& b, bool moving) {
   const dGeomID geom = space_->ofClass(body, dBoxClass);
+  // the library wants sizes above 0; larger boxes only list more pairs
   const Vec3 centre = 0.5 * (b.low + b.high), size = (b.high - b.low).cwiseMax(1e-12);
   dGeomSetPosition(geom, centre.x(), centre.y(), centre.z());
   dGeomBoxSetLengths(geom, size.x(), size.y(), size.z());

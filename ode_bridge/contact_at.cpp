@@ -14,7 +14,7 @@ ContactPoint contactAt(const Placed& a, const Placed& b, const FeaturePair& f) {
 }
 
 double touchTolerance(const Placed& a, const Placed& b) {
-  double scale = 1;
+  double scale = 0;
   for (const Placed* p : {&a, &b})
     if (!p->solid->plane) scale = std::max({scale, p->k.x.cwiseAbs().maxCoeff(), p->solid->bound()});
   return kTouch * scale;

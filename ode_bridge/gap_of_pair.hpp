@@ -10,13 +10,25 @@
 
 namespace carom::ode_bridge_detail {
 
-// An approach of less than this share of the speeds, or of so many m/s, may be that of a touch which goes no deeper.
-inline constexpr double kGrazing = 1e-3, kGrazingSpeed = 1e-5;  // of bodies that began in touch, or roll along a seam
+// An approach of less than this share of the speeds, or of what spins and accelerations give (ownSpeed), may be that of a
+// touch which goes no deeper: of bodies that began in touch, or roll along a seam.
+inline constexpr double kGrazing = 1e-3, kGrazingOfOwn = 1e-5;
 // It is one if a straight approach would overlap by so many tolerances of contact, and it does not come half as far.
 inline constexpr double kDeeper = 4;
 
-// Bodies in touch that begin with no more than this against each other, m/s, begin with nothing.
+// Bodies in touch that begin with no more than this share of ownSpeed against each other begin with nothing.
 inline constexpr double kAtRest = 1e-15;
+
+// What spins, and accelerations against each other, give over the size of what moves, m/s.
+inline double ownSpeed(const Placed& a, const Placed& b) {
+  double length = 0, spinning = 0;
+  for (const Placed* p : {&a, &b}) {
+    if (p->solid->plane || !p->arc || !p->arc->moving()) continue;
+    length = std::max(length, p->solid->bound());
+    spinning += p->spin * p->solid->bound();
+  }
+  return spinning + std::sqrt((a.acceleration - b.acceleration).norm() * length);
+}
 
 // An approach along n slower than this cannot be told from none. What a body spins by about n moves nothing along n,
 // but for its rounding.
@@ -52,7 +64,7 @@ class GapOfPair {
     if (!(now.rate < -now.still) || (!parted && !goesDeeper(t, now))) return {t, false};
     if (!parted && t > from_) {
       const State start = stateAt(from_);
-      const bool at_rest = std::abs(start.rate) <= std::max(start.still, kAtRest);
+      const bool at_rest = std::abs(start.rate) <= std::max(start.still, kAtRest * start.own);
       if (at_rest && std::abs(start.gap) <= kDeeper * tolerance_ && !risesBefore(t)) return {from_, true};
     }
     return newton(t, now);
@@ -62,14 +74,14 @@ class GapOfPair {
 
  private:
   struct State {
-    double gap, rate, still, speed;  // slower than `still` is no approach
+    double gap, rate, still, speed, own;  // slower than `still` is no approach
   };
-  static bool isSlow(const State& at) { return -at.rate < std::max(kGrazing * at.speed, kGrazingSpeed); }
+  static bool isSlow(const State& at) { return -at.rate < std::max(kGrazing * at.speed, kGrazingOfOwn * at.own); }
 
   State stateOf(const Placed& a, const Placed& b) const {
     const ContactPoint c =
         pair_.geometry.contact(pair_.a, pair_.b, features_, {a.k.x, a.k.R}, {b.k.x, b.k.R});
-    return {c.gap, gapRate(a, b, c), stillSpeed(a, b, c.normal), a.k.v.norm() + b.k.v.norm()};
+    return {c.gap, gapRate(a, b, c), stillSpeed(a, b, c.normal), a.k.v.norm() + b.k.v.norm(), ownSpeed(a, b)};
   }
   State stateAt(double t) const {
     pair_.arc_a.extendTo(t);
@@ -82,7 +94,7 @@ class GapOfPair {
   bool risesBefore(double t) const {
     for (double h = 0.125 * (t - from_); from_ + h > from_; h *= 0.125) {
       const State then = stateAt(from_ + h);
-      const double still = std::max(then.still, kAtRest);
+      const double still = std::max(then.still, kAtRest * then.own);
       if (then.rate > still) return true;
       if (std::abs(then.rate) <= still) break;
     }
@@ -101,7 +113,7 @@ class GapOfPair {
     double best = std::abs(at.gap);
     for (int round = 0; round < 6; ++round) {
       const double next = std::max(from_, t - at.gap / at.rate);
-      if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {next, true};
+      if (std::abs(next - t) <= 2 * kEps * t) return {next, true};
       at = stateAt(next);
       if (!(std::abs(at.gap) < best) || !(at.rate < 0)) return {std::abs(at.gap) <= best ? next : t, true};
       best = std::abs(at.gap);

@@ -3,6 +3,9 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "ode_bridge/library.hpp"
 
 namespace carom::ode_bridge_detail {
@@ -35,12 +38,13 @@ void NarrowPhase::reset(const std::vector<Solid>& solids) {
 
 namespace {
 
-void place(dGeomID geom, const Placed& p, double margin) {
-  const Vec3 size = 2 * p.solid->half.array() + 2 * margin;
+// In units of `unit`, 1/m.
+void place(dGeomID geom, const Placed& p, double margin, double unit) {
+  const Vec3 size = 2 * unit * (p.solid->half.array() + margin), x = unit * p.k.x;
   const Mat3& R = p.k.R;
   const dMatrix3 rotation = {R(0, 0), R(0, 1), R(0, 2), 0, R(1, 0), R(1, 1), R(1, 2), 0, R(2, 0), R(2, 1), R(2, 2), 0};
   dGeomBoxSetLengths(geom, size.x(), size.y(), size.z());
-  dGeomSetPosition(geom, p.k.x.x(), p.k.x.y(), p.k.x.z());
+  dGeomSetPosition(geom, x.x(), x.y(), x.z());
   dGeomSetRotation(geom, rotation);
 }
 
@@ -50,8 +54,10 @@ std::optional<Vec3> NarrowPhase::candidateNormal(int a, int b, const Placed& pla
                                                  double margin) const {
   const dGeomID ga = geoms_->geoms[static_cast<std::size_t>(a)], gb = geoms_->geoms[static_cast<std::size_t>(b)];
   if (!ga || !gb) return std::nullopt;
-  place(ga, placed_a, margin);
-  place(gb, placed_b, margin);
+  // the library has lengths of its own that it takes for none: of a power of two the boxes are of about 1
+  const double unit = std::ldexp(1, -std::ilogb(std::max(placed_a.solid->bound(), placed_b.solid->bound())));
+  place(ga, placed_a, margin, unit);
+  place(gb, placed_b, margin, unit);
   dContactGeom contact;
   if (dCollide(ga, gb, 1, &contact, sizeof contact) < 1) return std::nullopt;
   const Vec3 n(contact.normal[0], contact.normal[1], contact.normal[2]);

@@ -99,7 +99,8 @@ void Neighbours::setPath(int body, const FlightPath& path, const Acceleration& a
   end_ = std::max(end_, until);
   if (few()) {
     const Bounds centre = sweptCentre(mine, accelerationOf(body), from, until);
-    boxes_[at(body)] = grown(centre, radius + roundingRoom(centre));
+    const Bounds box = grown(centre, radius);
+    boxes_[at(body)] = grown(box, roundingRoom(box));
     return;
   }
   if (all_until_ == -kNever) return;  // no boxes yet

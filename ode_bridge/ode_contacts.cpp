@@ -217,7 +217,7 @@ void OdeContacts::State::keepThoseThatMayMeet(int body, std::vector<int>& others
   // the paths lie all over the memory: they are fetched side by side rather than one after the other
   for (int other : others) __builtin_prefetch(&neighbours.path(other));
   BallNow ball{path.positionAt(t, gravity), path.velocityAt(t, gravity), path.radius};
-  ball.radius += 1e-9 * (1 + ball.x.cwiseAbs().maxCoeff() + ball.radius);  // the tolerance of contact, and rounding
+  ball.radius += 1e-9 * (ball.x.cwiseAbs().maxCoeff() + ball.radius);  // the tolerance of contact, and rounding
   const auto apart = [&](int other) {
     const Quick kind = quick[static_cast<std::size_t>(other)];
     if (kind == Quick::fixed) return false;
@@ -294,7 +294,11 @@ std::vector<FeaturePair> OdeContacts::touching(int a, int b, const Arc& arc_a, c
   if (quick(a) && quick(b)) {
     const double gap = state_->quickGap(a, b, arc_a, arc_b, t);
     const auto touch = [&] {
-      return kTouch * std::max({1.0, arc_a.positionAt(t).cwiseAbs().maxCoeff(), arc_b.positionAt(t).cwiseAbs().maxCoeff()});
+      double size = 0;
+      for (const auto& [body, arc] : {std::pair{a, &arc_a}, std::pair{b, &arc_b}})
+        if (const BodyExtent& e = state_->neighbours.extents()[static_cast<std::size_t>(body)]; !e.half_space)
+          size = std::max({size, arc->positionAt(t).cwiseAbs().maxCoeff(), e.radius});
+      return kTouch * size;
     };
     if (gap > tolerance && gap > 4 * touch()) return {};
     return {state_->quickFeatures(a, b)};

@@ -10,7 +10,7 @@ namespace {
 
 // Normals this alike are those of one plane.
 constexpr double kPlaneOfGround = 1e-9;
-// What has parts below a plane comes this far below it, m for bodies of 1 m.
+// What has parts below a plane comes this far below it, as a share of its size and of that of positions.
 constexpr double kPartBelow = 1e-9;
 // Room for the tolerance of contact, in so many of it.
 constexpr double kPlaneRoom = 100;
@@ -38,7 +38,7 @@ bool OdeContacts::State::mayBeBeyond(int body, const Vec3& n, const Vec3& p, dou
     return extentAlong(piece, n) + piece.piece->radius + n.dot(standing.k.x - p) <= room;
   }
   const Vec3 lowest = (n.array() > 0).select(e.box.low, e.box.high);
-  return n.dot(lowest - p) <= -kPartBelow * (1 + p.norm());
+  return n.dot(lowest - p) <= -kPartBelow * (standing.solid->bound() + p.norm());
 }
 
 std::optional<PredictedImpact> OdeContacts::firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,

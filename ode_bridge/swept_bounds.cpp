@@ -28,7 +28,7 @@ Bounds sweptCentre(const FlightPath& path, const Acceleration& acceleration, dou
 Bounds grown(const Bounds& b, double room) { return {b.low.array() - room, b.high.array() + room}; }
 
 double roundingRoom(const Bounds& b) {
-  return 1e-9 * std::max({1.0, b.low.cwiseAbs().maxCoeff(), b.high.cwiseAbs().maxCoeff()});
+  return 1e-9 * std::max(b.low.cwiseAbs().maxCoeff(), b.high.cwiseAbs().maxCoeff());
 }
 
 // Along each axis by the parabola of the least and that of the greatest acceleration.

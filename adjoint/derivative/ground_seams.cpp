@@ -9,7 +9,8 @@
 namespace carom::adjoint_detail {
 namespace {
 
-// Normals this alike, and points this near to one plane (m for bodies of 1 m), are those of one face; what is this near touches.
+// Normals this alike, and points this near to one plane (as a share of the size of positions), are those of one face; what is
+// this near touches.
 constexpr double kOneFace = 1e-9;
 
 }  // namespace
@@ -30,7 +31,9 @@ std::vector<int> flushBodiesOf(const Motion& motion, const Event& event) {
       const int one = isFixed(c.a) ? c.a : c.b, other = isFixed(d.a) ? d.a : d.b;
       if (one == other || (isFixed(c.a) ? c.b : c.a) != (isFixed(d.a) ? d.b : d.a)) continue;
       const Vec3 n = isFixed(c.a) ? c.at.normal : Vec3(-c.at.normal), m = isFixed(d.a) ? d.at.normal : Vec3(-d.at.normal);
-      const double room = kOneFace * (1 + c.at.point.norm());
+      const Participant* moved = event.find(isFixed(c.a) ? c.b : c.a);
+      const double arm = moved ? (c.at.point - moved->before.x).norm() : 0;
+      const double room = kOneFace * (arm + c.at.point.norm());
       if ((n - m).norm() > kOneFace || std::abs(n.dot(c.at.point - d.at.point)) > room) continue;
       const int first = std::min(one, other), second = std::max(one, other);
       if (distance && distance->nearest(first, second, poseOf(first), poseOf(second)).gap > room) continue;

@@ -32,6 +32,7 @@ struct HeldScene {
   Vec3 gravity = Vec3::Zero();       ///< m/s^2, the body's gravity factor included
   std::vector<Pose> with;            ///< of each contact's other body
   double length = 1;                 ///< m, the size of the body
+  double size = 1;                   ///< m, that of positions: what their rounding is of
   double speed = 1;                  ///< m/s, that it gets by falling as far as it is large, or that it has
 
   ContactMotion contact(const HeldContact& c, std::size_t k, const Pose& own, const Vec3& v, const Vec3& w) const {

@@ -4,6 +4,10 @@
 namespace carom::adjoint_detail {
 namespace {
 
+bool isLength(const HeldGuard& guard) {
+  return guard.cause == TransitionCause::leaves && !guard.border.point_weight.isZero(0);
+}
+
 double forceUnit(const HeldScene& scene) { return scene.model->mass * scene.speed * scene.speed / scene.length; }
 
 double borderValue(const HeldGuard& guard, const HeldScene& scene, const std::vector<HeldContact>& contacts,
@@ -66,7 +70,7 @@ double guardValue(const HeldGuard& guard, const HeldScene& scene, const std::vec
   }
 }
 
-double guardRounding(const HeldGuard& guard) {
+double guardRounding(const HeldGuard& guard, const HeldScene& scene) {
   switch (guard.cause) {
     case TransitionCause::lifts:
     case TransitionCause::slips:
@@ -74,8 +78,10 @@ double guardRounding(const HeldGuard& guard) {
     case TransitionCause::sticks:
       return 1e-13;
     default:
-      return 1e-14;
+      return 1e-14 * (isLength(guard) ? scene.size : 1);
   }
 }
+
+double shareOfMargin(const HeldGuard& guard, const HeldScene& scene) { return isLength(guard) ? 1 / scene.length : 1; }
 
 }  // namespace carom::adjoint_detail

@@ -24,9 +24,10 @@ std::vector<HeldGuard> guardsOf(const HeldScene& scene, const std::vector<HeldCo
 
 /// The value of a guard, and how much of it is rounding:
 ///   lifts   n.f / (m a);    slips   (mu n.f - |f_t|) / (m a);    sticks   t.u / c;    leaves   see FeatureLimit
-/// with the units of force m a and speed c of the scene.
+/// with the units of force m a and speed c of the scene. `shareOfMargin`: by what a value is to be multiplied to be without a unit.
 double guardValue(const HeldGuard& guard, const HeldScene& scene, const std::vector<HeldContact>& contacts,
                   const Pose& own, const HeldInstant& now, const HeldForces& forces);
-double guardRounding(const HeldGuard& guard);
+double guardRounding(const HeldGuard& guard, const HeldScene& scene);
+double shareOfMargin(const HeldGuard& guard, const HeldScene& scene);
 
 }  // namespace carom::adjoint_detail

@@ -25,7 +25,7 @@ constexpr double kTiltRounding = 8e-16;
 constexpr double kNodeNoise = 0.05;
 // Rounds of a step to where it lies flat.
 constexpr int kLandings = 12;
-// How well the time of a least value is known, s, or as a share of the time: values are flat there.
+// How well the time of a least value is known, as a share of it or of the unit of time: values are flat there.
 constexpr double kLeastWithin = 1e-9;
 // What a slip that ends may have across its direction, as a share of the unit of speed: one that goes straight, and one
 // that still turns.
@@ -92,7 +92,7 @@ bool HeldPath::endAt(HeldStepper& stepper, const HeldStepper::Start& start, Held
     const double h = step.length, value = values.at(known_ + h)[which], earlier = values.at(known_ + 0.999 * h)[which];
     const double move = -value * (0.001 * h) / (value - earlier);
     if (std::abs(move) <= std::max(kSameEnd * h, 1e-16 * known_)) return true;
-    const bool is_rounding = std::abs(value) <= guardRounding(guards_[which]);  // of a guard that hardly moves
+    const bool is_rounding = std::abs(value) <= guardRounding(guards_[which], scene_);  // of a guard that hardly moves
     if (is_rounding && (round > 0 || !(value < earlier))) return true;
     if (!(std::abs(move) <= 0.5 * h)) return false;
     end.time += move;
@@ -229,7 +229,7 @@ std::optional<HeldPath::End> HeldPath::firstEnd(const HeldStep& step, bool nodes
     const std::vector<double> now = values.at(t);
     std::optional<End> first;
     for (std::size_t g = 0; g < guards_.size(); ++g) {
-      if (!(now[g] < -guardRounding(guards_[g])) || !(now[g] < last[g])) continue;
+      if (!(now[g] < -guardRounding(guards_[g], scene_)) || !(now[g] < last[g])) continue;
       const double root = last[g] <= 0 ? before : rootOf(values, g, {before, t, last[g], now[g]});
       // what comes at one instant comes in the order of the guards, whatever the rounding
       if (!first || root < first->time - kAtOnce * std::abs(root)) first = End{root, guards_[g]};
@@ -250,7 +250,7 @@ double HeldPath::leastOf(std::size_t guard, double from, double to) const {
   constexpr double kGolden = 0.6180339887498949;
   double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
   double at_left = guardAt(guard, left), at_right = guardAt(guard, right);
-  while (to - from > kLeastWithin * std::max(to, 1.0)) {
+  while (to - from > kLeastWithin * std::max(to, scene_.length / scene_.speed)) {
     if (at_left < at_right) {
       to = right, right = left, at_right = at_left;
       at_left = guardAt(guard, left = to - kGolden * (to - from));
@@ -269,7 +269,7 @@ HeldPath::NearMiss HeldPath::nearestMiss(double until) const {
   const auto look = [&](double t, const std::vector<double>& now) {
     for (std::size_t g = 0; g < guards_.size() && !before.empty(); ++g) {
       if (!(last[g] < before[g]) || !(last[g] <= now[g])) continue;
-      const double time = leastOf(g, earlier, t), margin = std::abs(guardAt(g, time));
+      const double time = leastOf(g, earlier, t), margin = std::abs(guardAt(g, time)) * shareOfMargin(guards_[g], scene_);
       if (time <= until && margin < nearest.margin) nearest = {margin, time, guards_[g]};
     }
     before = std::move(last), last = now, earlier = at, at = t;

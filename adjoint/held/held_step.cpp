@@ -17,6 +17,8 @@ constexpr int kNodes = Gauss::kNodes;
 // Rounds of one step, and what the slopes may change by in the last, as a share of the scales.
 constexpr int kStageRounds = 40;
 constexpr double kStagesSettled = 2e-15, kStagesStalled = 1e-12;
+// Slopes of places are speeds, which those of speeds settle: of them so many times less is asked.
+constexpr double kOfPlaces = 10;
 // What polynomials may leave out.
 constexpr double kLeftOut = 3e-14;
 // Directions that turn by no more than this, rad, in the last round.
@@ -229,7 +231,7 @@ double HeldStepper::turnSlips(HeldStep& step, HeldSlopes& next, bool anew) {
 
 bool HeldStepper::solve(HeldStep& step, HeldSlopes& F) {
   const HeldVector weight =
-      step.length * scaleOf(scene_, scene_.speed, scene_.speed / scene_.length).cwiseInverse();
+      step.length * scaleOf(scene_, kOfPlaces * scene_.length, kOfPlaces).cwiseInverse();
   double moved_before = kInfinity, turned_before = kInfinity;
   for (int round = 0; round < kStageRounds; ++round) {
     const HeldSlopes change = step.length * F * Gauss::get().integral.transpose();

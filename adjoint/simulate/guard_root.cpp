@@ -16,7 +16,7 @@ constexpr int kSteps = 200;
 /// Where the gap rises the search goes on by this share of the stride, and twice as far each time.
 constexpr double kFirstStride = 1.0 / 16;
 
-double roundingOf(const GuardValue& g, double t) { return 4 * kEps * (g.size + g.speed * std::max(1.0, t)); }
+double roundingOf(const GuardValue& g, double t) { return 4 * kEps * (g.size + g.speed * t); }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ struct Bracket {
   }
   double end() const { return std::min(below, past); }
   bool closed() const { return std::isfinite(above) && std::isfinite(end()); }
-  bool isNarrow(double t) const { return closed() && end() - above <= 2 * kEps * std::max(1.0, t); }
+  bool isNarrow(double t) const { return closed() && end() - above <= 2 * kEps * t; }
 };
 
 }  // namespace
@@ -73,7 +73,7 @@ GuardRoot descendingRoot(const RootSearch& search, const std::function<GuardValu
     double next;
     if (g.rate < 0) {
       next = std::clamp(t - g.gap / g.rate, t - search.stride, t + search.stride);
-      if (std::abs(next - t) <= 2 * kEps * std::max(1.0, t)) return {Outcome::found, std::max(next, search.from)};
+      if (std::abs(next - t) <= 2 * kEps * t) return {Outcome::found, std::max(next, search.from)};
     } else {
       next = is_above ? t + stride : t - stride;
       stride *= 2;

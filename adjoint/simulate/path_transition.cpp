@@ -12,6 +12,11 @@
 namespace carom::adjoint_detail {
 namespace {
 
+// From the middle of a disc, where no direction leads to its border, so far, as a share of the arm of the contact.
+constexpr double kFromMiddle = 1e-6;
+// No path is longer, s: no motion is.
+constexpr double kLongest = 1e9;
+
 class Search {
  public:
   Search(const Motion& motion, const ContactChoice& choice, double until)
@@ -71,7 +76,7 @@ class Search {
       rate = weight.dot(moves);
       return weight.dot(motion_.geometry->contact(c.a, c.b, c.features, A, B).point - pose.x) - limit.point_weight.dot(limit.border);
     };
-    const double end = std::min(found_.elapsed, 1e9), far = 0.1 * (c.at.point - choice_.start.x).norm();
+    const double end = std::min(found_.elapsed, kLongest), far = 0.1 * (c.at.point - choice_.start.x).norm();
     double above = 0, below = kInfinity, t = 0;
     for (int step = 0; step < 2000 && above < end; ++step) {
       double rate;
@@ -133,16 +138,17 @@ class Search {
       const Vec3 point = motion_.geometry->contact(c.a, c.b, c.features, A, B).point;
       return limit.point_weight.dot(pose.R.transpose() * (point - pose.x) - limit.border);
     };
-    const double end = std::min(found_.elapsed, 1e9);
+    const double end = std::min(found_.elapsed, kLongest);
     const double slope = path_.inputs.gravity.norm() * (1 + path_.inputs.friction);
+    const double arm = (c.at.point - choice_.start.x).norm();
     double t = 0;
     for (int step = 0; step < 2000; ++step) {
       if (!(t < end)) return;
       const double left = room(t), speed = pathCenterAt(path_.form, path_.inputs, t).v.norm();
-      // speed dt + slope dt^2 / 2 = left
-      const double next =
-          std::isfinite(left) ? t + 2 * left / (speed + std::sqrt(speed * speed + 2 * slope * left)) : t + 1e-6;
-      if (left <= 1e-15 * (1 + choice_.start.x.norm()) || next == t) {
+      // speed dt + slope dt^2 / 2 = way
+      const double way = std::isfinite(left) ? left : kFromMiddle * arm;
+      const double next = t + 2 * way / (speed + std::sqrt(speed * speed + 2 * slope * way));
+      if (left <= 1e-15 * (arm + choice_.start.x.norm()) || next == t) {
         take(t, TransitionCause::leaves, k, i);
         return;
       }
@@ -174,7 +180,7 @@ class Search {
     const auto left = [&](double t) {
       return room + ahead * inward.dot(slipDirectionAt<double>(path_.form, path_.inputs, t));
     };
-    const double end = std::min({found_.elapsed, path_.slip_end, 1e9});
+    const double end = std::min({found_.elapsed, path_.slip_end, kLongest});
     double low = 0, high = end;
     if (left(high) >= 0) return;
     for (int step = 0; step < 200 && std::nextafter(low, high) < high; ++step) {

@@ -192,7 +192,8 @@ HeldScene PressedBody::heldScene(const std::vector<const Contact*>& contacts) co
   for (const Contact* c : contacts)
     scene.with.push_back(
         shapePose(motion_, otherOf(*c), motion_.world_lines[asIndex(otherOf(*c))].arcs.back().startState()));
-  scene.length = reach_ > 0 ? reach_ : 1;
+  scene.length = reach_ > 0 ? reach_ : kindOf(shape()).boundingRadius(shape()) + model_.center.norm();
+  scene.size = scene.length + state_.x.lpNorm<Eigen::Infinity>();
   scene.speed = std::sqrt(gravity_.norm() * scene.length + state_.v.squaredNorm()) + omega_.norm() * scene.length;
   return scene;
 }

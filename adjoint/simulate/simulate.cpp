@@ -114,7 +114,7 @@ void Simulator::resolve(const Prediction& first) {
 
 // The predictions that share the instant and, directly or through others, a body that impacts move.
 void Simulator::contactsOfInstant(const Prediction& first) {
-  const double limit = first.time + kInstant;
+  const double limit = first.time + scaleOf(first.a, first.b, first.time).instant();
   same_.clear();
   queue_.visitUntil(limit, [&](int body) {
     const Outlook& outlook = outlook_[index(body)];
@@ -150,11 +150,12 @@ void Simulator::addTouching(double time, int a, int b, const FeaturePair& featur
   if (inDraft(a, b, features)) return;
   contacts.push_back(makeContact(time, a, b, features));
   if (simple_[index(a)] && simple_[index(b)]) return;
-  const double reach = kInstant * std::abs(contacts.back().approach);
+  const PairScale scale = scaleOf(a, b, time);
+  const double reach = scale.instant() * std::abs(contacts.back().approach);
   for (const FeaturePair& f : contacts_.touching(a, b, arcOf(a), arcOf(b), time, reach)) {
     if (inDraft(a, b, f)) continue;
     const Contact c = makeContact(time, a, b, f);
-    if (c.approach <= kLowestBounce) contacts.push_back(c);
+    if (c.approach <= scale.neither()) contacts.push_back(c);
   }
 }
 
@@ -242,13 +243,14 @@ bool Simulator::joinInstant() {
   const Event& event = draft_.event;
   const Prediction* soonest = nullptr;
   for (const Prediction& p : found_)
-    if (p.explained() && p.time <= event.time + kInstant && (!soonest || p < *soonest)) {
-      if (inDraft(p.a, p.b, p.features)) continue;
+    if (p.explained() && (!soonest || p < *soonest)) {
+      const PairScale scale = scaleOf(p.a, p.b, p.time);
+      if (!(p.time <= event.time + scale.instant()) || inDraft(p.a, p.b, p.features)) continue;
       const auto joined = [&](int body) { return in_draft_[index(body)] >= 0 && isMoved(body); };
       if (!joined(p.a) && !joined(p.b)) continue;
       // a contact that was separating before is an impact of its own, after this one
       const Contact meets = makeContact(event.time, p.a, p.b, p.features);
-      if (meets.approach > kLowestBounce) continue;
+      if (meets.approach > scale.neither()) continue;
       if (std::ranges::any_of(event.contacts, [&](const Contact& c) { return isDouble(c, meets); })) continue;
       if (!meetsThere(p, event.time)) continue;
       soonest = &p;

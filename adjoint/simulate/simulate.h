@@ -24,7 +24,7 @@ struct SimulateOptions {
   /// true: throws InputError where bodies overlap at the start, rather than leave them alone until they part.
   bool refuse_overlaps = false;
   /// A bounce that would stay lower than this, m, is none: its elasticity is taken for 0, and the bodies stay in contact.
-  /// 0: no contact lasts, and a motion ends at the first that would. By default 1e-12 S, S the largest of 1 m, the
+  /// 0: no contact lasts, and a motion ends at the first that would. By default 1e-12 S, S the largest of the
   /// coordinates of bodies and their sizes.
   std::optional<double> lowest_bounce = {};
   /// Steps of work, after which the motion ends with MotionStatus::step_limit. A step is one of a search for an impact,

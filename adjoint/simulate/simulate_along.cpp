@@ -57,6 +57,7 @@ class Follower {
         scene_(scene),
         builder_(scene, duration),
         motion_(builder_.motion),
+        scales_(scene, *motion_.models),
         late_(scene.bodies.size(), false) {
     motion_.plan = planFor(like, scene, *motion_.models);
     motion_.geometry = std::move(geometry);
@@ -135,7 +136,7 @@ class Follower {
       flight = std::min(flight, was.time - like_.world_lines[index(p.body)].arcs[index(p.arc)].start());
     }
     const RootSearch search{
-        .from = from, .until = motion_.duration, .guess = guess(was), .stride = std::max(flight, kInstant)};
+        .from = from, .until = motion_.duration, .guess = guess(was), .stride = std::max(flight, scales_.instantOf(like_, was))};
     const GuardRoot root = descendingRoot(search, [&](double t) { return guardAt(was, t); });
     if (root.outcome == GuardRoot::Outcome::late) {
       markLate(was);
@@ -147,7 +148,7 @@ class Follower {
 
   Outcome meet(const Event& was, double time) {
     place(time);
-    if (was.kind != EventKind::placed && !meetInOneInstant())
+    if (was.kind != EventKind::placed && was.contacts.size() > 1 && !meetInOneInstant(scales_.instantOf(like_, was)))
       return fail(was, "its contacts no longer meet in one instant");
     std::vector<State> after;
     solveImpact(event_, *motion_.models, after);
@@ -242,10 +243,9 @@ class Follower {
     return guard;
   }
 
-  bool meetInOneInstant() const {
-    if (event_.contacts.size() == 1) return true;
-    return std::ranges::all_of(event_.contacts, [](const Contact& c) {
-      return std::abs(c.at.gap) <= 2 * kInstant * std::abs(c.approach) + kLowestBounce;
+  bool meetInOneInstant(double instant) const {
+    return std::ranges::all_of(event_.contacts, [&](const Contact& c) {
+      return std::abs(c.at.gap) <= 2 * instant * std::abs(c.approach) + scales_.leastHeight();
     });
   }
 
@@ -326,6 +326,7 @@ class Follower {
   const Scene& scene_;
   MotionBuilder builder_;
   Motion& motion_;
+  PairScales scales_;
   MotionAlong along_;            // but for its motion
   std::vector<bool> late_;       // a body each: its next impact comes after the duration
   std::vector<FollowedPath> held_;  // a body each

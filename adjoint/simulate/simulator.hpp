@@ -10,25 +10,23 @@
 #include "adjoint/simulate/event_queue.hpp"
 #include "adjoint/simulate/known_bodies.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
+#include "adjoint/simulate/pair_scales.hpp"
 #include "adjoint/simulate/path_transition.hpp"
 #include "adjoint/simulate/simulate.h"
 
 namespace carom::adjoint_detail {
 
-/// Contacts closer in time than this, in one contact graph, are one instant (docs/equations.md section 4).
-inline constexpr double kInstant = 1e-10;  // s
 // How far a contact may move within an instant and still be the same one, as a share of its arm.
 inline constexpr double kSamePlace = 1e-6;
-/// A bounce lower than this, onto the same features, is the tail of a cascade: positions of ordinary size resolve 1e-16
-/// m, so below it the height of a bounce has no digits left to speak of.
-inline constexpr double kLowestBounce = 1e-12;  // m
-/// Bounces that low on changing features (a rattling box) count as a cascade after so many in a row.
+/// Bounces lower than PairScales::leastHeight, of which no digits are left to speak of, on changing features (a rattling
+/// box) count as a cascade after so many in a row.
 inline constexpr int kRattles = 8;
-/// As many impacts of one body as this within kStall seconds are a cascade, whichever bodies it meets.
+/// As many impacts of one body as this within kStall instants are a cascade, whichever bodies it meets.
 inline constexpr std::size_t kStallEvents = 64;
-inline constexpr double kStall = 1e-9;  // s
+inline constexpr double kStall = 10;
 
-/// A body further away or faster than this (m, m/s) cannot be computed with: fourth powers of it would overflow.
+/// A body further away or faster than this (m, m/s) cannot be computed with: fourth powers of it would overflow, whatever
+/// the units.
 inline constexpr double kFurthest = 1e60;
 /// Bodies that ask for their neighbours as often as this without an impact fly too fast for how near they are.
 inline constexpr long kMostSearches = 5'000'000;
@@ -134,6 +132,7 @@ class Simulator {
 
   // simulator_capture.cpp: bounces that are too low
   void setSpeedsOfContact();
+  PairScale scaleOf(int a, int b, double time) { return scales_.of(a, b, pathOf(a), pathOf(b), time); }
   void solveLaw();
   const State& stateAfter(int body) const;
   double accelerationOf(const Contact& contact) const;
@@ -171,6 +170,7 @@ class Simulator {
   void dropDoubles(std::size_t first = 0, bool keep_earlier = false);
   bool isDouble(const Contact& c, const Contact& d) const;
   bool isLeaving(const Contact& contact);
+  double sizeAt(const Contact& contact) const;
   void addHeld();
   void chooseArcs();
   void fly(std::size_t participant);
@@ -219,7 +219,7 @@ class Simulator {
   bool separates();
   bool accumulates();
   bool isLow(const Contact& c, const Prediction*& next);
-  bool stalls(int body) const;
+  bool stalls(int body, double stall) const;
   void requireFlight(int body, const Arc& arc) const;
   [[noreturn]] void giveUp(const char* what, int a, int b, double time, const NotComputable& why) const;
   void endWork(bool stopped);
@@ -252,6 +252,7 @@ class Simulator {
   long searches_ = 0;  // since the last impact
   MotionBuilder builder_;
   Motion& motion_;
+  PairScales scales_;
   // a body each
   std::vector<Arc*> arc_;  // the last one of its world-line
   std::vector<int> version_, impacts_, in_draft_;

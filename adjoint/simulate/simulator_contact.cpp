@@ -11,7 +11,8 @@
 namespace carom::adjoint_detail {
 namespace {
 
-// What a contact has left is looked for where it has gone this much further, m: beyond what counts as the border itself.
+// What a contact has left is looked for where it has gone by this share of the size of positions further: beyond what
+// counts as the border itself.
 constexpr double kBeyond = 2e-7;
 // What comes out of its features by more than this share of that way has left.
 constexpr double kLeft = 1e-2;
@@ -21,8 +22,9 @@ constexpr double kTouching = 10;
 constexpr double kSlowest = 1e-10;
 // An impulse makes contacts slip no faster than so many times as fast as it stops bodies.
 constexpr double kOwnSlip = 4;
-// Changes of contact this close in time are in one instant, s.
-constexpr double kSameInstant = 1e-12;
+// So many changes of contact within this share of an instant never end.
+constexpr double kSameInstant = 1e-2;
+constexpr std::size_t kMostChanges = 8;
 
 }  // namespace
 
@@ -131,26 +133,29 @@ ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
 
 bool Simulator::changesTooOften(int body) const {
   if (draft_.event.kind != EventKind::transition) return false;
-  const WorldLine& line = motion_.world_lines[index(body)];
-  constexpr std::size_t kMost = 8;
-  return line.arcs.size() > kMost && line.arcs[line.arcs.size() - kMost].start() >= draft_.event.time - kSameInstant;
+  const auto& arcs = motion_.world_lines[index(body)].arcs;
+  if (arcs.size() <= kMostChanges) return false;
+  const double instant = scales_.instantOf(motion_, draft_.event);
+  return arcs[arcs.size() - kMostChanges].start() >= draft_.event.time - kSameInstant * instant;
 }
 
 void Simulator::chooseArc(std::size_t participant) {
   const Event& event = draft_.event;
   const int body = bodies_[participant];
   std::vector<Contact> closed;
+  bool ends = false;  // the motion, here
   if (contactsLast() && isMoved(body)) {
     for (const Contact& c : event.contacts) {
       if (!c.lasts || (c.a != body && c.b != body)) continue;
       if (!isFixed(c.a == body ? c.b : c.a)) {
-        if (presses(c)) endBeyond(c, "rest, rolling and sliding on bodies that move are not modelled yet");
+        if (presses(c)) ends = true, endBeyond(c, "rest, rolling and sliding on bodies that move are not modelled yet");
         continue;
       }
       closed.push_back(c);
       closed.back().pair = builder_.pairOf(c.a, c.b);
     }
   }
+  if (ends) return fly(participant);  // with the velocities of the law: a path would stop what is left of slips
   State& after = draft_.after[participant];
   ContactChoice choice;
   std::vector<Contact> marks;
@@ -202,7 +207,7 @@ void Simulator::chooseArc(std::size_t participant) {
 // What touches a body where a contact of it leaves its feature: what it has a little later on the same path.
 std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, double time) {
   const Kinematics now = arcOf(body).kinematicsAt(time);
-  double size = 1, arm = kInfinity, speed = now.v.norm();
+  double size = scales_.radius(body), arm = kInfinity, speed = now.v.norm();
   for (const Contact& c : from.held) {
     size = std::max(size, c.at.point.norm());
     arm = std::min(arm, (c.at.point - arcOf(body).startState().x).norm());
@@ -299,7 +304,7 @@ void Simulator::resolveTransition(int body) {
 void Simulator::addBeside(const Onward& from) {
   std::vector<Contact>& contacts = draft_.event.contacts;
   for (Contact& c : contactsAt(from, draft_.event.time, draft_.event.time, 0)) {
-    if (inDraft(c.a, c.b, c.features) || c.approach > kLowestBounce || strikes(c)) continue;
+    if (inDraft(c.a, c.b, c.features) || c.approach > scaleOf(c.a, c.b, draft_.event.time).neither() || strikes(c)) continue;
     c.counted = false;
     c.lasts = true;
     contacts.push_back(std::move(c));

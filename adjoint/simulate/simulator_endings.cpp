@@ -56,17 +56,17 @@ bool Simulator::isLow(const Contact& c, const Prediction*& next) {
     }
   if (!next) return false;
   const double start = draft_.event.time, slowest = std::abs(c.pair.elasticity * c.approach);
-  if (!(0.25 * slowest * (next->time - start) < kLowestBounce)) return false;
+  if (!(0.25 * slowest * (next->time - start) < scales_.leastHeight())) return false;
   const double halfway = start + 0.5 * (next->time - start);
   const ContactPoint then = motion_.geometry->contact(c.a, c.b, c.features, poseAt(c.a, halfway), poseAt(c.b, halfway));
-  return !(then.gap >= kLowestBounce);
+  return !(then.gap >= scales_.leastHeight());
 }
 
-// A body that is in infinitely many of the events that pile up has this many of them in no time.
-bool Simulator::stalls(int body) const {
+// A body that is in infinitely many of the events that pile up has this many of them in no time: within `stall`, s.
+bool Simulator::stalls(int body, double stall) const {
   const auto& arcs = motion_.world_lines[index(body)].arcs;
-  if (!(draft_.event.time - arcs.back().start() < kStall)) return false;  // far most often; the last arc is at hand
-  return arcs.size() > kStallEvents && draft_.event.time - arcs[arcs.size() - kStallEvents].start() < kStall;
+  if (!(draft_.event.time - arcs.back().start() < stall)) return false;  // far most often; the last arc is at hand
+  return arcs.size() > kStallEvents && draft_.event.time - arcs[arcs.size() - kStallEvents].start() < stall;
 }
 
 // True when the impacts of a pair or of a body pile up in finite time; sets status and message.
@@ -93,11 +93,12 @@ bool Simulator::accumulates() {
                   impactsWithDraft(), "; no contact lasts where the lowest bounce is 0, so the motion ends there"));
     return true;
   }
+  const double stall = kStall * scales_.instantOf(motion_, event);
   for (const Participant& p : event.participants) {
-    if (!isMoved(p.body) || !stalls(p.body)) continue;
+    if (!isMoved(p.body) || !stalls(p.body, stall)) continue;
     finish(MotionStatus::cascade, event.time,
            textOf(6, "impacts accumulate at t = ", event.time, " s, at (", event.contacts[0].at.point.transpose(),
-                  "): ", kStallEvents, " of '", scene_.bodies[index(p.body)].name, "' within ", kStall,
+                  "): ", kStallEvents, " of '", scene_.bodies[index(p.body)].name, "' within ", stall,
                   " s; the motion ends there"));
     return true;
   }

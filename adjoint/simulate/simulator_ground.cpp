@@ -10,11 +10,11 @@
 namespace carom::adjoint_detail {
 namespace {
 
-// Contacts at one place, m for bodies of 1 m, with one normal.
+// Contacts at one place, as a share of the size of positions (Simulator::sizeAt), with one normal.
 constexpr double kSameSpot = 1e-9, kSameWay = 1e-9;
 // A face that goes on bends by no more.
 constexpr double kStraightOn = 1e-3;
-// What is as near to a border as this lies on it, m for bodies of 1 m.
+// What is as near to a border as this share of that lies on it.
 constexpr double kOnBorder = 1e-11;
 
 }  // namespace
@@ -46,6 +46,11 @@ bool Simulator::onSameFace(const Onward& from, const Contact& c) const {
   });
 }
 
+// The size of positions there, m: of the place, or of the body that is moved.
+double Simulator::sizeAt(const Contact& c) const {
+  return std::max(c.at.point.norm(), scales_.radius(isMoved(c.a) ? c.a : c.b));
+}
+
 // Whether the place of a contact is at a border of the fixed body's feature and leaves it.
 bool Simulator::isLeaving(const Contact& c) {
   const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());
@@ -53,7 +58,7 @@ bool Simulator::isLeaving(const Contact& c) {
   const Kinematics &ka = snapshots_[snapshot(c.a, draft_.event.time)].k, &kb = snapshots_[snapshot(c.b, draft_.event.time)].k;
   const Pose A{ka.x, ka.R}, B{kb.x, kb.R};
   const ContactMotion moves = motion_.geometry->motion(c.a, c.b, c.features, A, B, {ka.v, ka.w}, {kb.v, kb.w});
-  const double size = std::max(1.0, c.at.point.norm());
+  const double size = sizeAt(c);
   return std::ranges::any_of(bodies->limits(c.a, c.b, c.features, A, B), [&](const FeatureLimit& limit) {
     if (!isFixed(limit.body)) return false;
     const Pose& pose = limit.body == c.a ? A : B;
@@ -70,7 +75,7 @@ bool Simulator::isDouble(const Contact& c, const Contact& d) const {
   const bool first_c = isFixed(c.b), first_d = isFixed(d.b);
   if ((first_c ? c.a : c.b) != (first_d ? d.a : d.b) || (c.a == d.a && c.b == d.b)) return false;
   const Vec3 n = first_c ? c.at.normal : Vec3(-c.at.normal), m = first_d ? d.at.normal : Vec3(-d.at.normal);
-  return (n - m).norm() <= kSameWay && (c.at.point - d.at.point).norm() <= kSameSpot * std::max(1.0, c.at.point.norm());
+  return (n - m).norm() <= kSameWay && (c.at.point - d.at.point).norm() <= kSameSpot * sizeAt(c);
 }
 
 // Of contacts that are one, that with what the body slides towards is kept, else that with the body listed first; or the

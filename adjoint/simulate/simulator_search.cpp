@@ -35,7 +35,7 @@ void Simulator::search(int body, double from, Outlook& outlook) {
     if (!impact) continue;
     if (!std::isfinite(impact->time))
       giveUp("approach", body, other, from, NotComputable("the time at which they meet is beyond the range of doubles"));
-    until = std::min(until, std::max(impact->time, from) + kInstant);
+    until = std::min(until, std::max(impact->time, from) + scaleOf(body, other, impact->time).instant());
     if (impact->features == kSearchedSoFar) continue;
     const int version = version_[index(other)] + (in_draft_[index(other)] >= 0 && isMoved(other) ? 1 : 0);
     found_.push_back({impact->time, body, is_first ? body : other, is_first ? other : body, version, impact->features});
@@ -46,8 +46,9 @@ void Simulator::search(int body, double from, Outlook& outlook) {
   if (found_.size() == begin) return;
   const auto first = std::min_element(found_.begin() + static_cast<std::ptrdiff_t>(begin), found_.end());
   outlook.first = *first;
+  const double limit = first->time + (found_.size() > begin + 1 ? scaleOf(first->a, first->b, first->time).instant() : 0);
   for (std::size_t i = begin; i < found_.size(); ++i)
-    if (found_[i].time <= first->time + kInstant && &found_[i] != &*first) outlook.of_instant.push_back(found_[i]);
+    if (found_[i].time <= limit && &found_[i] != &*first) outlook.of_instant.push_back(found_[i]);
 }
 
 // Bounds of an integrated path hold as far as it is known.

@@ -12,16 +12,6 @@
 namespace carom::adjoint_detail {
 namespace {
 
-// As positions are known to about 1e-13 S.
-double lowestBounce(const Scene& scene) {
-  double size = 1;
-  for (const Body& body : scene.bodies) {
-    const double radius = kindOf(body.shape).boundingRadius(body.shape);
-    size = std::max({size, body.position.lpNorm<Eigen::Infinity>(), std::isfinite(radius) ? radius : 0});
-  }
-  return 1e-12 * size;
-}
-
 double checkedBounce(double lowest) {
   if (!(lowest >= 0 && lowest <= 1e9)) refuseNumber("simulate", "lowest bounce", lowest, "a height from 0 to 1e9 m");
   return lowest;
@@ -34,13 +24,14 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
     : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit), steps_before_(before.steps),
       enough_(options.enough), least_duration_(options.least_duration),
       refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
-      builder_(scene, duration), motion_(builder_.motion), queue_(scene.bodies.size()) {
+      builder_(scene, duration), motion_(builder_.motion),
+      scales_(scene, *motion_.models), queue_(scene.bodies.size()) {
   contacts_.countIn(&work_);
   const std::size_t n = scene.bodies.size();
   motion_.plan = makePlan(scene, options.asked);
   motion_.has_events = options.record_events;
   motion_.lowest_bounce =
-      options.lowest_bounce ? checkedBounce(*options.lowest_bounce) : lowestBounce(scene);
+      options.lowest_bounce ? checkedBounce(*options.lowest_bounce) : scales_.leastHeight();
   arc_.assign(n, nullptr);
   version_.assign(n, 0);
   impacts_.assign(n, 0);

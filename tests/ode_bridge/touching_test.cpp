@@ -167,10 +167,13 @@ TEST(Touching, OverhangingBlock) {
     }
 }
 
-std::size_t countPlaced(double gap, std::size_t* overlaps = nullptr) {
-  const Scene scene = makeScene({0, 0, -9.8}, 0.5, 0.2,
-                                {makeBox("block", {0.2, 0.2, 0.2}, {0, 0, 0.1 + gap}), makeBall("ball", 0.1, {0.5, 0, 0.1 + gap}),
-                                 floorPlane(), fixedBody(makeBox("wall", {0.2, 1, 1}, {-5, 0, 0.5}))});
+// Of bodies whose coordinates are 1 m, in a unit of length.
+std::size_t countPlaced(double gap, std::size_t* overlaps = nullptr, double unit = 1) {
+  const double z = 0.1 + gap;
+  const Scene scene =
+      makeScene({0, 0, -9.8 * unit}, 0.5, 0.2,
+                {makeBox("block", unit * Vec3(0.2, 0.2, 0.2), unit * Vec3(1, 0, z)), makeBall("ball", unit * 0.1, unit * Vec3(-1, 0, z)),
+                 floorPlane(), fixedBody(makeBox("wall", unit * Vec3(0.2, 1, 1), unit * Vec3(-5, 0, 0.5)))});
   OdeContacts contacts(scene);
   contacts.begin(scene);
   if (overlaps) *overlaps = contacts.overlaps().size();
@@ -182,13 +185,16 @@ std::size_t countPlaced(double gap, std::size_t* overlaps = nullptr) {
 
 TEST(Placed, WithinSoMuch) {
   std::size_t overlaps = 0;
-  for (const double gap : {0.0, 1e-16, 9e-13, -1e-13, -1e-12, -1e-11, -1e-10, -9e-10}) {
-    EXPECT_EQ(countPlaced(gap, &overlaps), 2u) << gap;
-    EXPECT_EQ(overlaps, 0u) << gap;
+  for (const double unit : {1e-6, 1e-3, 1.0, 1e3}) {
+    SCOPED_TRACE(unit);
+    for (const double gap : {0.0, 1e-16, 9e-13, -1e-13, -1e-12, -1e-11, -1e-10, -9e-10}) {
+      EXPECT_EQ(countPlaced(gap, &overlaps, unit), 2u) << gap;
+      EXPECT_EQ(overlaps, 0u) << gap;
+    }
+    for (const double gap : {2e-12, 1e-9, 1e-3}) EXPECT_EQ(countPlaced(gap, nullptr, unit), 0u) << gap;
+    EXPECT_EQ(countPlaced(-2e-9, &overlaps, unit), 0u);
+    EXPECT_EQ(overlaps, 2u);
   }
-  for (const double gap : {2e-12, 1e-9, 1e-3}) EXPECT_EQ(countPlaced(gap), 0u) << gap;
-  EXPECT_EQ(countPlaced(-2e-9, &overlaps), 0u);
-  EXPECT_EQ(overlaps, 2u);
 }
 
 // Those that part or slide are listed, too; those that never collide are not.

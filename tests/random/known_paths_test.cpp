@@ -19,7 +19,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kDuration = 1.2;
+constexpr double kKnownDuration = 1.2;
 // Impacts at corners may multiply what rounding left by a hundred each.
 constexpr double kTime = 1e-8;
 // Of a scene in which most bodies meet the floor alone.
@@ -69,7 +69,7 @@ Scene changed(Scene scene, std::uint64_t seed) {
   return scene;
 }
 
-Motion playAlong(const Scene& scene, const Motion& known, double duration = kDuration) {
+Motion playAlong(const Scene& scene, const Motion& known, double duration = kKnownDuration) {
   OdeContacts contacts(scene);
   SimulateOptions options;
   options.known = &known;
@@ -117,7 +117,7 @@ void expectTheSame(const Motion& found, const Motion& expected) {
 struct Tally {
   int compared = 0, otherwise = 0, taken = 0, given_back = 0;
   void add(const Scene& scene, const Scene& other) {
-    const Motion known = play(scene, kDuration), expected = play(other, kDuration), found = playAlong(other, known);
+    const Motion known = play(scene, kKnownDuration), expected = play(other, kKnownDuration), found = playAlong(other, known);
     if (known.status != MotionStatus::complete) {
       EXPECT_EQ(found.taken_over, 0u);
       return;
@@ -189,7 +189,7 @@ TEST(KnownPaths, HaveTheSameDerivatives) {
 // Of the motion that is known nothing is needed afterwards.
 TEST(KnownPaths, OutliveTheMotionTheyAreOf) {
   const Scene scene = thrownPairs(kQuiet), other = changed(scene, kQuiet);
-  auto known = std::make_unique<Motion>(play(scene, kDuration));
+  auto known = std::make_unique<Motion>(play(scene, kKnownDuration));
   const Motion found = playAlong(other, *known), copy = playAlong(other, found);
   known.reset();
   ASSERT_GT(found.taken_over, 0u);
@@ -223,10 +223,10 @@ TEST(KnownPaths, AreGivenUpWhereTheyAreMet) {
 
 TEST(KnownPaths, OfADifferentWorldAreOfNoUse) {
   const Scene scene = thrownPairs(kQuiet), other = changed(scene, kQuiet);
-  const Motion known = play(scene, kDuration), expected = play(other, kDuration);
+  const Motion known = play(scene, kKnownDuration), expected = play(other, kKnownDuration);
   const auto refused = [&](const Motion& motion, const Scene& is, const char* why) {
     SCOPED_TRACE(why);
-    const Motion found = playAlong(is, motion), alone = play(is, kDuration);
+    const Motion found = playAlong(is, motion), alone = play(is, kKnownDuration);
     EXPECT_EQ(found.taken_over, 0u);
     EXPECT_EQ(found.signature(), alone.signature());
     EXPECT_EQ(bodiesWithTheSameBits(found, alone), static_cast<int>(movingBodies(is).size()));
@@ -241,8 +241,8 @@ TEST(KnownPaths, OfADifferentWorldAreOfNoUse) {
   Scene smoother = other;
   smoother.materials[0].friction *= 0.9;
   refused(known, smoother, "material");
-  refused(play(scene, 0.9 * kDuration), other, "too short");
-  refused(play(scene, kDuration, 2), other, "ended early");
+  refused(play(scene, 0.9 * kKnownDuration), other, "too short");
+  refused(play(scene, kKnownDuration, 2), other, "ended early");
   Scene one_less = other;
   one_less.bodies.pop_back();
   one_less.tilts.clear();

@@ -99,9 +99,7 @@ Change boosted(const Scene& scene, test::Random& random) {
   return c;
 }
 
-// Inches, pounds and milliseconds, or the like.
-Change inUnits(const Scene& scene, test::Random& random) {
-  const double L = std::pow(10, random.in(-2, 2)), T = std::pow(10, random.in(-1, 1)), M = std::pow(10, random.in(-3, 3));
+Change inUnits(const Scene& scene, double L, double T, double M) {
   Change c{"other units", scene, {}, T, 1};
   c.scene.gravity *= L / (T * T);
   for (Body& b : c.scene.bodies) {
@@ -124,6 +122,12 @@ Change inUnits(const Scene& scene, test::Random& random) {
     return s;
   };
   return c;
+}
+
+// Inches, pounds and milliseconds, or the like.
+Change inUnits(const Scene& scene, test::Random& random) {
+  const double L = std::pow(10, random.in(-2, 2)), T = std::pow(10, random.in(-1, 1)), M = std::pow(10, random.in(-3, 3));
+  return inUnits(scene, L, T, M);
 }
 
 Change reordered(const Scene& scene, test::Random& random) {

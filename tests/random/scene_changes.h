@@ -24,7 +24,9 @@ Change moved(const Scene& scene, test::Random& random);  ///< by a kilometre
 Change mirrored(const Scene& scene);                     ///< x to -x
 /// Everything flies along with 30 m/s; what is fixed becomes kinematic. Planes cannot.
 Change boosted(const Scene& scene, test::Random& random);
-/// Of length, time and mass.
+/// With units of length, time and mass that are so many times smaller.
+Change inUnits(const Scene& scene, double length, double time, double mass);
+/// Random ones.
 Change inUnits(const Scene& scene, test::Random& random);
 Change reordered(const Scene& scene, test::Random& random);
 /// Bodies are added that nothing meets.
