@@ -91,7 +91,7 @@ void Simulator::resolveFlat(const Onward& from, int body) {
   const Contact rim = from.held[index(from.why.contact)];
   std::erase_if(onward_[index(body)].held, [&](const Contact& c) { return isSameRim(c, rim); });
   for (Contact& c : contactsAt(from, event.time, event.time, 0))
-    if (c.approach <= kLowestBounce) event.contacts.push_back(std::move(c));
+    if (c.approach <= scaleOf(c.a, c.b, event.time).neither()) event.contacts.push_back(std::move(c));
   event.kind = EventKind::impact;
   const std::vector<Contact> marks = marksOf(rim);
   if (marks.size() < kFewestMarks)
