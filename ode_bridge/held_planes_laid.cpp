@@ -76,7 +76,9 @@ HeldPlanes::HeldPlanes(const Placed& a, const Placed& b, std::span<const Feature
       const Placed& body = f.of_a ? a_ : b_;
       const AffineSpan& span = f.of_a ? each.of_a : each.of_b;
       if (!span.contains(f.feature.point)) return false;
-      return !f.is_rim || (body.k.R * f.feature.direction).cross(kept.n).norm() <= kSamePlane;
+      if (!f.is_rim) return true;
+      // about a line through its centre it can tilt
+      return span.isPlane() && (body.k.R * f.feature.direction).cross(kept.n).norm() <= kSamePlane;
     };
     std::erase_if(kept.followers, inPlane);
     if (kept.held.empty() && isBroken(kept)) planes_.pop_back();
@@ -134,7 +136,8 @@ std::vector<HeldPlanes::Laid> HeldPlanes::laidApart(Laid laid) const {
     return isCurve(m.contact.of_a.family) && isCurve(m.contact.of_b.family);
   };
   AffineSpan held(laid.of_a);
-  for (const Laid::Member& m : laid.members) held.add(a_.k.R.transpose() * (m.contact.at.point - a_.k.x));
+  for (const Laid::Member& m : laid.members)
+    if (m.contact.at.point.allFinite()) held.add(a_.k.R.transpose() * (m.contact.at.point - a_.k.x));
   const auto ofOne = [&](const auto& side) {
     return std::ranges::all_of(laid.members, [&](const Laid::Member& m) {
       const Side &of = m.contact.*side, &first = laid.members.front().contact.*side;

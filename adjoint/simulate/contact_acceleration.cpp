@@ -5,8 +5,6 @@
 #include <span>
 #include <tuple>
 
-#include "adjoint/motion/rim_geometry.hpp"
-
 namespace carom::adjoint_detail {
 namespace {
 
@@ -52,15 +50,18 @@ std::optional<double> ofABall(const Motion& motion, const Contact& contact, cons
 
 }  // namespace
 
-bool rimLiesFlat(const Motion& motion, const Contact& contact, const Pose& A, const Pose& B) {
+std::optional<RimOnFace> rimOf(const Motion& motion, const Contact& c) {
   const auto mayHaveRim = [&](int body) {
     const Shape& shape = motion.scene->bodies[asIndex(body)].shape;
     return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape) || std::holds_alternative<Compound>(shape);
   };
-  if (!mayHaveRim(contact.a) && !mayHaveRim(contact.b)) return false;
-  const auto* geometry = dynamic_cast<const RimGeometry*>(motion.geometry.get());
-  if (!geometry) return false;
-  const auto rim = geometry->rimOnFace(contact.a, contact.b, contact.features);
+  if (!mayHaveRim(c.a) && !mayHaveRim(c.b)) return std::nullopt;  // far most often
+  const auto* rims = dynamic_cast<const RimGeometry*>(motion.geometry.get());
+  return rims ? rims->rimOnFace(c.a, c.b, c.features) : std::nullopt;
+}
+
+bool rimLiesFlat(const Motion& motion, const Contact& contact, const Pose& A, const Pose& B) {
+  const auto rim = rimOf(motion, contact);
   if (!rim || !(rim->features == contact.features)) return false;
   const Vec3 d = (rim->of_first ? A : B).R * rim->axis, N = (rim->of_first ? B : A).R * rim->normal;
   return 2 * rim->radius * RimOnFace::tilt(d, N).norm() <= kFlatRim * std::max(1.0, A.x.cwiseAbs().maxCoeff());

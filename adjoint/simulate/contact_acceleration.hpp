@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adjoint/motion/motion.h"
+#include "adjoint/motion/rim_geometry.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -23,6 +24,8 @@ struct ContactSide {
 };
 /// Of a body that nothing touches.
 ContactSide freeSide(const Motion& motion, int body, const State& state);
+/// Of the rim that is at a contact with a face, or for which a mark stands there.
+std::optional<RimOnFace> rimOf(const Motion& motion, const Contact& contact);
 /// Whether a contact is that of a rim which lies flat on a face at these poses: it has no lowest point of its own.
 bool rimLiesFlat(const Motion& motion, const Contact& contact, const Pose& A, const Pose& B);
 /// d^2(gap)/dt^2 of a contact.

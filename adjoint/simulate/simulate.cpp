@@ -248,6 +248,7 @@ bool Simulator::joinInstant() {
       if (!(p.time <= event.time + scale.instant()) || inDraft(p.a, p.b, p.features)) continue;
       const auto joined = [&](int body) { return in_draft_[index(body)] >= 0 && isMoved(body); };
       if (!joined(p.a) && !joined(p.b)) continue;
+      if (liesFlat(p, event.time)) continue;  // its marks are there; where they do not carry it, it meets by itself
       // a contact that was separating before is an impact of its own, after this one
       const Contact meets = makeContact(event.time, p.a, p.b, p.features);
       if (meets.approach > scale.neither()) continue;

@@ -149,6 +149,8 @@ class Simulator {
   };
   std::optional<Lowest> lowestOf(const Contact& of, int body, const State& state, const State& moves) const;
   std::optional<Contact> tiltsFrom(const std::vector<Contact>& closed, int body, State& after) const;
+  bool settlesFlat();
+  bool liesFlat(const Prediction& p, double time);
   void dropFlatRims(std::vector<Contact>& closed) const;
   std::vector<Contact> marksOf(const Contact& of) const;
   bool isSameRim(const Contact& c, const Contact& d) const;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "adjoint/motion/guard.hpp"
-#include "adjoint/motion/rim_geometry.hpp"
+#include "adjoint/simulate/contact_acceleration.hpp"
 #include "adjoint/simulate/path_arc.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
@@ -23,17 +23,18 @@ constexpr double kOneMark = 1e-5;
 // Marks that a rim has to stand on to lie flat.
 constexpr std::size_t kFewestMarks = 3;
 
-std::optional<RimOnFace> rimOf(const Motion& motion, const Contact& c) {
-  const auto* rims = dynamic_cast<const RimGeometry*>(motion.geometry.get());
-  return rims ? rims->rimOnFace(c.a, c.b, c.features) : std::nullopt;
-}
-
 }  // namespace
 
 bool Simulator::isSameRim(const Contact& c, const Contact& d) const {
   if (c.a != d.a || c.b != d.b) return false;
   const auto first = rimOf(motion_, c), second = rimOf(motion_, d);
   return first && second && first->of_first == second->of_first && first->features == second->features;
+}
+
+bool Simulator::liesFlat(const Prediction& p, double time) {
+  Contact c;
+  c.a = p.a, c.b = p.b, c.features = p.features;
+  return rimLiesFlat(motion_, c, poseAt(p.a, time), poseAt(p.b, time));
 }
 
 // Those of the event that stand for the rim of a contact.
@@ -139,6 +140,48 @@ void Simulator::dropFlatRims(std::vector<Contact>& closed) const {
       return !(mark.features == c.features) && isSameRim(mark, c);
     });
   });
+}
+
+// Of a rim that all but lies flat: where its tilt and what is left of tilting have no more energy than a fall from the lowest bounce,
+// all of its marks part without speed (11.27). True where there are more of them than before.
+bool Simulator::settlesFlat() {
+  Event& event = draft_.event;
+  const double lowest = motion_.lowest_bounce;
+  bool more = false;
+  for (std::size_t i = 0; i < event.contacts.size(); ++i) {
+    const Contact c = event.contacts[i];
+    const auto rim = rimOf(motion_, c);
+    if (!rim) continue;
+    const int body = rim->of_first ? c.a : c.b, other = rim->of_first ? c.b : c.a;
+    if (!isMoved(body) || !isFixed(other)) continue;
+    const Pose own = shapePose(motion_, body, stateAfter(body)), face = shapePose(motion_, other, stateAfter(other));
+    const BodyModel& model = (*motion_.models)[index(body)];
+    const Vec3 N = face.R * rim->normal;
+    const double height = rim->radius * RimOnFace::tilt(own.R * rim->axis, N).norm();
+    const double pull = -model.gravity_factor * N.dot(scene_.gravity);
+    if (!(height <= lowest && pull > 0)) continue;
+    const Kinematics k = arcOf(body).kinematicsOf(stateAfter(body));
+    const Vec3 tilts = k.w - N.dot(k.w) * N, R_tilts = stateAfter(body).q.inverse() * tilts;
+    const double rises = N.dot(k.v), moving = 0.5 * R_tilts.dot(model.inertia.cwiseProduct(R_tilts)) + 0.5 * model.mass * rises * rises;
+    if (!(model.mass * pull * height + moving <= model.mass * pull * lowest)) continue;
+    for (const FeaturePair& f : contacts_.touching(c.a, c.b, arcOf(c.a), arcOf(c.b), event.time, 4 * lowest)) {
+      if (inDraft(c.a, c.b, f)) continue;
+      Contact mark = makeContact(event.time, c.a, c.b, f);
+      if (!isSameRim(mark, c)) continue;
+      mark.counted = false;
+      mark.kept = true;
+      mark.pair.elasticity = 0;
+      event.contacts.insert(event.contacts.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(mark));
+      more = true;
+    }
+    for (Contact& at : event.contacts) {
+      if (!isSameRim(at, c) || at.captured || at.kept) continue;
+      (at.held || !(at.approach < 0) ? at.kept : at.captured) = true;
+      at.pair.elasticity = 0;
+      more = true;
+    }
+  }
+  return more;
 }
 
 // Where contacts of a rim that lies flat do not keep it so: it goes on about its lowest point, from where it lies.

@@ -42,12 +42,13 @@ Shape prism(Random& r) {
   return Hull{convexHull(points), 1, ""};
 }
 
-const std::array<KindInGroove, 6> kKindsInGrooves = {{
+const std::array<KindInGroove, 7> kKindsInGrooves = {{
     {"box", [](Random& r) -> Shape { return Box{{side(r), side(r), side(r)}}; }},
     {"cube", [](Random& r) -> Shape { return Box{Vec3::Constant(side(r))}; }},
     {"capsule", [](Random& r) -> Shape { return Capsule{r.in(0.03, 0.15), r.in(0.08, 0.4)}; }},
     {"cylinder", [](Random& r) -> Shape { return Cylinder{r.in(0.04, 0.2), r.in(0.05, 0.4)}; }},
     {"prism", prism},
+    {"cone", [](Random& r) -> Shape { return Cone{r.in(0.04, 0.2), r.in(0.05, 0.4)}; }},
     {"ball", [](Random& r) -> Shape { return Sphere{r.in(0.03, 0.2)}; }},
 }};
 
