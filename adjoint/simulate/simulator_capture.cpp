@@ -40,7 +40,10 @@ void Simulator::solveLaw() {
   while (contactsLast() && !leavesFast()) {
     const std::vector<State> before = draft_.after;
     std::vector<std::size_t> kept;
-    if (!captureLow(loose, kept) && !settlesFlat()) break;
+    if (!captureLow(loose, kept)) {
+      if (!settlesFlat()) break;
+      loose.clear();  // contacts have other places now
+    }
     solve();
     if (kept.empty() || !pullsTooMuch(before)) continue;
     for (const std::size_t k : kept) event.contacts[k].kept = false;
