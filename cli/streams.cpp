@@ -7,6 +7,8 @@
 #include "formats/base/read_file.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/documents/scene_json.h"
+#include "formats/documents/scene_reader.hpp"
+#include "formats/documents/step_lines.hpp"
 #include "formats/mesh/mesh_file.h"
 
 namespace carom::cli {
@@ -33,8 +35,11 @@ Document readSceneFrom(const std::string& path) {
 }
 
 JournalDocument readJournalFrom(const std::string& path) {
-  if (!isStandard(path)) return readJournal(path);
-  return parseJournal(readInput(kLargestJournal), kInput, kHere);
+  const bool standard = isStandard(path);
+  const std::string text = standard ? readInput(kLargestJournal) : readFile(path, "a journal", kLargestJournal);
+  const std::string name = standard ? kInput : path, folder = standard ? kHere : folderOf(path);
+  if (areStepLines(text)) return readStepLines(text, name, folder).journal;
+  return parseJournal(text, name, folder);
 }
 
 Imported importFrom(const std::string& path) {

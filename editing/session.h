@@ -11,6 +11,7 @@
 #include "editing/constraint.h"
 #include "editing/control.h"
 #include "editing/edit.h"
+#include "editing/session_history.h"
 #include "editing/session_journal.h"
 #include "editing/session_numbers.h"
 #include "editing/session_update.h"
@@ -68,6 +69,9 @@ class EditSession {
   /// With controls and nails that are there from the start; nails need not be met yet.
   EditSession(const Scene& scene, ContactSource& contacts, double duration, std::vector<Control> controls,
               std::vector<Constraint> nails, const SessionOptions& options = {});
+  /// Goes on from the history of a session: nothing is solved again, and all that undo led to is there, to the same
+  /// bits. Its options are those of the journal; of a session that measures from its start it is refused.
+  EditSession(const SessionHistory& history, ContactSource& contacts);
   ~EditSession();
   EditSession(EditSession&&) noexcept;             ///< the other can only be destroyed or assigned to
   EditSession& operator=(EditSession&&) noexcept;  ///< the same
@@ -133,6 +137,7 @@ class EditSession {
   /// Forward again by one step that was undone.
   SessionUpdate redo();
   bool canUndo() const;  ///< there is a step back
+  std::size_t undoDepth() const;  ///< how many there are, outside of a gesture
   bool canRedo() const;  ///< there is a step that was undone
   std::string undoName() const;  ///< of the step that undo takes back: "drag of 'hat' at 0.6 s"; empty: none
   std::string redoName() const;  ///< of the one that redo brings back
@@ -151,6 +156,9 @@ class EditSession {
   const Constraint& constraintOf(NailId id) const;
   std::vector<NailState> nailStates() const;  ///< of all nails, oldest first, in the motion as it is
   const SessionOptions& options() const;  ///< as they were given
+
+  /// All that it takes to go on elsewhere. Not in a gesture.
+  SessionHistory history() const;
 
   /// All gestures that came to an end, for saving (formats/documents/journal_json.h) and replay.
   const SessionJournal& journal() const;

@@ -142,17 +142,18 @@ std::string answering(std::int64_t id, std::string message) {
   return message;
 }
 
-std::string welcomeMessage(const std::string& session, const std::string& folder, const Limits& limits) {
+std::string welcomeMessage(const std::string& session, const std::string& folder, std::size_t recovered,
+                           const Limits& limits) {
   return textOf({{"type", "welcome"},
                  {"protocol", kProtocol},
                  {"version", kVersion},
                  {"session", session},
                  {"folder", folder},
-                 {"recovered", 0},
+                 {"recovered", recovered},
                  {"limits", {{"message", limits.message}, {"commands", limits.commands}}}});
 }
 
-std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::string& held_by) {
+std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::string& held_by, std::size_t recovered) {
   Json state = {{"type", "state"}, {"rev", rev}, {"open", scene != nullptr}};
   if (scene == nullptr) return textOf(state);
   const EditSession& session = scene->session();
@@ -160,6 +161,7 @@ std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::st
   state["name"] = scene->opened().name;
   if (!scene->path()) state["suggested"] = scene->suggestedName();
   state["saved"] = scene->isSaved();
+  state["recovered"] = recovered;
   state["duration"] = session.duration();
   state["controls"] = controlsOf(session.controls());
   state["numbers"] = numbersOf(*scene);
@@ -209,6 +211,10 @@ std::string filesMessage(const std::string& path, const std::vector<ListedFile>&
 
 std::string progressMessage(const std::string& sentence) {
   return textOf({{"type", "progress"}, {"message", sentence}});
+}
+
+std::string noticeMessage(const std::string& sentence) {
+  return textOf({{"type", "notice"}, {"message", sentence}});
 }
 
 std::string galleryMessage(const std::vector<GalleryScene>& scenes) {

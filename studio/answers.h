@@ -20,10 +20,11 @@ class OpenScene;
 std::string answering(std::int64_t id, std::string message);
 
 /// The first answer to hello.
-std::string welcomeMessage(const std::string& session, const std::string& folder, const Limits& limits);
+std::string welcomeMessage(const std::string& session, const std::string& folder, std::size_t recovered,
+                           const Limits& limits);
 
-/// What the session is at. `scene` null: none is open.
-std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::string& held_by);
+/// What the session is at. `scene` null: none is open. `recovered`: steps that came back with it.
+std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::string& held_by, std::size_t recovered);
 
 /// What is wrong with a command.
 struct Problem {
@@ -39,6 +40,8 @@ Problem problemOf(const std::exception& error);
 std::string savedMessage(const std::string& path, std::int64_t rev);
 std::string filesMessage(const std::string& path, const std::vector<ListedFile>& files);
 std::string progressMessage(const std::string& sentence);
+/// Something that a person has to know, and that no command asked for.
+std::string noticeMessage(const std::string& sentence);
 
 /// A scene of the gallery.
 struct GalleryScene {

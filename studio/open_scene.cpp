@@ -94,6 +94,22 @@ OpenScene::OpenScene(OpenedFile file, const std::string& name, std::optional<std
   });
 }
 
+OpenScene::OpenScene(OpenedFile file, const formats_detail::StepLines& steps, const std::string& name,
+                     std::optional<std::string> path)
+    : opened_(parseDocument(steps.opened, name, file.folder)), name_(name), path_(std::move(path)) {
+  inFile(name, [&] {
+    first_ = {{steps.opened, file.stamp, file.folder}, writeDocument(opened_)};
+    const std::string now = writeDocument(parseDocument(file.text, "", file.folder));
+    last_ = {std::move(file), now};
+    contacts_ = std::make_unique<OdeContacts>(opened_.scene);
+    session_ = std::make_unique<EditSession>(steps.history, *contacts_);
+  });
+}
+
+std::string OpenScene::stepLine(std::size_t gesture) {
+  return formats_detail::stepLine(*session_, gesture, document(), kept_);
+}
+
 Document OpenScene::document() const {
   Document document = opened_;
   document.scene = session_->scene();

@@ -9,6 +9,7 @@
 
 #include "editing/session.h"
 #include "formats/base/document.h"
+#include "formats/documents/step_lines.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "studio/workspace.h"
 
@@ -19,6 +20,10 @@ class OpenScene {
  public:
   /// `path`: where it is saved, relative to the workspace; none: nowhere yet. Simulates the scene. Throws FormatError.
   OpenScene(OpenedFile file, const std::string& name, std::optional<std::string> path, SessionOptions options = {});
+
+  /// Goes on with the steps that were made on it before. `file` has what was opened then, or saved last.
+  OpenScene(OpenedFile file, const formats_detail::StepLines& steps, const std::string& name,
+            std::optional<std::string> path);
 
   EditSession& session() { return *session_; }
   const EditSession& session() const { return *session_; }
@@ -36,6 +41,9 @@ class OpenScene {
   std::string textIn(const std::string& folder) const;
   /// Its file is now this one.
   void wasSaved(const std::string& path, OpenedFile file);
+  /// For an Autosave: the first line, and that of a gesture of the journal; these are asked for in order.
+  std::string firstStepLine() const { return formats_detail::firstStepLine(*session_, document(), first_.file.text); }
+  std::string stepLine(std::size_t gesture);
   /// The file as it was read or written last; none where it has none.
   std::optional<FileStamp> stamp() const;
 
@@ -52,6 +60,7 @@ class OpenScene {
 
   Document opened_;
   Written first_, last_;  // as it was opened, and as it was opened or saved last
+  std::string kept_;      // of its last step line
   std::string name_;  // of the file that it was read from
   std::optional<std::string> path_;
   std::unique_ptr<OdeContacts> contacts_;

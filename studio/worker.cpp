@@ -21,6 +21,11 @@ Worker::Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions 
   if (!options_.gallery.empty()) gallery_ = std::make_unique<Workspace>(options_.gallery);
 }
 
+Worker::~Worker() {
+  if (hold_ && scene_) scene_->session().cancel();
+  if (scene_ && autosave_ && !scene_->isChanged()) autosave_->forget();
+}
+
 void Worker::run(const std::stop_token& stop) {
   while (step(stop)) {
   }
@@ -116,7 +121,7 @@ void Worker::sayMotion(const Asker& asker, const SessionUpdate& update, bool mor
 }
 
 void Worker::sayState(const Asker& asker) {
-  tabs_.tellAll(asker.socket, asker.id, stateMessage(rev_, scene_.get(), heldBy()));
+  tabs_.tellAll(asker.socket, asker.id, stateMessage(rev_, scene_.get(), heldBy(), recovered_));
 }
 
 void Worker::sayScene(const Asker& asker, const Motion& motion) {
@@ -205,6 +210,7 @@ void Worker::perform(const Asker& asker, const Release& release) {
   const std::stop_token stop = mailbox_.beginWork();
   const SessionUpdate update = release.nail ? session.releaseNailed(NailAt::where_it_got, stop) : session.release(stop);
   ++rev_;
+  keepStep();
   sayMotion(asker, update, false, false);
   hold_.reset();
   sayState(asker);
@@ -222,6 +228,7 @@ void Worker::perform(const Asker& asker, const Gone&) {
 
 void Worker::cancelHold(const Asker& asker) {
   const SessionUpdate update = session().cancel();
+  keepStep();
   sayMotion(asker, update, false, false);
   hold_.reset();
   sayState(asker);

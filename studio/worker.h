@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "studio/answers.h"
+#include "studio/autosave.h"
 #include "studio/limits.h"
 #include "studio/mailbox.h"
 #include "studio/open_scene.h"
@@ -33,6 +34,10 @@ struct WorkerOptions {
 class Worker {
  public:
   Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions options);
+  /// Steps are kept for the next time where they were not saved.
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
 
   /// Opens the scene that was named when the program was started. Throws FormatError.
   void openFirst(const std::string& path);
@@ -96,6 +101,9 @@ class Worker {
   void beginGesture(const Asker& asker, std::int64_t gesture, const Take& take);
   void dragThere(const Vec3& place, const std::optional<Quat>& orientation);
   bool isExample(const std::string& path) const;
+  void keepStep();
+  void sayProblem();
+  void takeSteps(const OpenedFile& file, const std::string& name, const std::optional<std::string>& path);
   void show(const OpenedFile& file, const std::string& name, std::optional<std::string> path);
   void sayMotion(const Asker& asker, const SessionUpdate& update, bool more, bool gives_way);
   void sayState(const Asker& asker);
@@ -110,6 +118,10 @@ class Worker {
   std::unique_ptr<Workspace> gallery_;
   std::vector<GalleryScene> shown_in_gallery_;  // once asked for
   std::unique_ptr<OpenScene> scene_;
+  std::unique_ptr<Autosave> autosave_;  // of scene_
+  std::size_t kept_ = 0;                // gestures of its journal
+  std::size_t recovered_ = 0;           // steps that came back with the scene
+  std::string problem_;                 // of the disk, that no page has heard
   std::optional<Hold> hold_;
   std::vector<Letter> saves_;  // asked for in a gesture: they wait for its end
   std::int64_t rev_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a worker does at one go: all but drags.
 #include <algorithm>
+#include <filesystem>
+#include <utility>
 
 #include "formats/json/json.hpp"
 #include "studio/refusal.h"
@@ -21,19 +23,59 @@ EditSession& Worker::sessionAtRest(const Asker& asker) {
 /// After a step: a new motion, and what changed besides.
 void Worker::sayChange(const Asker& asker, const SessionUpdate& update) {
   ++rev_;
+  keepStep();
   sayMotion(asker, update, false, false);
   sayState(asker);
 }
 
+/// What has been done is on the disk before a page hears of it.
+void Worker::keepStep() {
+  for (const std::size_t done = scene_->session().journal().gestures.size(); kept_ < done; ++kept_)
+    autosave_->append(scene_->stepLine(kept_));
+  sayProblem();
+}
+
+void Worker::sayProblem() {
+  const std::string problem = autosave_->takeProblem();
+  if (!problem.empty()) tabs_.tellAll(0, 0, noticeMessage(problem));
+}
+
+/// Steps that were made on this file before come back; those that were made on another text of it are kept aside.
+void Worker::takeSteps(const OpenedFile& file, const std::string& name, const std::optional<std::string>& path) {
+  const std::string file_name = path ? std::filesystem::path(*path).filename().string() : scene_->suggestedName();
+  autosave_ = std::make_unique<Autosave>(workspace_.folderOf(path.value_or("")), file_name);
+  kept_ = recovered_ = 0;
+  std::optional<formats_detail::StepLines> steps = autosave_->find();
+  problem_ = autosave_->takeProblem();
+  if (steps && (steps->saved == file.text || steps->opened == file.text)) {
+    try {
+      scene_ = std::make_unique<OpenScene>(file, *steps, name, path);
+      autosave_->goOn(*steps);
+      kept_ = steps->history.journal.gestures.size();
+      recovered_ = steps->history.past.size();
+      return;
+    } catch (const InputError&) {
+      problem_ = "The steps of '" + file_name + "' that were kept make no sense in it; they are in '" +
+                 autosave_->setAside() + "'.";
+    }
+  } else if (steps && !steps->history.past.empty()) {
+    problem_ = "'" + file_name + "' was written by another program since steps were made on it; these are in '" +
+               autosave_->setAside() + "'.";
+  }
+  autosave_->begin(scene_->firstStepLine());
+}
+
 void Worker::perform(const Asker& asker, const Hello& hello) {
   tabs_.add(asker.socket, hello.tab);
-  tabs_.tell(asker.socket, answering(asker.id, welcomeMessage(options_.session, workspace_.folder(), options_.limits)));
+  tabs_.tell(asker.socket, answering(asker.id, welcomeMessage(options_.session, workspace_.folder(), recovered_,
+                                                               options_.limits)));
   if (scene_) {
     tabs_.showSceneTo(asker.socket, asker.id, scene_view_);
     const MotionNews news{rev_, 0, -1, false, false, &scene_->session().last(), nullptr};
     tabs_.showMotionTo(asker.socket, asker.id, view_, motionMembers(news), false);
   }
-  tabs_.tell(asker.socket, answering(asker.id, stateMessage(rev_, scene_.get(), heldBy())));
+  tabs_.tell(asker.socket, answering(asker.id, stateMessage(rev_, scene_.get(), heldBy(), recovered_)));
+  if (!problem_.empty()) tabs_.tell(asker.socket, noticeMessage(std::exchange(problem_, "")));
 }
 
 void Worker::perform(const Asker& asker, const Undo&) {
@@ -108,8 +150,10 @@ void Worker::perform(const Asker& asker, const SetNumbers& set) {
 }
 
 void Worker::show(const OpenedFile& file, const std::string& name, std::optional<std::string> path) {
-  auto opened = std::make_unique<OpenScene>(file, name, std::move(path), options_.solving);
+  auto opened = std::make_unique<OpenScene>(file, name, path, options_.solving);
+  if (autosave_) autosave_->forget();
   scene_ = std::move(opened);
+  takeSteps(file, name, path);
   ++opened_;
   scene_view_.reset();
   hold_.reset();
@@ -137,6 +181,7 @@ void Worker::perform(const Asker& asker, const Open& open) {
   const bool example = open.gallery || isExample(open.path);
   show(file, open.path, example ? std::nullopt : std::optional(open.path));
   sayAll(asker);
+  if (!problem_.empty()) tabs_.tellAll(0, 0, noticeMessage(std::exchange(problem_, "")));
 }
 
 void Worker::perform(const Asker& asker, const Save& save) {
@@ -149,6 +194,9 @@ void Worker::perform(const Asker& asker, const Save& save) {
   const std::string text = scene_->textIn(folder);
   const FileStamp stamp = workspace_.save(*path, text, known, save.replace);
   scene_->wasSaved(*path, {text, stamp, folder});
+  if (folder == autosave_->folder()) autosave_->rename(std::filesystem::path(*path).filename().string());
+  autosave_->append(formats_detail::savedLine(text));
+  sayProblem();
   tabs_.tell(asker.socket, answering(asker.id, savedMessage(*path, rev_)));
   sayState(asker);
 }

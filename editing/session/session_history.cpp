@@ -73,6 +73,7 @@ SessionUpdate EditSession::State::goTo(std::vector<SessionMoment>& from, std::ve
 }
 
 bool EditSession::canUndo() const { return state_->drag || !state_->past.empty(); }
+std::size_t EditSession::undoDepth() const { return state_->past.size(); }
 bool EditSession::canRedo() const { return !state_->drag && !state_->future.empty(); }
 
 std::string EditSession::undoName() const {

@@ -110,6 +110,7 @@ struct EditSession::State {
 
   // session.cpp
   void begin(const Scene& scene, double duration, std::vector<Control> controls, std::vector<Constraint> nails);
+  void resume(const SessionHistory& history);  // session_resume.cpp
 
   // session_history.cpp
   /// A step for undo from `before` to now.

@@ -69,6 +69,11 @@ int main() {
   tellNails(session);
   for (const SessionNumber& number : session.numbers())
     std::printf("  %s: %.2f, from %g to %g\n", number.name.c_str(), number.value, number.min, number.max);
+  // it goes on elsewhere, or later, with all its steps
+  const SessionHistory history = session.history();
+  const SessionHistoryPoint& first = history.past.front();
+  for (const SessionHistoryNail& held : first.nails) static_cast<void>(held.on);
+  EditSession again(history, contacts);
   while (session.canUndo()) {
     std::printf("undo %s\n", session.undoName().c_str());
     session.undo();

@@ -5,6 +5,7 @@
 
 #include "editing/session_numbers.h"
 #include "formats/documents/journal_json.h"
+#include "formats/documents/journal_write.hpp"
 #include "formats/documents/scene_writer.hpp"
 #include "formats/json/json_writer.hpp"
 
@@ -115,6 +116,14 @@ void writeGesture(JsonWriter& out, const SessionGesture& gesture, const std::str
 }
 
 }  // namespace
+
+std::string formats_detail::gestureText(const SessionGesture& gesture, const std::string& folder) {
+  JsonWriter out;
+  out.beginObject();
+  writeGesture(out, gesture, folder, "");
+  out.endObject();
+  return out.take();
+}
 
 std::string writeJournal(const JournalDocument& document) {
   const SessionJournal& journal = document.journal;

@@ -30,7 +30,7 @@ bool lists(const auto& words, std::string_view word) {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-std::string shortened(std::string_view token) {
+std::string shortenedToken(std::string_view token) {
   constexpr std::size_t kMost = 40;
   return quotedText(token.size() <= kMost ? std::string(token) : std::string(token.substr(0, kMost)) + "...");
 }
@@ -114,9 +114,9 @@ class ObjParser {
     } else if (keyword == "f" || keyword == "fo") {
       readFace();
     } else if (lists(kCurved, keyword)) {
-      fail(shortened(keyword), "no curved surfaces (export it as a mesh of polygons)");
+      fail(shortenedToken(keyword), "no curved surfaces (export it as a mesh of polygons)");
     } else if (!keyword.empty() && !lists(kIgnored, keyword)) {
-      fail(shortened(keyword), "a word of the OBJ format");
+      fail(shortenedToken(keyword), "a word of the OBJ format");
     }
     skipStatement();
   }
@@ -127,9 +127,9 @@ class ObjParser {
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool whole = end == digits.data() + digits.size();
-    if (error == std::errc::result_out_of_range && whole) fail(shortened(token), "a number that a double can hold");
-    if (error != std::errc() || !whole) fail(shortened(token), "a number");
-    if (!(std::abs(value) <= kLargest)) fail(shortened(token), "a finite number of magnitude at most 1e9");
+    if (error == std::errc::result_out_of_range && whole) fail(shortenedToken(token), "a number that a double can hold");
+    if (error != std::errc() || !whole) fail(shortenedToken(token), "a number");
+    if (!(std::abs(value) <= kLargest)) fail(shortenedToken(token), "a finite number of magnitude at most 1e9");
     return value;
   }
 
@@ -165,11 +165,11 @@ class ObjParser {
       if (rest.empty() || (part == 0 && rest[0] == '/')) continue;
       good = good && takeInteger(rest, ignored);
     }
-    if (!good || !rest.empty()) fail(shortened(token), "a corner such as 3, 3/1, 3//2 or 3/1/2");
+    if (!good || !rest.empty()) fail(shortenedToken(token), "a corner such as 3, 3/1, 3//2 or 3/1/2");
     const auto count = static_cast<long long>(soup_.vertices.size());
-    if (vertex == 0) fail(shortened(token), "a vertex counted from 1, or from -1 backwards");
+    if (vertex == 0) fail(shortenedToken(token), "a vertex counted from 1, or from -1 backwards");
     if (vertex < -count)
-      fail(shortened(token), "a vertex that is there (" + std::to_string(count) + " stand before this line)");
+      fail(shortenedToken(token), "a vertex that is there (" + std::to_string(count) + " stand before this line)");
     return vertex > 0 ? vertex - 1 : count + vertex;
   }
 

@@ -41,6 +41,33 @@ export class Commands {
     await this.tell('undo');
   }
 
+  /** Steps that had not been saved came back with the scene. @param {number} steps */
+  tellRecovered(steps) {
+    const close = () => this.store.set({ notice: null });
+    this.store.set({ notice: {
+      message: `${steps === 1 ? '1 step' : `${steps} steps`} recovered that had not been saved.`, kind: 'amber', key: 'recovered',
+      actions: [{ name: 'Keep', act: close }, { name: 'Back', act: () => (close(), void this.undoAll()) }],
+    } });
+  }
+
+  /** Back to the scene as it was opened; redo brings the steps again. */
+  async undoAll() {
+    while (this.store.state.document?.undo && await this.tell('undo')) await this.changed();
+  }
+
+  /** Until the document of the last answer is there. */
+  changed() {
+    const { rev } = this.store.state.motion ?? { rev: 0 };
+    return new Promise((/** @type {(value?: unknown) => void} */ done) => {
+      let end = () => {};
+      end = this.store.on(['document'], ({ document }) => {
+        if ((document?.rev ?? 0) < rev) return;
+        done();
+        setTimeout(() => end());
+      });
+    });
+  }
+
   async redo() {
     this.store.set({ card: null, changesShown: false, before: null, notice: this.withoutChanges() });
     await this.tell('redo');

@@ -8,19 +8,20 @@ import { closedDocument, nothingOfAScene } from './store.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {{store: import('./store.js').Store<State>, gesture: () => import('./gesture.js').Gesture | null,
- *    opened: () => void}} Parts `opened`: another scene is shown */
+ *    opened: () => void, recovered: (steps: number) => void}} Parts `opened`: another scene is shown; `recovered`: it came
+ *    with steps that had not been saved */
 
 /** @param {Parts} parts @returns {import('./connection.js').Listener} */
-export function listener({ store, gesture, opened }) {
+export function listener({ store, gesture, opened, recovered }) {
   // whose scene is shown, and whether the motion that comes next is its first one
-  let session = '', scene = NaN, first = false;
+  let session = '', scene = NaN, first = false, told = '';
 
   /** @param {any} message */
   const welcome = (message) => {
     const restarted = session !== '' && session !== message.session, back = session === message.session;
     session = message.session;
     if (!back) scene = NaN;
-    const notice = restarted ? { message: 'The server was started again: steps that were not saved are lost.', kind: /** @type {const} */ ('amber') }
+    const notice = restarted ? { message: 'The server was started again.', kind: /** @type {const} */ ('amber') }
       : back && store.state.notice?.key === 'lost' ? null : store.state.notice;
     store.set({ connected: 'loading', folder: message.folder, notice });
   };
@@ -35,6 +36,8 @@ export function listener({ store, gesture, opened }) {
     }
     store.set({ document, connected: 'open', progress: '' });
     if (document.saved && (!was_saved || !store.state.savedMotion)) store.set({ savedMotion: store.state.motion });
+    if (document.recovered && told !== `${session} ${scene}`) recovered(document.recovered);
+    told = `${session} ${scene}`;
     if (!document.nails.some((nail) => nail.id === store.state.selectedNail)) store.set({ selectedNail: -1 });
   };
 
@@ -51,8 +54,8 @@ export function listener({ store, gesture, opened }) {
       if (status === 'connecting') return store.state.connected === 'lost' ? undefined : store.set({ connected: 'connecting' });
       const held = gesture()?.lost();
       store.set({ connected: 'lost', playing: false });
-      const saying = held ? 'The server is gone; the drag was cancelled. Nothing that was shown as done before is lost while the server runs. Trying again…'
-        : 'The server is gone. Nothing that was shown as done is lost while the server runs. Trying again…';
+      const saying = `The server is gone${held ? '; the drag was cancelled' : ''}. Every step that was shown as done is kept beside the scene: where the server was ended, ` +
+        'start carom studio with the scene again and open the address that it prints. Trying again…';
       store.set({ notice: { message: saying, kind: 'amber', key: 'lost' } });
     },
     message(message) {

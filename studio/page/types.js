@@ -18,7 +18,7 @@
  *    error: number, message: string}} NailState */
 /** @typedef {{name: string, fixed: boolean, kinematic?: boolean, mass: number | null, material?: string}} BodyState */
 /** @typedef {{type: 'state', re?: number, rev: number, open: boolean, path: string | null, name?: string,
- *    suggested?: string, saved: boolean, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
+ *    suggested?: string, saved: boolean, recovered?: number, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
  *    undo: string | null, redo: string | null, held_by: string | null, bodies: BodyState[],
  *    materials?: {name: string, elasticity: number, friction: number}[]}} DocumentState */
 
