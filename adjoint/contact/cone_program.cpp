@@ -10,6 +10,7 @@
 #include "adjoint/contact/cone_terms.hpp"
 #include "adjoint/contact/interior_point.hpp"
 #include "adjoint/contact/symmetric_inverse.hpp"
+#include "adjoint/contact/wedge.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -291,6 +292,9 @@ ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
   }
   for (const ConePointOf<T>& near : closest)
     if (auto at = set.carefullyFrom(near, kCarefulSteps)) return even.asWritten(*at);
+  if (wedgedPair(inDoubles<T>(even.q)))
+    throw NotComputable("two of its contacts are wedged: their friction bears any push along the line between them, so that their impulse "
+                        "has no bound");
   throw NotComputable("the friction of its contacts, which are many or unlike, was not found");
 }
 

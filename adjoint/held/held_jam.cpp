@@ -75,7 +75,7 @@ std::optional<HeldJam> jamOf(const BodyInstant<double>& body, const std::vector<
       continue;
     }
     const Vec3 along = c.n.unitOrthogonal(), across = c.n.cross(along);
-    const double outside = c.friction / std::cos(std::numbers::pi / kEdges);
+    const double outside = c.friction / elementary::cos(std::numbers::pi / kEdges);
     for (int i = 0; i < kEdges; ++i) {
       const auto [sine, cosine] = elementary::sincos(2 * std::numbers::pi * i / kEdges);
       add(c.n + outside * (cosine * along + sine * across));

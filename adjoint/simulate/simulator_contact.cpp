@@ -139,23 +139,31 @@ bool Simulator::changesTooOften(int body) const {
   return arcs[arcs.size() - kMostChanges].start() >= draft_.event.time - kSameInstant * instant;
 }
 
+// The contacts with what is fixed that keep a body; none where it presses on one that moves: the motion ends here, with the
+// velocities of the law, as a path would stop what is left of slips.
+std::optional<std::vector<Contact>> Simulator::closedContacts(int body) {
+  std::vector<Contact> closed;
+  if (!contactsLast() || !isMoved(body)) return closed;
+  bool ends = false;
+  for (const Contact& c : draft_.event.contacts) {
+    if (!c.lasts || (c.a != body && c.b != body)) continue;
+    if (!isFixed(c.a == body ? c.b : c.a)) {
+      if (presses(c)) ends = true, endBeyond(c, "rest, rolling and sliding on bodies that move are not modelled yet");
+      continue;
+    }
+    closed.push_back(c);
+    closed.back().pair = builder_.pairOf(c.a, c.b);
+  }
+  if (ends) return std::nullopt;
+  return closed;
+}
+
 void Simulator::chooseArc(std::size_t participant) {
   const Event& event = draft_.event;
   const int body = bodies_[participant];
-  std::vector<Contact> closed;
-  bool ends = false;  // the motion, here
-  if (contactsLast() && isMoved(body)) {
-    for (const Contact& c : event.contacts) {
-      if (!c.lasts || (c.a != body && c.b != body)) continue;
-      if (!isFixed(c.a == body ? c.b : c.a)) {
-        if (presses(c)) ends = true, endBeyond(c, "rest, rolling and sliding on bodies that move are not modelled yet");
-        continue;
-      }
-      closed.push_back(c);
-      closed.back().pair = builder_.pairOf(c.a, c.b);
-    }
-  }
-  if (ends) return fly(participant);  // with the velocities of the law: a path would stop what is left of slips
+  std::optional<std::vector<Contact>> kept = closedContacts(body);
+  if (!kept) return fly(participant);
+  std::vector<Contact> closed = std::move(*kept);
   State& after = draft_.after[participant];
   ContactChoice choice;
   std::vector<Contact> marks;
