@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <limits>
+#include <memory>
+#include <regex>
 #include <thread>
 
 #include "adjoint/base/errors.h"
@@ -42,6 +44,33 @@ Start startOf(const StudioOptions& options) {
   return {options.folder, below.generic_string()};
 }
 
+/// Where a server can be talked to.
+struct Address {
+  unsigned short port = 0;
+  std::string token;
+};
+
+/// "http://127.0.0.1:PORT/#TOKEN", as this program printed it; of anything else nothing.
+Address addressOf(const std::string& text) {
+  std::smatch parts;
+  static const std::regex kForm("http://127\\.0\\.0\\.1:([1-9][0-9]{0,4})/#([0-9a-f]+)");
+  if (!std::regex_match(text, parts, kForm) || parts[2].length() != static_cast<long>(newToken().size())) return {};
+  const unsigned long port = std::stoul(parts[1]);
+  if (port > std::numeric_limits<unsigned short>::max()) return {};
+  return {static_cast<unsigned short>(port), parts[2]};
+}
+
+/// At the port of the server before, where that can be had, so that its pages find this one by themselves.
+std::unique_ptr<Net> listen(const StudioOptions& options, unsigned short before, const NetHandlers& handlers) {
+  if (options.port == 0 && before != 0) {
+    try {
+      return std::make_unique<Net>(before, options.limits, handlers);
+    } catch (const InputError&) {  // somebody else has it now
+    }
+  }
+  return std::make_unique<Net>(options.port, options.limits, handlers);
+}
+
 HttpAnswer pageAnswer(const PageFiles& files, const Request& request) {
   const PageFile* file = files.find(pathOf(request.target));
   if (file == nullptr) return {404, "text/plain; charset=utf-8", "found no such file\n", {}};
@@ -73,9 +102,13 @@ int studio(const StudioOptions& options) {
   const PageFiles files(share);
   const Start start = startOf(options);
   Workspace workspace(start.folder);
-  const std::string token = newToken();
   Mailbox mailbox(options.limits.commands);
   Net* net = nullptr;  // made last, as it needs the others
+  Worker worker(mailbox, workspace, {[&](SocketId to, Outgoing message) { net->send(to, std::move(message)); }},
+                workerOptions(options, share));
+  if (!start.scene.empty()) worker.openFirst(start.scene);
+  const Address before = addressOf(worker.addressBefore());
+  const std::string token = before.token.empty() ? newToken() : before.token;
   Dispatcher dispatcher(mailbox, token, options.limits,
                         {[&](SocketId to, const std::string& text) {
                            net->send(to, {[text] { return text; }, text.size(), false, false, false});
@@ -84,19 +117,18 @@ int studio(const StudioOptions& options) {
                          [&](SocketId socket, CloseReason reason, std::chrono::milliseconds after) {
                            net->close(socket, std::move(reason), after);
                          }});
-  Worker worker(mailbox, workspace, {[&](SocketId to, Outgoing message) { net->send(to, std::move(message)); }},
-                workerOptions(options, share));
-  if (!start.scene.empty()) worker.openFirst(start.scene);
-  Net server(options.port, options.limits,
-             {[&](const Request& request) { return pageAnswer(files, request); },
-              [&](SocketId from, const std::string& text) { return dispatcher.message(from, text); },
-              [&](SocketId socket) { dispatcher.gone(socket); }});
-  net = &server;
-  mailbox.onRoom([&](SocketId socket) { server.resume(socket); });
+  const NetHandlers handlers{[&](const Request& request) { return pageAnswer(files, request); },
+                             [&](SocketId from, const std::string& text) { return dispatcher.message(from, text); },
+                             [&](SocketId socket) { dispatcher.gone(socket); }};
+  const std::unique_ptr<Net> server = listen(options, before.port, handlers);
+  net = server.get();
+  const std::string address = "http://127.0.0.1:" + std::to_string(server->port()) + "/#" + token;
+  worker.setAddress(address);
+  mailbox.onRoom([&](SocketId socket) { server->resume(socket); });
   std::jthread session([&](const std::stop_token& stop) { worker.run(stop); });
-  const std::stop_callback at_end(options.stop, [&] { server.stop(); });
-  if (options.ready) options.ready("http://127.0.0.1:" + std::to_string(server.port()) + "/#" + token);
-  server.run();
+  const std::stop_callback at_end(options.stop, [&] { server->stop(); });
+  if (options.ready) options.ready(address);
+  server->run();
   session.request_stop();
   mailbox.stopAll();
   return 0;

@@ -41,6 +41,10 @@ class Worker {
 
   /// Opens the scene that was named when the program was started. Throws FormatError.
   void openFirst(const std::string& path);
+  /// Where the server before could be talked to whose steps were found; empty: there was none.
+  const std::string& addressBefore() const { return address_before_; }
+  /// Where this one can be. To be set before it works.
+  void setAddress(std::string address);
   /// Works until it is asked to stop.
   void run(const std::stop_token& stop);
   /// Does the next command, and rests after it where that is due. False: asked to stop.
@@ -122,6 +126,7 @@ class Worker {
   std::size_t kept_ = 0;                // gestures of its journal
   std::size_t recovered_ = 0;           // steps that came back with the scene
   std::string problem_;                 // of the disk, that no page has heard
+  std::string address_, address_before_;
   std::optional<Hold> hold_;
   std::vector<Letter> saves_;  // asked for in a gesture: they wait for its end
   std::int64_t rev_ = 0;

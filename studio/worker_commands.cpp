@@ -53,6 +53,8 @@ void Worker::takeSteps(const OpenedFile& file, const std::string& name, const st
       autosave_->goOn(*steps);
       kept_ = steps->history.journal.gestures.size();
       recovered_ = steps->history.past.size();
+      address_before_ = steps->address;
+      if (!address_.empty()) autosave_->append(formats_detail::addressLine(address_));
       return;
     } catch (const InputError&) {
       problem_ = "The steps of '" + file_name + "' that were kept make no sense in it; they are in '" +
@@ -62,7 +64,16 @@ void Worker::takeSteps(const OpenedFile& file, const std::string& name, const st
     problem_ = "'" + file_name + "' was written by another program since steps were made on it; these are in '" +
                autosave_->setAside() + "'.";
   }
-  autosave_->begin(scene_->firstStepLine());
+  autosave_->begin(scene_->firstStepLine() + formats_detail::addressLine(address_));
+}
+
+void Worker::setAddress(std::string address) {
+  address_ = std::move(address);
+  if (!autosave_) return;
+  if (recovered_ > 0)
+    autosave_->append(formats_detail::addressLine(address_));
+  else if (kept_ == 0)
+    autosave_->begin(scene_->firstStepLine() + formats_detail::addressLine(address_));
 }
 
 void Worker::perform(const Asker& asker, const Hello& hello) {

@@ -77,6 +77,8 @@ std::string firstStepLine(const EditSession& session, const Document& document, 
 
 std::string savedLine(std::string_view text) { return stepLineOf({{"saved", text}}); }
 
+std::string addressLine(std::string_view address) { return stepLineOf({{"address", address}}); }
+
 std::string stepLine(const EditSession& session, std::size_t gesture, const Document& now, std::string& before) {
   const Json nails = stepNailsOf(session);
   const SessionGesture& done = session.journal().gestures.at(gesture);
@@ -107,6 +109,10 @@ StepLines readStepLines(std::string_view text, const std::string& name, const st
       Json step = treeOf(lines[i], NoJson::discards);
       if (step.is_object() && step.contains("saved")) {
         read.saved = step["saved"].get<std::string>();
+        continue;
+      }
+      if (step.is_object() && step.contains("address")) {
+        read.address = step["address"].get<std::string>();
         continue;
       }
       if (!step.is_object() || !step.contains("gesture") || !step.contains("depth"))

@@ -22,6 +22,8 @@ inline constexpr const char* kStepsMember = "carom_steps";
 std::string firstStepLine(const EditSession& session, const Document& document, std::string_view opened);
 /// The line of a scene that was saved as this text.
 std::string savedLine(std::string_view text);
+/// The line of where the session can be talked to.
+std::string addressLine(std::string_view address);
 /// The line of one gesture of the journal, with its end. `before`: what the line before left, as this sets it; what is
 /// the same is not written again.
 std::string stepLine(const EditSession& session, std::size_t gesture, const Document& now, std::string& before);
@@ -32,6 +34,7 @@ struct StepLines {
   SessionHistory history;   ///< to go on from
   std::string opened;       ///< text that the scene was read from
   std::string saved;        ///< text that it was saved as last, else the same
+  std::string address;      ///< where the session could be talked to; empty: nobody knows
   std::size_t bytes = 0;    ///< of whole lines: what comes after them was torn
 };
 bool areStepLines(std::string_view text);

@@ -55,7 +55,7 @@ export function listener({ store, gesture, opened, recovered }) {
       const held = gesture()?.lost();
       store.set({ connected: 'lost', playing: false });
       const saying = `The server is gone${held ? '; the drag was cancelled' : ''}. Every step that was shown as done is kept beside the scene: where the server was ended, ` +
-        'start carom studio with the scene again and open the address that it prints. Trying again…';
+        'start carom studio with the scene again. This page finds it by itself…';
       store.set({ notice: { message: saying, kind: 'amber', key: 'lost' } });
     },
     message(message) {

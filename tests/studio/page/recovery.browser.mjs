@@ -17,7 +17,12 @@ test('the server is killed: the page says what is kept; after a start it is all 
     await until(page, '(s) => s.connected === "lost"');
     assert.match(await page.textContent('#notice'), /kept beside the scene.*start carom studio/);
     await picture(page, 'lost');
+    const { url } = studio;
     await studio.run();
+    assert.equal(studio.url, url, 'it has the address of before');
+    await until(page, '(s) => s.connected === "open" && s.motion && s.document.recovered === 2');
+    assert.equal(await state(page, '(s) => JSON.stringify(s.document.numbers)'), numbers, 'the page finds it by itself');
+    assert.match(await page.textContent('#notice'), /2 steps recovered/);
     const again = await openPage(browser(), studio.url, { width: 1024, height: 640 });
     await until(again, '(s) => s.connected === "open" && s.motion && s.notice');
     assert.match(await again.textContent('#notice'), /2 steps recovered/);
