@@ -23,7 +23,7 @@ namespace {
 using namespace test;
 
 constexpr double kPlayed = 2;  // s
-constexpr std::size_t kWork = 3'000'000;
+constexpr std::size_t kWork = 500'000;
 constexpr double kFar = 30;  // m, to where stairs and cut grounds reach
 constexpr double kDegree = std::numbers::pi / 180;
 
