@@ -33,7 +33,8 @@ constexpr double kAtOnceOfStep = 1e-6;
 constexpr int kTries = 200;
 // Of the unit of speed: slower than that is what rounding leaves of speeds that an impact law stops.
 constexpr double kStopped = 1e-14;
-constexpr std::size_t kMostSteps = 20'000;
+// Most steps of a path, and of one whose rims go round.
+constexpr std::size_t kMostSteps = 20'000, kMostOfRims = 100'000;
 // What a step leaves of speeds that contacts keep at 0 is less than this share of the unit of speed.
 constexpr double kMostTakenBack = 1e-10;
 // A rim that comes to lie flat before so many steps have passed is brought there by the next one.
@@ -121,7 +122,8 @@ double HeldPath::lookAtSlips(HeldStepper::Start& start) const {
 
 void HeldPath::extend() {
   if (end_ || !(known_ < until_)) return;
-  if (steps_.size() >= kMostSteps) throw NotComputable("its path in contact takes more than 20000 steps: it turns too fast");
+  const bool goes_round = std::ranges::any_of(rims_, [](const auto& rim) { return rim.has_value(); });
+  if (steps_.size() >= (goes_round ? kMostOfRims : kMostSteps)) throw NotComputable(tooManySteps());
   take(nextStep());
 }
 

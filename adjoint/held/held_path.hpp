@@ -106,6 +106,7 @@ class HeldPath final : public IntegratedPath {
   double guardAt(std::size_t guard, double t) const;
   double leastOf(std::size_t guard, double from, double to) const;
   bool passesBy(const HeldStep& step, const End& end) const;
+  std::string tooManySteps() const;
   std::string jamAt(const HeldStepper::Start& start) const;
   State stayingOn(const State& state) const;
   void take(HeldStep step);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/held/held_dynamics.hpp"
@@ -98,6 +99,18 @@ bool HeldPath::endAt(HeldStepper& stepper, const HeldStepper::Start& start, Held
     end.time += move;
   }
   return false;
+}
+
+// How often a rim's lowest point goes round tells how much work the rest of a motion is: some ten steps each time.
+std::string HeldPath::tooManySteps() const {
+  std::string why = textOf(6, "its path in contact takes more than ", steps_.size(), " steps");
+  for (std::size_t k = 0; k < rims_.size(); ++k) {
+    if (!rims_[k]) continue;
+    const Tilt tilt = tiltOf(k, last_);
+    const double turns = tilt.x.cross(tilt.rate).norm() / tilt.x.squaredNorm() / (2 * std::numbers::pi);
+    return why + textOf(6, ": the lowest point of its rim, which is tilted by ", tilt.x.norm(), " rad, goes round ", turns, " times a second");
+  }
+  return why + ": it turns too fast";
 }
 
 // Of a contact that slides: how its gap answers to the push n - mu d, while the others hold, over how it does to n. Where that

@@ -148,7 +148,7 @@ class Simulator {
     double tilts;  // m/s: how fast its rim goes down there against the other side
   };
   std::optional<Lowest> lowestOf(const Contact& of, int body, const State& state, const State& moves) const;
-  std::optional<Contact> tiltsFrom(const std::vector<Contact>& closed, int body, State& after) const;
+  std::vector<Contact> tiltFrom(std::vector<Contact>& closed, int body, State& after) const;
   bool settlesFlat();
   bool liesFlat(const Prediction& p, double time);
   void dropFlatRims(std::vector<Contact>& closed) const;

@@ -166,14 +166,10 @@ void Simulator::chooseArc(std::size_t participant) {
   std::vector<Contact> closed = std::move(*kept);
   State& after = draft_.after[participant];
   ContactChoice choice;
-  std::vector<Contact> marks;
-  if (const std::optional<Contact> tilts = tiltsFrom(closed, body, after)) {
-    marks = marksOf(*tilts);
-    std::erase_if(closed, [&](const Contact& c) { return isSameRim(c, *tilts); });
-    closed.push_back(*tilts);
+  const std::vector<Contact> marks = tiltFrom(closed, body, after);
+  if (!marks.empty()) {
     choice = tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), hintOf(closed));
   } else if (!closed.empty()) {
-    dropFlatRims(closed);
     choice = chooseContactPath(motion_, body, after, pointersTo(closed), hintOf(closed));
   }
   if (choice.path && choice.path->form != PathForm::held && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {

@@ -184,22 +184,25 @@ bool Simulator::settlesFlat() {
   return more;
 }
 
-// Where contacts of a rim that lies flat do not keep it so: it goes on about its lowest point, from where it lies.
-std::optional<Contact> Simulator::tiltsFrom(const std::vector<Contact>& closed, int body, State& after) const {
+// Where contacts of a rim that lies flat do not keep it so it goes on about its lowest point, which takes the place of its marks
+// among `closed`, from where it lies. Gives these marks; none where nothing tilts.
+std::vector<Contact> Simulator::tiltFrom(std::vector<Contact>& closed, int body, State& after) const {
   for (const Contact& c : closed) {
-    std::optional<Lowest> lowest = lowestOf(c, body, after, after);
-    if (!lowest) continue;
+    if (!lowestOf(c, body, after, after)) continue;
     std::vector<Contact> marks = marksOf(c);
     if (marks.size() < kFewestMarks) continue;
     State flat = after;
     closeGaps(motion_, body, flat, marks);
-    lowest = lowestOf(marks.front(), body, flat, flat);
+    std::optional<Lowest> lowest = lowestOf(marks.front(), body, flat, flat);
     if (!lowest || !(std::abs(lowest->at.approach) <= kGoesDown * lowest->tilts)) continue;
     lowest->at.lasts = true;
     after = flat;
-    return lowest->at;
+    std::erase_if(closed, [&](const Contact& other) { return isSameRim(other, lowest->at); });
+    closed.push_back(lowest->at);
+    return marks;
   }
-  return std::nullopt;
+  dropFlatRims(closed);
+  return {};
 }
 
 }  // namespace carom::adjoint_detail
