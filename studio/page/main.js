@@ -9,6 +9,7 @@ import { byId } from './dom.js';
 import { Gesture } from './gesture.js';
 import { drawIcons, icon } from './icons.js';
 import { showHeader } from './header.js';
+import { showHint } from './hint.js';
 import { listenToKeys, listenToPointer } from './input.js';
 import { showReadout } from './live.js';
 import { listener, tellEnding } from './messages.js';
@@ -91,6 +92,7 @@ function start() {
   showNails(store, commands);
   showPlayer(store, commands);
   showEmpty(store, commands);
+  showHint(store);
   showLayout(store);
   new TimeLine(/** @type {HTMLCanvasElement} */ (byId('timeline')), store, commands);
   const parts = { store, gesture, commands, overlay, view, frame };

@@ -29,7 +29,7 @@ export function showNotices(store) {
   const fade = () => {
     const shown = store.state.notice;
     if (!shown || (shown.kind ?? 'plain') !== 'plain') return;
-    if (notice.matches(':hover, :focus-within') || store.state.changesShown) timer = setTimeout(fade, 1000);
+    if (notice.matches(':hover, :focus-within') || store.state.changesShown || store.state.noticesStay) timer = setTimeout(fade, 1000);
     else close();
   };
   let timer = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);

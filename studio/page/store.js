@@ -23,7 +23,7 @@ export function nothingOfAScene() {
 export function initialState() {
   return {
     ...nothingOfAScene(), connected: 'connecting', progress: '', folder: '', showBefore: 'none', speed: 1, loop: false, dots: 24,
-    tool: 'move', nailOnRelease: false, leaveRestFree: false, turnLeavesPlace: true, keymap: 'blender', panel: true, quality: 'high', notice: null, tab: '',
+    tool: 'move', nailOnRelease: false, leaveRestFree: false, turnLeavesPlace: true, keymap: 'blender', panel: true, quality: 'high', notice: null, noticesStay: false, tab: '',
   };
 }
 

@@ -5,6 +5,7 @@ import { colours, impactColours, inkOf } from './colours.js';
 import { impactsThatChanged } from './changes.js';
 import { nailColour, nailPlaces } from './overlay/hoops.js';
 import { centreAt, moves } from './motion.js';
+import { forPeople } from './number_field_text.js';
 import { lanes, ticks, tOf, xOf, zoomed } from './timeline_layout.js';
 import { beforeOf } from './view/paths.js';
 
@@ -114,6 +115,7 @@ export class TimeLine {
     pen.fillRect(left, y, axis.width, Math.max(2, height - 2));
     pen.fillStyle = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);
     pen.fillRect(xOf(axis, 0), middle - 1, xOf(axis, motion.end) - xOf(axis, 0), body === selected ? 2 : 1);
+    if (this.seen.length > 1) this.drawName(state.document?.bodies[body]?.name ?? '', y, height, body === selected);
     const before = beforeOf(state), size = Math.min(diamond, height / 2 - 1);
     for (const impact of before?.impacts ?? []) if (impact.bodies.includes(body)) this.diamond(impact.t, middle, size, colours.before, false);
     for (const impact of motion.impacts) {
@@ -132,6 +134,20 @@ export class TimeLine {
       pen.setLineDash([]);
     }
     pen.restore();
+  }
+
+  /** Whose lane it is, in the colour of the body. @param {string} name @param {number} y @param {number} height
+   * @param {boolean} strong */
+  drawName(name, y, height, strong) {
+    if (height < 9) return;
+    const { pen } = this, font = pen.font;
+    pen.font = `${strong ? '600 ' : ''}${Math.min(11, height - 2)}px system-ui, sans-serif`;
+    const ink = pen.fillStyle, wide = Math.min(160, pen.measureText(name).width);
+    pen.fillStyle = strong ? '#39404a' : colours.lane;
+    pen.fillRect(left + 2, y, wide + 5, height - 2);
+    pen.fillStyle = ink;
+    pen.fillText(name, left + 4, y + height / 2 + 3, 160);
+    pen.font = font;
   }
 
   /** Words at impacts that came and went. @param {import('./types.js').Motion} before
@@ -178,6 +194,16 @@ export class TimeLine {
       pen.moveTo(x, height);
       pen.lineTo(x + height, 0);
       pen.stroke();
+    }
+    const why = forPeople(motion.message), wide = Math.min(pen.measureText(why).width, to - from - 16);
+    if (why && wide > 60) {
+      pen.fillStyle = colours.panel;
+      pen.fillRect(from + 4, ruler + 4, wide + 8, 16);
+      pen.beginPath();
+      pen.rect(from + 4, ruler + 4, wide + 8, 16);
+      pen.clip();
+      pen.fillStyle = colours.text;
+      pen.fillText(why, from + 8, ruler + 16);
     }
     pen.restore();
   }

@@ -28,11 +28,11 @@ export function zoomed(axis, x, factor, end) {
   return { from, to: from + span };
 }
 
-/** Lanes of the moving bodies, top to bottom. @param {number[]} bodies @param {number} top @param {number} height px of
+/** Lanes of the moving bodies, top to bottom, each with room for a name. @param {number[]} bodies @param {number} top @param {number} height px of
  * all @param {number} scroll lanes above the first that is seen
  * @returns {{body: number, y: number, height: number}[]} those that are seen */
 export function lanes(bodies, top, height, scroll) {
-  const fits = Math.max(1, Math.min(8, Math.floor(height / 8))), seen = bodies.slice(scroll, scroll + fits);
+  const fits = Math.max(1, Math.min(8, Math.floor(height / 12))), seen = bodies.slice(scroll, scroll + fits);
   const each = Math.min(28, height / Math.max(1, seen.length));
   return seen.map((body, i) => ({ body, y: top + i * each, height: each }));
 }

@@ -57,6 +57,6 @@
  *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn',
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
- *    selectedNail: number, tab: string}} State */
+ *    noticesStay: boolean, selectedNail: number, tab: string}} State  noticesStay: for tests, which take their time */
 
 export {};

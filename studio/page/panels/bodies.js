@@ -4,12 +4,20 @@
 import { byId, el, iconButton } from '../dom.js';
 import { colours } from '../colours.js';
 
+/** More than are seen at a glance are searched. */
+const many = 12;
+
 /** @param {import('../store.js').Store<import('../types.js').State>} store */
 export function showBodies(store) {
-  const list = byId('bodies');
-  store.on(['document', 'scene', 'selected', 'locked'], ({ document, scene, selected, locked }) => {
+  const list = byId('bodies'), search = /** @type {HTMLInputElement} */ (byId('body-search'));
+  search.addEventListener('input', () => show(store.state));
+  const show = (/** @type {import('../types.js').State} */ { document, scene, selected, locked }) => {
     const focused = globalThis.document.activeElement?.getAttribute('data-key');
-    list.replaceChildren(...(document?.bodies ?? []).map(({ name, fixed }, i) => {
+    search.hidden = (document?.bodies.length ?? 0) <= many;
+    if (search.hidden) search.value = '';
+    const wanted = search.value.trim().toLowerCase();
+    const found = (document?.bodies ?? []).map((body, i) => ({ ...body, i })).filter(({ name }) => name.toLowerCase().includes(wanted));
+    list.replaceChildren(...found.map(({ name, fixed, i }) => {
       const swatch = el('span', { class: fixed ? 'swatch fixed' : 'swatch', 'aria-hidden': 'true' });
       swatch.style.setProperty('--colour', fixed ? colours.fixed : (scene?.shapes[i]?.colour ?? colours.fixed));
       const choose = el('button', {
@@ -26,5 +34,6 @@ export function showBodies(store) {
     }));
     const again = focused && /** @type {HTMLElement | null} */ (list.querySelector(`[data-key="${CSS.escape(focused)}"]`));
     if (again) again.focus();
-  });
+  };
+  store.on(['document', 'scene', 'selected', 'locked'], show);
 }

@@ -72,6 +72,7 @@ async function walk(width, height, look) {
   try {
     const page = await openPage(browser, await studio.listen(), { width, height, reducedMotion: 'reduce' });
     await until(page, '(s) => s.connected === "open"');
+    await page.evaluate(() => globalThis.carom.store.set({ noticesStay: true }));
     for (const [name, bring] of Object.entries(states)) {
       await bring(page, studio);
       await frame(page);

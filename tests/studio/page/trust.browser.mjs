@@ -85,6 +85,8 @@ test('without a scene it greets with examples, and one of them opens', { skip },
     await until(page, drawn);
     await picture(page, 'empty');
     assert.equal(await page.locator('#empty .files button').count(), 6);
+    const heights = await page.evaluate(() => [...document.querySelectorAll('#empty .files, #empty > button')].map((one) => one.clientHeight));
+    assert.ok(heights.every((height) => height >= 24) && Math.max(...heights) > 120, `what there is to press is ${heights} px high`);
     await page.click('#empty .scene:has-text("coatrack")');
     await until(page, '(s) => s.document.open && s.motion');
     assert.ok(await page.isHidden('#empty'));
