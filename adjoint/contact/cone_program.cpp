@@ -33,6 +33,9 @@ struct ConePrecision<Wide> {
 // Offsets below this share of velocities have forces in units of their own; less yet is none.
 constexpr double kSlight = 1e-2, kNoLoad = 1e-9;
 constexpr int kCarefulSteps = 40;
+// What two contacts next to one another, one of which bears nothing, may ask of each other at the last, as a share of the speeds:
+// their velocities along the normals differ by the distance between them, and one pressure cannot meet both.
+constexpr double kNearlyRedundant = 1e-10;
 
 template <class T>
 T lengthOf(const V3<T>& v) {
@@ -87,8 +90,8 @@ class ActiveSet {
   /// `unit`: of forces, see forceScale.
   ActiveSet(const ConeProgramOf<T>& q, const T& unit) : q_(q), unit_(unit) {}
 
-  // The solution, when found from this point within some steps.
-  std::optional<ConePointOf<T>> from(ConePointOf<T> at, int steps) const {
+  // The solution, when found from this point within some steps; `settled` as in ConePrecision.
+  std::optional<ConePointOf<T>> from(ConePointOf<T> at, int steps, double settled = ConePrecision<T>::kSettled) const {
     T before = T(0);
     bool kept = false;
     for (int i = 0; i <= steps; ++i) {
@@ -96,7 +99,7 @@ class ActiveSet {
       const T off = largestOf<T>(now.residual), size = T(1) + largestOf<T>(now.f);
       if (!std::isfinite(rounded(off))) return std::nullopt;
       const bool right = i > 0 && holds(now);
-      if (right && off <= T(ConePrecision<T>::kSettled) * size &&
+      if (right && off <= T(settled) * size &&
           (off <= T(ConePrecision<T>::kExact) * size || (kept && !(off < T(0.1) * before))))
         return finished(now);
       kept = right;
@@ -193,7 +196,8 @@ class ActiveSet {
       case ConeState::apex:
         return n.dot(v) >= mu * lengthOf<T>(v - n.dot(v) * n) - little_v;
       case ConeState::slides:
-        return t.at.pressure[k] > T(0) && (!(mu > T(0)) || -t.at.direction[k].dot(v) >= -little_v);
+        // one that is 0 by rounding of the others has either sign
+        return t.at.pressure[k] > -little_v && (!(mu > T(0)) || -t.at.direction[k].dot(v) >= -little_v);
       case ConeState::inside:
         break;
     }
@@ -292,6 +296,10 @@ ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
   }
   for (const ConePointOf<T>& near : closest)
     if (auto at = set.carefullyFrom(near, kCarefulSteps)) return even.asWritten(*at);
+  // a load that is all but decided may come to its place by many steps
+  if (auto at = set.from(set.guess(true), kCarefulSteps)) return even.asWritten(*at);
+  for (const ConePointOf<T>& near : closest)
+    if (auto at = set.from(near, kCarefulSteps, kNearlyRedundant)) return even.asWritten(*at);
   if (wedgedPair(inDoubles<T>(even.q)))
     throw NotComputable("two of its contacts are wedged: their friction bears any push along the line between them, so that their impulse "
                         "has no bound");
