@@ -9,11 +9,13 @@ namespace {
 
 // As positions are known to about 1e-13 S.
 constexpr double kLeastHeight = 1e-12;
+// See mostAcceleration: far above what gravity, and the speeds at the start, make of contacts.
+constexpr double kOfGravity = 1e5, kOfSpeeds = 10;
 
 }  // namespace
 
 PairScales::PairScales(const Scene& scene, const std::vector<BodyModel>& models) : gravity_(scene.gravity.norm()) {
-  double size = 0, fastest = 0;
+  double size = 0, fastest = 0, pull = 0;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     const double own = kindOf(body.shape).boundingRadius(body.shape), radius = own + models[i].center.norm();
@@ -24,9 +26,9 @@ PairScales::PairScales(const Scene& scene, const std::vector<BodyModel>& models)
     fastest = std::max(fastest, body.velocity.norm() + body.angular_velocity.norm() * radius);
     if (!moved_.back()) continue;
     largest_ = std::max(largest_, radius);
-    pull_ = std::max(pull_, std::abs(body.gravity_factor) * gravity_);
+    pull = std::max(pull, std::abs(body.gravity_factor) * gravity_);
   }
-  if (largest_ > 0) pull_ = std::max(pull_, fastest * fastest / largest_);
+  if (largest_ > 0) most_acceleration_ = kOfGravity * pull + kOfSpeeds * fastest * fastest / largest_;
   least_height_ = kLeastHeight * size;
 }
 

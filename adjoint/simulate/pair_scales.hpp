@@ -37,13 +37,13 @@ class PairScales {
   double largest() const { return largest_; }
   /// Of a body about its centre of mass, m; infinite for a plane.
   double radius(int body) const { return radius_[static_cast<std::size_t>(body)]; }
-  /// The largest acceleration that bodies have at the start, but for a share of their spins, m/s^2.
-  double pull() const { return pull_; }
+  /// No contact has a larger acceleration, but where something spins far faster than at the start, m/s^2: 1e5 g + 10 v^2/l.
+  double mostAcceleration() const { return most_acceleration_; }
   /// Positions of the scene are known to about a tenth of this height, m: 1e-12 S, docs/collision.md.
   double leastHeight() const { return least_height_; }
 
  private:
-  double gravity_, pull_ = 0, largest_ = 0, least_height_ = 0;
+  double gravity_, most_acceleration_ = 0, largest_ = 0, least_height_ = 0;
   std::vector<double> radius_;  // a body each, as are these
   std::vector<char> moved_;     // by impacts
 };

@@ -162,7 +162,7 @@ class Simulator {
   std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
   bool hasLeft(const Contact& c, double time, double room);
   std::vector<Contact> contactsAt(const Onward& from, double time, double when, double reach);
-  std::optional<std::vector<Contact>> closedContacts(int body);
+  std::vector<Contact> closedContacts(int body, bool& ends);
   bool strikes(const Contact& contact);
   double strikingSpeed(const Contact& contact);
   void addBeside(const Onward& from);

@@ -15,9 +15,9 @@ namespace {
 
 // A bounce that arrives from a lower height than this, as a share of the arm of the contact, is no impact to people.
 constexpr double kUncounted = 1e-6;
-// Accelerations of contacts beyond so many times the largest one at the start come of spins that no bounce is low at, or
-// none is uncounted at: far most often it tells at once.
-constexpr double kFastestSpin = 1e6, kFastestUncounted = 1e5;
+// Accelerations of contacts beyond so many times PairScales::mostAcceleration come of spins that no bounce is low at: far most
+// often it tells at once.
+constexpr double kFastestSpin = 10;
 
 // What keeping contacts may change of a body's speeds, over the fastest approach.
 constexpr double kMostPulled = 100;
@@ -75,8 +75,8 @@ double Simulator::accelerationOf(const Contact& contact) const {
 
 // What no contact is faster than if it is to be low, and if it is not to count: squares of speeds, m^2/s^2.
 void Simulator::setSpeedsOfContact() {
-  lowest_speed_ = 2 * motion_.lowest_bounce * kFastestSpin * scales_.pull();
-  counted_speed_ = contactsLast() ? 2.1 * kUncounted * scales_.largest() * kFastestUncounted * scales_.pull() : 0;
+  lowest_speed_ = 2 * motion_.lowest_bounce * kFastestSpin * scales_.mostAcceleration();
+  counted_speed_ = contactsLast() ? 2.1 * kUncounted * scales_.largest() * scales_.mostAcceleration() : 0;
 }
 
 // A lone contact leaves far too fast to be low: most events are that.

@@ -139,12 +139,10 @@ bool Simulator::changesTooOften(int body) const {
   return arcs[arcs.size() - kMostChanges].start() >= draft_.event.time - kSameInstant * instant;
 }
 
-// The contacts with what is fixed that keep a body; none where it presses on one that moves: the motion ends here, with the
-// velocities of the law, as a path would stop what is left of slips.
-std::optional<std::vector<Contact>> Simulator::closedContacts(int body) {
+// The contacts with what is fixed that keep a body. `ends`: it presses on one that moves, so that the motion ends here.
+std::vector<Contact> Simulator::closedContacts(int body, bool& ends) {
   std::vector<Contact> closed;
   if (!contactsLast() || !isMoved(body)) return closed;
-  bool ends = false;
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || (c.a != body && c.b != body)) continue;
     if (!isFixed(c.a == body ? c.b : c.a)) {
@@ -154,16 +152,14 @@ std::optional<std::vector<Contact>> Simulator::closedContacts(int body) {
     closed.push_back(c);
     closed.back().pair = builder_.pairOf(c.a, c.b);
   }
-  if (ends) return std::nullopt;
   return closed;
 }
 
 void Simulator::chooseArc(std::size_t participant) {
   const Event& event = draft_.event;
   const int body = bodies_[participant];
-  std::optional<std::vector<Contact>> kept = closedContacts(body);
-  if (!kept) return fly(participant);
-  std::vector<Contact> closed = std::move(*kept);
+  bool ends = false;
+  std::vector<Contact> closed = closedContacts(body, ends);
   State& after = draft_.after[participant];
   ContactChoice choice;
   const std::vector<Contact> marks = tiltFrom(closed, body, after);
@@ -179,6 +175,8 @@ void Simulator::chooseArc(std::size_t participant) {
     closeGaps(motion_, body, after, closed);
     choice = contactPathOf(motion_, body, after, pointersTo(closed), choice.path->form);
   }
+  // where the motion ends here, the velocities are those of the law: an integrated path would stop what is left of slips
+  if (ends && choice.path && choice.path->form == PathForm::held) return fly(participant);
   if (!choice.path) {
     fly(participant);
     if (!choice.beyond.empty()) endBeyond(*choice.contacts.front(), choice.beyond);
