@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kSessionName = 8;  // random bytes
 constexpr std::size_t kNonce = 16;
 /// Steps of simulations: about a quarter of a second's worth for an update, and two seconds' for a release.
-constexpr double kDragSteps = 1e5, kReleaseSteps = 1.5e6;
+constexpr double kDragSteps = 1e5, kReleaseSteps = 7e5;
 
 /// The folder of the workspace, and the name of the first scene in it.
 struct Start {

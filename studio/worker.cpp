@@ -22,7 +22,7 @@ Worker::Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions 
 }
 
 Worker::~Worker() {
-  if (hold_ && scene_) scene_->session().cancel();
+  if (scene_ && scene_->session().isGrabbed()) scene_->session().cancel();
   if (scene_ && autosave_ && !scene_->isChanged()) autosave_->forget();
 }
 

@@ -102,6 +102,8 @@ SessionObstacle SessionSolver::obstacle() {
 SessionObstacle SessionSolver::obstacleHere() {
   SessionObstacle out{Obstacle::no_control_moves_it, {}, nothingMoves()};
   if (problem_.controls.size() == 0) return out;
+  const bool known = differentiate(problem_, *point_);
+  if (!known) return {Obstacle::border, {}, "The derivatives are not known there."};
   StepProblem problem = stepProblem(*point_);
   if (!point_->row_jacobian->allFinite()) return {Obstacle::border, {}, "The derivatives are not known there."};
   problem.longest = kAnyLength;

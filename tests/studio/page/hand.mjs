@@ -33,8 +33,18 @@ export async function withStudio(scene, act, { change, ...options } = {}) {
 export const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
 export const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq');
 /** Let go of, and told what that came to: the document comes after the motion. */
-export const idle = (page) => until(page, '(s) => s.gesture.state === "idle" && s.document.held_by === null && s.document.rev === s.motion.rev');
+export const idle = (page) => until(page, '(s) => s.gesture.state === "idle" && s.document.held_by === null && s.document.rev === s.motion.rev', 90000);
 export const picture = (page, name) => process.env.CAROM_STUDIO_PICTURES && page.screenshot({ path: join(process.env.CAROM_STUDIO_PICTURES, `${name}.png`) });
+
+/** The same by a hand that waits for each answer: what comes of it does not depend on how quick the machine is. */
+export async function pullSlowly(page, [x, y], [to_x, to_y], steps = 6) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= steps; ++k) {
+    await page.mouse.move(x + ((to_x - x) * k) / steps, y + ((to_y - y) * k) / steps);
+    if (k * Math.hypot(to_x - x, to_y - y) > 5 * steps) await answered(page);
+  }
+}
 
 /** With the mouse from one place of the page to another; the button stays down. */
 export async function pull(page, [x, y], [to_x, to_y], steps = 6) {
