@@ -214,6 +214,7 @@ TEST(FlatRims, DropsKeepTheirEnergyAndStayAbove) {
         OdeContacts contacts(scene);
         SimulateOptions options;
         options.step_limit = 300'000;
+        options.lowest_bounce = 1e-12;  // of less, as small bodies have by themselves, more of these end in rounding
         const Motion m = simulate(scene, contacts, 2, options);
         const Findings found = findingsOf(m, n);
         EXPECT_TRUE(found.depth <= kDeepestOfInstant) << found.depth << "; " << nameOf(m.status) << " " << m.message;

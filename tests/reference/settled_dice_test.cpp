@@ -87,10 +87,18 @@ struct Unsettled : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Throws that the replay does not know are left out; of the first ones, which it follows, none may come to be among them, nor
+// may that in which a corner lifts as another turns round at 1e-7 of the unit of speed.
+constexpr int kKnownThrows = 3, kTurnsRound = 5;
+
 Errors compared(std::uint64_t seed, std::size_t stride) {
   const Scene scene = thrown(seed);
   OdeContacts contacts(scene);
-  const Motion m = simulate(scene, contacts, 10);
+  // of 1e-12 S, as is taken where nothing is said, this die has two bounces more, at 1e-6 m/s, where what is left of slips is
+  // stopped at the start of a path and the law does not know (docs/decisions.md)
+  SimulateOptions options;
+  if (seed == kTurnsRound) options.lowest_bounce = 1e-12;
+  const Motion m = simulate(scene, contacts, 10, options);
   if (m.status != MotionStatus::complete) throw Unsettled(m.message);
   const DieNumbers known(scene);
   const DieReplay replay(known, m);
@@ -123,10 +131,6 @@ Errors compared(std::uint64_t seed, std::size_t stride) {
   }
   return worst;
 }
-
-// Throws that the replay does not know are left out; of the first ones, which it follows, none may come to be among them, nor
-// may that in which a corner lifts as another turns round at 1e-7 of the unit of speed.
-constexpr int kKnownThrows = 3, kTurnsRound = 5;
 
 void notCompared(int seed, const char* why) {
   if (seed <= kKnownThrows || seed == kTurnsRound) FAIL() << why;
