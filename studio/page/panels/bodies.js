@@ -15,6 +15,7 @@ export function showBodies(store) {
     const focused = globalThis.document.activeElement?.getAttribute('data-key');
     search.hidden = (document?.bodies.length ?? 0) <= many;
     if (search.hidden) search.value = '';
+    list.classList.toggle('many', !search.hidden);
     const wanted = search.value.trim().toLowerCase();
     const found = (document?.bodies ?? []).map((body, i) => ({ ...body, i })).filter(({ name }) => name.toLowerCase().includes(wanted));
     list.replaceChildren(...found.map(({ name, fixed, i }) => {
