@@ -230,6 +230,15 @@ class Check {
 }  // namespace
 }  // namespace on_grounds
 
+void CoulombFindings::add(const CoulombFindings& other) {
+  worst_depth = std::max(worst_depth, other.worst_depth);
+  worst_growth = std::max(worst_growth, other.worst_growth);
+  worst_force = std::max(worst_force, other.worst_force);
+  worst_impulse = std::max(worst_impulse, other.worst_impulse);
+  looks += other.looks;
+  if (first.empty()) first = other.first;
+}
+
 CoulombFindings checkOnGrounds(const Motion& motion, const std::vector<Ground>& grounds) {
   return on_grounds::Check(motion, grounds).run();
 }

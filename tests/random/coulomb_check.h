@@ -17,6 +17,8 @@ struct CoulombFindings {
   double worst_impulse = 0; ///< the same of its jumps
   int looks = 0;            ///< at rates of momentum
   std::string first;        ///< sentence on the first that is beyond what is allowed; empty: none
+
+  void add(const CoulombFindings& other);  ///< the worst of both, and the looks of both
 };
 
 /// Body 0 of the motion against these grounds, which all others make up. Geometry, forces and impulses share nothing with the

@@ -118,7 +118,7 @@ TEST_P(GroovesOf, DropsKeepToCoulombsLawOrSayWhyTheyEnd) {
     std::uint64_t seed = 0;
   };
   std::map<std::string, Count> ends;
-  int dropped = 0, complete = 0, looks = 0;
+  int dropped = 0, complete = 0;
   CoulombFindings worst;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(scaled(6)); ++seed)
     for (int ground = 0; ground < 3; ++ground) {
@@ -131,11 +131,7 @@ TEST_P(GroovesOf, DropsKeepToCoulombsLawOrSayWhyTheyEnd) {
       ++dropped;
       const CoulombFindings found = checkAmongPlanes(m);
       EXPECT_TRUE(found.first.empty()) << found.first << "; " << nameOf(m.status) << " " << m.message;
-      looks += found.looks;
-      worst.worst_depth = std::max(worst.worst_depth, found.worst_depth);
-      worst.worst_growth = std::max(worst.worst_growth, found.worst_growth);
-      worst.worst_force = std::max(worst.worst_force, found.worst_force);
-      worst.worst_impulse = std::max(worst.worst_impulse, found.worst_impulse);
+      worst.add(found);
       if (m.status == MotionStatus::complete) {
         ++complete;
         continue;
@@ -145,7 +141,7 @@ TEST_P(GroovesOf, DropsKeepToCoulombsLawOrSayWhyTheyEnd) {
       if (count.times++ == 0) count.seed = seed;
     }
   std::printf("%s: %d dropped, %d complete, %d looks; worst depth %.2g m, energy %.2g, force %.2g, impulse %.2g\n", GetParam().name,
-              dropped, complete, looks, worst.worst_depth, worst.worst_growth, worst.worst_force, worst.worst_impulse);
+              dropped, complete, worst.looks, worst.worst_depth, worst.worst_growth, worst.worst_force, worst.worst_impulse);
   for (const auto& [what, count] : ends)
     std::printf("  %4d %s (first seed %d)\n", count.times, what.c_str(), static_cast<int>(count.seed));
 }

@@ -197,7 +197,7 @@ std::string saidBy(const Motion& motion) {
 TEST(OneBodyWorlds, KeepToCoulombsLawOrSayWhyTheyEnd) {
   std::map<std::string, std::string> ends;
   std::map<std::string, int> times;
-  int played = 0, complete = 0, lasting = 0, looks = 0;
+  int played = 0, complete = 0, lasting = 0;
   CoulombFindings worst;
   const char* first = std::getenv("CAROM_FIRST_SEED");
   const std::uint64_t from = first ? std::strtoull(first, nullptr, 10) : 1;
@@ -212,11 +212,7 @@ TEST(OneBodyWorlds, KeepToCoulombsLawOrSayWhyTheyEnd) {
     ++played;
     const CoulombFindings found = checkOnGrounds(m, world.grounds);
     EXPECT_TRUE(found.first.empty()) << found.first << "; " << nameOf(m.status) << " " << m.message;
-    looks += found.looks;
-    worst.worst_depth = std::max(worst.worst_depth, found.worst_depth);
-    worst.worst_growth = std::max(worst.worst_growth, found.worst_growth);
-    worst.worst_force = std::max(worst.worst_force, found.worst_force);
-    worst.worst_impulse = std::max(worst.worst_impulse, found.worst_impulse);
+    worst.add(found);
     lasting += !lastingContacts(m).empty();
     if (m.status == MotionStatus::complete) {
       ++complete;
@@ -231,7 +227,7 @@ TEST(OneBodyWorlds, KeepToCoulombsLawOrSayWhyTheyEnd) {
     ends[said] += of;
   }
   std::printf("%d worlds, %d with lasting contact, %d complete, %d looks; worst depth %.2g m, energy %.2g, force %.2g, impulse %.2g\n",
-              played, lasting, complete, looks, worst.worst_depth, worst.worst_growth, worst.worst_force, worst.worst_impulse);
+              played, lasting, complete, worst.looks, worst.worst_depth, worst.worst_growth, worst.worst_force, worst.worst_impulse);
   for (const auto& [what, seeds] : ends) std::printf("  %4d %s:%s\n", times[what], what.c_str(), seeds.c_str());
 }
 
