@@ -105,6 +105,11 @@ class HeldPlanes {
   struct Through {
     ContactPoint at;  // normal from b to a
     Side of_a, of_b;
+
+    bool crosses() const {  // of two edges or rims
+      const auto isCurve = [](Family family) { return family == Family::edge || family == Family::rim; };
+      return isCurve(of_a.family) && isCurve(of_b.family);
+    }
   };
   Through throughOwn(const FeaturePair& f) const;
   Through through(const HeldElsewhere& h) const;

@@ -131,10 +131,7 @@ void HeldPlanes::layThrough(const Through& contact, const FeaturePair* own, std:
 // Edges that cross have the plane through both, which turns with them: it stays one with that of a face, or of other edges,
 // only where three points of contact, not on a line, hold it there. Of edges that cross one edge it is one, too.
 std::vector<HeldPlanes::Laid> HeldPlanes::laidApart(Laid laid) const {
-  const auto crosses = [](const Laid::Member& m) {
-    const auto isCurve = [](Family family) { return family == Family::edge || family == Family::rim; };
-    return isCurve(m.contact.of_a.family) && isCurve(m.contact.of_b.family);
-  };
+  const auto crosses = [](const Laid::Member& m) { return m.contact.crosses(); };
   AffineSpan held(laid.of_a);
   for (const Laid::Member& m : laid.members)
     if (m.contact.at.point.allFinite()) held.add(a_.k.R.transpose() * (m.contact.at.point - a_.k.x));
@@ -164,10 +161,9 @@ void HeldPlanes::span(Laid& laid, bool with_ends) const {
   Plane& plane = laid.plane;
   for (const Laid::Member& m : laid.members) {
     const Through& contact = m.contact;
-    const auto isCurve = [](Family family) { return family == Family::edge || family == Family::rim; };
     if (m.own) {
       plane.held.push_back(*m.own);
-      if (isCurve(contact.of_a.family) && isCurve(contact.of_b.family) && plane.held.size() == 1)
+      if (contact.crosses() && plane.held.size() == 1)
         plane.edge_a = a_.solid->feature(contact.of_a.family, contact.of_a.index),
         plane.edge_b = b_.solid->feature(contact.of_b.family, contact.of_b.index);
     } else {

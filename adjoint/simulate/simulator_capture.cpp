@@ -38,12 +38,12 @@ void Simulator::solveLaw() {
   solve();
   std::vector<std::size_t> loose;  // contacts that are not to be kept
   while (contactsLast() && !leavesFast()) {
-    const std::vector<State> before = draft_.after;
     std::vector<std::size_t> kept;
     if (!captureLow(loose, kept)) {
       if (!settlesFlat()) break;
       loose.clear();  // contacts have other places now
     }
+    const std::vector<State> before = kept.empty() ? std::vector<State>() : draft_.after;
     solve();
     if (kept.empty() || !pullsTooMuch(before)) continue;
     for (const std::size_t k : kept) event.contacts[k].kept = false;
@@ -98,9 +98,8 @@ bool Simulator::pullsTooMuch(const std::vector<State>& before) const {
     const int body = event.participants[i].body;
     const State &was = before[i], &now = draft_.after[i];
     const BodyModel& model = (*motion_.models)[index(body)];
-    const double reach = kindOf(scene_.bodies[index(body)].shape).boundingRadius(scene_.bodies[index(body)].shape) + model.center.norm();
     const Vec3 turned = model.inverseInertiaWorld(now.q.toRotationMatrix()) * (now.L - was.L);
-    if ((now.v - was.v).norm() + reach * turned.norm() > kMostPulled * fastest) return true;
+    if ((now.v - was.v).norm() + scales_.radius(body) * turned.norm() > kMostPulled * fastest) return true;
   }
   return false;
 }

@@ -135,7 +135,7 @@ TEST(SessionFreedom, WhatNothingMovesIsFreedAndNothingElse) {
   };
   // both met the floor, which moves nothing on
   EXPECT_TRUE(freed({velocity("box")}, "other", 0.6));
-  EXPECT_TRUE(freed({velocity("box"), elasticity("felt")}, "other", 0.2)) << "what is of no use before its impact";
+  EXPECT_TRUE(freed({velocity("box"), elasticity("felt")}, "other", 0.2)) << "ignored before its impact";
   EXPECT_TRUE(freed({}, "other", 0.2));
   EXPECT_FALSE(freed({velocity("box")}, "box", 0.6));
   EXPECT_FALSE(freed({velocity("other")}, "other", 0.6));
