@@ -193,9 +193,9 @@ std::shared_ptr<const Surface> surfaceOf(Polygons polygons, const std::vector<Ve
   problem = "a face without area";
   for (const Surface::Face& face : surface->faces)
     if (face.normal == Vec3::Zero()) return nullptr;
-  problem = "a face that points stand out of";
+  problem = "a face with points outside of it";
   if (!(unevenness(*surface, points) <= kAbove * size)) return nullptr;
-  problem = "an edge that is sunk in";
+  problem = "a reflex edge";
   return sunk(*surface) <= std::max(kReflex, rounding) * size ? surface : nullptr;
 }
 
@@ -217,7 +217,7 @@ std::shared_ptr<const Surface> convexHull(const std::vector<Vec3>& points) {
       return apart.size() < points.size() ? convexHull(apart) : surface;
     }
   }
-  refuse("", "found points whose hull cannot be told (", problem, "), expected none within rounding of others' planes");
+  refuse("", "found points whose hull cannot be determined (", problem, "), expected none within rounding of others' planes");
 }
 
 }  // namespace carom

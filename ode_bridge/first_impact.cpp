@@ -11,7 +11,7 @@
 #include "adjoint/base/errors.h"
 #include "ode_bridge/gap_of_pair.hpp"
 #include "ode_bridge/ground_seams.hpp"
-#include "ode_bridge/held_planes.hpp"
+#include "ode_bridge/persistent_planes.hpp"
 #include "ode_bridge/rounding.hpp"
 #include "ode_bridge/seams.hpp"
 #include "ode_bridge/touching.hpp"
@@ -58,7 +58,7 @@ struct Pending {
 class Search {
  public:
   Search(const PairMotion& pair, double from, double until, std::span<const FeaturePair> held,
-         std::span<const HeldElsewhere> elsewhere)
+         std::span<const ConstrainedElsewhere> elsewhere)
       : pair_(pair),
         from_(from),
         until_(until),
@@ -69,7 +69,7 @@ class Search {
         held_features_(held),
         elsewhere_(!elsewhere.empty()) {
     if (!held.empty() || !elsewhere.empty())
-      held_.emplace(start_a_, start_b_, held, elsewhere, pair.arc_a.moving());
+      held_.emplace(start_a_, start_b_, held, elsewhere, !pair.arc_a.stays());
   }
 
   std::optional<PredictedImpact> run() {
@@ -142,7 +142,7 @@ class Search {
     if (pair_.work) pair_.work->step();
     if (++steps_ > kMostSteps)
       throw NotComputable("it takes more than " + std::to_string(kMostSteps) +
-                          " steps: they turn too fast, or move along each other too closely");
+                          " steps: they rotate too fast, or move along each other too closely");
     if (apart > (leaves ? kFar : kOpen) * size) {
       now_.gliding = 0, now_.parted = true;
       return step(safeStep(a, b, apart, end() - now_.time));
@@ -272,7 +272,7 @@ class Search {
   const PairMotion& pair_;
   double from_, until_;
   Placed a_, b_, start_a_, start_b_;
-  std::optional<HeldPlanes> held_;
+  std::optional<PersistentPlanes> held_;
   std::span<const FeaturePair> held_features_;
   bool elsewhere_;  // whether something else holds the body
   int steps_ = 0;
@@ -287,7 +287,7 @@ class Search {
 
 std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until,
                                                std::span<const FeaturePair> held,
-                                               std::span<const HeldElsewhere> elsewhere) {
+                                               std::span<const ConstrainedElsewhere> elsewhere) {
   pair.arc_a.extendTo(from);
   pair.arc_b.extendTo(from);
   return Search(pair, from, until, held, elsewhere).run();

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "ode_bridge/held_planes.hpp"
+#include "ode_bridge/persistent_planes.hpp"
 #include "ode_bridge/pair_motion.hpp"
 
 namespace carom::ode_bridge_detail {
@@ -17,6 +17,6 @@ namespace carom::ode_bridge_detail {
 /// `elsewhere`: those at which the one that moves stays in contact with what stands beside the other one.
 std::optional<PredictedImpact> findFirstImpact(const PairMotion& pair, double from, double until,
                                                std::span<const FeaturePair> held = {},
-                                               std::span<const HeldElsewhere> elsewhere = {});
+                                               std::span<const ConstrainedElsewhere> elsewhere = {});
 
 }  // namespace carom::ode_bridge_detail

@@ -23,7 +23,7 @@ inline constexpr double kAtRest = 1e-15;
 inline double ownSpeed(const Placed& a, const Placed& b) {
   double length = 0, spinning = 0;
   for (const Placed* p : {&a, &b}) {
-    if (p->solid->plane || !p->arc || !p->arc->moving()) continue;
+    if (p->solid->plane || !p->arc || p->arc->stays()) continue;
     length = std::max(length, p->solid->bound());
     spinning += p->spin * p->solid->bound();
   }

@@ -166,25 +166,31 @@ ContactPoint FeatureGeometry::contact(int a, int b, const FeaturePair& f, const 
   return contactOf(static_cast<GapKind>(f.kind), placeFeature(pair.a, A), placeFeature(pair.b, B), f.sign);
 }
 
+std::optional<int> FeatureGeometry::rimOfBody(int a, int b, const FeaturePair& f, bool of_first) const {
+  const FoundPair pair = found(solids_, a, b, f);
+  const Feature& own = of_first ? pair.a : pair.b;
+  if ((of_first ? pair.row.a : pair.row.b) == Family::rim) return of_first ? f.a : f.b;
+  if (!own.mark) return std::nullopt;
+  const std::vector<Feature>& rims = (of_first ? pair.of_a : pair.of_b).rims;
+  const auto rim = std::ranges::find_if(rims, [&](const Feature& r) {
+    return r.part == own.part && std::abs((own.point - r.point).norm() - r.rim) <= 1e-9 * r.rim;
+  });
+  if (rim == rims.end()) return std::nullopt;
+  return static_cast<int>(rim - rims.begin());
+}
+
 std::optional<RimOnFace> FeatureGeometry::rimOnFace(int a, int b, const FeaturePair& f) const {
   const FoundPair pair = found(solids_, a, b, f);
   const bool of_first = pair.row.b == Family::face;
   if (!of_first && pair.row.a != Family::face) return std::nullopt;
-  const Solid& solid = of_first ? pair.of_a : pair.of_b;
-  const Feature &own = of_first ? pair.a : pair.b, &face = of_first ? pair.b : pair.a;
-  const Family family = of_first ? pair.row.a : pair.row.b;
-  if (family != Family::rim && !own.mark) return std::nullopt;
-  for (std::size_t i = 0; i < solid.rims.size(); ++i) {
-    const Feature& rim = solid.rims[i];
-    const bool is_own = family == Family::rim ? &rim == &own
-                                              : rim.part == own.part && std::abs((own.point - rim.point).norm() - rim.rim) <= 1e-9 * rim.rim;
-    if (!is_own) continue;
-    const auto index = static_cast<std::int32_t>(i);
-    const Vec3 normal = f.sign < 0 ? Vec3(-face.direction) : face.direction;
-    return RimOnFace{of_first, rim.point, rim.direction, rim.rim, normal,
-                     {static_cast<std::int16_t>(of_first ? kRimPlane : kPlaneRim), of_first ? index : f.a, of_first ? f.b : index, f.sign}};
-  }
-  return std::nullopt;
+  const std::optional<int> own = rimOfBody(a, b, f, of_first);
+  if (!own) return std::nullopt;
+  const Feature& rim = (of_first ? pair.of_a : pair.of_b).rims[static_cast<std::size_t>(*own)];
+  const Feature& face = of_first ? pair.b : pair.a;
+  const auto index = static_cast<std::int32_t>(*own);
+  const Vec3 normal = f.sign < 0 ? Vec3(-face.direction) : face.direction;
+  return RimOnFace{of_first, rim.point, rim.direction, rim.rim, normal,
+                   {static_cast<std::int16_t>(of_first ? kRimPlane : kPlaneRim), of_first ? index : f.a, of_first ? f.b : index, f.sign}};
 }
 
 namespace {

@@ -104,6 +104,7 @@ class FeatureGeometry final : public ContactGeometry,
   void checkFeatures(int a, int b, const FeaturePair& f) const;
 
   std::optional<adjoint_detail::RimOnFace> rimOnFace(int a, int b, const FeaturePair& f) const override;
+  std::optional<int> rimOfBody(int a, int b, const FeaturePair& f, bool of_first) const override;
   double boundingRadius(int body) const override;
   double overlap(int a, int b, const Pose& A, const Pose& B) const override;
   std::vector<FeatureLimit> limits(int a, int b, const FeaturePair& f, const Pose& A, const Pose& B) const override;

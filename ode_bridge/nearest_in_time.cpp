@@ -94,7 +94,7 @@ class LeastDistance {
       queue_.pop();
       if (++steps_ > kMostSearchSteps)
         throw NotComputable("it takes more than " + std::to_string(kMostSearchSteps) +
-                            " steps to see how near two bodies come: they turn too fast");
+                            " steps to find the distance of two bodies: they rotate too fast");
       if (steps_ % kStepsOfLevel == 0) loose_ *= 2;
       advance(now);
     }

@@ -172,7 +172,7 @@ void OdeContacts::setPath(int body, const Arc& arc, double from, double until) {
 
 void OdeContacts::State::keepVaried(int body, const Arc& arc) {
   if (arc.accelerationVariation() > 0) {
-    varied.insert_or_assign(body, arc.view());
+    varied.insert_or_assign(body, arc);
   } else {
     varied.erase(body);
   }

@@ -7,16 +7,16 @@
 
 namespace carom {
 
-/// Collision detection for all shapes. The Open Dynamics Engine's sweep-and-prune space proposes the pairs whose swept
-/// boxes meet; exact geometry in double precision decides when, where and with which features they touch. One object
-/// serves one simulation at a time; different objects may be used from different threads. Functions throw InputError for
-/// bodies that are not there and for times that are not finite.
+/// Collision detection for all shapes. The Open Dynamics Engine's sweep-and-prune space proposes the pairs whose
+/// swept boxes overlap; exact geometry in double precision decides when, where and with which features they touch.
+/// One object serves one simulation at a time; different objects may be used in different threads. Functions throw
+/// InputError for invalid bodies and for times that are not finite.
 class OdeContacts final : public ContactSource {
  public:
-  /// For the scenes that are begun later: what overlaps at the start of this one is left alone there until it has
-  /// parted; where others overlap, `begin` throws InputError. So does this for a scene that is not valid (see validate),
-  /// and for more than 100 000 pairs that overlap. The search for them is counted in `work`, if there is one, and lets
-  /// its WorkEnded through.
+  /// For simulations of this and similar scenes: pairs that overlap at the start of this one do not collide until
+  /// they have separated; if others overlap, `begin` throws InputError. Throws InputError for an invalid scene (see
+  /// validate), and for more than 100 000 overlapping pairs. The search for them is counted in `work`, if given, and
+  /// propagates its WorkEnded.
   explicit OdeContacts(const Scene& scene, WorkCount* work = nullptr);
   ~OdeContacts() override;
   OdeContacts(const OdeContacts&) = delete;
@@ -32,7 +32,7 @@ class OdeContacts final : public ContactSource {
   std::optional<PredictedImpact> firstImpact(int a, int b, Arc& arc_a, Arc& arc_b, double from, double until) override;
   std::optional<PredictedImpact> firstImpactBeside(int a, int b, std::span<const FeaturePair> held, Arc& arc_a,
                                                    Arc& arc_b, double from, double until) override;
-  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,
+  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const PersistentFeatures> held, Arc& arc_a,
                                                      Arc& arc_b, double from, double until) override;
   std::span<const int> groundBeside(int body) const override;
   std::vector<FeaturePair> touching(int a, int b, const Arc& arc_a, const Arc& arc_b, double t,

@@ -21,7 +21,7 @@ void OdeContacts::State::takeGround(const std::vector<Arc>& arcs, const std::vec
   std::vector<Ground::Standing> standing;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const BodyExtent& e = extents[i];
-    if (e.moving) continue;
+    if (!arcs[i].stays()) continue;
     const Kinematics k = arcs[i].kinematicsAt(arcs[i].start());
     standing.push_back({static_cast<int>(i), e.half_space, e.box, e.normal, e.offset, Placed(geometry->solids()[i], k.x, k.R)});
   }
@@ -41,17 +41,17 @@ bool OdeContacts::State::mayBeBeyond(int body, const Vec3& n, const Vec3& p, dou
   return n.dot(lowest - p) <= -kPartBelow * (standing.solid->bound() + p.norm());
 }
 
-std::optional<PredictedImpact> OdeContacts::firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,
+std::optional<PredictedImpact> OdeContacts::firstImpactOnGround(int a, int b, std::span<const PersistentFeatures> held, Arc& arc_a,
                                                                 Arc& arc_b, double from, double until) {
   for (int body : {a, b}) state_->checkedBody("firstImpactOnGround", body);
   for (double t : {from, until}) checkedNumber("firstImpactOnGround", "the time", t);
-  const bool moves_a = arc_a.moving();
+  const bool moves_a = !arc_a.stays();
   const int moving = moves_a ? a : b, fixed = moves_a ? b : a;
   Arc& arc = moves_a ? arc_a : arc_b;
   std::vector<FeaturePair> own;
-  std::vector<HeldElsewhere> elsewhere;
+  std::vector<ConstrainedElsewhere> elsewhere;
   arc.extendTo(from);
-  for (const HeldFeatures& h : held) {
+  for (const PersistentFeatures& h : held) {
     state_->checkedBody("firstImpactOnGround", h.a), state_->checkedBody("firstImpactOnGround", h.b);
     state_->geometry->checkFeatures(h.a, h.b, h.features);
     if (h.a == a && h.b == b) {
@@ -72,7 +72,7 @@ std::optional<PredictedImpact> OdeContacts::firstImpactOnGround(int a, int b, st
   const auto isQuickBody = [&](int body) { return isQuick(state_->quick[static_cast<std::size_t>(body)]); };
   if (isQuickBody(a) && isQuickBody(b)) {  // a ball that rolls on in the plane
     const Placed at_a(state_->geometry->solid(a), arc_a, from), at_b(state_->geometry->solid(b), arc_b, from);
-    if (!own.empty() || HeldPlanes(at_a, at_b, own, elsewhere, moves_a).keepApart(0, 0)) return std::nullopt;
+    if (!own.empty() || PersistentPlanes(at_a, at_b, own, elsewhere, moves_a).keepApart(0, 0)) return std::nullopt;
     return firstImpact(a, b, arc_a, arc_b, from, until);
   }
   return findFirstImpact({a, b, *state_->geometry, state_->narrow_phase, arc_a, arc_b, work(), state_->ground.besideOf(a, b)},

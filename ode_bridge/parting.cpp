@@ -71,7 +71,7 @@ std::optional<double> partingTime(const Solid& a, const Solid& b, Arc& arc_a, Ar
     before = t;
   }
   throw NotComputable("they overlap from the start, and it takes more than " + std::to_string(kMostSteps) +
-                      " steps to see whether they part");
+                      " steps to decide whether they separate");
 }
 
 }  // namespace carom::ode_bridge_detail

@@ -95,7 +95,7 @@ class WitnessSearch {
     return best_;
   }
 
-  // Features take the place of points that say the same but for rounding.
+  // Of directions that separate equally but for rounding, that of features is taken, before that of nearest points.
   bool offer(const Vec3& n, Witness::Frame frame, double handicap = 0) {
     const double separation = separationAlong(a_, b_, n);
     if (best_.features.kind < 0) handicap = -10 * kRounding * scale_;

@@ -6,14 +6,14 @@
 
 namespace carom {
 
-/// Misuse or bad input. `where` is a JSON pointer or an API path ("/bodies/2/mass", "body 'hat'"), empty when it is
-/// plain from the message; `what()` holds where, what was found and what was expected.
+/// Misuse or bad input. `where` is a JSON pointer or an API path ("/bodies/2/mass", "body 'hat'"), empty if the
+/// message says it; `what()` holds where, what was found and what was expected.
 class InputError : public std::runtime_error {
  public:
   /// what() is "where: message".
   InputError(const std::string& where, const std::string& message)
       : std::runtime_error(where.empty() ? message : where + ": " + message), where_(where), message_(message) {}
-  /// For a message from which the place is plain.
+  /// For a message that names the place itself.
   explicit InputError(const std::string& message) : InputError("", message) {}
 
   const std::string& where() const { return where_; }      ///< the place, see above
@@ -23,9 +23,8 @@ class InputError : public std::runtime_error {
   std::string where_, message_;
 };
 
-/// The numbers of a scene went where doubles do not follow: an overflow, 0/0, or a rotation or an approach that would
-/// take more steps than there is time for. A simulation ends there, with MotionStatus::not_computable and this
-/// sentence; derivatives throw it.
+/// Numerical failure: an overflow, 0/0, or a rotation or an impact search that does not finish within its step limit.
+/// A simulation ends there, with MotionStatus::not_computable and this message; derivatives throw it.
 class NotComputable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -7,7 +7,7 @@
 
 namespace carom {
 
-/// A function that a row of a table has to name. Unlike a pointer it is never null: a row that leaves it out does not
+/// A function that every row of a table must provide. Unlike a pointer it is never null: a row without it does not
 /// compile.
 template <class Signature>
 class Required;

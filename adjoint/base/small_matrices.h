@@ -6,10 +6,10 @@
 
 #include <Eigen/Core>
 
-// Sums, differences, products and multiples of matrices of a fixed size up to 7x12, of any kind of number: values in
-// place of Eigen's expressions, the same to whoever writes `A * x + b`. Eigen makes a class, of some two hundred members,
-// for every expression: a sixth of all time to compile went into these (docs/decisions.md, 16). And a product is summed
-// in one order, wherever its vectors lie in memory: Eigen takes two rows at a time from an even address on and the odd
+// Sums, differences, products and multiples of fixed-size matrices up to 7x12, for any scalar type, as values in
+// place of Eigen's expression templates; `A * x + b` is written as before. Eigen instantiates a class of some two
+// hundred members for every expression, which took a sixth of the compile time. Besides, a product is summed in one
+// order, whatever the alignment of its vectors: Eigen takes two rows at a time from an even address on and the odd
 // one by itself, in another order.
 
 namespace carom {
@@ -17,7 +17,7 @@ namespace carom {
 namespace small_matrices {
 
 template <class Derived>
-std::true_type isMatrix(const Eigen::MatrixBase<Derived>&);  // also of what is derived from an expression
+std::true_type isMatrix(const Eigen::MatrixBase<Derived>&);  // also for classes derived from an expression
 
 template <class T>
 concept Small = requires(const T& matrix) { isMatrix(matrix); } && int(T::SizeAtCompileTime) > 0 &&

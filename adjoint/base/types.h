@@ -17,7 +17,7 @@ using Quat = Eigen::Quaterniond;  ///< unit quaternion of a rotation, (w, x, y, 
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< of a double
 
-/// Skew-symmetric matrix [a]x, so that [a]x b = a x b, of any kind of number.
+/// Skew-symmetric matrix [a]x, so that [a]x b = a x b, for any scalar type.
 template <class Vector>
 Eigen::Matrix<typename Vector::Scalar, 3, 3> skew(const Eigen::MatrixBase<Vector>& vector) {
   using S = typename Vector::Scalar;

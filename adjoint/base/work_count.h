@@ -9,33 +9,33 @@
 
 namespace carom {
 
-/// How far a simulation is.
+/// Progress of a simulation.
 struct SimulateProgress {
-  double time = 0;          ///< s, everything before it is known
+  double time = 0;          ///< s, the motion is known up to here
   std::size_t impacts = 0;  ///< so far
-  std::size_t steps = 0;    ///< of work so far
+  std::size_t steps = 0;    ///< counted so far, see WorkCount
 };
 
-/// What ends a simulation before its time: its limit of work was reached, or it was asked to stop. No error, and none
-/// of the exceptions that say what is wrong with a scene.
+/// Ends a simulation early: its step limit was reached, or a stop was requested. Not an error, and not derived from
+/// the exceptions for invalid scenes.
 struct WorkEnded {
-  bool stopped = false;  ///< it was asked to stop; otherwise the limit was reached
+  bool stopped = false;  ///< a stop was requested; otherwise the limit was reached
 };
 
-/// Counts the steps of work of one simulation: the same number for the same scene, on any machine. Every so many steps
-/// it looks whether it was asked to stop, and reports.
+/// Counts the work of one simulation in steps (see SimulateOptions::step_limit): the same number for the same scene
+/// on any machine. Periodically polls the stop token and reports progress.
 class WorkCount {
  public:
   /// At most `limit` steps; `report` may be empty.
   WorkCount(std::size_t limit, std::stop_token stop, std::function<void(const SimulateProgress&)> report)
       : limit_(limit), stop_(std::move(stop)), report_(std::move(report)) {}
 
-  /// Throws WorkEnded at the limit and soon after a stop was asked for, and from then on every time.
+  /// Throws WorkEnded at the limit and soon after a stop was requested, and in every later call.
   void step(std::size_t steps = 1) {
     steps_ = steps < kMost - steps_ ? steps_ + steps : kMost;
     if (steps_ >= next_look_) look();
   }
-  /// Looks at once.
+  /// Polls at once.
   void look() {
     if (stop_.stop_requested()) throw WorkEnded{true};
     if (steps_ > limit_) throw WorkEnded{false};
@@ -45,12 +45,13 @@ class WorkCount {
     }
     next_look_ = limit_ < steps_ + kLook ? limit_ + 1 : steps_ + kLook;
   }
-  /// What is reported from now on.
+  /// The motion time and impacts to report from now on.
   void reached(double time, std::size_t impacts) {
     time_ = time;
     impacts_ = impacts;
   }
-  /// After the end: so many more steps, whether or not it was asked to stop, to bring what is known into order.
+  /// After the end: grants so many more steps, regardless of a stop request, to complete the known part of the
+  /// motion.
   void allowMore(std::size_t steps) {
     stop_ = {};
     report_ = nullptr;
@@ -59,7 +60,7 @@ class WorkCount {
   }
 
   std::size_t steps() const { return steps_; }  ///< counted so far
-  std::size_t limit() const { return limit_; }  ///< most of them
+  std::size_t limit() const { return limit_; }  ///< greatest number of steps
 
  private:
   static constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() / 2;

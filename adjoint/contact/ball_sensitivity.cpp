@@ -27,6 +27,19 @@ struct Ball {
     d.middleCols<3>(kNormal).diagonal().array() -= n.dot(vector);
     return d;
   }
+  Rates spin() const {
+    Rates d = Rates::Zero();
+    d.middleCols<3>(kMomentum).diagonal().setConstant(1 / I);
+    d.col(kInertia) = -in.L / (I * I);
+    return d;
+  }
+  Rates slip() const {  // v - w x n r
+    const Vec3 w = in.L / I;
+    Rates d = along(in.v, kVelocity) + in.reach * (skew(n) * spin());
+    d.middleCols<3>(kNormal) -= in.reach * skew(w);
+    d.col(kReach) += n.cross(w);
+    return d;
+  }
   RatesOfNumber shareOfInertia() const {  // of log k
     RatesOfNumber d = RatesOfNumber::Zero();
     d[kInertia] = 1 / I, d[kMass] = -1 / in.mass, d[kReach] = -2 / in.reach;
@@ -59,8 +72,10 @@ Sensitivity assembled(const Ball& ball, const Ends& end, const Mat3& E, const Ra
 
 Sensitivity rolling(const Ball& ball, double t, bool orientation) {
   const PathInputs<double>& in = ball.in;
-  const Vec3 &n = ball.n, v0 = alongFace(n, in.v), a = alongFace(n, in.gravity) / (1 + ball.k);
-  const Rates dv0 = ball.along(in.v, kVelocity);
+  const double stopped = in.friction > 0 ? ball.k / (1 + ball.k) : 0;  // of the slip, at once
+  const Vec3 &n = ball.n, along = alongFace(n, in.v), slip = along - (in.L / ball.I).cross(n) * in.reach;
+  const Vec3 v0 = along - stopped * slip, a = alongFace(n, in.gravity) / (1 + ball.k);
+  const Rates dv0 = ball.along(in.v, kVelocity) - stopped * ball.slip() - slip * (stopped * (1 - stopped) * ball.shareOfInertia());
   Rates da = ball.along(in.gravity, kGravity) / (1 + ball.k);
   da -= a * (ball.k / (1 + ball.k) * ball.shareOfInertia());
   const Vec3 pivot = n * (n.dot(in.L) / ball.I);
@@ -93,13 +108,8 @@ Sensitivity sliding(const Ball& ball, const GlidePath<double>& path, double elap
   const double share = ball.k / (1 + ball.k), by_lever = (1 - share) / in.reach;
   const Vec3 d = s0.normalized();
 
-  Rates dw0 = Rates::Zero();
-  dw0.middleCols<3>(kMomentum).diagonal().setConstant(1 / ball.I);
-  dw0.col(kInertia) = -w0 / ball.I;
+  const Rates dw0 = ball.spin(), ds0 = ball.slip();
   const Rates dv0 = ball.along(in.v, kVelocity), dg = ball.along(in.gravity, kGravity);
-  Rates ds0 = dv0 + in.reach * (skew(n) * dw0);  // v - w0 x n r
-  ds0.middleCols<3>(kNormal) -= in.reach * skew(w0);
-  ds0.col(kReach) += n.cross(w0);
   const RatesOfNumber dshare = share * (1 - share) * ball.shareOfInertia();
   RatesOfNumber dc = -c / share * dshare;  // c = mu g_n/share
   dc[kFriction] += pressingGravity(in) / share;

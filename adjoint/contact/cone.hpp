@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adjoint/numeric/dual.hpp"
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 /// Forces, or impulses, of friction of several contacts as one convex problem.
 namespace carom::adjoint_detail {

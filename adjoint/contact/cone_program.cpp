@@ -26,7 +26,7 @@ struct ConePrecision<double> {
   static constexpr double kRounding = 1e-13, kExact = 2e-15, kSettled = 1e-13;
 };
 template <>
-struct ConePrecision<Wide> {
+struct ConePrecision<DoubleDouble> {
   static constexpr double kRounding = 1e-27, kExact = 1e-30, kSettled = 1e-13;
 };
 
@@ -301,12 +301,12 @@ ConePointOf<T> solveConeProgram(const ConeProgramOf<T>& program) {
   for (const ConePointOf<T>& near : closest)
     if (auto at = set.from(near, kCarefulSteps, kNearlyRedundant)) return even.asWritten(*at);
   if (wedgedPair(inDoubles<T>(even.q)))
-    throw NotComputable("two of its contacts are wedged: their friction bears any push along the line between them, so that their impulse "
-                        "has no bound");
-  throw NotComputable("the friction of its contacts, which are many or unlike, was not found");
+    throw NotComputable("two of its contacts are wedged: their friction carries any force along the line between them, so that their "
+                        "impulse is unbounded");
+  throw NotComputable("the friction impulses of its contacts, which are many or ill-conditioned, were not found");
 }
 
 template ConePointOf<double> solveConeProgram(const ConeProgramOf<double>&);
-template ConePointOf<Wide> solveConeProgram(const ConeProgramOf<Wide>&);
+template ConePointOf<DoubleDouble> solveConeProgram(const ConeProgramOf<DoubleDouble>&);
 
 }  // namespace carom::adjoint_detail

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "adjoint/contact/glide_path.hpp"
-#include "adjoint/contact/integrated_path.hpp"
 #include "adjoint/contact/rest_path.hpp"
 #include "adjoint/contact/roll_path.hpp"
+#include "adjoint/flight/trajectory.hpp"
 #include "adjoint/scene/body_model.h"
 
 /// Lasting contact with one fixed face in closed form, in any kind of number: docs/equations.md, section 11.
@@ -67,36 +67,17 @@ V3<S> slipDirectionAt(PathForm form, const PathInputs<S>& in, const S& elapsed) 
 }
 
 /// Of a closed form.
-PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until);
+TrajectoryBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until);
 
-/// Its own copy of an integrated path, but for what `shared` gives.
-class OwnPath {
- public:
-  OwnPath() = default;
-  explicit OwnPath(std::unique_ptr<IntegratedPath> path) : path_(std::move(path)) {}
-  OwnPath(const OwnPath& o) : path_(o.path_ ? o.path_->clone() : nullptr) {}
-  OwnPath& operator=(const OwnPath& o) { return *this = OwnPath(o); }
-  OwnPath(OwnPath&&) noexcept = default;
-  OwnPath& operator=(OwnPath&&) noexcept = default;
-  /// The same path, which grows there as it grows here.
-  OwnPath shared() const {
-    OwnPath same;
-    same.path_ = path_;
-    return same;
-  }
-  IntegratedPath* operator->() const { return path_.get(); }
-  IntegratedPath* get() const { return path_.get(); }
-  explicit operator bool() const { return path_ != nullptr; }
-
- private:
-  std::shared_ptr<IntegratedPath> path_;
-};
-
-/// A path as an arc keeps it, with what its derivative needs of the scene; but for what is integrated.
-struct PathSetting {
+/// A path in contact with one face, with what its derivative needs of the scene.
+struct ContactPath {
   PathForm form = PathForm::rest;
+  /// How little changes would move a body that is at rest: `rest` where they would not, or where that is not known.
+  PathForm when_varied = PathForm::rest;
+  /// At rest: nothing opposes some motion of it, and `when_varied` does not tell where that would go.
+  bool loose = false;
   PathInputs<double> inputs;
-  PathBounds bounds;  ///< over the whole arc
+  TrajectoryBounds bounds;  ///< over the whole arc
   int body = -1;      ///< which is on the path
   int face = -1;      ///< the fixed body that has the face
   Eigen::RowVectorXd reach_rates;  ///< of the reach by the dimensions of the body
@@ -104,20 +85,10 @@ struct PathSetting {
   /// Elapsed at the end of slip, where the slip is exactly 0; infinite where there is none.
   double slip_end = std::numeric_limits<double>::infinity();
 
+  /// That whose derivatives are this one's.
+  PathForm variedForm() const { return form == PathForm::rest ? when_varied : form; }
   /// At that end, start + slip_end, exactly slip_end.
   double elapsedAt(double t) const { return t < start + slip_end ? t - start : slip_end; }
-};
-
-struct ContactPath : PathSetting {
-  OwnPath integrated;  ///< of PathForm::held
-
-  /// With the same integrated path.
-  ContactPath view() const {
-    ContactPath same;
-    static_cast<PathSetting&>(same) = *this;
-    same.integrated = integrated.shared();
-    return same;
-  }
   /// `turning`: with the orientation; else it stays that of the start.
   State stateAt(const State& start_state, double t, bool turning = true) const;
   /// Until then a number of series carry the orientation.

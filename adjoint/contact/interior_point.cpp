@@ -69,7 +69,7 @@ InteriorPoint::InteriorPoint(const ConeProgramOf<double>& program) {
   }
 }
 
-// Equations of redundant contacts are combinations of others: as many orthonormal ones say the same.
+// Equations of redundant contacts are linear combinations of others: an orthonormal basis of all takes their place.
 void InteriorPoint::makeIndependent() {
   combined_ = MatrixXd::Identity(G_.rows(), G_.rows());
   if (G_.rows() == 0) return;

@@ -7,18 +7,18 @@ namespace {
 // Above what rounding makes of a bound.
 constexpr double kMore = 1 + 1e-12;
 
-PathBounds boundsOf(const RestPath<double>&, double, double) { return {}; }
+TrajectoryBounds boundsOf(const RestPath<double>&, double, double) { return {}; }
 
 // The angular velocity goes along a line: its longest is at an end.
-PathBounds boundsOf(const RollPath<double>& path, double from, double until) {
+TrajectoryBounds boundsOf(const RollPath<double>& path, double from, double until) {
   return {path.acceleration(), 0, true, kMore * std::max(path.spinAt(from).norm(), path.spinAt(until).norm()),
           kMore * path.spinRate().norm()};
 }
 
 // The slip turns one way, and by less than half a turn: it is farthest from where it was at the end.
-PathBounds boundsOf(const GlidePath<double>& path, double from, double until) {
+TrajectoryBounds boundsOf(const GlidePath<double>& path, double from, double until) {
   const Vec3 first = path.directionAt(from);
-  PathBounds bounds;
+  TrajectoryBounds bounds;
   bounds.acceleration = path.acceleration(first);
   bounds.straight = path.slip().straight();
   if (!bounds.straight)
@@ -31,12 +31,11 @@ PathBounds boundsOf(const GlidePath<double>& path, double from, double until) {
 
 }  // namespace
 
-PathBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until) {
+TrajectoryBounds pathBounds(PathForm form, const PathInputs<double>& in, double from, double until) {
   return withPath<double>(form, in, [&](const auto& path) { return boundsOf(path, from, until); });
 }
 
 State ContactPath::stateAt(const State& start_state, double t, bool turning) const {
-  if (integrated) return integrated->stateAt(t);
   const double elapsed = elapsedAt(t);
   if (form == PathForm::rest || elapsed == 0) return start_state;
   const PathState<double> now =

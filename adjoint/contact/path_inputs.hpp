@@ -8,7 +8,7 @@ namespace carom::adjoint_detail {
 
 /// Motions in lasting contact with one fixed face that have a closed form; docs/equations.md, section 11. `ball`: a
 /// uniform one; `block`: a body that does not turn; `axle`: a cylinder or capsule that rolls about its axis. `held`: any
-/// other one, which is integrated (see IntegratedPath).
+/// other one, which is integrated (see ConstrainedPath).
 enum class PathForm { rest, glide_ball, glide_block, roll_ball, roll_axle, held };
 
 /// All that a path depends on, as it is at its start.

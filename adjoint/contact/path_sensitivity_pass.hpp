@@ -68,7 +68,7 @@ inline std::vector<int> variedInputs(PathForm form) {
   if (glides(form)) inputs.push_back(18);
   if (form == PathForm::glide_block) return inputs;
   if (form == PathForm::roll_axle) {
-    inputs.insert(inputs.end(), {3, 4, 5, 19, 20, 21, 22, 23, 24, 25, 26});
+    inputs.insert(inputs.end(), {3, 4, 5, 9, 10, 11, 19, 20, 21, 22, 23, 24, 25, 26});
   } else {
     inputs.insert(inputs.end(), {9, 10, 11, 19, 20, 26});
   }

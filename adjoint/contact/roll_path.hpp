@@ -8,7 +8,8 @@
 namespace carom::adjoint_detail {
 
 /// Pure rolling on a face (11.7): a constant acceleration, and an angular velocity that is linear in time. What the
-/// face fixes of the start (the velocity into it, the spin that rolling has) is taken from the rest of it.
+/// face fixes of the start (the velocity into it, the spin that rolling has) is taken from the rest of it, and
+/// what it slips is stopped by friction at the contact, as it is at once where it is next to nothing: (11.29).
 template <class S>
 class RollPath {
  public:
@@ -16,6 +17,7 @@ class RollPath {
     const S inertia = ballInertia(in), k = inertia / (in.mass * in.reach * in.reach);
     RollPath path(in);
     path.v0_ = alongFace(in.normal, in.v);
+    path.stopSlip(k, V3<S>(path.v0_ - (in.L / inertia).cross(in.normal) * in.reach));
     path.acceleration_ = alongFace(in.normal, in.gravity) / (1.0 + k);
     path.pivot_ = in.normal * (in.normal.dot(in.L) / inertia);
     path.ball_inertia_ = inertia;
@@ -28,6 +30,7 @@ class RollPath {
     const S length2 = axis.squaredNorm();
     RollPath path(in);
     path.v0_ = across * (across.dot(in.v) / length2);
+    path.stopSlip(k, V3<S>(path.v0_ - across * (in.reach * V3<S>(in.R * in.axis).dot(in.L) / inertia)));
     path.acceleration_ = across * (across.dot(in.gravity) / (length2 * (1.0 + k)));
     return path;
   }
@@ -53,6 +56,9 @@ class RollPath {
 
  private:
   explicit RollPath(const PathInputs<S>& in) : in_(in) {}
+  void stopSlip(const S& k, const V3<S>& slip) {
+    if (primalOf(in_.friction) > 0) v0_ -= slip * (k / (1.0 + k));
+  }
   V3<S> spinOf(const V3<S>& v) const { return in_.normal.cross(v) / in_.reach + pivot_; }
   V3<S> momentum(const M3<S>& R, const V3<S>& spin) const {
     if (ball_inertia_) return spin * *ball_inertia_;

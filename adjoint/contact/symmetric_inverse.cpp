@@ -18,7 +18,7 @@ namespace {
 template <class T>
 constexpr double kNull = 1e-12;
 template <>
-constexpr double kNull<Wide> = 1e-28;
+constexpr double kNull<DoubleDouble> = 1e-28;
 
 }  // namespace
 
@@ -66,8 +66,8 @@ MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units, Spe
 }
 
 template std::vector<double> forceUnits(const MatrixOf<double>&);
-template std::vector<Wide> forceUnits(const MatrixOf<Wide>&);
+template std::vector<DoubleDouble> forceUnits(const MatrixOf<DoubleDouble>&);
 template MatrixOf<double> symmetricInverse(const MatrixOf<double>&, const VectorOf<double>&, Spectrum*);
-template MatrixOf<Wide> symmetricInverse(const MatrixOf<Wide>&, const VectorOf<Wide>&, Spectrum*);
+template MatrixOf<DoubleDouble> symmetricInverse(const MatrixOf<DoubleDouble>&, const VectorOf<DoubleDouble>&, Spectrum*);
 
 }  // namespace carom::adjoint_detail

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adjoint/numeric/dual.hpp"
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -15,7 +15,7 @@ struct Spectrum {
 };
 
 /// A generalised inverse of a symmetric M, found in units of the rows in which its numbers are of like size. T is
-/// double or Wide. `spectrum`, if given, is filled. Throws NotComputable for numbers that are not finite.
+/// double or DoubleDouble. `spectrum`, if given, is filled. Throws NotComputable for numbers that are not finite.
 template <class T>
 MatrixOf<T> symmetricInverse(const MatrixOf<T>& M, const VectorOf<T>& units, Spectrum* spectrum = nullptr);
 

@@ -59,7 +59,7 @@ class ReversePass {
     const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
     if (reliability_) reliability_->passArc(motion_, body, k);
     static const ArcSensitivity kUnturned;
-    const bool turns = arc.path() || !isZero(bar.theta);
+    const bool turns = !arc.isFlight() || !isZero(bar.theta);
     const StateDerivative start = turns ? arcPullback(arc, t, sensitivity(), bar, bars_.scene, bars_.model[b])
                                         : arcPullback(arc, t, kUnturned, bar, bars_.scene, bars_.model[b]);
     bars_.arriveAt(body, k, start);

@@ -7,14 +7,14 @@
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/contact/contact_path.hpp"
-#include "adjoint/derivative/arc_pass.hpp"
 #include "adjoint/derivative/event_linearization.hpp"
 #include "adjoint/derivative/ground_seams.hpp"
 #include "adjoint/derivative/single_impact.hpp"
-#include "adjoint/held/held_path.hpp"
+#include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 #include "adjoint/motion/time_argument.hpp"
+#include "adjoint/simulate/followed_path.hpp"
 
 namespace carom {
 
@@ -46,21 +46,21 @@ std::string doubtOf(const Event& event, double tilt) {
     return textOf(6, "is at the boundary of stick and slide (margin ", event.margins.stick_slip,
                   "): one-sided derivative");
   if (tilt < kReliableTilt)
-    return textOf(6, "has a normal near the one direction whose tilt has no axes (margin ", tilt, ")");
+    return textOf(6, "has a normal near the direction in which tilt axes are undefined (margin ", tilt, ")");
   return {};
 }
 
 bool beginsToSlip(const Arc& arc) {
-  if (!arc.integrated()) return arc.path() && arc.path()->inputs.begins;
-  const auto& path = static_cast<const HeldPath&>(*arc.integrated());
-  return std::ranges::any_of(path.contacts(), [](const HeldContact& c) { return c.begins; });
+  const ConstrainedPath* constrained = arc.trajectory().constrained();
+  if (!constrained) return arc.closedForm() && arc.closedForm()->inputs.begins;
+  return std::ranges::any_of(constrained->contacts(), [](const PersistentContact& c) { return c.begins; });
 }
 
 ArcSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
   const auto b = static_cast<std::size_t>(body);
   const BodyPlan& plan = motion.plan.bodies[b];
   const Arc& arc = motion.world_lines[b].arcs[static_cast<std::size_t>(k)];
-  if (const ContactPath* path = arc.path()) return {{}, linearizedPath(motion, *path, path->elapsedAt(t))};
+  if (auto trajectory = arc.trajectory().linearise(motion, body, k, t)) return {{}, std::move(trajectory)};
   return {arc.rotationSensitivity(t, plan.derivative_tier, plan.derivative_products), nullptr};
 }
 
@@ -119,6 +119,11 @@ void Reliability::pass(const Motion& motion, int index) {
   const Event& event = motion.events[checkedIndex("Reliability::pass", "event", index, motion.events.size())];
   ++events;
   passSeams(motion, index);
+  if (reliable && landsFlat(motion, event)) {
+    reliable = false, smallest_margin = 0;
+    message = sentenceOf(motion, index) + "is that of a rim that comes to lie flat: the derivative holds for motions that do so as well; "
+                                          "beside them the rim goes round";
+  }
   if (!event.counts()) return;
   const double tilt = tiltMarginOf(event);
   smallest_margin = std::min({smallest_margin, event.margins.smallest(), tilt});
@@ -136,7 +141,7 @@ void Reliability::passSeams(const Motion& motion, int index) {
     seams.push_back(body);
     if (seam_message.empty())
       seam_message = textOf(6, "at t = ", event.time, " s a contact with '", motion.scene->bodies[static_cast<std::size_t>(body)].name,
-                            "' is at its seam with a fixed body that lies flush: moved alone, one of them makes a step of it");
+                            "' is at a seam between flush fixed bodies: moving one of them alone makes it a step");
   }
 }
 
@@ -157,20 +162,61 @@ void Reliability::passFriction(const Motion& motion, int index, double margin, b
   if (frictions.empty() || !friction_message.empty()) return;
   friction_message = sentenceOf(motion, index);
   if (shared) {
-    friction_message += "is without friction at contacts that share their load in many ways: the least friction chooses "
-                        "one of these, so that there is no derivative by it at 0";
+    friction_message += "is without friction at redundant contacts, whose load the least friction selects: there is no "
+                        "derivative with respect to friction at 0";
     return;
   }
   friction_message += textOf(6, "is without friction and does not slip (margin ", margin,
-                             "): the derivative by its friction is one-sided, and another one next to it");
+                             "): the derivative with respect to its friction is one-sided, and jumps there");
 }
 
 void Reliability::passArc(const Motion& motion, int body, int k) {
   const std::size_t b = checkedIndex("Reliability::passArc", "body", body, motion.world_lines.size());
   const std::vector<Arc>& arcs = motion.world_lines[b].arcs;
   const Arc& arc = arcs[checkedIndex("Reliability::passArc", "arc", k, arcs.size())];
-  if (arc.integrated()) passHeld(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
+  if (arc.trajectory().constrained()) passConstrained(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
   if (beginsToSlip(arc)) passBeginning(motion, body, k);
+  passStill(motion, body, arc);
+  if (arc.closedForm() && arc.closedForm()->loose) passLoose(motion, body, k);
+}
+
+namespace {
+
+// Of the derivative with respect to the velocity and spin with which the scene places a body.
+void doubtStart(Reliability& reliability, int body, const std::string& why) {
+  if (std::find(reliability.beginning.begin(), reliability.beginning.end(), body) != reliability.beginning.end()) return;
+  reliability.beginning.push_back(body);
+  if (reliability.beginning_message.empty()) reliability.beginning_message = why;
+}
+
+}  // namespace
+
+// Paths in contact know no ground that moves: a kinematic one that stands still has no derivative by its velocities.
+void Reliability::passStill(const Motion& motion, int body, const Arc& arc) {
+  std::vector<int> grounds;
+  if (const ConstrainedPath* path = arc.trajectory().constrained()) {
+    for (const PersistentContact& c : path->contacts()) grounds.push_back(c.with);
+  } else if (arc.closedForm()) {
+    grounds.push_back(arc.closedForm()->face);
+  }
+  const std::vector<Body>& bodies = motion.scene->bodies;
+  for (const int with : grounds)
+    if (const Body& ground = bodies[static_cast<std::size_t>(with)]; ground.kinematic)
+      doubtStart(*this, with, "'" + bodies[static_cast<std::size_t>(body)].name + "' stays in contact with '" + ground.name +
+                                  "', a kinematic body at rest: contact that lasts is not followed on one that moves");
+}
+
+// Where it came to rest, what varies has moved it. Where it was put there, nothing does but by its own velocity and spin.
+void Reliability::passLoose(const Motion& motion, int body, int k) {
+  const std::size_t b = static_cast<std::size_t>(body);
+  const std::string rests = "'" + motion.scene->bodies[b].name + "' rests on contacts that do not hold it against every motion";
+  if (k == 0 || motion.events[static_cast<std::size_t>(motion.world_lines[b].events[static_cast<std::size_t>(k) - 1])].kind == EventKind::placed) {
+    return doubtStart(*this, body, rests + ": by its velocity and spin it would not stay");
+  }
+  smallest_margin = 0;
+  if (!reliable) return;
+  reliable = false;
+  message = textOf(6, "from t = ", motion.world_lines[b].arcs[static_cast<std::size_t>(k)].start(), " s on ", rests, ": a little change would not let it stay");
 }
 
 // What has no slip goes on along the slope. There is a derivative only as long as it has none, whatever varies: after an
@@ -182,12 +228,7 @@ void Reliability::passBeginning(const Motion& motion, int body, int k) {
   if (event.kind == EventKind::transition) return;
   const std::string& name = motion.scene->bodies[b].name;
   if (event.kind == EventKind::placed) {
-    if (std::find(beginning.begin(), beginning.end(), body) != beginning.end()) return;
-    beginning.push_back(body);
-    if (beginning_message.empty())
-      beginning_message = textOf(6, "'", name, "' begins to slip at the start, from no slip at all: its derivative by its ",
-                                 "velocity and spin is one-sided");
-    return;
+    return doubtStart(*this, body, "'" + name + "' starts to slip from zero slip: the derivative with respect to its velocity and spin is one-sided");
   }
   if (event.mode == ImpactMode::joint) return;  // says so itself
   if (!reliable || (event.mode == ImpactMode::stick && event.contacts[0].pair.tangential_elasticity == 0)) return;
@@ -195,9 +236,9 @@ void Reliability::passBeginning(const Motion& motion, int body, int k) {
   message = sentenceOf(motion, index) + "leaves '" + name + "' no slip, though it does not stick: one-sided derivative";
 }
 
-void Reliability::passHeld(const Motion& motion, int body, const Arc& arc, double until) {
-  const auto& path = static_cast<const HeldPath&>(*arc.integrated());
-  const HeldPath::NearMiss miss = path.nearestMiss(until);
+void Reliability::passConstrained(const Motion& motion, int body, const Arc& arc, double until) {
+  const ConstrainedPath& path = *arc.trajectory().constrained();
+  const ConstrainedPath::NearMiss miss = path.nearestMiss(until);
   smallest_margin = std::min(smallest_margin, miss.margin);
   if (!reliable || !(miss.margin < kReliableMargin)) return;
   reliable = false;

@@ -14,19 +14,19 @@ namespace carom {
 namespace adjoint_detail {
 class EventLinearization;
 class SingleImpact;
-class PathLinearization;
+class TrajectoryLinearization;
 }
 
-/// How the state of a body at the end of a stretch of an arc varies with its start and the scene.
+/// Sensitivity of the state of a body at a time on an arc to the start of the arc and the scene.
 struct ArcSensitivity : RotationSensitivity {
-  /// Of a path in lasting contact, which all of it depends on; null for a flight.
-  std::shared_ptr<const adjoint_detail::PathLinearization> path;
+  /// Of any trajectory but a flight, whose rotation alone has a sensitivity; null for a flight.
+  std::shared_ptr<const adjoint_detail::TrajectoryLinearization> trajectory;
 };
 
-/// When a state is read: at a time, or just before or after an event (then the time itself moves with the causes). A
-/// body that takes no part in the event is read at the time of the event.
+/// When a state is read: at a fixed time, or just before or after an event (then the time varies with the scene
+/// parameters). A body that takes no part in the event is read at the time of the event.
 struct Instant {
-  double time = 0;       ///< s, where there is no event
+  double time = 0;       ///< s, if there is no event
   int event = -1;        ///< just before this one; -1: at a time
   bool follows = false;  ///< just after the event instead
 
@@ -38,9 +38,9 @@ struct Instant {
   static Instant after(int event) { return {0, event, true}; }
 };
 
-/// One linear functional of the state of a body at an instant, in the terms of BodyState: the weights of position,
-/// orientation (world rotation vector), velocity and angular velocity, and of the time of the event; besides, of the
-/// centre of mass, and of numbers of the scene that a reading depends on by itself, not through the motion.
+/// A linear functional of the state of a body at an instant, in terms of BodyState: weights of position, orientation
+/// (world rotation vector), velocity, angular velocity and the time of the event; also of the centre of mass, and of
+/// scene parameters on which a reading depends directly, not through the motion.
 struct StateSeed {
   int body = -1;  ///< whose state is read
   Instant at;     ///< when
@@ -48,7 +48,7 @@ struct StateSeed {
   Vec3 orientation = Vec3::Zero();       ///< weights of the orientation, as a world rotation vector
   Vec3 velocity = Vec3::Zero();          ///< weights of the velocity
   Vec3 angular_velocity = Vec3::Zero();  ///< weights of the angular velocity
-  Vec3 center_of_mass = Vec3::Zero();  ///< weights of the place of the centre of mass
+  Vec3 center_of_mass = Vec3::Zero();  ///< weights of the position of the centre of mass
   double time = 0;                       ///< weight of the time of the event
   double mass = 0;                       ///< weight of the body's mass
   Mat3 inertia = Mat3::Zero();           ///< weights of its inertia tensor about the centre of mass, axes of the shape
@@ -59,64 +59,70 @@ struct StateSeed {
   StateSeed& operator*=(double factor);
 };
 
-/// How far a derivative can be trusted: the smallest margins of the events that it passed through.
+/// Reliability of a derivative: the smallest margins of the events that it passes through.
 struct Reliability {
   bool reliable = true;        ///< no margin is below kReliableMargin
   int events = 0;              ///< events that the quantity depends on
   double smallest_margin = 1;  ///< see Margins
-  std::string message;         ///< a sentence when not reliable
+  std::string message;         ///< the reason if not reliable
 
-  /// Materials by whose friction, which is 0, the derivative cannot be trusted; and why, by the first such event.
+  /// Materials with friction 0 with respect to which the derivative is unreliable, and the reason at the first such
+  /// event.
   std::vector<int> frictions;
-  std::string friction_message;  ///< why; empty where there are none
-  /// Bodies by whose velocity and spin at the start the derivative cannot be trusted: they begin to slip there from no slip
-  /// at all, so that it is one-sided, along the slope.
+  std::string friction_message; ///< reason; empty if there are none
+  /// Bodies with respect to whose initial velocity and spin the derivative is unreliable: they start to slip from
+  /// zero slip, so that it is one-sided, along the slope.
   std::vector<int> beginning;
-  std::string beginning_message;  ///< why; empty where there are none
-  /// Fixed bodies by whose pose or size alone the derivative cannot be trusted: contacts are at a seam between them.
+  std::string beginning_message; ///< reason; empty if there are none
+  /// Fixed bodies with respect to whose individual pose or size the derivative is unreliable: contacts are at a seam
+  /// between them.
   std::vector<int> seams;
-  std::string seam_message;  ///< why; empty where there are none
+  std::string seam_message; ///< reason; empty if there are none
 
-  /// Counts an event that the derivative passes through.
+  /// Records an event that the derivative passes through.
   void pass(const Motion& motion, int event);
-  /// `margin`: how far the contacts are from not slipping, where they are without friction; `shared`: they share their
-  /// load as the least friction chooses.
+  /// `margin`: distance of frictionless contacts from zero slip; `shared`: redundant contacts share their load as
+  /// selected by minimal friction.
   void passFriction(const Motion& motion, int event, double margin, bool shared);
-  /// Counts an arc of a body that the derivative passes through. Where corners, edges and faces hold the body, the margin is
-  /// how near a contact comes to lifting, slipping, sticking or leaving its feature, and does not: as a share of the forces,
-  /// speeds and lengths of the path.
+  /// Records an arc of a body that the derivative passes through. For constrained motion the margin is the smallest
+  /// distance of a contact from lifting, slipping, sticking or leaving its feature without doing so, relative to the
+  /// forces, speeds and lengths of the path.
   void passArc(const Motion& motion, int body, int arc);
-  /// The derivative by the friction of a material is asked for, too.
+  /// Requests the derivative with respect to the friction of a material, too.
   void askFriction(int material);
-  /// The derivative by the velocity of a body is asked for, too.
+  /// Requests the derivative with respect to the velocity of a body, too.
   void askVelocity(int body);
-  /// The derivative by its spin.
+  /// The same for its spin.
   void askSpin(int body) { askVelocity(body); }
-  /// The derivative by the pose or the size of a body is asked for, too.
+  /// Requests the derivative with respect to the pose or size of a body, too.
   void askPlace(int body);
 
  private:
-  void passHeld(const Motion& motion, int body, const Arc& arc, double until);
+  void passConstrained(const Motion& motion, int body, const Arc& arc, double until);
   void passBeginning(const Motion& motion, int body, int arc);
+  void passLoose(const Motion& motion, int body, int arc);
+  void passStill(const Motion& motion, int body, const Arc& arc);
   void passSeams(const Motion& motion, int event);
 };
 
-/// Linearisations of arcs and events of one motion, made on first use and shared by all rows of a Jacobian.
-/// Not for use from two threads at once. Keeps a reference to the motion.
+/// Linearisations of arcs and events of one motion, computed on first use and shared by all rows of a Jacobian. Not
+/// thread-safe. Keeps a reference to the motion.
 class DerivativeTape {
  public:
   /// The motion must outlive the tape. Throws InputError for one without recorded events.
   explicit DerivativeTape(const Motion& motion);
+  /// Of a temporary motion, which would be gone.
+  explicit DerivativeTape(const Motion&&) = delete;
   ~DerivativeTape();
 
-  const Motion& motion() const { return motion_; }  ///< which it is of
-  /// Sensitivity over the whole of arc k of a body, which ends in an event.
+  const Motion& motion() const { return motion_; }  ///< the linearised motion
+  /// Sensitivity over arc k of a body, which ends in an event.
   const ArcSensitivity& arc(int body, int k);
-  /// Sensitivity from the start of arc k to time t; remembered, because the rows of a Jacobian share their times.
+  /// Sensitivity from the start of arc k to time t; cached, because the rows of a Jacobian share their times.
   ArcSensitivity arcUntil(int body, int k, double t);
   /// Linearisation of an event.
   const adjoint_detail::EventLinearization& event(int event);
-  /// The same of an impact of one contact in fixed sizes, for reverse passes; null for any other event.
+  /// The same for an impact of one contact, in fixed-size matrices, for reverse passes; null for any other event.
   const adjoint_detail::SingleImpact* singleImpact(int event);
 
  private:

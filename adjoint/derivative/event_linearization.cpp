@@ -3,17 +3,15 @@
 
 #include <algorithm>
 
-#include "adjoint/base/errors.h"
-#include "adjoint/base/refuse.hpp"
-#include "adjoint/derivative/held_pass.hpp"
+#include "adjoint/derivative/flat_landing.hpp"
+#include "adjoint/constrained/constrained_linearization.hpp"
 #include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/impact/single_laws.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/impact/tilt_frame.hpp"
-#include "adjoint/impact/wide_impact.hpp"
+#include "adjoint/impact/double_double_impact.hpp"
 #include "adjoint/motion/guard.hpp"
-#include "adjoint/simulate/followed_path.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -27,11 +25,15 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
   part.a = {c.a, participantOf(event, c.a)};
   part.b = {c.b, participantOf(event, c.b)};
   part.guard[0] = event.kind == EventKind::transition ? 0 : weight;
-  ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, poseBefore(motion, event, c.a),
-                                                poseBefore(motion, event, c.b));
-  part.pose = J.pose;
-  part.size_a = std::move(J.size_a);
-  part.size_b = std::move(J.size_b);
+  part.closes = c.lasts;
+  if (!placeFlatRim(motion, event, c, part)) {
+    ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, poseBefore(motion, event, c.a),
+                                                  poseBefore(motion, event, c.b));
+    part.pose = J.pose;
+    part.size_a = std::move(J.size_a);
+    part.size_b = std::move(J.size_b);
+    keepPlaceOnRim(motion, event, c, part);
+  }
   part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
   if (part.tilted)
     part.tilt = tiltJacobian<double>(c.at.normal, tiltOf(*motion.scene, c.tilt_a), tiltOf(*motion.scene, c.tilt_b));
@@ -62,22 +64,13 @@ EventGuard<double> guardOf(const Motion& motion, const Event& event, std::vector
                                       event.contacts[0].at.point, parts[0]);
 }
 
-// Where a rim lands flat its lowest point jumps, and a motion beside this one goes round: it has no derivative but along
-// motions that come to lie flat as well, which is not built.
-void refuseFlatRims(const Motion& motion, const Event& event) {
-  if (landsFlat(motion, event))
-    throw NotComputable(textOf(10, "the derivative through the landing of a rim that comes to lie flat is not known; '",
-                               motion.scene->bodies[static_cast<std::size_t>(event.participants[0].body)].name,
-                               "' does so at t = ", event.time, " s"));
-}
-
 Pass passOf(const Motion& motion, const Event& event) {
-  refuseFlatRims(motion, event);
   std::vector<Part> parts;
   const std::vector<double> weights = guardWeights(event);
   parts.reserve(weights.size());
   for (std::size_t k = 0; k < weights.size(); ++k)
     parts.push_back(partOf(motion, event, event.contacts[k], weights[k]));
+  closeMarks(motion, event, parts);
   EventGuard<double> guard = guardOf(motion, event, parts);
   std::vector<StateDerivative> rate_before, rate_after;
   rate_before.reserve(event.participants.size()), rate_after.reserve(event.participants.size());
@@ -88,7 +81,7 @@ Pass passOf(const Motion& motion, const Event& event) {
     rate_after.push_back(next.startRate());
   }
   return {event,
-          usesWide(event, *motion.models),
+          usesDoubleDouble(event, *motion.models),
           impactInputs(event, *motion.models),
           std::move(parts),
           std::move(guard),
@@ -97,7 +90,12 @@ Pass passOf(const Motion& motion, const Event& event) {
 }
 
 // d(gap, normal, point)
-Vec7 contactTangent(const Part& part, const std::vector<StateDerivative>& before, const SceneTangent& dscene) {
+Vec7 contactTangent(const Part& part, const Event& event, const std::vector<StateDerivative>& before, const SceneTangent& dscene,
+                    const std::vector<BodyModelDerivative>& dmodel) {
+  if (part.rim) {
+    const std::size_t p = part.rim->participant;
+    return part.rim->tangent(before[p], dscene, dmodel[static_cast<std::size_t>(event.participants[p].body)]);
+  }
   Pass::Vec12 poses = Pass::poses(part, before);
   Eigen::Index at = 0;
   for (const auto& side : {part.a, part.b}) {
@@ -113,9 +111,23 @@ Vec7 contactTangent(const Part& part, const std::vector<StateDerivative>& before
 
 }  // namespace
 
+namespace {
+
+// Of the trajectory on which one participant starts.
+std::shared_ptr<const PathStart> startMapOf(const Motion& motion, const Event& event) {
+  for (std::size_t i = 0; i < event.participants.size(); ++i) {
+    const Participant& p = event.participants[i];
+    const Arc& next = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc) + 1];
+    if (auto map = next.trajectory().mapOfStart(motion, static_cast<int>(i))) return map;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 EventLinearization::EventLinearization(const Motion& motion, int index)
     : EventPass(passOf(motion, motion.events[static_cast<std::size_t>(index)])) {
-  setStart(pathStartOf(motion, event()));
+  setStart(startMapOf(motion, event()));
 }
 
 FromZero EventLinearization::frictionFromZero() const {
@@ -141,11 +153,12 @@ double EventLinearization::guardTangent(const std::vector<StateDerivative>& befo
     return guard().by_path->by_state.dot(before[0]) + guard().by_path->tangent(dscene, dmodel[body]);
   }
   for (const Part& part : parts())
-    if (!part.guard.isZero(0)) d += part.guard.dot(contactTangent(part, before, dscene));
+    if (!part.guard.isZero(0)) d += part.guard.dot(contactTangent(part, event(), before, dscene, dmodel));
   if (guard().by_slip) {
     std::vector<BodyModelDerivative> dmodels;
     for (const Participant& p : event().participants) dmodels.push_back(dmodel[static_cast<std::size_t>(p.body)]);
-    d += guard().slip.dot(velocityTangent(impact().inputs(), before, contactTangent(parts()[0], before, dscene), dmodels));
+    const Vec7 contact = contactTangent(parts()[0], event(), before, dscene, dmodel);
+    d += guard().slip.dot(velocityTangent(impact().inputs(), before, contact, dmodels));
   }
   if (guard().border_body < 0) return d;
   const BodyDerivative& border = dscene.bodies[static_cast<std::size_t>(guard().border_body)];
@@ -174,7 +187,7 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
   for (std::size_t k = 0; k < parts().size(); ++k) {
     const Part& part = parts()[k];
     const Contact& c = event().contacts[k];
-    Vec7 d = contactTangent(part, moved, dscene);
+    Vec7 d = contactTangent(part, event(), moved, dscene, dmodel);
     if (part.tilted) {
       Vec7 by;
       by << d.segment<3>(1), Vec2(0, 0), Vec2(0, 0);
@@ -193,7 +206,7 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
   if (!lasting.empty()) {
     Eigen::VectorXd gaps(lasting.size());
     for (std::size_t k = 0; k < lasting.size(); ++k)
-      gaps[static_cast<Eigen::Index>(k)] = contactTangent(parts()[lasting[k]], moved, dscene)[0];
+      gaps[static_cast<Eigen::Index>(k)] = contactTangent(parts()[lasting[k]], event(), moved, dscene, dmodel)[0];
     projection().apply(gaps, out.after);
   }
   if (start()) {

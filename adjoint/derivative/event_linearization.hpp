@@ -19,7 +19,7 @@ class EventLinearization : public EventPass<double> {
   Tangent tangent(const std::vector<StateDerivative>& before, const SceneTangent& dscene,
                   const std::vector<BodyModelDerivative>& dmodel) const;
 
-  /// How far the event is from where it has no derivative by coefficients of friction that are 0.
+  /// How far the event is from where it has no derivative with respect to coefficients of friction that are 0.
   FromZero frictionFromZero() const;
 
  private:

@@ -18,7 +18,7 @@ constexpr double kOneFace = 1e-9;
 std::vector<int> flushBodiesOf(const Motion& motion, const Event& event) {
   std::vector<int> out;
   if (event.contacts.size() < 2) return out;
-  const auto isFixed = [&](int body) { return motion.scene->bodies[static_cast<std::size_t>(body)].fixed; };
+  const auto isFixed = [&](int body) { return motion.world_lines[static_cast<std::size_t>(body)].arcs.front().stays(); };
   const auto* distance = dynamic_cast<const BodyDistance*>(motion.geometry.get());
   const auto poseOf = [&](int body) {
     const Kinematics k = motion.world_lines[static_cast<std::size_t>(body)].arcs.front().kinematicsAt(0);

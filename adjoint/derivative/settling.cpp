@@ -45,7 +45,7 @@ bool isFlat(const ContactJacobian& J, bool is_a) { return J.pose.block<3, 6>(1, 
 
 Settling settlingOf(const Motion& motion, int index) {
   if (!motion.events[checkedIndex("settlesAt", "event", index, motion.events.size())].settles_at)
-    refuse("settlesAt", "found event ", index, ", at which nothing settles, expected one with settles_at");
+    refuse("settlesAt", "found event ", index, ", which has no settles_at, expected one that has");
   index = firstBounce(motion, index);
   const Event& event = motion.events[static_cast<std::size_t>(index)];
   const Contact& c = event.contacts[0];
@@ -59,7 +59,7 @@ Settling settlingOf(const Motion& motion, int index) {
   if (!std::holds_alternative<Sphere>(scene.bodies[body].shape) || !model.center.isZero(0) ||
       !scene.bodies[face].fixed || !isFlat(J, is_a))
     throw NotComputable(textOf(6, "the derivative of the time at which '", scene.bodies[body].name, "' settles on '",
-                               scene.bodies[face].name, "' is known for balls on flat faces of fixed bodies alone"));
+                               scene.bodies[face].name, "' exists for balls on flat faces of fixed bodies only"));
 
   const Material &of_a = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.a)]),
                  &of_b = materialOf(scene, scene.bodies[static_cast<std::size_t>(c.b)]);

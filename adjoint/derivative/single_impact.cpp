@@ -67,10 +67,10 @@ SingleImpact::SingleImpact(const Motion& motion, const Event& event, const std::
     m.r = c.at.point - p.before.x;
     m.L = p.before.L;
     m.omega = m.A * m.L;
-    m.rate_before = arc.path() ? arc.rateAt(event.time, p.before)
+    m.rate_before = !arc.isFlight() ? arc.rateAt(event.time, p.before)
                                : StateDerivative{p.before.v, m.omega, arc.acceleration(), Vec3::Zero()};
     const State& after = next.startState();  // with the orientation of before
-    m.rate_after = next.path() ? next.startRate()
+    m.rate_after = !next.isFlight() ? next.startRate()
                                : StateDerivative{after.v, m.A * after.L, next.acceleration(), Vec3::Zero()};
     problem_.u += m.sign * (p.before.v + m.omega.cross(m.r));
     if (!m.moves) continue;

@@ -10,7 +10,7 @@ namespace carom::adjoint_detail {
 
 /// Of body a relative to b at the first contact, where the slip of the path that the event ends comes to 0.
 Vec3 slipDirectionAtEnd(const Motion& motion, const Event& event);
-/// Of the integrated path that the event ends; null where it ends another one.
+/// Of the trajectory that the event ends; null where the guard is that of the contacts.
 std::shared_ptr<const PathGuard> pathGuardOf(const Motion& motion, const Event& event);
 /// The border that the first contact comes to. Throws NotComputable where the event has another cause.
 FeatureLimit borderOf(const Motion& motion, const Event& event);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -11,18 +12,26 @@
 namespace carom {
 
 namespace adjoint_detail {
-class TriaxialRotation;
-class IntegratedPath;
+class Trajectory;
 struct ContactPath;
+struct TrajectoryBounds;
 }
 
-/// What a body does on an arc: it flies freely, or stays in contact with what stands still, where it rests, slides at a
-/// contact at least, rolls, or turns about corners and edges that stay where they are; see docs/equations.md section 11.
+/// Motion of a body on an arc: free flight, or persistent contact with fixed bodies: rest, slide (at one contact at
+/// least), roll, or pivot (rotation about contacts that do not move: tipping, rocking); see docs/equations.md section
+/// 11.
 enum class ArcKind { flight, rest, slide, roll, pivot };
 /// "flight", "rest", "slide", "roll" or "pivot".
 const char* nameOf(ArcKind kind);
 
-/// How the rotation of a flight is carried; see docs/equations.md section 2.
+/// Cause of a transition: the slip ends, a contact reaches the boundary of its feature, or the force at a corner of a
+/// body that slides without rotating vanishes (tips). For a body on corners, edges and faces that may rotate: the
+/// force at a contact vanishes (lifts), it begins to slip, or its slip ends (sticks).
+enum class TransitionCause : std::uint8_t { none, slip_ends, leaves, tips, lifts, slips, sticks };
+/// "none", "slip_ends", "leaves", "tips", "lifts", "slips" or "sticks".
+const char* nameOf(TransitionCause cause);
+
+/// Rotation model of a flight; see docs/equations.md section 2.
 enum class Tier { none, spherical, symmetric, triaxial };
 /// "none", "spherical", "symmetric" or "triaxial".
 const char* nameOf(Tier tier);
@@ -36,50 +45,58 @@ struct Kinematics {
   Vec3 w = Vec3::Zero();      ///< rad/s, world axes
 };
 
-/// One stretch of a world-line from `start()` on: free flight of one body, known in closed form or as Taylor segments, or
-/// a path in lasting contact. A fixed body has one arc, which stays where it is.
+/// One segment of a world-line from `start()` on: free flight of one body, in closed form or as Taylor segments, or a
+/// trajectory in persistent contact. A fixed body has one constant arc. Copies share the trajectory: what one of them
+/// extends is known to all.
 class Arc {
  public:
-  /// A flight under the scene's gravity, or the model's share of it, from the given state.
+  /// A flight from the given state, under the scene's gravity times the model's gravity factor.
+  Arc(std::shared_ptr<const BodyModel> model, Tier tier, const Vec3& gravity, double start, const State& state);
+  /// The same with a copy of the model.
   Arc(const BodyModel& model, Tier tier, const Vec3& gravity, double start, const State& state);
-  /// A path in lasting contact.
-  Arc(const BodyModel& model, Tier tier, const adjoint_detail::ContactPath& path, double start, const State& state);
-  Arc(const Arc& other);             ///< keeps what was made available
-  Arc& operator=(const Arc& other);  ///< the same
-  Arc(Arc&&) noexcept;               ///< leaves an arc that can only be destroyed or assigned to
-  Arc& operator=(Arc&&) noexcept;    ///< the same
-  ~Arc();
+  /// On a trajectory; `slot`: which of the bodies that it moves.
+  Arc(std::shared_ptr<const BodyModel> model, Tier tier, std::shared_ptr<adjoint_detail::Trajectory> trajectory,
+      double start, const State& state, int slot = 0);
 
-  /// A copy that has an integrated path in common with this one: that grows in both. A path of many steps is dear to copy.
-  Arc view() const;
-  /// A copy for another motion, which keeps the model of the body itself. It has to be the same model.
-  Arc withModel(const BodyModel& model) const;
+  /// A copy that is extended apart from this one.
+  Arc fork() const;
 
-  ArcKind kind() const;                                     ///< flight, or how the body stays in contact
-  /// Of a body in lasting contact; null for a flight.
-  const adjoint_detail::ContactPath* path() const { return path_.get(); }
+  ArcKind kind() const;                                     ///< flight, or the kind of persistent contact
+  bool isStraight() const { return straight_; }             ///< its acceleration is constant
+  bool isFlight() const { return flies_; }                  ///< free flight, or a fixed body
+  /// Whether it lies in persistent contact.
+  bool inContact() const { return !flies_ && kind() != ArcKind::flight; }
+  adjoint_detail::Trajectory& trajectory() const { return *trajectory_; }  ///< how it moves
+  const std::shared_ptr<adjoint_detail::Trajectory>& shared() const { return trajectory_; }  ///< the same
+  int slot() const { return slot_; }                        ///< which of the bodies of its trajectory
+  /// Its closed form in persistent contact; null for any other arc.
+  const adjoint_detail::ContactPath* closedForm() const;
   Tier tier() const { return tier_; }                       ///< of its rotation
   double start() const { return start_; }                   ///< s
   const State& startState() const { return state_; }        ///< at the start
   const BodyModel& model() const { return *model_; }        ///< of its body
-  /// Of the centre of mass at the start, m/s^2; the same all the time but for a body that slides round a bend.
+  /// Of the centre of mass at the start, m/s^2; constant except on a curved slide and on integrated paths.
   const Vec3& acceleration() const { return acceleration_; }
   /// |acceleration(t) - acceleration()| is at most this over the whole arc, m/s^2; 0 for a flight.
-  double accelerationVariation() const;
+  double accelerationVariation() const { return variation_; }
   bool moving() const { return model_->moving; }            ///< false for a fixed body
+  /// Whether the body stays where it is whatever happens: fixed, or kinematic without velocity and angular velocity, its
+  /// center of mass at its origin.
+  bool stays() const;
 
-  /// Makes the motion up to time t available to the functions below (only Tier::triaxial has work to do). Throws
-  /// InputError for a time that is not finite, NotComputable where the rotation cannot be followed that far.
+  /// Extends the arc so that the functions below can be called up to time t (work only for Tier::triaxial and what is integrated).
+  /// Throws InputError for a time that is not finite, NotComputable if the rotation cannot be computed that far.
   void extendTo(double t);
-  /// Up to here the motion is available; infinite where all of it is.
+  /// The functions below can be called up to this time; infinite if everywhere.
   double availableUntil() const;
-  /// Of a path that is integrated, up to where it is known or ends; else infinite. A later time is none of the path.
+  /// Of an integrated path, the time up to which it is computed, or its end; otherwise infinite. Later times are not
+  /// on the path.
   double knownUntil() const;
 
-  /// Series that carry the rotation so far: the work that `extendTo` has done.
+  /// Number of pieces so far: the work done by `extendTo`.
   std::size_t series() const;
-  /// The integrated path in contact that it is; null for any other arc.
-  adjoint_detail::IntegratedPath* integrated() const;
+  /// Whether it is integrated step by step, as far as it is read.
+  bool isIntegrated() const;
 
   State stateAt(double t) const;  ///< at time t, which must be available
   /// The same as pose and velocities.
@@ -103,7 +120,7 @@ class Arc {
   /// symmetry; zero where every axis does, nothing for a triaxial body.
   std::optional<Vec3> steadyAxis() const;
   /// Rate of that precession, rad/s.
-  double precession() const { return state_.L.norm() * model_->inverse_inertia[(symmetry_axis_ + 1) % 3]; }
+  double precession() const;
 
   /// Sensitivity of the rotation from start() to t. `tier` is the one the derivative needs: Tier::triaxial gives
   /// dtheta_dI for free, independent moments, and with `products` dtheta_dproducts; Tier::symmetric and
@@ -111,19 +128,16 @@ class Arc {
   RotationSensitivity rotationSensitivity(double t, Tier tier, bool products = false) const;
 
  private:
-  Arc(const Arc& other, std::unique_ptr<adjoint_detail::ContactPath> path);
-  Quat rotationAt(double elapsed) const;
-  void takeBounds();
+  void take(const adjoint_detail::TrajectoryBounds& bounds);
 
-  const BodyModel* model_;  // outlives the arc: held by the Motion
+  std::shared_ptr<const BodyModel> model_;
+  std::shared_ptr<adjoint_detail::Trajectory> trajectory_;
   Tier tier_;
-  int symmetry_axis_ = 2;
+  int slot_ = 0;
+  bool flies_ = true, straight_ = true;
   double start_;
-  double spin_bound_ = 0, spin_rate_bound_ = 0;
-  // Apart, so that most arcs are small.
-  std::unique_ptr<adjoint_detail::TriaxialRotation> triaxial_;
-  std::unique_ptr<adjoint_detail::ContactPath> path_;  // null: a flight
-  Vec3 acceleration_;
+  double spin_bound_ = 0, spin_rate_bound_ = 0, variation_ = 0;
+  Vec3 acceleration_ = Vec3::Zero();
   State state_;
 };
 

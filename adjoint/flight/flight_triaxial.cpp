@@ -125,7 +125,7 @@ void TriaxialRotation::extendTo(double elapsed) {
     if (closed_form_) return;
     const Segment& last = segments_.back();
     if (segments_.size() >= kMostSegments || !(last.start + last.length > last.start))
-      throw NotComputable("its rotation takes more than " + std::to_string(kMostSegments) + " series to follow");
+      throw NotComputable("its rotation takes more than " + std::to_string(kMostSegments) + " Taylor series");
     segments_.push_back(makeSegment(last.start + last.length, orientationIn(last, last.length)));
   }
 }

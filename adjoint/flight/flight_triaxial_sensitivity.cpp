@@ -270,7 +270,7 @@ RotationSensitivity TriaxialRotation::sensitivityOver(double elapsed, bool produ
     if (h == rest) break;
     if (++steps == kMostSegments || !(t + h > t))
       throw NotComputable("the derivative of a rotation takes more than " + std::to_string(kMostSegments) +
-                          " series to follow");
+                          " Taylor series");
     t += h;
   }
   return total;

@@ -7,7 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/numeric/symmetric_eigen.hpp"
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -28,7 +28,7 @@ struct Precision<double> {
 };
 // Normals and points are doubles: what they make of redundant contacts is of size 1e-32.
 template <>
-struct Precision<Wide> {
+struct Precision<DoubleDouble> {
   static constexpr double kNull = 1e-28, kRounding = 1e-28;
 };
 
@@ -105,7 +105,7 @@ typename LeastNormSolveOf<T>::Vector LeastNormSolveOf<T>::tangent(const Matrix& 
 }
 
 template struct LeastNormSolveOf<double>;
-template struct LeastNormSolveOf<Wide>;
+template struct LeastNormSolveOf<DoubleDouble>;
 
 namespace {
 
@@ -116,7 +116,7 @@ T absOf(const T& x) {
   return x < T(0) ? T(-x) : x;
 }
 
-bool isHeld(const std::vector<char>& held, int contact) {
+bool isConstrained(const std::vector<char>& held, int contact) {
   return !held.empty() && held[static_cast<std::size_t>(contact)];
 }
 
@@ -130,7 +130,7 @@ Contacts spread(const Matrix<T>& A, const Vector<T>& b, const Vector<T>& y, cons
   const T scale = b.unaryExpr(&absOf<T>).maxCoeff(), least = T(1e-9) * scale;
   Contacts met;
   for (Index i = 0; i < b.size(); ++i)
-    if (y[i] > T(0) || isHeld(held, static_cast<int>(i)) || absOf<T>(w[i]) <= least) met.push_back(static_cast<int>(i));
+    if (y[i] > T(0) || isConstrained(held, static_cast<int>(i)) || absOf<T>(w[i]) <= least) met.push_back(static_cast<int>(i));
   if (met.empty() || met.size() == active.size()) return active;
   const LeastNormSolveOf<T> solve(A(met, met), b(met));
   const Vector<T> left = A(met, met) * solve.y + b(met);
@@ -138,7 +138,7 @@ Contacts spread(const Matrix<T>& A, const Vector<T>& b, const Vector<T>& y, cons
     const auto i = static_cast<Index>(c);
     // an impulse counts by the velocity that it gives its own contact
     if (absOf<T>(left[i]) > least) return active;
-    if (!isHeld(held, met[c]) && !(A(met[c], met[c]) * solve.y[i] > least)) return active;
+    if (!isConstrained(held, met[c]) && !(A(met[c], met[c]) * solve.y[i] > least)) return active;
   }
   return met;
 }
@@ -165,7 +165,7 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
     return T(1e-15) * largest + T(1e-13) * absOf<T>(b[i]) + T(Precision<T>::kRounding) * sum;
   };
   for (int i = 0; i < n; ++i)
-    if (isHeld(held, i)) list.push_back(i);
+    if (isConstrained(held, i)) list.push_back(i);
   if (!list.empty()) y(list) = LeastNormSolveOf<T>(A(list, list), b(list)).y;
   for (Index round = 0; round < 10 * n + 10; ++round) {
     const Vector<T> w = A * y + b;
@@ -184,10 +184,10 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
         int first = -1;
         for (std::size_t c = 0; c < list.size(); ++c) {
           const T rate = -against[static_cast<Index>(c)];
-          if (!isHeld(held, list[c]) && rate < T(-1e-12) * size && -y[list[c]] / rate < most)
+          if (!isConstrained(held, list[c]) && rate < T(-1e-12) * size && -y[list[c]] / rate < most)
             most = -y[list[c]] / rate, first = list[c];
         }
-        if (first < 0) throw NotComputable("a body is squeezed between others that nothing moves");
+        if (first < 0) throw NotComputable("a body is squeezed between fixed or kinematic ones");
         y(list) -= most * against;
         leaves(first);
         continue;
@@ -196,7 +196,7 @@ std::vector<int> activeContactsOf(const Matrix<T>& A, const Vector<T>& b, bool i
       int leave = -1;
       for (std::size_t c = 0; c < list.size(); ++c) {
         const T from = y[list[c]], to = solve.y[static_cast<Index>(c)];
-        if (!isHeld(held, list[c]) && to <= T(0) && from > to && from / (from - to) < step)
+        if (!isConstrained(held, list[c]) && to <= T(0) && from > to && from / (from - to) < step)
           step = from / (from - to), leave = list[c];
       }
       y(list) += step * (solve.y - y(list));
@@ -211,14 +211,14 @@ template <class T>
 std::vector<int> pushingContactsOf(const Matrix<T>& A, const Vector<T>& b, Vector<T> y, const std::vector<char>& held) {
   Contacts list;
   for (int i = 0; i < static_cast<int>(y.size()); ++i)
-    if (y[i] > T(0) || isHeld(held, i)) list.push_back(i);
+    if (y[i] > T(0) || isConstrained(held, i)) list.push_back(i);
   while (!list.empty()) {  // on the way to the impulses of least norm the velocities stay
     const LeastNormSolveOf<T> solve(A(list, list), b(list));
     T step = T(1);
     int leave = -1;
     for (std::size_t c = 0; c < list.size(); ++c) {
       const T from = y[list[c]], to = solve.y[static_cast<Index>(c)];
-      if (!isHeld(held, list[c]) && to <= T(0) && from / (from - to) < step) step = from / (from - to), leave = list[c];
+      if (!isConstrained(held, list[c]) && to <= T(0) && from / (from - to) < step) step = from / (from - to), leave = list[c];
     }
     if (leave < 0) break;
     y(list) += step * (solve.y - y(list));
@@ -237,13 +237,13 @@ bool followsFrom(const Matrix<T>& A, const Contacts& contacts, int k) {
 }
 
 template bool followsFrom(const Matrix<double>&, const Contacts&, int);
-template bool followsFrom(const Matrix<Wide>&, const Contacts&, int);
+template bool followsFrom(const Matrix<DoubleDouble>&, const Contacts&, int);
 template std::vector<int> pushingContactsOf(const Matrix<double>&, const Vector<double>&, Vector<double>,
                                             const std::vector<char>&);
-template std::vector<int> pushingContactsOf(const Matrix<Wide>&, const Vector<Wide>&, Vector<Wide>,
+template std::vector<int> pushingContactsOf(const Matrix<DoubleDouble>&, const Vector<DoubleDouble>&, Vector<DoubleDouble>,
                                             const std::vector<char>&);
 template std::vector<int> activeContactsOf(const Matrix<double>&, const Vector<double>&, bool,
                                            const std::vector<char>&);
-template std::vector<int> activeContactsOf(const Matrix<Wide>&, const Vector<Wide>&, bool, const std::vector<char>&);
+template std::vector<int> activeContactsOf(const Matrix<DoubleDouble>&, const Vector<DoubleDouble>&, bool, const std::vector<char>&);
 
 }  // namespace carom::adjoint_detail

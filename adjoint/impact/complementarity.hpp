@@ -8,7 +8,7 @@ namespace carom::adjoint_detail {
 
 /// y = -A^+ b for symmetric positive semidefinite A with b in its range, and its derivatives at constant rank:
 /// dy = -A^+ (db + dA y) + (1 - A A^+) dA A^+ y. Throws NotComputable for numbers that are not finite; of no size it is
-/// empty. T is double or Wide. The rank is that of D A D, where D makes the diagonal alike: contacts of bodies
+/// empty. T is double or DoubleDouble. The rank is that of D A D, where D makes the diagonal alike: contacts of bodies
 /// of unlike masses are not taken for redundant.
 template <class T>
 struct LeastNormSolveOf {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "adjoint/impact/impact_pass.hpp"
 #include "adjoint/motion/motion.h"
 #include "adjoint/motion/pair_rules.hpp"
@@ -16,6 +19,14 @@ PairRules<S> inForce(PairRules<S> rules, const Event& event, const Contact& cont
   return rules;
 }
 
+/// Of a rim that lies flat, whose point follows from how the rim tilts: (gap, normal, point) by the state of the body that has it, and
+/// by all else. In doubles alone.
+struct RimPart {
+  std::size_t participant = 0;
+  std::function<Eigen::Matrix<double, 7, 1>(const StateDerivative&, const SceneTangent&, const BodyModelDerivative&)> tangent;
+  std::function<StateDerivative(const Eigen::Matrix<double, 7, 1>& bar, SceneGradient&, BodyModelDerivative&)> pullback;
+};
+
 /// A contact of an event, linearised.
 template <class S>
 struct ContactPart {
@@ -27,7 +38,9 @@ struct ContactPart {
   // d(gap, normal, point) by (x_a, theta_a, x_b, theta_b) and by the dimensions
   Eigen::Matrix<S, 7, 12> pose;
   Eigen::Matrix<S, 7, Eigen::Dynamic> size_a, size_b;
-  S gap = 0;  // of a contact that lasts from here on: 0, with the rates that it has
+  std::shared_ptr<const RimPart> rim;  // in place of what is above, but that its first row stays
+  bool closes = false;                 // its gap is 0 from here on
+  S gap = 0;  // of a contact that persists from here on: 0, with its rates
   bool tilted = false;
   Eigen::Matrix<S, 3, 7> tilt;  // d(impulse normal) by (normal, tilt a, tilt b)
   int material_a = -1, material_b = -1;

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <memory>
 
+#include "adjoint/flight/trajectory_linearization.hpp"
 #include "adjoint/impact/contact_part.hpp"
 #include "adjoint/motion/body_geometry.h"
 
 namespace carom::adjoint_detail {
-
-/// Of a path that is integrated: the row of its guard by the state at the end, and by all else.
-struct PathGuard {
-  StateDerivative by_state;
-  std::function<double(const SceneTangent&, const BodyModelDerivative&)> tangent;
-  std::function<void(double sigma, SceneGradient&, BodyModelDerivative&)> pullback;
-};
-
-/// What a path that is integrated does to the state with which it starts, of one participant, at the time of the event.
-struct PathStart {
-  std::size_t participant = 0;
-  std::function<StateDerivative(const StateDerivative&, const SceneTangent&, const BodyModelDerivative&)> tangent;
-  std::function<StateDerivative(const StateDerivative& bar, SceneGradient&, BodyModelDerivative&)> pullback;
-};
 
 /// What the guard of a transition is made of beyond its contacts' gaps, normals and points:
 ///   slip_ends: t . u at the first contact, t the direction of slip there, held: u is 0 at the root;

@@ -31,7 +31,7 @@ class EventPass {
         impact_(std::move(inputs)),
         parts_(std::move(parts)),
         guard_(std::move(guard)),
-        projection_(event, parts_, impact_.inputs()),
+        projection_(parts_, impact_.inputs()),
         rate_before_(std::move(rate_before)),
         rate_after_(std::move(rate_after)) {
     for (const Part& part : parts_) guard_rate_ += part.guard.dot(part.pose * poses(part, rate_before_));
@@ -90,7 +90,15 @@ class EventPass {
   const PathStart* start() const { return start_.get(); }
 
   /// Adjoint of (gap, normal, point) of a contact, to the participants or to the scene.
-  static void scatter(const Part& part, const Vec7& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar) {
+  void scatter(const Part& part, const Vec7& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar,
+               std::vector<ModelBar>& model_bar) const {
+    if constexpr (std::is_same_v<S, double>) {
+      if (part.rim) {
+        const auto body = static_cast<std::size_t>(event_.participants[part.rim->participant].body);
+        before_bar[part.rim->participant] += part.rim->pullback(bar, scene_bar, model_bar[body]);
+        return;
+      }
+    }
     Bend d{part.pose.transpose() * bar, {}, {}};
     if (part.size_a.cols() > 0) d.size_a = part.size_a.transpose() * bar;
     if (part.size_b.cols() > 0) d.size_b = part.size_b.transpose() * bar;
@@ -118,8 +126,8 @@ class EventPass {
   }
 
   /// The same of what the impact sees of contact k: (gap, normal of the impulse, point) and coefficients.
-  void contactPullback(std::size_t k, Vec7 bar, const PairCoefficientsOf<S>& pair_bar,
-                       std::vector<StateBar>& before_bar, SceneBar& scene_bar) const {
+  void contactPullback(std::size_t k, Vec7 bar, const PairCoefficientsOf<S>& pair_bar, std::vector<StateBar>& before_bar,
+                       SceneBar& scene_bar, std::vector<ModelBar>& model_bar) const {
     const Part& part = parts_[k];
     const Contact& c = event_.contacts[k];
     if (part.tilted) {
@@ -128,7 +136,7 @@ class EventPass {
       if (c.tilt_a >= 0) scene_bar.tilts[static_cast<std::size_t>(c.tilt_a)] += by.template segment<2>(3);
       if (c.tilt_b >= 0) scene_bar.tilts[static_cast<std::size_t>(c.tilt_b)] += by.template segment<2>(5);
     }
-    scatter(part, bar, before_bar, scene_bar);
+    scatter(part, bar, before_bar, scene_bar, model_bar);
     MaterialDerivativeOf<S> unused;
     const auto slot = [&](int m) -> MaterialDerivativeOf<S>& {
       return m < 0 ? unused : scene_bar.materials[static_cast<std::size_t>(m)];
@@ -153,19 +161,19 @@ class EventPass {
     };
     if (through && hasLaw()) {  // lambda- = C_s^T lambda+, u_bar += C_u^T lambda+
       ImpactBars<S> bars =
-          wide_ ? wideImpactPullback(impact_.inputs(), turned(1)) : impact_.pullback(P_, turned(1));
+          wide_ ? doubleDoubleImpactPullback(impact_.inputs(), turned(1)) : impact_.pullback(P_, turned(1));
       before_bar = std::move(bars.before);
       for (std::size_t i = 0; i < bars.model.size(); ++i)
         model_bar[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
       for (std::size_t k = 0; k < parts_.size(); ++k)
-        contactPullback(k, bars.contact[k], bars.pair[k], before_bar, scene_bar);
+        contactPullback(k, bars.contact[k], bars.pair[k], before_bar, scene_bar, model_bar);
     }
     if (through && !projection_.lasting().empty()) {
       const VectorOf<S> gap_bar = projection_.pullback(turned(0.5));
       for (std::size_t k = 0; k < projection_.lasting().size(); ++k) {
         Vec7 bar = Vec7::Zero();
         bar[0] = gap_bar[static_cast<Eigen::Index>(k)];
-        scatter(parts_[projection_.lasting()[k]], bar, before_bar, scene_bar);
+        scatter(parts_[projection_.lasting()[k]], bar, before_bar, scene_bar, model_bar);
       }
       if (bends_) closingPullback(after_bar, before_bar, scene_bar, model_bar);
     }
@@ -180,7 +188,7 @@ class EventPass {
       sigma += fixed_bar[i].dot(rate_after_[i]) - before_bar[i].dot(rate_before_[i]);
     }
     sigma /= guard_rate_;
-    for (const Part& part : parts_) scatter(part, Vec7(sigma * part.guard), before_bar, scene_bar);
+    for (const Part& part : parts_) scatter(part, Vec7(sigma * part.guard), before_bar, scene_bar, model_bar);
     guardPullback(sigma, before_bar, scene_bar, model_bar);
     return before_bar;
   }
@@ -251,7 +259,7 @@ class EventPass {
         before_bar[i] += bars.before[i];
         model_bar[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
       }
-      scatter(parts_[0], bars.contact[0], before_bar, scene_bar);
+      scatter(parts_[0], bars.contact[0], before_bar, scene_bar, model_bar);
     }
     if (guard_.border_body < 0) return;
     auto& border = scene_bar.bodies[static_cast<std::size_t>(guard_.border_body)];

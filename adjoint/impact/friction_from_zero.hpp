@@ -5,7 +5,7 @@
 
 namespace carom::adjoint_detail {
 
-/// How far an impact is from where it has no derivative by coefficients of friction that are 0.
+/// How far an impact is from where it has no derivative with respect to coefficients of friction that are 0.
 struct FromZero {
   /// A body that does not slip sticks with the least friction: |P_t|/P_n of the untruncated impulse, and of several contacts
   /// the slowest slip of those that push without friction, as a share of the fastest speed at them; 1 where there is none.

@@ -8,7 +8,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/impact/impact_pass.hpp"
 #include "adjoint/impact/single_laws.hpp"
-#include "adjoint/impact/wide_impact.hpp"
+#include "adjoint/impact/double_double_impact.hpp"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom::adjoint_detail {
@@ -76,7 +76,7 @@ std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, b
   ImpactInputs<Rate> both = along(inputs, dbefore, dcontact, dpair, dmodel);
   std::vector<Velocities<Rate>> after;
   if (wide) {
-    after = wideImpact(both).after;
+    after = doubleDoubleImpact(both).after;
   } else {
     const ImpactPass<Rate> pass(std::move(both));
     after = pass.after(pass.solve().P);
@@ -109,7 +109,7 @@ bool isFinite(const State& s) { return s.v.allFinite() && s.L.allFinite(); }
 void requireContacts(const Event& event) {
   for (const Contact& c : event.contacts)
     if (!(std::isfinite(c.at.gap) && c.at.point.allFinite() && c.impulse_normal.allFinite()))
-      throw NotComputable("its features give the contact no point or no normal");
+      throw NotComputable("its features define no contact point or no normal");
 }
 
 // How fast a contact parts, how fast it should at least, and the size of the speeds that this is made of.
@@ -151,30 +151,30 @@ void requireParting(const Event& event, const std::vector<BodyModel>& models, co
   }
   for (const Parting& c : all)
     if (!(c.after >= c.least - kParting * (c.size + kOfFastest * fastest)))
-      throw NotComputable("no digits are left of the velocities that part its contacts: masses, or moments of inertia, "
+      throw NotComputable("the velocities that separate its contacts are lost in rounding: masses, or moments of inertia, "
                           "differ too much");
 }
 
 // With 32 digits, where they find an answer.
-std::optional<ImpactOutcome<double>> wideOutcomeOf(const ImpactPass<double>& pass) {
+std::optional<ImpactOutcome<double>> doubleDoubleOutcomeOf(const ImpactPass<double>& pass) {
   try {
-    return wideImpact(pass.inputs());
+    return doubleDoubleImpact(pass.inputs());
   } catch (const NotComputable&) {
     return std::nullopt;
   }
 }
 
 ImpactOutcome<double> outcomeOf(const ImpactPass<double>& pass, bool& wide) {
-  if (wide) return wideImpact(pass.inputs());
+  if (wide) return doubleDoubleImpact(pass.inputs());
   std::optional<ImpactSolution> solution;
   try {
     solution = pass.solve();
   } catch (const NotComputable&) {  // many contacts, nearly redundant
     wide = true;
-    return wideImpact(pass.inputs());
+    return doubleDoubleImpact(pass.inputs());
   }
   if (solution->loses_digits) {
-    if (auto outcome = wideOutcomeOf(pass)) {
+    if (auto outcome = doubleDoubleOutcomeOf(pass)) {
       wide = true;
       return *std::move(outcome);
     }
@@ -194,7 +194,7 @@ Margins marginsOf(const Contact& c, const Vec3& u, double stick_slip) {
 }
 
 // What ImpactPass does, for one contact and in fixed sizes: nearly every impact of a simulation is one
-// (docs/decisions.md has the figures).
+// (docs/decisions.md, "Derivatives", has the figures).
 void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
   Contact& c = event.contacts[0];
   ContactProblem problem{Mat3::Zero(), Vec3::Zero(), c.impulse_normal, c.pair};
@@ -251,7 +251,7 @@ void solveByPass(Event& event, const std::vector<BodyModel>& models, std::vector
 void solveImpact(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
   after.clear();
   requireContacts(event);
-  event.wide = needsWide(event, models);
+  event.wide = needsDoubleDouble(event, models);
   if (event.contacts.size() == 1 && !event.wide && !event.contacts[0].kept) {
     solveSingle(event, models, after);
   } else {

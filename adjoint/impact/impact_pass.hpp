@@ -59,9 +59,9 @@ FromZero fromZero(const ImpactProblem& problem);
 /// much the velocity that a light body gets is the difference of the large impulses of heavy ones, which has no digits
 /// left once these are rounded; so nothing is rounded on the way.
 template <class S>
-ImpactOutcome<S> wideImpact(const ImpactInputs<S>& inputs);
+ImpactOutcome<S> doubleDoubleImpact(const ImpactInputs<S>& inputs);
 template <class S>
-ImpactBars<S> wideImpactPullback(const ImpactInputs<S>& inputs, const std::vector<StateDerivativeOf<S>>& after_bar);
+ImpactBars<S> doubleDoubleImpactPullback(const ImpactInputs<S>& inputs, const std::vector<StateDerivativeOf<S>>& after_bar);
 
 /// An impact from states to states with its adjoint, in one kind of number S:
 ///   u_k = sum s (v + omega x r),  K_kl = sum s_k s_l (1/m - [r_k]x A [r_l]x),  A = R D R^T,  omega = A L,

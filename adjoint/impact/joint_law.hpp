@@ -10,7 +10,7 @@
 #include "adjoint/contact/cone_program.hpp"
 #include "adjoint/contact/cone_rates.hpp"
 #include "adjoint/impact/directed_solve.hpp"
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 // Equation 4.4, contacts of one instant together, each with u_n <= 0 before:
 //   P_N: normal impulses, 0 <= P_N,k, u_n,k+ >= -e_k u_n,k, complementary; those of held contacts have either sign and
@@ -61,11 +61,11 @@ class Branch {
   Branch(const Problem& p, bool from_zero) {
     const int n = static_cast<int>(p.normal.size());
     for (int k = 0; k < n; ++k)
-      if (isHeld(p, k)) held.push_back(k);
+      if (isConstrained(p, k)) held.push_back(k);
     solveNormal(p, n);
     if (!parts(p) || pulls(p))
-      throw NotComputable(p.driven ? "no impulses part its contacts, one of which moves by itself"
-                                   : "the impulses that part all of its contacts are lost in rounding");
+      throw NotComputable(p.driven ? "no impulses separate its contacts, one of which is with a kinematic body"
+                                   : "the impulses that separate all of its contacts are lost in rounding");
     const bool rubs = std::any_of(normal_active.begin(), normal_active.end(),
                                   [&](int k) { return hasFriction(p, k) && !isPulled(p, k); });
     if (normal_active.empty() || !(rubs || from_zero)) return;
@@ -79,14 +79,14 @@ class Branch {
       leaveOutFriction();
       return;
     }
-    if (!p.driven) throw NotComputable("the impulses of friction that part all of its contacts are lost in rounding");
+    if (!p.driven) throw NotComputable("the friction impulses that separate all of its contacts are lost in rounding");
     leaveOutFriction();
   }
 
   VectorOf<S> P;
 
   template <class Problem>
-  static bool isHeld(const Problem& p, int k) {
+  static bool isConstrained(const Problem& p, int k) {
     return !p.held.empty() && p.held[static_cast<std::size_t>(k)];
   }
   static bool isIn(const Contacts& contacts, int k) { return std::binary_search(contacts.begin(), contacts.end(), k); }
@@ -95,7 +95,7 @@ class Branch {
   // it their friction, would grow at will against that pull.
   template <class Problem>
   bool isPulled(const Problem& p, int k) const {
-    return isHeld(p, k) && isIn(normal_active, k) && !(loadOf(k, p.normal[static_cast<std::size_t>(k)]) > S(0));
+    return isConstrained(p, k) && isIn(normal_active, k) && !(loadOf(k, p.normal[static_cast<std::size_t>(k)]) > S(0));
   }
   S loadOf(int k, const V3<S>& n) const { return n.dot(V3<S>(P_N.template segment<3>(3 * k))); }
   // The state of contact k in its cone; without friction it slides.
@@ -187,7 +187,7 @@ class Branch {
     VectorOf<S> s(static_cast<Index>(contacts.size()));
     for (std::size_t c = 0; c < contacts.size(); ++c)
       s[static_cast<Index>(c)] =
-          isHeld(p, contacts[c]) ? S(1) : S(1 + p.pair[static_cast<std::size_t>(contacts[c])].elasticity);
+          isConstrained(p, contacts[c]) ? S(1) : S(1 + p.pair[static_cast<std::size_t>(contacts[c])].elasticity);
     return s;
   }
   template <class Problem>
@@ -207,7 +207,7 @@ class Branch {
   template <class Problem>
   static S leastOf(const Problem& p, int k) {
     const auto kk = static_cast<std::size_t>(k);
-    if (isHeld(p, k)) return S(0);
+    if (isConstrained(p, k)) return S(0);
     return -p.pair[kk].elasticity * p.normal[kk].dot(V3<S>(p.u.template segment<3>(3 * k)));
   }
   template <class Problem>
@@ -313,7 +313,7 @@ class Branch {
     T most = T(0);
     for (Index c = 0; c < y.size(); ++c) most = std::max(most, valueOf(y[c]));
     for (std::size_t c = 0; c < normal_active.size(); ++c)
-      if (!isHeld(p, normal_active[c]) && valueOf(y[static_cast<Index>(c)]) < T(-1e-9) * most) return true;
+      if (!isConstrained(p, normal_active[c]) && valueOf(y[static_cast<Index>(c)]) < T(-1e-9) * most) return true;
     return false;
   }
   template <class Problem>

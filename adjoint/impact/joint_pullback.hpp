@@ -60,7 +60,7 @@ void jointPullback(const Problem& p, const VectorOf<S>& P_bar, Bar& bar) {
   for (std::size_t c = 0; c < branch.normal_active.size(); ++c) {
     const int k = branch.normal_active[c];
     bar.normal[static_cast<std::size_t>(k)] += N_bar.template block<3, 1>(3 * k, static_cast<Index>(c));
-    if (!Branch<S>::isHeld(p, k)) bar.pair[static_cast<std::size_t>(k)].elasticity += share_bar[static_cast<Index>(c)];
+    if (!Branch<S>::isConstrained(p, k)) bar.pair[static_cast<std::size_t>(k)].elasticity += share_bar[static_cast<Index>(c)];
   }
 }
 

@@ -10,7 +10,7 @@
 namespace carom::adjoint_detail {
 
 /// 4.1. Where the contact slips, friction that grows from 0 is 4.2 with a coefficient of 0: the same impulse, with its
-/// derivatives by friction.
+/// derivatives with respect to friction.
 struct FrictionlessLaw {
   template <class S>
   static ImpactSolutionOf<S> solve(const ImpactProblemOf<S>& p) {
@@ -55,7 +55,7 @@ struct JointLaw {  // 4.4
                                  : state == ConeState::inside ? ContactOutcome::sticks
                                                               : ContactOutcome::slides);
       const bool keeps = Branch<S>::isIn(b.normal_active, k) || Branch<S>::isIn(b.joined, k);
-      const bool plastic = p.pair[static_cast<std::size_t>(k)].elasticity == S(0) || Branch<S>::isHeld(p, k);
+      const bool plastic = p.pair[static_cast<std::size_t>(k)].elasticity == S(0) || Branch<S>::isConstrained(p, k);
       solution.closed.push_back(keeps && plastic);
     }
     closeRedundant(p, solution.closed);
@@ -92,20 +92,20 @@ auto withLaw(const ImpactProblemOf<S>& p, const Visit& visit) {
 
 /// One contact that is held: as though without elasticity, and without friction where it would pull.
 template <class S>
-ImpactProblemOf<S> asHeld(ImpactProblemOf<S> p) {
+ImpactProblemOf<S> asConstrained(ImpactProblemOf<S> p) {
   p.pair[0].elasticity = S(0);
   if (p.normal[0].dot(V3<S>(p.u)) > S(0)) p.pair[0].friction = S(0);
   p.held.clear();
   return p;
 }
 template <class S>
-bool isOneHeld(const ImpactProblemOf<S>& p) {
+bool isOnePersistent(const ImpactProblemOf<S>& p) {
   return p.contacts() == 1 && !p.held.empty() && p.held[0];
 }
 
 template <class S>
 ImpactSolutionOf<S> solveLaw(const ImpactProblemOf<S>& p) {
-  if (isOneHeld(p)) return solveLaw(asHeld(p));
+  if (isOnePersistent(p)) return solveLaw(asConstrained(p));
   auto solution = withLaw(p, [&](auto law) { return law.solve(p); });
   if (p.contacts() > 1) return solution;
   solution.outcome = {solution.mode == ImpactMode::stick ? ContactOutcome::sticks : ContactOutcome::slides};
@@ -114,8 +114,8 @@ ImpactSolutionOf<S> solveLaw(const ImpactProblemOf<S>& p) {
 }
 template <class S>
 ImpactProblemDerivativeOf<S> lawPullback(const ImpactProblemOf<S>& p, const VectorOf<S>& P_bar) {
-  if (isOneHeld(p)) {
-    const ImpactProblemOf<S> held = asHeld(p);
+  if (isOnePersistent(p)) {
+    const ImpactProblemOf<S> held = asConstrained(p);
     ImpactProblemDerivativeOf<S> bar = lawPullback(held, P_bar);
     bar.pair[0].elasticity = S(0);
     if (!(held.pair[0].friction > S(0))) bar.pair[0].friction = S(0);

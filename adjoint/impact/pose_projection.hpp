@@ -14,9 +14,9 @@ template <class S>
 class PoseProjection {
  public:
   PoseProjection() = default;
-  PoseProjection(const Event& event, const std::vector<ContactPart<S>>& parts, const ImpactInputs<S>& in) {
+  PoseProjection(const std::vector<ContactPart<S>>& parts, const ImpactInputs<S>& in) {
     for (std::size_t k = 0; k < parts.size(); ++k)
-      if (event.contacts[k].lasts) lasting_.push_back(k);
+      if (parts[k].closes) lasting_.push_back(k);
     if (lasting_.empty()) return;
     const auto n = static_cast<Eigen::Index>(lasting_.size()), poses = 6 * static_cast<Eigen::Index>(in.bodies.size());
     G_ = MatrixOf<S>::Zero(n, poses);
@@ -40,7 +40,7 @@ class PoseProjection {
     inverse_ = LeastNorm<S>(MatrixOf<S>(G_ * moved_), VectorOf<S>(VectorOf<S>::Zero(n))).inverse;
   }
 
-  /// Contacts of the event that last.
+  /// Contacts of the event whose gaps are closed.
   const std::vector<std::size_t>& lasting() const { return lasting_; }
 
   /// Moves the poses of the participants, where the gaps of `lasting()` have these tangents.

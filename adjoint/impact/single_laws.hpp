@@ -6,7 +6,8 @@
 #include "adjoint/base/types.h"
 #include "adjoint/impact/law.hpp"
 #include "adjoint/numeric/dual.hpp"
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/inverse_of_three.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 /// The laws of one contact and their adjoints, for any number: doubles, and duals for second derivatives. A `Problem`
 /// has the fields of ContactProblem, a `Bar` those of ImpactProblemDerivative.
@@ -27,8 +28,7 @@ class Solve3<Dual<N, T>> {
   using S = Dual<N, T>;
 
  public:
-  explicit Solve3(const M3<S>& K)
-      : inverse_(Eigen::LDLT<M3<T>>(valuesOf(K)).solve(M3<T>::Identity()).template cast<S>()) {
+  explicit Solve3(const M3<S>& K) : inverse_(inverseOfThree<T>(valuesOf(K)).template cast<S>()) {
     const M3<T> inverse = valuesOf(inverse_);
     for (std::size_t i = 0; i < N; ++i) setRates(inverse_, M3<T>(-inverse * ratesOf(K, i) * inverse), i);
   }

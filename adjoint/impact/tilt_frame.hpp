@@ -29,7 +29,7 @@ struct TiltFrame {
         t2(n.cross(t1)) {}
   V3<S> offset(const V2<S>& tilt) const { return tilt.x() * t1 + tilt.y() * t2; }
 
-  // d offset by n (3x3); its derivative by the tilt is (t1, t2).
+  // d offset by n (3x3); its derivative with respect to the tilt is (t1, t2).
   M3<S> offsetByNormal(const V2<S>& tilt) const {
     const V3<S> dalong = (2 * a - 2 * along * s) / length2;
     const M3<S> dt1 = -along * M3<S>::Identity() - s * dalong.transpose();

@@ -15,8 +15,8 @@ struct Nearest {
   /// overlap.
   FeaturePair features;
   Vec3 normal = Vec3::UnitZ();  ///< unit, from b to a
-  /// They are as near in other places, such as along an edge that is parallel to a face: the derivative by the features
-  /// is then one of several one-sided ones.
+  /// They are as near in other places, such as along an edge that is parallel to a face: the derivative of the features is then
+  /// one of several one-sided ones.
   bool several = false;
 
   bool apart() const { return features.kind >= 0; }

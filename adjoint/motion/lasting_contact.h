@@ -8,25 +8,24 @@
 
 namespace carom {
 
-/// A stretch of time in which a body rests, slides, rolls or pivots on one that stands still, all the time at the same
-/// features.
+/// An interval of persistent contact: a body rests, slides, rolls or pivots on a fixed one, at the same features
+/// throughout.
 struct LastingContact {
   int body = -1;                      ///< on a path in contact
   int with = -1;                      ///< what it is in contact with
   ArcKind kind = ArcKind::rest;       ///< what it does there
   std::vector<FeaturePair> features;  ///< where the two touch, as in the contacts of events
   double from = 0;                    ///< s
-  double to = 0;                      ///< s; Motion::end where it goes on
+  double to = 0;                      ///< s; Motion::end if it continues
 };
 
-/// All lasting contacts of a motion, in increasing order of when they begin; of a body on several others, one for each.
-/// A body that is hit and goes on in the same way, at the same features, does so in one stretch: the hit is among the
-/// events. What ends at the instant in which it begins is left out. Throws InputError for a motion whose events were
-/// not recorded.
+/// All persistent contacts of a motion, by increasing start time; for a body on several others, one each. A hit after
+/// which the body continues in the same way at the same features does not split its interval: the hit is among the
+/// events. Empty intervals are omitted. Throws InputError for a motion whose events were not recorded.
 std::vector<LastingContact> lastingContacts(const Motion& motion);
 
-/// How bodies go on after an event otherwise than before it, for people: "ball rolls", "die pivots", "die comes to rest"; empty where
-/// nothing changes, and where the motion could not go on. Throws InputError for an event that is not there.
+/// Changes of contact mode at an event, as text: "ball rolls", "die pivots", "die comes to rest"; empty if nothing
+/// changes, or if the motion ends there. Throws InputError for an invalid event.
 std::string describeChanges(const Motion& motion, int event);
 
 }  // namespace carom

@@ -15,13 +15,17 @@ using namespace adjoint_detail;
 
 const char* nameOf(EventKind kind) { return nameIn({"impact", "capture", "transition", "placed"}, kind); }
 
-const char* nameOf(TransitionCause cause) { return nameIn({"none", "slip_ends", "leaves", "tips", "lifts", "slips", "sticks"}, cause); }
 
 const char* nameOf(ImpactMode mode) { return nameIn({"frictionless", "stick", "slide", "joint"}, mode); }
 
 const char* nameOf(MotionStatus status) {
   return nameIn({"complete", "impact_limit", "cascade", "unresolved_impact", "unresolved_contact", "not_computable", "step_limit", "stopped"},
                 status);
+}
+
+std::shared_ptr<const BodyModel> Motion::modelOf(int body) const {
+  const std::size_t b = checkedIndex("Motion::modelOf", "body", body, models->size());
+  return {models, &(*models)[b]};
 }
 
 const Participant* Event::find(int body) const {

@@ -13,8 +13,8 @@ struct Rule {
   S value, by_a, by_b;
 };
 
-// The pair's coefficient and its derivatives by the two materials'. On a tie of minimum or maximum both materials hold
-// the value; the first one, by the order of the bodies, is taken to carry it half and half.
+// The pair's coefficient and its derivatives with respect to those of the two materials. On a tie of minimum or maximum each material
+// has half of the derivative.
 template <class S>
 Rule<S> combined(Combine rule, const S& a, const S& b) {
   if (rule == Combine::average) return {0.5 * (a + b), 0.5, 0.5};

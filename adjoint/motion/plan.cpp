@@ -51,8 +51,8 @@ BodyPlan planBody(const Body& body, const Asked& asked) {
   const InertiaChange change = asked.inertia ? inertiaChange(body, model) : InertiaChange{};
   const bool uniform_ball = std::holds_alternative<Sphere>(body.shape) && axis == -1 && model.center.isZero(0);
   if (uniform_ball && change.keeps_symmetry && !asked.orientation)
-    return {Tier::none, Tier::none, false, "a uniform ball whose orientation is not asked for: nothing depends on it",
-            "a uniform ball whose orientation is not asked for: nothing depends on it"};
+    return {Tier::none, Tier::none, false, "a uniform ball whose orientation affects no requested result",
+            "a uniform ball whose orientation affects no requested result"};
   BodyPlan plan;
   plan.derivative_products = !change.keeps_axes;
   if (axis == -1) plan.tier = Tier::spherical, plan.why = "three equal moments: it spins about a fixed axis";
@@ -60,13 +60,13 @@ BodyPlan planBody(const Body& body, const Asked& asked) {
   if (axis == 3) plan.tier = Tier::triaxial, plan.why = "three different moments";
   plan.derivative_tier = change.keeps_symmetry ? plan.tier : Tier::triaxial;
   if (!change.keeps_axes) {
-    plan.derivative_why = "its sizes turn its principal axes";
+    plan.derivative_why = "its sizes rotate its principal axes";
   } else if (axis == 3) {
     plan.derivative_why = plan.why;
   } else if (change.keeps_symmetry) {
-    plan.derivative_why = "nothing asked for breaks the symmetry of its moments";
+    plan.derivative_why = "no requested derivative breaks the symmetry of its moments";
   } else {
-    plan.derivative_why = "its moments vary one by one, which breaks their symmetry";
+    plan.derivative_why = "its moments vary individually, which breaks their symmetry";
   }
   return plan;
 }

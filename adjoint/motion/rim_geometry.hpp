@@ -25,6 +25,8 @@ class RimGeometry {
   virtual ~RimGeometry() = default;
   /// Of a rim on a face, or of a mark, which stands for a rim that lies flat; none for other features.
   virtual std::optional<RimOnFace> rimOnFace(int a, int b, const FeaturePair& f) const = 0;
+  /// The number of the rim, or of the rim of the mark, that the first body of the pair, or the second, has in these features.
+  virtual std::optional<int> rimOfBody(int a, int b, const FeaturePair& f, bool of_first) const = 0;
 };
 
 }  // namespace carom::adjoint_detail

@@ -27,13 +27,13 @@ void refuseOverlap(const Scene& scene, const StartOverlap& overlap) {
 }
 
 std::string describeOverlapAtStart(const Scene& scene, const StartOverlap& overlap) {
-  return bodiesAndDepth(scene, overlap, "overlap") + ": they do not collide until they have parted";
+  return bodiesAndDepth(scene, overlap, "overlap") + ": they do not collide until they have separated";
 }
 
 std::string describeOverlap(const Scene& scene, const StartOverlap& overlap) {
   return bodiesAndDepth(scene, overlap, "overlap") +
-         (overlap.parted ? textOf(6, " and part at t = ", *overlap.parted, " s: until then they do not collide")
-                         : " and do not part: they do not collide");
+         (overlap.parted ? textOf(6, " and separate at t = ", *overlap.parted, " s: until then they do not collide")
+                         : " and do not separate: they do not collide");
 }
 
 }  // namespace carom

@@ -17,7 +17,7 @@ namespace carom::adjoint_detail {
 
 /// A number with its rates along N directions. Arithmetic carries the rates along exactly; comparisons see the value
 /// alone, so that a computation with duals takes the branches that the same computation with doubles takes. T is what
-/// values and rates are: double, Wide, or a Dual, for second derivatives.
+/// values and rates are: double, DoubleDouble, or a Dual, for second derivatives.
 template <int N, class T = double>
 struct Dual {
   static constexpr bool kPlainProducts = true;

@@ -21,5 +21,16 @@ template <class A, class B>
   requires WithPlainProducts<typename A::Scalar>
 struct generic_product_impl<A, B, DenseShape, DenseShape, GemvProduct>
     : generic_product_impl<A, B, DenseShape, DenseShape, CoeffBasedProductMode> {};
+template <int Mode, bool LhsIsTriangular, class A, class B>
+  requires WithPlainProducts<typename A::Scalar>
+struct triangular_product_impl<Mode, LhsIsTriangular, A, false, B, false> {
+  template <class Sum>
+  static void run(Sum& sum, const A& a, const B& b, const typename A::Scalar& factor) {
+    using Whole = Matrix<typename A::Scalar, Dynamic, Dynamic>;
+    Whole left = a, right = b;
+    (LhsIsTriangular ? left : right) = Whole((LhsIsTriangular ? left : right).template triangularView<Mode>());
+    sum += factor * (left * right);
+  }
+};
 
 }  // namespace Eigen::internal

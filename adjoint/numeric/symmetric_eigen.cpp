@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -15,6 +15,6 @@ SymmetricEigen<T>::SymmetricEigen(const MatrixOf<T>& A) {
 }
 
 template struct SymmetricEigen<double>;
-template struct SymmetricEigen<Wide>;
+template struct SymmetricEigen<DoubleDouble>;
 
 }  // namespace carom::adjoint_detail

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/numeric/two_part.hpp"
 
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
-using Exact = Eigen::Matrix<Wide, 3, 1>;
+using Exact = Eigen::Matrix<DoubleDouble, 3, 1>;
 
 // Without error.
-Exact difference(const Vec3& a, const Vec3& o) { return a.cast<Wide>() - o.cast<Wide>(); }
+Exact difference(const Vec3& a, const Vec3& o) { return a.cast<DoubleDouble>() - o.cast<DoubleDouble>(); }
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 
 namespace carom {
 
-/// State of a moving body inside the integrator: `q` turns principal axes into world axes (R_WB), `L` is the world
+/// State of a moving body inside the integrator: `q` rotates principal axes to world axes (R_WB), `L` is the world
 /// angular momentum, constant in free flight.
 struct State {
   Vec3 x = Vec3::Zero();      ///< m, centre of mass
@@ -14,8 +14,9 @@ struct State {
   Vec3 L = Vec3::Zero();      ///< kg m^2/s, about the centre of mass, world axes
 };
 
-/// Whether a number, or each of several, is 0; numbers that carry rates have an isZero of their own.
+/// Whether a number, or each of several, is 0; dual numbers have an isZero of their own.
 inline bool isZero(double x) { return x == 0; }
+/// The same of three.
 template <class S>
 bool isZero(const Eigen::Matrix<S, 3, 1>& v) {
   return isZero(v[0]) && isZero(v[1]) && isZero(v[2]);
@@ -44,17 +45,17 @@ struct StateDerivativeOf {
   /// Exactly.
   bool isZero() const { return carom::isZero(x) && carom::isZero(theta) && carom::isZero(v) && carom::isZero(L); }
 };
-using StateDerivative = StateDerivativeOf<double>;
+using StateDerivative = StateDerivativeOf<double>;  ///< in doubles
 
-/// Mass properties in force (whatever way they were written), in principal axes. A kinematic body moves as a free body
-/// does that has three equal moments and no weight: its inertia is the unit tensor, so that L is its angular velocity,
-/// and impacts see neither mass nor inertia of it.
+/// Mass properties in force (however they were specified), in principal axes. A kinematic body moves like a free body
+/// with three equal moments and without gravity: its inertia is the unit tensor, so that L is its angular velocity,
+/// and impacts use neither its mass nor its inertia.
 struct BodyModel {
   bool moving = false;        ///< not fixed
-  bool kinematic = false;     ///< moves whatever strikes it
+  bool kinematic = false;     ///< moves unaffected by impacts
   double gravity_factor = 1;  ///< 0 for a kinematic body
   double mass = 0;                       ///< kg
-  double inverse_mass = 0;               ///< 1/kg; 0 for a body that impacts do not move
+  double inverse_mass = 0;               ///< 1/kg; 0 for fixed and kinematic bodies
   Vec3 inertia = Vec3::Zero();           ///< kg m^2, principal moments about the centre of mass
   Vec3 inverse_inertia = Vec3::Zero();   ///< their inverses
   Vec3 center = Vec3::Zero();    ///< centre of mass in shape axes, p_GB; 0 for a fixed body
@@ -65,12 +66,12 @@ struct BodyModel {
   Mat3 shapeToWorld(const Mat3& R_WB) const { return has_offset ? Mat3(R_WB * R_BG) : R_WB; }
   /// World inverse inertia R diag(1/I) R^T for R = R_WB.
   Mat3 inverseInertiaWorld(const Mat3& R_WB) const { return R_WB * inverse_inertia.asDiagonal() * R_WB.transpose(); }
-  /// The same as impacts see it: zero for a body that they do not move.
+  /// The same for the impact law: zero for fixed and kinematic bodies.
   Mat3 mobilityWorld(const Mat3& R_WB) const { return kinematic ? Mat3::Zero().eval() : inverseInertiaWorld(R_WB); }
 };
 
-/// Tangent or adjoint of the parameters of a BodyModel that vary. The change of the inertia tensor in the principal
-/// axes, which stay where they are in the shape, is diag(inertia) plus `products` off the diagonal: (yz, xz, xy).
+/// Tangent or adjoint of the parameters of a BodyModel. The change of the inertia tensor in the principal axes, which
+/// are held fixed in the shape, is diag(inertia) plus `products` off the diagonal: (yz, xz, xy).
 template <class S>
 struct BodyModelDerivativeOf {
   using Vector = Eigen::Matrix<S, 3, 1>;  ///< three numbers
@@ -103,16 +104,17 @@ struct BodyModelDerivativeOf {
     return isZero(mass) && isZero(inertia) && isZero(products) && isZero(center);
   }
 };
-using BodyModelDerivative = BodyModelDerivativeOf<double>;
+using BodyModelDerivative = BodyModelDerivativeOf<double>;  ///< in doubles
 
-/// Centre of mass of a moving body in shape axes, as written or else the shape's own. 0 for a fixed body. Of a kinematic body it is the point that its velocity is of.
+/// Centre of mass of a moving body in shape axes, as written or else the shape's own. 0 for a fixed body. For a
+/// kinematic body the point whose velocity is given.
 Vec3 centerOfMass(const Body& body);
-/// Its rates by the dimensions of the shape, 3 x dimensions.
+/// Its derivatives with respect to the dimensions of the shape, 3 x dimensions.
 Eigen::Matrix3Xd centerOfMassRates(const Body& body);
 
 /// Mass properties of a body in force.
 BodyModel modelOf(const Body& body);
-/// `model` is modelOf(body): its principal axes, in which dJ is given, stay where they are.
+/// `model` is modelOf(body): its principal axes, in which dJ is given, are held fixed.
 BodyModelDerivative modelTangent(const Body& body, const BodyModel& model, const BodyDerivative& dbody);
 /// The adjoint of modelTangent; adds to that of the body.
 void modelPullback(const Body& body, const BodyModel& model, const BodyModelDerivative& model_bar,

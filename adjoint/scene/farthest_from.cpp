@@ -65,7 +65,7 @@ FarthestFrom farthestFrom(const Box& s, const Vec3& q) {
 }
 
 FarthestFrom farthestFrom(const Plane&, const Vec3&) {
-  throw InputError("found the farthest point of a plane asked for, expected a shape that ends");
+  throw InputError("found a plane, which has no farthest point, expected a bounded shape");
 }
 
 FarthestFrom farthestFrom(const Capsule& s, const Vec3& q) {
@@ -97,7 +97,7 @@ FarthestFrom farthestFrom(const Cone& s, const Vec3& q) {
 
 FarthestFrom farthestVertex(const Surface* surface, double scale, const Vec3& q) {
   if (!surface || surface->vertices.empty())
-    throw InputError("found the farthest point of a shape without surface asked for, expected one with vertices");
+    throw InputError("found a shape without surface, which has no farthest point, expected one with vertices");
   const Vec3* farthest = &surface->vertices.front();
   double most = -1, second = -1;
   for (const Vec3& v : surface->vertices) {

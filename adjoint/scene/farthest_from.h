@@ -5,9 +5,9 @@
 
 namespace carom {
 
-/// How far a point q lies from the farthest point of a shape, and where that is, in the axes of the shape. With s the
-/// reach of the corner, ball or rim that is the farthest, the distance is the most that s(n) - n.q comes to over all unit
-/// vectors n. The farthest point lies along the best n, so that
+/// Distance of a point q from the farthest point of a shape, and that point, in the axes of the shape. With s the
+/// support function of the farthest corner, ball or rim, the distance is the maximum of s(n) - n.q over all unit
+/// vectors n, so that
 ///   d distance = -n.dq + ds/dsize dsize.
 struct FarthestFrom {
   FarthestPoint farthest;           ///< at which the point lies; its margin is a difference of distances, m

@@ -4,7 +4,7 @@
 namespace carom {
 namespace {
 
-// The unit vector along v, and its derivative by v; where v is 0, some vector across `axis`, which stays.
+// The unit vector along v, and its derivative with respect to v; where v is 0, some vector across `axis`, which stays.
 Vec3 directionOf(const Vec3& v, const Vec3& axis) {
   const double length = v.norm();
   return length > 0 ? Vec3(v / length) : axis.unitOrthogonal();

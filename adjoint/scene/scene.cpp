@@ -21,6 +21,9 @@ Inertia Inertia::fromMoments(const Vec3& moments) {
 
 Inertia Inertia::fromMatrix(const Mat3& matrix) {
   checkEntries("Inertia::fromMatrix", "an entry of", matrix);
+  constexpr double kSymmetryRounding = 1e-12;
+  if (!((matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= kSymmetryRounding * matrix.cwiseAbs().maxCoeff()))
+    throw InputError("Inertia::fromMatrix", "found a matrix that is not symmetric, expected a symmetric one");
   Inertia inertia;
   inertia.source = Source::matrix;
   if (matrix.isDiagonal(0)) {  // already principal: keep the order that was written

@@ -10,19 +10,19 @@
 
 namespace carom {
 
-/// How the coefficients of two materials become the pair's. Where two materials name different rules, the
-/// earlier one of average, minimum, maximum, multiply holds (as in glTF's KHR_physics_rigid_bodies).
+/// How the coefficients of two materials combine. If two materials name different rules, the earlier one of average,
+/// minimum, maximum, multiply applies (as in glTF's KHR_physics_rigid_bodies).
 enum class Combine { average, minimum, maximum, multiply };
 
-/// What a surface is made of.
+/// Contact coefficients of a surface.
 struct Material {
-  std::string name;                    ///< by which bodies name it
+  std::string name;                    ///< to which bodies refer
   double elasticity = 0.5;             ///< coefficient of restitution e, in [0, 1]
   double friction = 0.5;               ///< Coulomb coefficient, >= 0; 0 is frictionless
-  double tangential_elasticity = 0.0;  ///< e_t, in [-1, 1]; always combined by average
+  double tangential_elasticity = 0.0;  ///< coefficient of tangential restitution e_t, in [-1, 1]; always averaged
   Combine combine_elasticity = Combine::average;  ///< rule for e
-  Combine combine_friction = Combine::average;    ///< rule for the friction
-  std::string notes = {};  ///< for people; kept in documents
+  Combine combine_friction = Combine::average;    ///< rule for the friction coefficient
+  std::string notes = {};  ///< for readers; kept in documents
   bool operator==(const Material&) const = default;  ///< field by field
 };
 
@@ -38,62 +38,62 @@ struct Inertia {
 
   /// Three principal moments about the axes of the shape, kg m^2.
   static Inertia fromMoments(const Vec3& moments);
-  /// Eigen-decomposition of a symmetric matrix; axes that already are principal keep their order. Throws InputError for
-  /// entries that are not finite.
+  /// Eigendecomposition of a symmetric matrix; a diagonal matrix keeps its order. Throws InputError for entries that
+  /// are not finite, and where two that mirror each other differ by more than 1e-12 of the largest.
   static Inertia fromMatrix(const Mat3& matrix);
-  /// The tensor in the axes of the shape, kg m^2; 0 where it is derived.
+  /// The tensor in the axes of the shape, kg m^2; 0 if derived.
   Mat3 matrix() const;
 };
 
-/// With whom a body may collide, by the names of systems that bodies belong to (as in glTF's KHR_physics_rigid_bodies).
+/// Which bodies a body may collide with, by the names of collision systems (as in glTF's KHR_physics_rigid_bodies).
 struct CollisionFilter {
   std::vector<std::string> systems;           ///< that it belongs to
   std::vector<std::string> collide_with;      ///< unless empty: only with bodies that belong to one of these
   std::vector<std::string> not_collide_with;  ///< never with bodies that belong to one of these
 
-  /// Says nothing: the body collides with all.
+  /// No restriction: the body collides with all.
   bool empty() const { return systems.empty() && collide_with.empty() && not_collide_with.empty(); }
   bool operator==(const CollisionFilter&) const = default;  ///< the same names in the same order
 };
 
-/// One body as written. For bodies that move freely exactly one of `mass` and `density` is given.
+/// One body as specified. For dynamic bodies exactly one of `mass` and `density` is given.
 struct Body {
   std::string name;    ///< unique in a scene
   bool fixed = false;  ///< never moves
-  /// Moves at its constant velocity and constant angular velocity, whatever strikes it. Not together with `fixed`.
+  /// Moves at constant velocity and angular velocity, unaffected by impacts. Excludes `fixed`.
   bool kinematic = false;
-  double gravity_factor = 1;  ///< share of the scene's gravity that acts on it; nothing acts on what nothing moves
-  CollisionFilter collision_filter;  ///< with whom it may collide
+  double gravity_factor = 1;  ///< factor on the scene's gravity; ignored for fixed and kinematic bodies
+  CollisionFilter collision_filter;  ///< which bodies it may collide with
   std::string material;  ///< name of a material; empty means a default Material
-  Shape shape = Sphere{};                ///< of its surface, and of its mass where that is derived
+  Shape shape = Sphere{};                ///< for collisions, and for mass properties that are derived
   std::optional<double> mass;            ///< kg
   std::optional<double> density;         ///< kg/m^3
   Inertia inertia;                       ///< about the centre of mass
-  std::optional<Vec3> center_of_mass;    ///< in the shape's axes, m; without it the shape's own, of uniform density
+  std::optional<Vec3> center_of_mass;    ///< in the shape's axes, m; default: that of the shape at uniform density
   Vec3 position = Vec3::Zero();          ///< m, world, of the shape's origin
   Quat orientation = Quat::Identity();   ///< shape to world, unit
   Vec3 velocity = Vec3::Zero();          ///< m/s, world, of the centre of mass
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s, world axes
-  std::string notes = {};                ///< for people; kept in documents
+  std::string notes = {};                ///< for readers; kept in documents
 
-  /// No impact moves it: its mass and its inertia have no part in the motion.
+  /// Fixed or kinematic: its mass and inertia are ignored.
   bool immovable() const { return fixed || kinematic; }
   bool operator==(const Body&) const = default;  ///< field by field, as written
 };
 
-/// Whether two bodies ever collide: at least one of them can be moved by impacts, and the filters of both let them.
+/// Whether two bodies may collide: at least one of them is dynamic, and the filters of both allow it.
 bool mayCollide(const Body& a, const Body& b);
 
-/// Tilt of the collision normal at one impact of one body (equation 4 of docs/equations.md): the impulse uses
-/// n' = (n + alpha t1 + beta t2)/|...|, n pointing out of the surface that was struck towards `body`.
+/// Tilt of the contact normal at one impact of one body (docs/equations.md, section 4): the impulse uses n' = (n +
+/// alpha t1 + beta t2)/|...|, n pointing from the struck surface towards `body`.
 struct Tilt {
-  std::string body;           ///< name of the one that is struck
+  std::string body;           ///< name of the body whose impact it is
   int impact = 1;             ///< n-th impact of that body, 1 = first
   Vec2 value = Vec2::Zero();  ///< (alpha, beta)
   bool operator==(const Tilt&) const = default;  ///< field by field
 };
 
-/// Everything that causes a motion: plain, constant data.
+/// All inputs of a simulation: plain data.
 struct Scene {
   Vec3 gravity{0, 0, -9.81};  ///< m/s^2
   std::vector<Material> materials;  ///< named by the bodies
@@ -101,22 +101,23 @@ struct Scene {
   std::vector<Tilt> tilts;          ///< of single impacts
 };
 
-/// Index of the named body; throws InputError that lists the names there are.
+/// Index of the named body; throws InputError that lists the existing names.
 int bodyIndex(const Scene& scene, const std::string& name);
-/// Index of the named material; throws InputError that lists the names there are.
+/// Index of the named material; throws InputError that lists the existing names.
 int materialIndex(const Scene& scene, const std::string& name);
-/// Index of the material of a body; -1 when it names none. Throws InputError for a body that is not there.
+/// Index of the material of a body; -1 when it names none. Throws InputError for an unknown body.
 int materialIndexOf(const Scene& scene, int body);
 /// The material of a body; a default Material when it names none.
 const Material& materialOf(const Scene& scene, const Body& body);
 
-/// Throws InputError, with the JSON pointer of the place, for the first thing that is not physically meaningful:
-/// non-finite numbers, non-positive sizes and masses, impossible moments, non-unit quaternions, names used twice or
-/// unknown, fixed-only shapes that move, fixed bodies that are kinematic. Bodies that overlap at the start are found by the ContactSource.
+/// Throws InputError, with a JSON pointer, for the first invalid input: non-finite numbers, non-positive sizes and
+/// masses, impossible moments, non-unit quaternions, duplicate or unknown names, fixed-only shapes that move, fixed
+/// bodies that are kinematic. Bodies that overlap at the start are found by the ContactSource.
 void validate(const Scene& scene);
 
-/// One set of numbers with the fields of a Scene. Read as a gradient each holds d(quantity)/d(field); read as a tangent
-/// each holds the rate at which the field varies. Orientation is a world rotation vector applied on the left.
+/// Derivatives with respect to the parameters of one body. As a gradient each field holds d(quantity)/d(parameter);
+/// as a tangent each holds the rate of change of the parameter. Orientation is a world rotation vector applied on the
+/// left.
 template <class S>
 struct BodyDerivativeOf {
   using Vector = Eigen::Matrix<S, 3, 1>;      ///< three numbers
@@ -136,11 +137,11 @@ struct MaterialDerivativeOf {
   S friction = 0;               ///< of mu
   S tangential_elasticity = 0;  ///< of e_t
 };
-/// All numbers of a scene, see BodyDerivativeOf.
+/// All scene parameters, see BodyDerivativeOf.
 template <class S>
 struct SceneDerivativeOf {
   SceneDerivativeOf() = default;  ///< of a scene without bodies
-  /// All zero, with as many entries as the scene has.
+  /// All zero, with the dimensions of the scene.
   explicit SceneDerivativeOf(const Scene& scene)
       : materials(scene.materials.size()),
         bodies(scene.bodies.size()),
@@ -156,7 +157,7 @@ struct SceneDerivativeOf {
   std::vector<BodyDerivativeOf<S>> bodies;                          ///< one a body
   std::vector<Eigen::Matrix<S, 2, 1>> tilts;                        ///< one a tilt
 
-  /// Sum of products of all fields, <gradient, tangent>. Throws InputError where the other is of another scene's size.
+  /// Sum of products of all fields, <gradient, tangent>. Throws InputError if the dimensions differ.
   S dot(const SceneDerivativeOf& other) const;
 };
 /// The sum in doubles.

@@ -57,7 +57,7 @@ struct Hull {
   bool operator==(const Hull&) const = default;  ///< the same surface in memory, and the same numbers
 };
 
-/// Surface of triangles, which may be concave; closed unless the body is fixed or has its mass and inertia written.
+/// Triangle mesh, which may be concave; closed unless the body is fixed or has mass and inertia given.
 struct Mesh {
   std::shared_ptr<const Surface> surface;  ///< at scale 1
   double scale = 1;                        ///< factor on all coordinates
@@ -66,16 +66,16 @@ struct Mesh {
 };
 
 struct CompoundPart;
-/// Several shapes that move as one. They may overlap: mass properties are the sums over the parts.
+/// Several shapes that move as one. They may overlap: mass properties are sums over the parts.
 struct Compound {
   std::vector<CompoundPart> parts;  ///< at least one
   bool operator==(const Compound&) const;  ///< the same parts in the same order
 };
 
-/// Any of them.
+/// Any shape.
 using Shape = std::variant<Sphere, Box, Plane, Capsule, Cylinder, Hull, Mesh, Compound, Cone>;
 
-/// One shape of a compound, and where it is.
+/// One shape of a compound and its pose.
 struct CompoundPart {
   Shape shape;                          ///< any but a plane
   Vec3 position = Vec3::Zero();         ///< of the part's origin in the compound's axes, m
@@ -84,7 +84,7 @@ struct CompoundPart {
 };
 inline bool Compound::operator==(const Compound& other) const { return parts == other.parts; }
 
-/// Rates of SolidPropertiesOf by one dimension of the shape.
+/// Derivatives of SolidPropertiesOf with respect to one dimension of the shape.
 template <class S>
 struct SolidRateOf {
   S volume = 0;                                                          ///< m^3
@@ -99,7 +99,7 @@ struct SolidPropertiesOf {
   Eigen::Matrix<S, 3, 1> center = Eigen::Matrix<S, 3, 1>::Zero();  ///< centre of mass, m
   /// About the centre of mass, per unit mass, symmetric, m^2.
   Eigen::Matrix<S, 3, 3> unit_inertia = Eigen::Matrix<S, 3, 3>::Zero();
-  std::vector<SolidRateOf<S>> rates;  ///< by dimension, in the order of ShapeKind::dimensions
+  std::vector<SolidRateOf<S>> rates;  ///< per dimension, in the order of ShapeKind::dimensions
 };
 using SolidRate = SolidRateOf<double>;              ///< in doubles
 using SolidProperties = SolidPropertiesOf<double>;  ///< in doubles
@@ -108,28 +108,28 @@ namespace validation {
 struct ShapeCheck;  // adjoint/scene/validation.hpp
 }
 
-/// One row of the table of shapes: what the rest of the program asks of a shape, whatever its kind. A row that leaves
-/// one of them out does not compile, nor does a table without a row for every alternative of Shape. What takes a vector
-/// throws InputError where it has not one number a dimension. Collision detection and documents have tables of their
-/// own, in ode_bridge/solids/ and formats/shapes/.
+/// One row of the table of shapes: the operations that every kind of shape provides. An incomplete row does not
+/// compile, nor does a table without a row for every alternative of Shape. Functions of a vector throw InputError
+/// unless it has one number per dimension. Collision detection and documents have tables of their own, in
+/// ode_bridge/solids/ and formats/shapes/.
 struct ShapeKind {
   const char* name;       ///< word in the scene document
   bool endless = false;   ///< a half space: it cannot move, nor be a part of a compound
-  bool of_parts = false;  ///< a compound: its centre of mass and principal axes follow no single dimension evenly
-  /// Throws InputError for members that no such shape can have.
+  bool of_parts = false;  ///< a compound: its centre of mass and principal axes are not proportional to a single dimension
+  /// Throws InputError for invalid members.
   Required<void(const Shape&, const validation::ShapeCheck&)> check;
   /// Words of the `size` control: "radius"; "x", "y", "z"; "scale"; of a part of a compound "0.radius".
   Required<std::vector<std::string>(const Shape&)> dimension_names;
-  Required<Eigen::VectorXd(const Shape&)> dimensions;  ///< one a name: metres, or a factor (scale)
+  Required<Eigen::VectorXd(const Shape&)> dimensions;  ///< one per name: metres, or a factor (scale)
   Required<void(Shape&, const Eigen::VectorXd&)> setDimensions;  ///< to these
   Required<bool(const Shape&)> solid;  ///< has a volume, so that mass properties can be derived
-  Required<SolidProperties(const Shape&)> properties;  ///< with their rates
-  /// Rate of every entry of `properties`, its rates included, as the dimensions change at the given rates.
+  Required<SolidProperties(const Shape&)> properties;  ///< with derivatives
+  /// Rate of every entry of `properties`, its derivatives included, for the given rates of the dimensions.
   Required<SolidProperties(const Shape&, const Eigen::VectorXd& dimension_rates)> propertiesRate;
   Required<double(const Shape&)> boundingRadius;  ///< about the shape's origin; infinite for a plane
-  /// Of a ball about the shape's origin that lies within the shape, m; 0 where none is known.
+  /// Radius of a ball about the shape's origin inside the shape, m; 0 if none is known.
   Required<double(const Shape&)> innerRadius;
-  /// Where it reaches farthest along a direction of its axes. Throws InputError for a plane, which has no such place.
+  /// Support point along a direction in its axes. Throws InputError for a plane, which has none.
   Required<FarthestPoint(const Shape&, const Vec3& direction)> farthest;
 };
 

@@ -6,7 +6,7 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/numeric/two_part.hpp"
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 #include "adjoint/scene/polygons.hpp"
 
 namespace carom {
@@ -51,7 +51,7 @@ struct Moments {
 };
 
 Moments momentsAbout(const Surface& s, const Vec3& o) {
-  Wide volumes, firsts[3];  // of many triangles plain sums would be some roundings off
+  DoubleDouble volumes, firsts[3];  // of many triangles plain sums would be some roundings off
   Mat3 second = Mat3::Zero();
   for (const Surface::Face& f : s.faces) {
     const Vec3& first = s.corner(f, 0);

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-/// Polygons that share corners: the boundary of a convex hull, or a mesh of triangles. Immutable once made; checked by
-/// the functions that make it.
+/// Polygons with shared vertices: the boundary of a convex hull, or a triangle mesh. Immutable; validated by the
+/// functions that construct it.
 struct Surface {
   /// A flat polygon: corners[first .. first + count), counter-clockwise seen from outside.
   struct Face {
@@ -18,12 +18,12 @@ struct Surface {
     int count = 0;                ///< of its corners
     Vec3 normal = Vec3::UnitZ();  ///< unit, outward
   };
-  /// An edge between two faces, or at the border of one (`right` is -1).
+  /// An edge between two faces, or on the boundary (`right` is -1).
   struct Edge {
     int from = 0;     ///< vertex; `left` runs along the edge from here
     int to = 0;       ///< vertex where it ends
     int left = -1;    ///< face
-    int right = -1;   ///< face on the other side; -1 at a border
+    int right = -1;   ///< face on the other side; -1 on the boundary
     double bend = 0;  ///< signed sine of the angle between the normals: > 0 convex, 0 flat, < 0 reflex
   };
 
@@ -44,19 +44,19 @@ struct Surface {
   }
 };
 
-/// Least length of a side of a mesh and of the extent of a hull, m: the fifth powers in the integrals and the squares
-/// of areas then stay far within the range of a double.
+/// Smallest allowed edge length of a mesh and dimension of a hull, m: the fifth powers in the integrals and the
+/// squares of areas then stay far within the range of a double.
 inline constexpr double kLeastLength = 1e-30;
 
-/// Mesh of triangles. Vertices at the same place are joined. Throws InputError naming the vertex, triangle or edge:
-/// nothing in it, numbers not finite or above 1e9, indices out of range, sides below kLeastLength, triangles without
-/// area, edges of more than two triangles or run through twice in one direction, a closed mesh inside out.
+/// Triangle mesh. Coincident vertices are merged. Throws InputError naming the vertex, triangle or edge: an empty
+/// mesh, numbers not finite or above 1e9, indices out of range, edges below kLeastLength, triangles without area,
+/// non-manifold or inconsistently oriented edges, a closed mesh inside out.
 std::shared_ptr<const Surface> meshSurface(const std::vector<Vec3>& vertices,
                                            const std::vector<std::array<int, 3>>& triangles);
 
-/// Surface from polygons whose corners are already shared and counter-clockwise; fills in normals, edges and integrals.
-/// The normal of a polygon without area is zero, which is for the caller to check. Throws InputError for polygons of
-/// fewer than three corners and vertices that are not there.
+/// Surface from polygons whose corners are already shared and counter-clockwise; fills in normals, edges and
+/// integrals. The normal of a polygon without area is zero, which the caller must check. Throws InputError for
+/// polygons of fewer than three corners and invalid vertex indices.
 Surface assembleSurface(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& polygons);
 
 }  // namespace carom

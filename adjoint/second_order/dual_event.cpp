@@ -2,7 +2,7 @@
 #include "adjoint/second_order/dual_event.hpp"
 
 #include "adjoint/impact/tilt_frame.hpp"
-#include "adjoint/impact/wide_impact.hpp"
+#include "adjoint/impact/double_double_impact.hpp"
 #include "adjoint/derivative/transition_guard.hpp"
 #include "adjoint/motion/guard.hpp"
 
@@ -82,7 +82,7 @@ class EventMaker {
     for (std::size_t k = 0; k < weights.size(); ++k) parts.push_back(partOf(event_.contacts[k], weights[k], inputs));
     EventGuard<Num> guard = guardOf(parts, inputs);
     return {event_,
-            usesWide(event_, *lanes_.motion().models),
+            usesDoubleDouble(event_, *lanes_.motion().models),
             std::move(inputs),
             std::move(parts),
             std::move(guard),
@@ -120,6 +120,7 @@ class EventMaker {
     part.material_a = materialIndexOf(*motion.scene, c.a);
     part.material_b = materialIndexOf(*motion.scene, c.b);
     part.rules = inForce(lanes_.rules(c.a, c.b), event_, c);
+    part.closes = c.lasts;
     const Pose A = poseBefore(motion, event_, c.a), B = poseBefore(motion, event_, c.b);
     const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, A, B);
     std::vector<PairTangent> along;

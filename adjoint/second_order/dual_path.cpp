@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/second_order/dual_path.hpp"
 
-#include "adjoint/derivative/arc_pass.hpp"
+#include "adjoint/contact/closed_path_linearization.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -11,7 +11,7 @@ const Arc& arcOf(const Lanes& lanes, int body, int k) {
 }
 
 PathInputs<Num> inputsOf(const Lanes& lanes, int body, int k) {
-  const ContactPath& path = *arcOf(lanes, body, k).path();
+  const ContactPath& path = *arcOf(lanes, body, k).closedForm();
   const DualState start = lanes.startOf(body, k);
   PathInputs<Num> in;
   in.x = start.x, in.v = start.v, in.L = start.L, in.R = start.R;
@@ -34,24 +34,24 @@ PathInputs<Num> inputsOf(const Lanes& lanes, int body, int k) {
 
 Num elapsedAt(const Lanes& lanes, int body, int k, const Num& t) {
   Num elapsed = t - lanes.startTime(body, k);
-  elapsed.value = arcOf(lanes, body, k).path()->elapsedAt(t.value);
+  elapsed.value = arcOf(lanes, body, k).closedForm()->elapsedAt(t.value);
   return elapsed;
 }
 
 }  // namespace
 
 StateBar pathRate(const Lanes& lanes, int body, int k, const Num& t) {
-  return pathRateAt<Num>(arcOf(lanes, body, k).path()->form, inputsOf(lanes, body, k), elapsedAt(lanes, body, k, t));
+  return pathRateAt<Num>(arcOf(lanes, body, k).closedForm()->variedForm(), inputsOf(lanes, body, k), elapsedAt(lanes, body, k, t));
 }
 
 StateBar pathPullback(const Lanes& lanes, int body, int k, const Num& t, const StateBar& end_bar, SceneBar& scene_bar,
                       ModelBar& model_bar) {
-  const ContactPath& path = *arcOf(lanes, body, k).path();
+  const ContactPath& path = *arcOf(lanes, body, k).closedForm();
   const PathInputs<Num> in = inputsOf(lanes, body, k);
   const bool orientation = !carom::isZero(end_bar.theta);
   PathInputsDerivative<Num> bar;
   const StateBar start_bar =
-      pullback(pathSensitivity<Num>(path.form, in, elapsedAt(lanes, body, k, t), orientation), end_bar, bar);
+      pullback(pathSensitivity<Num>(path.variedForm(), in, elapsedAt(lanes, body, k, t), orientation), end_bar, bar);
   pathInputsPullback<Num>(*lanes.motion().scene, path, in.normal, lanes.rules(path.body, path.face).friction, bar,
                           scene_bar, model_bar);
   return start_bar;

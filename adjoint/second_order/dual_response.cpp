@@ -306,7 +306,7 @@ BodyResponse respond(const Arc& arc, double elapsed, const ResponseWanted& wante
     M = M_end, R = R_end;
     if (!last && (++made == TriaxialRotation::kMostSegments || !(done + h > done)))
       throw NotComputable("the second derivative of a rotation takes more than " +
-                          std::to_string(TriaxialRotation::kMostSegments) + " series to follow");
+                          std::to_string(TriaxialRotation::kMostSegments) + " Taylor series");
     done = last ? elapsed : done + h;
   }
   return responseOf<K>(eta, wanted);

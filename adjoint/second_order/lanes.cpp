@@ -89,7 +89,7 @@ PairRules<Num> Lanes::rules(int a, int b) const {
 }
 
 StateBar Lanes::rate(int body, int k, const Num& t, const DualState& state) const {
-  if (arc(body, k).path()) return pathRate(*this, body, k, t);
+  if (arc(body, k).closedForm()) return pathRate(*this, body, k, t);
   StateBar F;
   const DualModel& m = model(body);
   if (!m.moving) return F;

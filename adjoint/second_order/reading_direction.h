@@ -5,11 +5,11 @@
 
 namespace carom {
 
-/// A direction in which the inputs of readings change: the scene, and the times of the seeds that are read at a given
-/// time (one number a seed, 0 for those at events; empty: all stay).
+/// A direction of change of the inputs of readings: the scene, and the times of seeds at fixed times (one number per
+/// seed, 0 for those at events; empty: constant).
 struct ReadingDirection {
-  SceneTangent scene;    ///< how the scene changes
-  Eigen::VectorXd time;  ///< how the times change, s
+  SceneTangent scene;    ///< rates of the scene parameters
+  Eigen::VectorXd time;  ///< rates of the times, s
 };
 
 }  // namespace carom

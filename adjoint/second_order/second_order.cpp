@@ -146,7 +146,7 @@ class DualPass {
     const auto b = static_cast<std::size_t>(body);
     StateBar d = bar;
     const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
-    if (arc.path()) {
+    if (arc.closedForm()) {
       d = pathPullback(lanes_, body, k, t, bar, bars_.scene, bars_.model[b]);
     } else if (const DualModel& model = lanes_.model(body); model.moving) {
       DualSensitivity S;
@@ -232,10 +232,11 @@ std::vector<DualSeed> dualSeeds(std::span<const StateSeed> seeds, const SeedRate
 }  // namespace
 
 bool hasSecondOrder(const Motion& motion) {
-  // What a spin makes of a block that slides is known to first order (11.26).
+  // What a spin makes of a block that slides is known to first order (11.28).
   const auto isFirstOrder = [](const Arc& arc) {
-    const ContactPath* path = arc.path();
-    return path && (path->integrated || (path->form == PathForm::glide_block && path->inputs.friction > 0));
+    if (arc.isFlight()) return false;
+    const ContactPath* path = arc.closedForm();
+    return !path || (path->form == PathForm::glide_block && path->inputs.friction > 0);
   };
   return std::ranges::none_of(motion.events, [](const Event& event) { return event.cause == TransitionCause::tips; }) &&
          std::ranges::none_of(motion.world_lines, [&](const WorldLine& line) { return std::ranges::any_of(line.arcs, isFirstOrder); });
@@ -248,7 +249,7 @@ SecondOrder secondOrder(DerivativeTape& tape, std::span<const StateSeed> seeds, 
   const Motion& motion = tape.motion();
   for (const StateSeed& seed : seeds) checkSeed("secondOrder", motion, seed);
   if (!hasSecondOrder(motion))
-    throw NotComputable("second derivatives are not known of a motion in which a body tips, slides without turning, or moves on corners, edges or faces");
+    throw NotComputable("second derivatives are not implemented for a motion in which a body tips, slides without rotating, or moves on corners, edges or faces");
   for (const ReadingDirection& d : directions) {
     checkDirection("secondOrder", *motion.scene, d.scene);
     if (d.time.size() > 0)

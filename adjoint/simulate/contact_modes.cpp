@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/held/held_start.hpp"
+#include "adjoint/base/errors.h"
+#include "adjoint/constrained/constrained_start.hpp"
+#include "adjoint/simulate/flat_disc.hpp"
 #include "adjoint/simulate/lasting_kinds.hpp"
-#include "adjoint/simulate/pressed_body.hpp"
+#include "adjoint/simulate/supported_body.hpp"
 #include "adjoint/simulate/support_polygon.hpp"
 
 namespace carom::adjoint_detail {
@@ -33,22 +35,22 @@ class Chooser {
   ContactChoice follow(PathForm form, const std::vector<const Contact*>& contacts) {
     body_.hold(contacts);
     for (const Contact* c : contacts) least_slip_ = std::max(least_slip_, leastSlip(body_.armOf(*c).norm()));
-    return stays(form, form == PathForm::rest ? 1 : body_.height());
+    return form == PathForm::rest ? rests() : stays(form, body_.height());
   }
 
   /// As forces within the cones of friction hold it; without friction where none are found.
   FreeAcceleration acceleration() const {
     if (body_.pressed().empty()) return body_.acceleration();
-    std::vector<HeldContact> candidates;
+    std::vector<PersistentContact> candidates;
     for (const Contact* c : closed_) candidates.push_back(body_.candidate(*c));
-    const HeldModes modes = chooseModes(body_.heldScene(closed_), candidates, state_, {}, no_slip_);
+    const ConstrainedModes modes = chooseModes(body_.constrainedScene(closed_), candidates, state_, {}, no_slip_);
     if (!modes.unresolved.empty()) return body_.acceleration();
     return {modes.acceleration, modes.spin_rate};
   }
 
   ContactChoice choose(const ModeHint& hint) {
     if (body_.pressed().empty()) return {};
-    if (isSlow(state_.v) && isSlow(body_.reach() * body_.spin()) && body_.canRest()) return stays(PathForm::rest, 1);
+    if (standsStill(state_.v, body_.spin())) return rests();
     ContactChoice closed_form;
     if (body_.isOneFace() && frictionPressesNoOther()) {
       if (body_.isBall()) {
@@ -67,10 +69,10 @@ class Chooser {
     return held(hint);
   }
 
-  ContactChoice heldAs(const std::vector<const Contact*>& contacts, const std::vector<HeldContact>& like) {
+  ContactChoice constrainedAs(const std::vector<const Contact*>& contacts, const std::vector<PersistentContact>& like) {
     body_.hold(contacts);
-    ContactChoice choice = onHeldPath();
-    std::vector<HeldContact> held;
+    ContactChoice choice = onConstrainedPath();
+    std::vector<PersistentContact> held;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       held.push_back(body_.candidate(*contacts[k]));
       held.back().mode = like[k].mode, held.back().begins = like[k].begins;
@@ -84,8 +86,13 @@ class Chooser {
  private:
   double leastSlip(double reach) const { return kNoSlip * std::sqrt(body_.gravity().norm() * reach); }
   bool isSlow(const Vec3& v) const { return v.norm() <= no_slip_; }
+  // What counts as no slip stops what can move by slipping alone: what rolls goes on, however slow.
+  bool standsStill(const Vec3& v, const Vec3& spin) const {
+    if (!isSlow(v) || !isSlow(body_.reach() * spin) || !body_.canRest()) return false;
+    return std::max(v.norm(), body_.reach() * spin.norm()) <= leastSlip(body_.reach()) || body_.isConstrainedFirmly();
+  }
 
-  ContactChoice onHeldPath() const {
+  ContactChoice onConstrainedPath() const {
     ContactChoice choice;
     choice.path = std::make_shared<ContactPath>();
     choice.path->form = PathForm::held;
@@ -93,20 +100,20 @@ class Chooser {
     choice.path->body = index_;
     choice.path->face = body_.otherOf(*body_.pressed().front());
     choice.contacts = body_.pressed();
-    choice.scene = body_.heldScene(body_.pressed());
+    choice.scene = body_.constrainedScene(body_.pressed());
     return choice;
   }
   void begin(ContactChoice& choice) const {
-    choice.start = heldStart(choice.scene, choice.modes.contacts, state_, 2, &choice.stopped);
+    choice.start = constrainedStart(choice.scene, choice.modes.contacts, state_, 2, &choice.stopped);
     choice.path->inputs.x = choice.start.x, choice.path->inputs.v = choice.start.v, choice.path->inputs.L = choice.start.L;
   }
 
   // Whether contacts that gravity does not press, as of a ball that spins beside a wall, are not pressed by friction.
   bool frictionPressesNoOther() const {
     if (body_.pressed().size() == closed_.size()) return true;
-    std::vector<HeldContact> candidates;
+    std::vector<PersistentContact> candidates;
     for (const Contact* c : closed_) candidates.push_back(body_.candidate(*c));
-    const HeldModes modes = chooseModes(body_.heldScene(closed_), candidates, state_, {}, no_slip_);
+    const ConstrainedModes modes = chooseModes(body_.constrainedScene(closed_), candidates, state_, {}, no_slip_);
     return modes.unresolved.empty() && std::ranges::all_of(modes.held, [&](std::size_t k) {
              return std::ranges::find(body_.pressed(), closed_[k]) != body_.pressed().end();
            });
@@ -114,26 +121,39 @@ class Chooser {
 
   // Any contacts, in the modes that forces allow.
   ContactChoice held(const ModeHint& hint) {
-    std::vector<HeldContact> candidates;
+    std::vector<PersistentContact> candidates;
     for (const Contact* c : closed_) candidates.push_back(body_.candidate(*c));
-    const HeldScene all = body_.heldScene(closed_);
-    HeldModes modes = chooseModes(all, candidates, state_, hint, no_slip_);
+    const ConstrainedScene all = body_.constrainedScene(closed_);
+    ConstrainedModes modes = chooseModes(all, candidates, state_, hint, no_slip_);
     if (!modes.unresolved.empty()) return beyond(modes.unresolved);
     if (modes.held.empty()) return {};
     std::vector<const Contact*> holding;
     for (const std::size_t k : modes.held) holding.push_back(closed_[k]);
     body_.hold(holding);
-    ContactChoice choice = onHeldPath();
+    ContactChoice choice = onConstrainedPath();
     choice.modes = std::move(modes);
     begin(choice);
-    return comesToRest(choice) ? stays(PathForm::rest, 1) : choice;
+    return comesToRest(choice) ? rests() : choice;
   }
 
   // Whether contacts that came to hold it leave the body no motion.
   bool comesToRest(const ContactChoice& choice) const {
     const State& start = choice.start;
     const Vec3 spin = choice.scene.model->inverseInertiaWorld(start.q.toRotationMatrix()) * start.L;
-    return isSlow(start.v) && isSlow(body_.reach() * spin) && body_.canRest();
+    return standsStill(start.v, spin);
+  }
+
+  // A ball, or what lies on its side, stays where it is, and would roll if anything were a little different.
+  ContactChoice rests() const {
+    PathForm varied = PathForm::rest;
+    const bool opposed = body_.isConstrainedFirmly();
+    if (!opposed && body_.isOneFace() && body_.pressed().front()->pair.friction > 0) {
+      if (body_.isBall() && body_.pressed().size() == 1) varied = PathForm::roll_ball;
+      if (body_.liesOnItsSide()) varied = PathForm::roll_axle;
+    }
+    ContactChoice choice = stays(PathForm::rest, varied == PathForm::rest ? 1 : body_.height(), varied);
+    choice.path->loose = !opposed && varied == PathForm::rest;
+    return choice;
   }
 
   ContactChoice ball() {
@@ -164,7 +184,10 @@ class Chooser {
     if (stands) return {};  // but cannot rest: it tips
     const Vec3 ahead = slipDirectionAt<double>(PathForm::glide_block, in, 0);
     const SupportPolygon support(body_.pressed(), in.normal);
-    if (!(support.roomAround(in.x + in.friction * in.reach * ahead) > kTips * body_.reach())) return {};
+    const Vec3 force = in.x + in.friction * in.reach * ahead;
+    double room = support.roomAround(force);
+    if (const auto disc = FlatDisc::of(motion_, body_.pressed())) room = std::max(room, disc->roomAround(force, in.normal));
+    if (!(room > kTips * body_.reach())) return {};
     return stays(PathForm::glide_block, in.reach);
   }
 
@@ -191,27 +214,15 @@ class Chooser {
     return choice;
   }
 
-  ContactChoice stays(PathForm form, double reach) const {
+  ContactChoice stays(PathForm form, double reach, PathForm when_varied = PathForm::rest) const {
     ContactChoice choice;
     choice.path = std::make_shared<ContactPath>();
     ContactPath& path = *choice.path;
-    path.form = form;
+    path.form = form, path.when_varied = when_varied;
     path.inputs = body_.inputs(reach);
-    if (form == PathForm::roll_ball || form == PathForm::roll_axle) {  // what is left of a slip is stopped at the contact
-      const double inertia = form == PathForm::roll_ball ? ballInertia(path.inputs)
-                                                         : path.inputs.axis.dot(path.inputs.J * path.inputs.axis);
-      const double k = inertia / (path.inputs.mass * reach * reach);
-      // below the centre of mass: at contacts beside it a spin about the normal is part of their slip
-      Vec3 spin = body_.spin();
-      if (form == PathForm::roll_axle) {
-        const Vec3 axis = state_.q * path.inputs.axis;
-        spin = axis.dot(spin) * axis;
-      }
-      path.inputs.v -= k / (1 + k) * alongFace(path.inputs.normal, Vec3(state_.v - reach * spin.cross(path.inputs.normal)));
-    }
     path.body = index_;
     path.face = body_.otherOf(*body_.pressed().front());
-    if (form != PathForm::rest) {
+    if (path.variedForm() != PathForm::rest) {
       const ContactJacobian J = body_.jacobianOf(*body_.pressed().front());
       path.reach_rates = -(body_.pressed().front()->a == index_ ? J.size_a : J.size_b).row(0);
     }
@@ -230,10 +241,20 @@ class Chooser {
   int index_;
   const State& state_;
   std::vector<const Contact*> closed_;
-  PressedBody body_;
+  SupportedBody body_;
   double no_slip_ = 0;
   double least_slip_ = 0;  // of what can glide: that ends by itself
 };
+
+// Of a scene that is replayed: what stood still may move there, and nothing is carried along.
+void requireStill(const Motion& motion, int body, const std::vector<const Contact*>& contacts) {
+  const std::vector<Body>& bodies = motion.scene->bodies;
+  for (const Contact* c : contacts) {
+    const auto with = static_cast<std::size_t>(c->a == body ? c->b : c->a);
+    if (!motion.world_lines[with].arcs.back().stays())
+      throw NotComputable("'" + bodies[with].name + "', on which '" + bodies[static_cast<std::size_t>(body)].name + "' lies, moves");
+  }
+}
 
 }  // namespace
 
@@ -244,6 +265,7 @@ FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State
 
 ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
                             const std::vector<const Contact*>& contacts, PathForm form) {
+  requireStill(motion, body, contacts);
   return Chooser(motion, body, state, {}).follow(form, contacts);
 }
 
@@ -265,9 +287,10 @@ ContactChoice tiltingPathOf(const Motion& motion, int body, const State& state, 
   return chooser.tilts(contacts, hint);
 }
 
-ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
-                         const std::vector<HeldContact>& like) {
-  return Chooser(motion, body, state, contacts).heldAs(contacts, like);
+ContactChoice constrainedPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
+                         const std::vector<PersistentContact>& like) {
+  requireStill(motion, body, contacts);
+  return Chooser(motion, body, state, contacts).constrainedAs(contacts, like);
 }
 
 }  // namespace carom::adjoint_detail

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "adjoint/contact/contact_path.hpp"
-#include "adjoint/held/held_modes.hpp"
+#include "adjoint/constrained/constrained_modes.hpp"
 #include "adjoint/simulate/contact_acceleration.hpp"
 
 namespace carom::adjoint_detail {
@@ -24,9 +24,9 @@ struct ContactChoice {
   State start;                           ///< of the path: what contact fixes of the state is exact
   std::vector<const Contact*> contacts;  ///< that last
   std::string beyond;                    ///< what the path would have to be, as the end of a sentence
-  HeldScene scene;                       ///< of a path that is held
-  HeldModes modes;                       ///< of that: one of each of `contacts`
-  std::vector<Vec3> stopped;             ///< N s: of each, see heldStart
+  ConstrainedScene scene;                       ///< of a path that is held
+  ConstrainedModes modes;                       ///< of that: one of each of `contacts`
+  std::vector<Vec3> stopped;             ///< N s: of each, see constrainedStart
 };
 
 /// The same where contacts keep the body from what they are with; `closed` are those with n.u = 0, and
@@ -50,7 +50,7 @@ ContactChoice tiltingPathOf(const Motion& motion, int body, const State& state, 
                             const std::vector<const Contact*>& contacts, const ModeHint& hint);
 
 /// The path on which contacts hold a body in the modes of `like`, one of each.
-ContactChoice heldPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
-                         const std::vector<HeldContact>& like);
+ContactChoice constrainedPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
+                         const std::vector<PersistentContact>& like);
 
 }  // namespace carom::adjoint_detail

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "adjoint/held/held_path.hpp"
+#include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/simulate/path_arc.hpp"
 
 namespace carom::adjoint_detail {
@@ -13,7 +13,7 @@ namespace carom::adjoint_detail {
 struct FollowedPath {
   std::vector<Contact> contacts;
   PathTransition transition;
-  const HeldPath* like = nullptr;  ///< of a path that contacts hold: that which it follows
+  const ConstrainedPath* like = nullptr;  ///< of a path that contacts hold: that which it follows
   bool ends = false;               ///< `like` is followed to its end
 
   /// When the contact that the event `was` begins with comes to the border that it came to, in seconds from the start of

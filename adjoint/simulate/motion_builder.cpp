@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "adjoint/base/arguments.hpp"
+#include "adjoint/flight/trajectory.hpp"
 #include "adjoint/impact/tilt.hpp"
 
 namespace carom::adjoint_detail {
@@ -20,14 +22,33 @@ MotionBuilder::MotionBuilder(const Scene& scene, double duration) {
   motion.world_lines.resize(scene.bodies.size());
 }
 
+void MotionBuilder::give(const std::map<int, std::shared_ptr<Trajectory>>& trajectories) {
+  for (const auto& [body, trajectory] : trajectories) {
+    const std::size_t b = checkedIndex("simulate", "body with a given trajectory", body, motion.scene->bodies.size());
+    if (!trajectory || !trajectory->isGiven() || !(*motion.models)[b].kinematic)
+      throw InputError("found a trajectory for '" + motion.scene->bodies[b].name + "', expected one that is given, of a kinematic body");
+    given_.insert_or_assign(body, trajectory);
+  }
+}
+
+void MotionBuilder::giveAs(const Motion& like) {
+  for (std::size_t b = 0; b < like.world_lines.size(); ++b)
+    if (const Arc& first = like.world_lines[b].arcs.front(); first.trajectory().isGiven())
+      given_.insert_or_assign(static_cast<int>(b), first.shared());
+}
+
 Arc MotionBuilder::flight(int body, double time, const State& state) const {
-  return {(*motion.models)[index(body)], motion.plan.bodies[index(body)].tier, motion.scene->gravity, time, state};
+  if (const auto given = given_.find(body); given != given_.end())
+    return {motion.modelOf(body), motion.plan.bodies[index(body)].tier, given->second, time, state};
+  return {motion.modelOf(body), motion.plan.bodies[index(body)].tier, motion.scene->gravity, time, state};
 }
 
 void MotionBuilder::start() {
-  for (std::size_t b = 0; b < motion.world_lines.size(); ++b)
-    motion.world_lines[b].arcs.push_back(
-        flight(static_cast<int>(b), 0, startState(motion.scene->bodies[b], (*motion.models)[b])));
+  for (std::size_t b = 0; b < motion.world_lines.size(); ++b) {
+    const int body = static_cast<int>(b);
+    const Arc arc = flight(body, 0, startState(motion.scene->bodies[b], (*motion.models)[b]));
+    motion.world_lines[b].arcs.push_back(given_.contains(body) ? flight(body, 0, arc.stateAt(0)) : arc);
+  }
 }
 
 void MotionBuilder::place(Contact& c, const Kinematics& a, const Kinematics& b) const {

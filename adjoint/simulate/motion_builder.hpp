@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "adjoint/base/errors.h"
@@ -19,7 +21,11 @@ class MotionBuilder {
 
   /// The first arc of every body.
   void start();
-  /// A flight of a body from a state on.
+  /// Kinematic bodies keep to these. Throws InputError for another body.
+  void give(const std::map<int, std::shared_ptr<Trajectory>>& trajectories);
+  /// The same as in another motion.
+  void giveAs(const Motion& like);
+  /// A flight of a body from a state on, or what it keeps to.
   Arc flight(int body, double time, const State& state) const;
 
   /// Fills in the contact at the features of `contact`, where its bodies are at `a` and `b`: geometry, the normal of the
@@ -42,6 +48,7 @@ class MotionBuilder {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   std::vector<const Material*> material_;  // a body each
+  std::map<int, std::shared_ptr<Trajectory>> given_;
 };
 
 }  // namespace carom::adjoint_detail

@@ -33,7 +33,7 @@ class PairScales {
   PairScale of(int a, int b, const Arc& arc_a, const Arc& arc_b, double t) const;
   /// Of the first contact of an event, on the arcs that it ends, s.
   double instantOf(const Motion& motion, const Event& event) const;
-  /// The largest radius of a body that impacts move, m; 0 without one.
+  /// The largest radius of a dynamic body, m; 0 without one.
   double largest() const { return largest_; }
   /// Of a body about its centre of mass, m; infinite for a plane.
   double radius(int body) const { return radius_[static_cast<std::size_t>(body)]; }

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "adjoint/held/held_path.hpp"
+#include "adjoint/contact/closed_path.hpp"
+#include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/impact/complementarity.hpp"
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/numeric/so3.hpp"
@@ -11,40 +12,34 @@
 
 namespace carom::adjoint_detail {
 
-PathArc makeHeldArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<HeldGuard> guards) {
+PathArc makeConstrainedArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<ConstrainedGuard> guards) {
   const int body = choice.path->body;
   choice.path->start = time;
-  auto path = std::make_unique<HeldPath>(choice.scene, choice.modes.contacts, choice.modes.redundant, std::move(guards),
+  auto path = std::make_shared<ConstrainedPath>(choice.scene, choice.modes.contacts, choice.modes.redundant, std::move(guards),
                                          choice.start, time, motion.duration, choice.stopped);
-  PathArc made{Arc((*motion.models)[asIndex(body)], motion.plan.bodies[asIndex(body)].tier, [&] {
-                     ContactPath own = *choice.path;
-                     own.integrated = OwnPath(std::move(path));
-                     return own;
-                   }(), time, choice.start),
-               {},
-               {}};
+  PathArc made{Arc(motion.modelOf(body), motion.plan.bodies[asIndex(body)].tier, std::move(path), time, choice.start), {}, {}};
   for (const Contact* c : choice.contacts) made.held.push_back(*c);
-  made.transition = heldTransition(made.arc, time);
+  made.transition = constrainedTransition(made.arc, time);
   return made;
 }
 
-PathTransition heldTransition(const Arc& arc, double start) {
-  const auto* path = static_cast<const HeldPath*>(arc.integrated());
-  if (!path->end()) return {};
-  const HeldPath::End& end = *path->end();
-  return {end.time - start, end.guard.cause, end.guard.contact, end.guard.limit};
+PathTransition constrainedTransition(const Arc& arc, double start) {
+  const TrajectoryEnd end = arc.trajectory().end();
+  if (end.cause == TransitionCause::none) return {};
+  return {end.time - start, end.cause, end.contact, end.limit};
 }
 
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time) {
   const int body = choice.path->body;
   if (choice.path->form == PathForm::held)
-    return makeHeldArc(motion, choice, time, guardsOf(choice.scene, choice.modes.contacts, choice.start));
+    return makeConstrainedArc(motion, choice, time, guardsOf(choice.scene, choice.modes.contacts, choice.start));
   const double left = motion.duration - time;
   choice.path->start = time;
   const PathTransition transition = firstTransition(motion, choice, left);
   choice.path->bounds =
       pathBounds(choice.path->form, choice.path->inputs, 0, std::min(transition.elapsed, left));
-  PathArc made{Arc((*motion.models)[asIndex(body)], motion.plan.bodies[asIndex(body)].tier, *choice.path, time, choice.start),
+  PathArc made{Arc(motion.modelOf(body), motion.plan.bodies[asIndex(body)].tier, std::make_shared<ClosedPath>(*choice.path),
+                   time, choice.start),
                {},
                transition};
   for (const Contact* c : choice.contacts) made.held.push_back(*c);

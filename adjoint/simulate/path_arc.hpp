@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "adjoint/held/held_guards.hpp"
+#include "adjoint/constrained/constrained_guards.hpp"
 #include "adjoint/simulate/path_transition.hpp"
 
 namespace carom::adjoint_detail {
@@ -14,9 +14,9 @@ struct PathArc {
 };
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time);
 /// The same of contacts that hold it, up to the first of these guards.
-PathArc makeHeldArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<HeldGuard> guards);
+PathArc makeConstrainedArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<ConstrainedGuard> guards);
 /// How an integrated path goes on, as far as that is known.
-PathTransition heldTransition(const Arc& arc, double start);
+PathTransition constrainedTransition(const Arc& arc, double start);
 
 /// The pose with all gaps 0, moved as little as possible as measured by the mass (11.13); the contacts follow.
 void closeGaps(const Motion& motion, int body, State& state, std::vector<Contact>& closed);

@@ -7,6 +7,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/motion/body_geometry.h"
 #include "adjoint/motion/guard.hpp"
+#include "adjoint/simulate/flat_disc.hpp"
 #include "adjoint/simulate/support_polygon.hpp"
 
 namespace carom::adjoint_detail {
@@ -154,13 +155,17 @@ class Search {
       }
       t = next;
     }
-    throw NotComputable("when a body in contact comes to the border of a round face was not found");
+    throw NotComputable("the time at which a contact reaches the boundary of a round face was not found");
   }
 
   // The point that the force of the face goes through is h mu ahead of the foot of the centre of mass, along the slip.
   void tip() {
-    const SupportPolygon support(choice_.contacts, path_.inputs.normal);
     const double ahead = path_.inputs.reach * path_.inputs.friction;
+    if (const auto disc = FlatDisc::of(motion_, choice_.contacts)) {
+      tipWhere([&](const Vec3& slip) { return disc->roomAround(choice_.start.x + ahead * slip, path_.inputs.normal); });
+      return;
+    }
+    const SupportPolygon support(choice_.contacts, path_.inputs.normal);
     for (const SupportPolygon::Side& side : support.sides()) {
       const Mat3 by = pointBy(*choice_.contacts[asIndex(side.from)]);
       const Vec3 follows = by.transpose() * side.inward;
@@ -177,9 +182,13 @@ class Search {
 
   // Over a side that goes with the body: where the slip turns towards it.
   void tipOver(const Vec3& inward, double room, double ahead) {
-    const auto left = [&](double t) {
-      return room + ahead * inward.dot(slipDirectionAt<double>(path_.form, path_.inputs, t));
-    };
+    tipWhere([&](const Vec3& slip) { return room + ahead * inward.dot(slip); });
+  }
+
+  // Where the room that is left by the direction of the slip comes to 0.
+  template <class Room>
+  void tipWhere(const Room& room) {
+    const auto left = [&](double t) { return room(slipDirectionAt<double>(path_.form, path_.inputs, t)); };
     const double end = std::min({found_.elapsed, path_.slip_end, kLongest});
     double low = 0, high = end;
     if (left(high) >= 0) return;

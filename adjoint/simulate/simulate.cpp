@@ -34,8 +34,8 @@ Motion simulate(const Scene& scene, ContactSource& contacts, double duration, co
   for (Attempts before;;) {
     Simulator simulator(scene, contacts, duration, options, before);
     Motion motion = simulator.run();
-    if (!simulator.metKnown()) return motion;
-    before.met.push_back(*simulator.metKnown());
+    if (!simulator.reuseInvalidatedBy()) return motion;
+    before.met.push_back(*simulator.reuseInvalidatedBy());
     before.steps = motion.steps;
   }
 }
@@ -65,11 +65,11 @@ void Simulator::runToEnd() {
 bool Simulator::follow() {
   if (steps_before_ > 0) work_.step(steps_before_);
   if (!start()) return false;
-  for (Prediction next; takeNext(next);) {
+  for (PredictedEvent next; takeNext(next);) {
     work_.step();
     if (motion_.event_count >= impact_limit_) {
       finish(MotionStatus::impact_limit, next.time,
-             "stopped after " + eventsSoFar() + ", the limit that was set");
+             "stopped after " + eventsSoFar() + ", the limit");
       return false;
     }
     if (next.isTaken()) {
@@ -77,14 +77,14 @@ bool Simulator::follow() {
       commit();
       continue;
     }
-    if (meetsKnown(next.a) || meetsKnown(next.b)) return false;
+    if (invalidatesReuse(next.a) || invalidatesReuse(next.b)) return false;
     if (next.isTransition()) {
       resolveTransition(next.a);
     } else {
       if (!isExplained(next)) return false;
       resolve(next);
     }
-    if (std::ranges::any_of(draft_.event.participants, [&](const Participant& p) { return meetsKnown(p.body); })) return false;
+    if (std::ranges::any_of(draft_.event.participants, [&](const Participant& p) { return invalidatesReuse(p.body); })) return false;
     if (draft_.event.kind != EventKind::transition && !separates()) return false;
     const bool last = accumulates();
     commit();
@@ -96,7 +96,7 @@ bool Simulator::follow() {
 // Contacts of one instant are solved together: those predicted for it, all features that touch in it, and those that
 // the solved impact itself brings about within it, on contacts that were not separating before; then it is solved
 // again.
-void Simulator::resolve(const Prediction& first) {
+void Simulator::resolve(const PredictedEvent& first) {
   // the arcs of the two bodies were written long ago: both are fetched at once
   for (int body : {first.a, first.b}) {
     const char* arc = reinterpret_cast<const char*>(&arcOf(body));
@@ -112,21 +112,21 @@ void Simulator::resolve(const Prediction& first) {
   } while (joinInstant());
 }
 
-// The predictions that share the instant and, directly or through others, a body that impacts move.
-void Simulator::contactsOfInstant(const Prediction& first) {
+// The predictions that share the instant and, directly or through others, a dynamic body.
+void Simulator::contactsOfInstant(const PredictedEvent& first) {
   const double limit = first.time + scaleOf(first.a, first.b, first.time).instant();
   same_.clear();
   queue_.visitUntil(limit, [&](int body) {
-    const Outlook& outlook = outlook_[index(body)];
-    if (outlook.first.a < 0) return;
-    if (holds(outlook.first) && outlook.first.explained()) same_.push_back(outlook.first);
-    for (const Prediction& p : outlook.of_instant)
+    const NextImpact& next_impact = next_impacts_[index(body)];
+    if (next_impact.first.a < 0) return;
+    if (holds(next_impact.first) && next_impact.first.explained()) same_.push_back(next_impact.first);
+    for (const PredictedEvent& p : next_impact.of_instant)
       if (p.time <= limit && holds(p) && p.explained()) same_.push_back(p);
   });
   std::sort(same_.begin(), same_.end());
   addTouching(first.time, first.a, first.b, first.features);
   bodies_ = {first.a, first.b};
-  const auto shares = [&](const Prediction& p) {
+  const auto shares = [&](const PredictedEvent& p) {
     return std::ranges::any_of(bodies_, [&](int b) { return (b == p.a || b == p.b) && isMoved(b); });
   };
   for (auto next = same_.begin(); (next = std::ranges::find_if(same_, shares)) != same_.end();) {
@@ -186,7 +186,7 @@ Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& fea
   if (!(std::isfinite(c.at.gap) && c.at.point.allFinite() && c.at.normal.allFinite()))
     giveUp("contact", a, b, time,
            NotComputable("its features (" + motion_.geometry->describe(a, b, features) +
-                         ") give it no point or no normal"));
+                         ") define no point or no normal"));
   c.pair = builder_.pairOf(a, b);
   return c;
 }
@@ -199,7 +199,7 @@ int Simulator::tiltOf(int body, int impact) const {
 // Participants, impulses and the arcs that follow.
 void Simulator::solveDraft() {
   Event& event = draft_.event;
-  if (any_lasted_) addHeld();
+  if (any_lasted_) addConstrained();
   dropDoubles();
   const std::size_t n = event.contacts.size();
   work_.step(n + n * n * n / 10);  // what many contacts at once cost
@@ -229,7 +229,7 @@ Pose Simulator::poseAt(int body, double time) {
 
 // Whether features meet at `time` where they are predicted to: the lowest point of a rim that lies nearly flat may be
 // elsewhere an instant later, and then it is another contact.
-bool Simulator::meetsThere(const Prediction& p, double time) {
+bool Simulator::meetsThere(const PredictedEvent& p, double time) {
   const Pose a = poseAt(p.a, p.time), b = poseAt(p.b, p.time);
   const Vec3 there = motion_.geometry->contact(p.a, p.b, p.features, a, b).point;
   const Vec3 here = makeContact(time, p.a, p.b, p.features).at.point;
@@ -241,8 +241,8 @@ bool Simulator::meetsThere(const Prediction& p, double time) {
 
 bool Simulator::joinInstant() {
   const Event& event = draft_.event;
-  const Prediction* soonest = nullptr;
-  for (const Prediction& p : found_)
+  const PredictedEvent* soonest = nullptr;
+  for (const PredictedEvent& p : found_)
     if (p.explained() && (!soonest || p < *soonest)) {
       const PairScale scale = scaleOf(p.a, p.b, p.time);
       if (!(p.time <= event.time + scale.instant()) || inDraft(p.a, p.b, p.features)) continue;
@@ -272,19 +272,19 @@ void Simulator::commit() {
   for (const Participant& p : event.participants)
     if (p.impact > 0) ++impacts_[index(p.body)];
   const double time = event.time;
-  const bool ask = motion_.has_events && enough_ && event.counts();
+  const bool ask = motion_.has_events && stop_when_ && event.counts();
   builder_.add(std::move(event), std::move(draft_.arcs));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {  // the participants
     const int body = bodies_[i];
     arc_[index(body)] = &motion_.world_lines[index(body)].arcs.back();
     if (isMoved(body)) ++version_[index(body)];
     in_draft_[index(body)] = -1;
-    if (any_lasted_) onward_[index(body)] = draft_.onward.empty() ? kInFlight : std::move(draft_.onward[i]);
-    enter(body, draft_.outlooks[i]);
+    if (any_lasted_) contact_states_[index(body)] = draft_.contact_state.empty() ? kInFlight : std::move(draft_.contact_state[i]);
+    enter(body, draft_.next_impacts[i]);
   }
-  if (!ask || !enough_(motion_)) return;
+  if (!ask || !stop_when_(motion_)) return;
   last_asked_for_ = std::max(time, least_duration_);
-  enough_ = nullptr;
+  stop_when_ = nullptr;
 }
 
 void Simulator::finish(MotionStatus status, double end, std::string message) {

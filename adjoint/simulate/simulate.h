@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -12,46 +14,50 @@
 
 namespace carom {
 
-/// How far to simulate, and what to keep.
+/// Options of a simulation: limits, and what is recorded.
 struct SimulateOptions {
-  /// Events of every kind, bounces too low to be impacts to people among them, after which the motion ends with
+  /// Limit on events of all kinds, including bounces too low to be reported; then the motion ends with
   /// MotionStatus::impact_limit.
   std::size_t impact_limit = 20000;
-  std::vector<Asked> asked;          ///< a body each; empty asks for everything
-  /// false: the arcs of the bodies alone are kept, in less than half of the memory. Such a motion has no events, so it
-  /// cannot be differentiated, and times cannot be given as the n-th impact.
+  std::vector<Asked> asked;          ///< one per body; empty: everything is required
+  /// false: keeps only the arcs of the bodies, in less than half of the memory. Such a motion has no events, so it
+  /// cannot be differentiated, and has no n-th impact.
   bool record_events = true;
-  /// true: throws InputError where bodies overlap at the start, rather than leave them alone until they part.
+  /// true: throws InputError if bodies overlap at the start; false: they do not collide until they have separated.
   bool refuse_overlaps = false;
-  /// A bounce that would stay lower than this, m, is none: its elasticity is taken for 0, and the bodies stay in contact.
-  /// 0: no contact lasts, and a motion ends at the first that would. By default 1e-12 S, S the largest of the
-  /// coordinates of bodies and their sizes.
+  /// Restitution is set to 0 for a bounce that would stay lower than this, m, and the bodies stay in contact. 0: no
+  /// persistent contact; a motion ends at the first that would be. Default: 1e-12 S, S the largest of the coordinates
+  /// of bodies and their sizes.
   std::optional<double> lowest_bounce = {};
-  /// Steps of work, after which the motion ends with MotionStatus::step_limit. A step is one of a search for an impact,
-  /// one pair of bodies that is looked at, one impact (of n contacts at once n + n^3 / 10) or one series of a rotation, and
-  /// 100 are a step along a path in contact without a closed form: a microsecond or some each, but the same number on
-  /// every machine. Motion::steps says how many were taken.
+  /// Work limit in counted steps, after which the motion ends with MotionStatus::step_limit. One step is an iteration
+  /// of an impact search, a pair of bodies examined, an impact (n + n^3 / 10 for n simultaneous contacts) or a Taylor
+  /// series of a rotation; an integration step along a persistent contact without a closed form counts 100. A step
+  /// takes roughly one to several microseconds; the count is the same on every machine. Motion::steps has the number
+  /// taken.
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();
   /// Once a stop is requested, from any thread, the motion ends with MotionStatus::stopped.
   std::stop_token stop = {};
-  /// Called every few thousand steps, in the thread of the call. The motion does not depend on it.
+  /// Called every few thousand steps, in the calling thread. Does not affect the motion.
   std::function<void(const SimulateProgress&)> progress = {};
-  /// Asked after every impact, of the motion up to it, which has its events: once it says yes, and `least_duration` is
-  /// over, the motion ends, complete, with that time as its duration. Not asked where events are not recorded.
-  std::function<bool(const Motion&)> enough = {};
-  double least_duration = 0;  ///< s; only beside `enough`
-  /// A motion of nearly the same scene, over this duration at least and with the same `asked`. Bodies that are the same
-  /// there, and that neither differing ones nor what those meet come to meet, are taken over from it rather than worked
-  /// out again: Motion::taken_over of them. Others are worked out beside them, and what they meet as well. So the motion
-  /// is the one without it, but for rounding: where the search for an impact begins depends on what else is searched
-  /// for. A motion that has ended early, or that differs in what is fixed, in gravity or in the lowest bounce, is of no use.
-  const Motion* known = nullptr;
+  /// Stopping criterion, called after every impact with the motion up to it, events included: once it returns true,
+  /// and `least_duration` has passed, the motion ends as complete, with that time as its duration. Not called if
+  /// events are not recorded.
+  std::function<bool(const Motion&)> stop_when = {};
+  double least_duration = 0;  ///< s; only with `stop_when`
+  /// Baseline motion of a similar scene, over at least this duration and with the same `asked`. Unchanged bodies that
+  /// are not affected by changed ones, directly or through impacts, are reused from it (Motion::taken_over of them);
+  /// the others are simulated. The result equals the motion without a baseline up to rounding, because where an
+  /// impact search starts depends on the other searches. A baseline that ended early, or that differs in fixed
+  /// bodies, gravity or lowest bounce, is ignored.
+  const Motion* baseline = nullptr;
+  /// By index, kinematic bodies that keep to a trajectory of somebody else's from the start on, whatever strikes them
+  /// (see flight/trajectory.hpp). Not with `baseline`.
+  std::map<int, std::shared_ptr<adjoint_detail::Trajectory>> given = {};
 };
 
-/// Simulates a scene from impact to impact up to `duration` seconds.
-/// Throws InputError for bad input (see validate; a duration above 1e9 s; `asked` for another number of bodies; a lowest
-/// bounce that is no number of 0 to 1e9 m); ends early, with a status and a sentence, where the motion cannot be
-/// continued. The same input gives the same motion to the last bit.
+/// Simulates a scene event by event up to `duration` seconds. Throws InputError for invalid input (see validate; a
+/// duration above 1e9 s; `asked` of the wrong size; a lowest bounce outside of 0 to 1e9 m); ends early, with a status
+/// and a message, if the motion cannot be continued. The same input gives the same motion to the last bit.
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
 
 }  // namespace carom

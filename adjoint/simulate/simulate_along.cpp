@@ -72,6 +72,7 @@ class Follower {
       motion_.world_lines[b].arcs.reserve(like_.world_lines[b].arcs.size());
       motion_.world_lines[b].events.reserve(like_.world_lines[b].events.size());
     }
+    builder_.giveAs(like_);
     builder_.start();
     motion_.end = motion_.duration;
     motion_.message = "complete";
@@ -99,7 +100,6 @@ class Follower {
   }
 
  private:
-  // What became of an impact.
   enum class Outcome { found, late, failed };
 
   void extendLast(std::size_t body) {
@@ -128,7 +128,7 @@ class Follower {
       if (was.kind == EventKind::placed) c.pair.friction = 0;
     }
     if (was.kind == EventKind::placed) return meet(was, 0);
-    if (landsFlat(like_, was)) return fail(was, "a rim came to lie flat there");
+    if (landsFlat(like_, was)) return fail(was, "a rim became flat there");
     if (was.kind == EventKind::transition) return followTransition(was);
     double from = 0, flight = was.time;
     for (const Participant& p : was.participants) {
@@ -152,10 +152,10 @@ class Follower {
       return fail(was, "its contacts no longer meet in one instant");
     std::vector<State> after;
     solveImpact(event_, *motion_.models, after);
-    if (builder_.notParted(event_, after)) return fail(was, "its impulse does not part the bodies");
+    if (builder_.notParted(event_, after)) return fail(was, "its impulse does not separate the bodies");
     for (std::size_t k = 0; k < event_.contacts.size(); ++k) {
       Contact& c = event_.contacts[k];
-      if (was.contacts[k].lasts && !c.lasts) return fail(was, "its contacts no longer last");
+      if (was.contacts[k].lasts && !c.lasts) return fail(was, "its contacts no longer persist");
       c.lasts = was.contacts[k].lasts;
     }
     event_.settles_at = settlesAt(motion_, event_, after);
@@ -168,21 +168,21 @@ class Follower {
     const int body = was.participants[0].body;
     const Arc& arc = arcOf(body);
     const FollowedPath& held = held_[index(body)];
-    if (!arc.path()) return fail(was, "the bodies are not in contact");
+    if (!arc.inContact()) return fail(was, "the bodies are not in contact");
     std::optional<double> elapsed;
-    if (arc.integrated()) {
+    if (arc.isIntegrated()) {
       extendAlong(motion_, held, arcOf(body), motion_.duration);
-      const PathTransition end = heldTransition(arc, arc.start());
+      const PathTransition end = constrainedTransition(arc, arc.start());
       if (end.cause == was.cause) elapsed = end.elapsed;
-    } else if (was.cause == TransitionCause::slip_ends && std::isfinite(arc.path()->slip_end)) {
-      elapsed = arc.path()->slip_end;
+    } else if (was.cause == TransitionCause::slip_ends && std::isfinite(arc.closedForm()->slip_end)) {
+      elapsed = arc.closedForm()->slip_end;
     } else if (held.transition.cause == was.cause && was.cause == TransitionCause::tips) {
       elapsed = held.transition.elapsed;
     } else if (was.cause == TransitionCause::leaves) {
       elapsed = held.leaves(motion_, arc, was);
     }
     if (!elapsed) return fail(was, was.cause == TransitionCause::leaves ? "the contact stays on its feature"
-                                                                        : "the body goes on as before");
+                                                                        : "the contact mode does not change");
     if (arc.start() + *elapsed > motion_.duration) {
       markLate(was);
       return Outcome::late;
@@ -261,9 +261,9 @@ class Follower {
     const Participant& p = was.participants[participant];
     const Arc& like = like_.world_lines[index(p.body)].arcs[index(p.arc) + 1];
     FollowedPath& held = held_[index(p.body)];
-    if (like.integrated()) return heldAfter(p, after);
+    if (like.trajectory().constrained()) return constrainedAfter(p, after);
     held = {};
-    if (!like.path()) return builder_.flight(p.body, event_.time, after);
+    if (!like.inContact()) return builder_.flight(p.body, event_.time, after);
     State start = after;
     for (const Contact& c : event_.contacts)
       if (c.lasts && (c.a == p.body || c.b == p.body)) {
@@ -273,13 +273,13 @@ class Follower {
     if (std::ranges::any_of(held.contacts, [](const Contact& c) { return !c.held; }))
       closeGaps(motion_, p.body, start, held.contacts);
     PathArc made = makePathArc(
-        motion_, contactPathOf(motion_, p.body, start, pointersTo(held.contacts), like.path()->form), event_.time);
+        motion_, contactPathOf(motion_, p.body, start, pointersTo(held.contacts), like.closedForm()->form), event_.time);
     held.transition = made.transition;
     return std::move(made.arc);
   }
 
   // A path on which the contacts of the event hold a body, and those that held it before.
-  Arc heldAfter(const Participant& p, const State& after) {
+  Arc constrainedAfter(const Participant& p, const State& after) {
     const auto now = [&](int body) { return arcOf(body).kinematicsOf(body == p.body ? after : arcOf(body).startState()); };
     FollowedPath& held = held_[index(p.body)];
     std::vector<Contact> contacts = held.contactsAt(event_, p.body);

@@ -8,7 +8,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/simulate/event_queue.hpp"
-#include "adjoint/simulate/known_bodies.hpp"
+#include "adjoint/simulate/reused_bodies.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/pair_scales.hpp"
 #include "adjoint/simulate/path_transition.hpp"
@@ -33,11 +33,11 @@ inline constexpr long kMostSearches = 5'000'000;
 /// An angle of which a sine has no digit left, rad.
 inline constexpr double kMostTurn = 1e15;
 /// Steps of work that a step along a path in contact without a closed form counts for.
-inline constexpr std::size_t kHeldStep = 100;
+inline constexpr std::size_t kConstrainedStep = 100;
 /// Steps of work in which a motion that was ended may bring what it knows into order.
 inline constexpr std::size_t kStepsToEnd = 100'000;
 
-/// Attempts to take over from SimulateOptions::known what was met by something else.
+/// Attempts to take over from SimulateOptions::baseline what was met by something else.
 struct Attempts {
   std::vector<int> met;   ///< bodies
   std::size_t steps = 0;  ///< of work
@@ -56,11 +56,11 @@ class Simulator {
   Motion run();
   /// A body whose path was to be taken over, but that another one came to meet: the motion ends there, and has to be
   /// worked out without what is known of that body.
-  std::optional<int> metKnown() const { return met_known_; }
+  std::optional<int> reuseInvalidatedBy() const { return reuse_invalidated_by_; }
 
  private:
   // The first impact of a pair, found in a search of body `searched`.
-  struct Prediction {
+  struct PredictedEvent {
     double time = 0;
     int searched = -1, a = -1, b = -1;
     int partner_version = 0;  // of the arc of the other body that it was made for
@@ -69,34 +69,35 @@ class Simulator {
     bool explained() const { return features.kind >= 0; }
     bool isTaken() const { return a < 0; }                 // the next event of known bodies
     bool isTransition() const { return a >= 0 && b < 0; }  // of the path of body a
-    bool operator<(const Prediction& o) const {
+    bool operator<(const PredictedEvent& o) const {
       if (time != o.time) return time < o.time;
       return a != o.a ? a < o.a : b < o.b;
     }
   };
   // What is known of a body's future on its present arc.
-  struct Outlook {
-    Prediction first;                    // first.a = -1: none up to the horizon
+  struct NextImpact {
+    PredictedEvent first;                    // first.a = -1: none up to the horizon
     double horizon = 0;                  // without an impact: searched up to here
-    std::vector<Prediction> of_instant;  // further ones within an instant of the first
+    std::vector<PredictedEvent> of_instant;  // further ones within an instant of the first
   };
   // How a body in lasting contact goes on: where it is held, all by bodies that stand still, and until when.
-  struct Onward {
+  struct BodyContactState {
     std::vector<Contact> held;
     double transition = EventQueue::kNever;
     PathTransition why;
     std::size_t steps = 0;  // of an integrated path: of those the above is
   };
-  static const Onward kInFlight;
+  static const BodyContactState kInFlight;
   // An event that is worked out but not yet part of the motion. Its storage is used again and again.
   struct Draft {
     Event event;
     std::vector<State> after;       // of the participants
     std::vector<Arc> arcs;          // of the participants, from the event on
-    std::vector<Prediction> found;  // of the participants' pairs, on those arcs
-    std::vector<Outlook> outlooks;  // of the participants
-    std::vector<Onward> onward;     // of the participants; empty where all of them fly
-    std::string beyond;             // why the motion cannot go on: contact that lasts, of a kind that is not known
+    std::vector<PredictedEvent> found;  // of the participants' pairs, on those arcs
+    std::vector<NextImpact> next_impacts;  // of the participants
+    std::vector<BodyContactState> contact_state;     // of the participants; empty where all of them fly
+    std::string beyond;             // why the motion ends: persistent contact that is not modelled
+    std::optional<State> past_end;  // of a transition: the body a little later in the modes that end
   };
   // A body just before the event that is being worked out.
   struct Snapshot {
@@ -107,25 +108,25 @@ class Simulator {
 
   void runToEnd();
   bool follow();
-  bool takeNext(Prediction& next);
-  bool holds(const Prediction& p) const { return version_[index(p.partner())] == p.partner_version; }
+  bool takeNext(PredictedEvent& next);
+  bool holds(const PredictedEvent& p) const { return version_[index(p.partner())] == p.partner_version; }
 
   // simulator_start.cpp: where it begins
   bool start();
-  void startKnown();
+  void startReused();
   bool placeAtStart();
   void solvePlaced(int body);
 
   // simulate.cpp: the event
-  void resolve(const Prediction& first);
-  void contactsOfInstant(const Prediction& first);
+  void resolve(const PredictedEvent& first);
+  void contactsOfInstant(const PredictedEvent& first);
   void addTouching(double time, int a, int b, const FeaturePair& features);
   Contact makeContact(double time, int a, int b, const FeaturePair& features);
   std::size_t snapshot(int body, double time);
   void solveDraft();
   bool joinInstant();
   bool inDraft(int a, int b, const FeaturePair& features) const;
-  bool meetsThere(const Prediction& p, double time);
+  bool meetsThere(const PredictedEvent& p, double time);
   Pose poseAt(int body, double time);  ///< on its path, that of the draft where it is in it
   void commit();
   int tiltOf(int body, int impact) const;
@@ -142,39 +143,43 @@ class Simulator {
   bool isCounted(const Contact& contact, const State& a, const State& b) const;
 
   // simulator_flat.cpp: rims that lie flat
-  void resolveFlat(const Onward& from, int body);
+  void resolveFlat(const BodyContactState& from, int body);
   struct Lowest {
     Contact at;
     double tilts;  // m/s: how fast its rim goes down there against the other side
   };
   std::optional<Lowest> lowestOf(const Contact& of, int body, const State& state, const State& moves) const;
   std::vector<Contact> tiltFrom(std::vector<Contact>& closed, int body, State& after) const;
+  std::optional<Lowest> lowestOf(const std::vector<Contact>& marks, int body, const State& state, const State& moves) const;
+  std::optional<Lowest> tipsOver(const std::vector<Contact>& marks, int body, const State& flat, const Vec3& alpha, State& tilted) const;
+  std::optional<ContactChoice> beginTilt(std::vector<Contact>& closed, int body, State& after, const ContactChoice& flat) const;
   bool settlesFlat();
-  bool liesFlat(const Prediction& p, double time);
+  bool liesFlat(const PredictedEvent& p, double time);
   void dropFlatRims(std::vector<Contact>& closed) const;
   std::vector<Contact> marksOf(const Contact& of) const;
-  bool isSameRim(const Contact& c, const Contact& d) const;
+  bool isRim(const Contact& c) const;
+  bool isOnRim(const Contact& c, const Contact& of) const;
 
-  // simulator_contact.cpp: contact that lasts
+  // simulator_contact.cpp: persistent contact
   bool contactsLast() const { return motion_.lowest_bounce > 0; }
   void resolveTransition(int body);
   void resolveLanding(const std::vector<Contact>& on);
-  std::vector<Contact> contactsBeyond(const Onward& from, int body, double time);
+  std::vector<Contact> contactsBeyond(const BodyContactState& from, int body, double time);
   bool hasLeft(const Contact& c, double time, double room);
-  std::vector<Contact> contactsAt(const Onward& from, double time, double when, double reach);
+  std::vector<Contact> contactsAt(const BodyContactState& from, double time, double when, double reach);
   std::vector<Contact> closedContacts(int body, bool& ends);
   bool strikes(const Contact& contact);
   double strikingSpeed(const Contact& contact);
-  void addBeside(const Onward& from);
-  std::vector<std::pair<int, int>> heldPairs(const Onward& from);
+  void addBeside(const BodyContactState& from);
+  std::vector<std::pair<int, int>> persistentPairs(const BodyContactState& from);
 
   // simulator_ground.cpp: what stands still is one ground
-  bool onSameFace(const Onward& from, const Contact& contact) const;
+  bool onSameFace(const BodyContactState& from, const Contact& contact) const;
   void dropDoubles(std::size_t first = 0, bool keep_earlier = false);
   bool isDouble(const Contact& c, const Contact& d) const;
   bool isLeaving(const Contact& contact);
   double sizeAt(const Contact& contact) const;
-  void addHeld();
+  void addConstrained();
   void chooseArcs();
   void fly(std::size_t participant);
   void chooseArc(std::size_t participant);
@@ -182,30 +187,30 @@ class Simulator {
   bool changesTooOften(int body) const;
   bool presses(const Contact& contact) const;
   void endBeyond(const Contact& contact, const std::string& why);
-  const Onward& onwardOf(int body) const {
+  const BodyContactState& contactStateOf(int body) const {
     const int i = in_draft_[index(body)];
-    if (i < 0) return onward_[index(body)];
-    return draft_.onward.empty() ? kInFlight : draft_.onward[index(i)];
+    if (i < 0) return contact_states_[index(body)];
+    return draft_.contact_state.empty() ? kInFlight : draft_.contact_state[index(i)];
   }
-  std::optional<PredictedImpact> besideHeld(int a, int b, double from, double until);
+  std::optional<PredictedImpact> besideConstrained(int a, int b, double from, double until);
 
   // simulator_search.cpp: predictions
   void predictDraft();
   void predictBody(int body, double from);
-  void search(int body, double from, Outlook& outlook);
+  void search(int body, double from, NextImpact& next_impact);
   std::optional<PredictedImpact> firstImpact(int a, int b, double from, double until);
-  void enter(int body, Outlook& outlook);
+  void enter(int body, NextImpact& next_impact);
   void setPath(int body, const Arc& arc, double from);
-  void followHeld(int body, double from);
+  void followConstrained(int body, double from);
   Arc& pathOf(int body) {
     const int i = in_draft_[index(body)];
     return i < 0 ? arcOf(body) : draft_.arcs[index(i)];
   }
 
-  // simulator_known.cpp: paths that are taken over
+  // simulator_reuse.cpp: paths that are taken over
   Arc takenArcOf(int body) const;
   void takeOver();
-  bool meetsKnown(int body);
+  bool invalidatesReuse(int body);
 
   // simulator_overlaps.cpp: pairs that overlap from the start
   void startOverlaps();
@@ -218,10 +223,10 @@ class Simulator {
   std::string namesOf(int a, int b) const;  // "'a' and 'b'"
   std::string impactsWithDraft() const;
   std::string eventsSoFar() const;
-  bool isExplained(const Prediction& next);
+  bool isExplained(const PredictedEvent& next);
   bool separates();
   bool accumulates();
-  bool isLow(const Contact& c, const Prediction*& next);
+  bool isLow(const Contact& c, const PredictedEvent*& next);
   bool stalls(int body, double stall) const;
   void requireFlight(int body, const Arc& arc) const;
   [[noreturn]] void giveUp(const char* what, int a, int b, double time, const NotComputable& why) const;
@@ -235,9 +240,9 @@ class Simulator {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   Arc& arcOf(int body) { return *arc_[index(body)]; }
   /// Steps of work that went into what is known of an arc.
-  static std::size_t workIn(const Arc& arc) { return arc.series() * (arc.integrated() ? kHeldStep : 1); }
+  static std::size_t workIn(const Arc& arc) { return arc.series() * (arc.isIntegrated() ? kConstrainedStep : 1); }
   // Whether impacts move a body. They neither join through one that they do not move nor change its path.
-  bool isFixed(int body) const { return scene_.bodies[index(body)].fixed; }
+  bool isFixed(int body) const { return arc_[index(body)]->stays(); }
   bool isMoved(int body) const {
     const BodyModel& model = (*motion_.models)[index(body)];
     return model.moving && !model.kinematic;
@@ -246,7 +251,7 @@ class Simulator {
   const Scene& scene_;
   ContactSource& contacts_;
   std::size_t impact_limit_, steps_before_;
-  std::function<bool(const Motion&)> enough_;  // empty once it has said yes
+  std::function<bool(const Motion&)> stop_when_;  // empty once it has said yes
   double least_duration_, last_asked_for_ = EventQueue::kNever;  // nothing after it is asked for
   bool refuse_overlaps_;
   WorkCount work_;
@@ -260,20 +265,20 @@ class Simulator {
   std::vector<Arc*> arc_;  // the last one of its world-line
   std::vector<int> version_, impacts_, in_draft_;
   std::vector<char> simple_;  // a ball or a plane: two of these touch in one place
-  std::vector<Outlook> outlook_;
-  std::vector<Onward> onward_;
+  std::vector<NextImpact> next_impacts_;
+  std::vector<BodyContactState> contact_states_;
   double lowest_speed_ = 0, counted_speed_ = 0;  // see setSpeedsOfContact
   bool any_lasted_ = false;  // a body has been in lasting contact
   EventQueue queue_;
-  KnownBodies known_;
-  std::optional<int> met_known_;
+  ReusedBodies reused_;
+  std::optional<int> reuse_invalidated_by_;
 
   std::vector<double> overlaps_until_;  // of motion_.overlaps: known to overlap up to here
   std::map<std::pair<int, int>, int> tilts_;            // by body and impact
   std::unordered_map<std::uint64_t, int> low_bounces_;  // in a row, of a pair
   Draft draft_;
   std::vector<Snapshot> snapshots_;
-  std::vector<Prediction> same_, found_;
+  std::vector<PredictedEvent> same_, found_;
   std::vector<int> bodies_, neighbours_;
 };
 

@@ -8,12 +8,12 @@
 #include "adjoint/simulate/simulator.hpp"
 
 // The law of impact, and bounces that are too low for it: those that part without speed instead (11.11), and those that
-// are no impacts to people.
+// are not reported impacts.
 
 namespace carom::adjoint_detail {
 namespace {
 
-// A bounce that arrives from a lower height than this, as a share of the arm of the contact, is no impact to people.
+// A bounce that arrives from a lower height than this, as a share of the arm of the contact, is not a reported impact.
 constexpr double kUncounted = 1e-6;
 // Accelerations of contacts beyond so many times PairScales::mostAcceleration come of spins that no bounce is low at: far most
 // often it tells at once.
@@ -135,7 +135,7 @@ bool Simulator::captureLow(const std::vector<std::size_t>& loose, std::vector<st
   return more;
 }
 
-// Whether a contact arrives from high enough to be an impact to people.
+// Whether a contact arrives from high enough to be a reported impact.
 bool Simulator::isCounted(const Contact& c, const State& a, const State& b) const {
   if (!contactsLast()) return true;
   if (c.approach * c.approach > counted_speed_) return true;

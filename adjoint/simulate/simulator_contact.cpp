@@ -3,10 +3,11 @@
 #include <cmath>
 
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/simulate/path_arc.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
-// Contact that lasts: where it begins, which path a body takes in it, and where that ends (docs/equations.md section 11).
+// Persistent contact: onset, path, and end (docs/equations.md section 11).
 
 namespace carom::adjoint_detail {
 namespace {
@@ -28,15 +29,15 @@ constexpr std::size_t kMostChanges = 8;
 
 }  // namespace
 
-const Simulator::Onward Simulator::kInFlight = {};
+const Simulator::BodyContactState Simulator::kInFlight = {};
 
 // The first impact of a pair besides the contacts that hold them to each other.
-std::optional<PredictedImpact> Simulator::besideHeld(int a, int b, double from, double until) {
+std::optional<PredictedImpact> Simulator::besideConstrained(int a, int b, double from, double until) {
   std::vector<FeaturePair> held;
-  std::vector<HeldFeatures> on_ground;
+  std::vector<PersistentFeatures> on_ground;
   const bool ground = isFixed(a) || isFixed(b);
   for (int body : {a, b})
-    for (const Contact& c : onwardOf(body).held) {
+    for (const Contact& c : contactStateOf(body).held) {
       if (c.a == a && c.b == b) held.push_back(c.features);
       if (ground) on_ground.push_back({c.a, c.b, c.features});
     }
@@ -47,11 +48,11 @@ std::optional<PredictedImpact> Simulator::besideHeld(int a, int b, double from, 
 }
 
 // The contacts that the participants are held by take part in whatever happens to them.
-void Simulator::addHeld() {
+void Simulator::addConstrained() {
   std::vector<Contact>& contacts = draft_.event.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (int body : {contacts[k].a, contacts[k].b})
-      for (const Contact& h : onward_[index(body)].held) {
+      for (const Contact& h : contact_states_[index(body)].held) {
         const auto known = std::ranges::find_if(
             contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b && c.features == h.features; });
         if (known != contacts.end()) {
@@ -75,17 +76,17 @@ void Simulator::chooseArcs() {
   Event& event = draft_.event;
   draft_.beyond.clear();
   draft_.arcs.clear();
-  draft_.onward.clear();
+  draft_.contact_state.clear();
   if (std::ranges::none_of(event.contacts, &Contact::lasts)) {  // far most often
     for (std::size_t i = 0; i < bodies_.size(); ++i) fly(i);
     return;
   }
-  draft_.onward.resize(bodies_.size());
+  draft_.contact_state.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) chooseArc(i);
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
-    c.lasts = std::ranges::any_of(draft_.onward, [&](const Onward& onward) {
-      return std::ranges::any_of(onward.held, [&](const Contact& h) {
+    c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
+      return std::ranges::any_of(contact_state.held, [&](const Contact& h) {
         return h.a == c.a && h.b == c.b && h.features == c.features;
       });
     });
@@ -122,6 +123,7 @@ ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
     return hint;
   }
   hint.cause = event.cause;
+  hint.beyond = draft_.past_end;
   for (std::size_t k = 0; k < closed.size(); ++k) {
     if (!closed[k].held) hint.idle.push_back(k);
     if (closed[k].features == event.contacts[0].features && closed[k].a == event.contacts[0].a &&
@@ -146,7 +148,7 @@ std::vector<Contact> Simulator::closedContacts(int body, bool& ends) {
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || (c.a != body && c.b != body)) continue;
     if (!isFixed(c.a == body ? c.b : c.a)) {
-      if (presses(c)) ends = true, endBeyond(c, "rest, rolling and sliding on bodies that move are not modelled yet");
+      if (presses(c)) ends = true, endBeyond(c, "resting, rolling and sliding on moving bodies are not modelled yet");
       continue;
     }
     closed.push_back(c);
@@ -167,6 +169,8 @@ void Simulator::chooseArc(std::size_t participant) {
     choice = tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), hintOf(closed));
   } else if (!closed.empty()) {
     choice = chooseContactPath(motion_, body, after, pointersTo(closed), hintOf(closed));
+    if (choice.path && choice.path->form == PathForm::held)
+      if (std::optional<ContactChoice> tips = beginTilt(closed, body, after, choice)) choice = *std::move(tips);
   }
   if (choice.path && choice.path->form != PathForm::held && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {
     std::vector<Contact> last;  // what begins to last fixes the pose
@@ -184,11 +188,11 @@ void Simulator::chooseArc(std::size_t participant) {
   }
   if (changesTooOften(body)) {
     fly(participant);
-    endBeyond(*choice.contacts.front(), "how they hold on to each other changes more than 8 times in one instant");
+    endBeyond(*choice.contacts.front(), "their contact modes change more than 8 times in one instant");
     return;
   }
-  if (choice.path->form == PathForm::held) work_.step(kHeldStep);
-  Onward& onward = draft_.onward[participant];
+  if (choice.path->form == PathForm::held) work_.step(kConstrainedStep);
+  BodyContactState& contact_state = draft_.contact_state[participant];
   PathArc made = [&]() -> PathArc {
     try {
       return makePathArc(motion_, choice, event.time);
@@ -196,10 +200,10 @@ void Simulator::chooseArc(std::size_t participant) {
       giveUp("contact", event.contacts[0].a, event.contacts[0].b, event.time, error);
     }
   }();
-  onward.held = std::move(made.held);
-  onward.why = made.transition;
-  if (onward.why.cause != TransitionCause::none)
-    onward.transition = made.arc.integrated() ? made.arc.knownUntil() : event.time + onward.why.elapsed;
+  contact_state.held = std::move(made.held);
+  contact_state.why = made.transition;
+  if (contact_state.why.cause != TransitionCause::none)
+    contact_state.transition = made.arc.isIntegrated() ? made.arc.knownUntil() : event.time + contact_state.why.elapsed;
   after = choice.start;
   draft_.arcs.push_back(std::move(made.arc));
   in_draft_[index(body)] = static_cast<int>(participant);
@@ -207,7 +211,7 @@ void Simulator::chooseArc(std::size_t participant) {
 }
 
 // What touches a body where a contact of it leaves its feature: what it has a little later on the same path.
-std::vector<Contact> Simulator::contactsBeyond(const Onward& from, int body, double time) {
+std::vector<Contact> Simulator::contactsBeyond(const BodyContactState& from, int body, double time) {
   const Kinematics now = arcOf(body).kinematicsAt(time);
   double size = scales_.radius(body), arm = kInfinity, speed = now.v.norm();
   for (const Contact& c : from.held) {
@@ -241,9 +245,9 @@ bool Simulator::hasLeft(const Contact& c, double time, double room) {
 
 // What of the pairs that are held, and of the faces that go on beside theirs, touches at `when`, to within `reach` or,
 // where that is 0, to rounding, as it is at `time`.
-std::vector<Contact> Simulator::contactsAt(const Onward& from, double time, double when, double reach) {
+std::vector<Contact> Simulator::contactsAt(const BodyContactState& from, double time, double when, double reach) {
   std::vector<Contact> contacts;
-  for (const auto& [a, b] : heldPairs(from))
+  for (const auto& [a, b] : persistentPairs(from))
     for (const FeaturePair& f : contacts_.touching(a, b, arcOf(a), arcOf(b), when, reach)) {
       Contact c = makeContact(time, a, b, f);
       if ((!(reach > 0) || std::abs(c.at.gap) <= reach) && onSameFace(from, c)) contacts.push_back(std::move(c));
@@ -261,7 +265,7 @@ double Simulator::strikingSpeed(const Contact& c) {
 
 // The body of a path whose time has come goes on otherwise, from the state that it has.
 void Simulator::resolveTransition(int body) {
-  const Onward from = onward_[index(body)];
+  const BodyContactState from = contact_states_[index(body)];
   Event& event = draft_.event;
   event = {};
   event.time = from.transition;
@@ -271,6 +275,8 @@ void Simulator::resolveTransition(int body) {
   if (from.why.cause == TransitionCause::leaves && from.why.limit < 0) return resolveFlat(from, body);
   event.cause = from.why.cause;
   event.border = from.why.limit;
+  const ConstrainedPath* path = arcOf(body).trajectory().constrained();
+  draft_.past_end = path ? path->beyondEnd() : std::nullopt;
   const auto add = [&](const Contact& h, bool lasts) {
     Contact& c = event.contacts.emplace_back(makeContact(event.time, h.a, h.b, h.features));
     c.counted = false;
@@ -290,7 +296,7 @@ void Simulator::resolveTransition(int body) {
     if (first >= 0) add(from.held[index(first)], event.cause != TransitionCause::lifts);
     for (std::size_t k = 0; k < from.held.size(); ++k)
       if (static_cast<int>(k) != first) add(from.held[k], true);
-    if (arcOf(body).integrated()) addBeside(from);
+    if (arcOf(body).isIntegrated()) addBeside(from);
   }
   bodies_ = {body};
   event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
@@ -303,7 +309,7 @@ void Simulator::resolveTransition(int body) {
 
 // What touches beside the contacts that hold a body, as corners of a face that lies flat without pressing, may come to
 // hold it.
-void Simulator::addBeside(const Onward& from) {
+void Simulator::addBeside(const BodyContactState& from) {
   std::vector<Contact>& contacts = draft_.event.contacts;
   for (Contact& c : contactsAt(from, draft_.event.time, draft_.event.time, 0)) {
     if (inDraft(c.a, c.b, c.features) || c.approach > scaleOf(c.a, c.b, draft_.event.time).neither() || strikes(c)) continue;

@@ -13,7 +13,7 @@ std::string Simulator::namesOf(int a, int b) const {
   return "'" + scene_.bodies[index(a)].name + "' and '" + scene_.bodies[index(b)].name + "'";
 }
 
-// "3 impacts", to people, the draft among them.
+// "3 impacts": the reported ones, the draft among them.
 std::string Simulator::impactsWithDraft() const {
   const std::size_t count = motion_.impacts + (draft_.event.counts() ? 1 : 0);
   return std::to_string(count) + (count == 1 ? " impact" : " impacts");
@@ -26,11 +26,11 @@ std::string Simulator::eventsSoFar() const {
 }
 
 // Bodies may come to overlap where no features say how they meet.
-bool Simulator::isExplained(const Prediction& next) {
+bool Simulator::isExplained(const PredictedEvent& next) {
   if (next.explained()) return true;
   finish(MotionStatus::unresolved_impact, next.time,
          textOf(6, namesOf(next.a, next.b), " meet at t = ", next.time,
-                " s where no face, edge, rim or vertex of theirs gives the contact a normal"));
+                " s where no face, edge, rim or vertex of theirs defines a contact normal"));
   return false;
 }
 
@@ -40,16 +40,16 @@ bool Simulator::separates() {
   if (!c) return true;
   finish(MotionStatus::unresolved_impact, draft_.event.time,
          textOf(6, "the tilted normal at the impact of ", namesOf(c->a, c->b), " at t = ", draft_.event.time,
-                " s does not part the bodies"));
+                " s does not separate the bodies"));
   return false;
 }
 
 // Whether the next bounce of a contact, if it is known, is too low to count. The contact leaves at e times its approach
 // or faster; where that leaves it low, what counts is how far its features are apart halfway, which of a parabola is its
 // height. A body that turns may lift them without any speed to begin with.
-bool Simulator::isLow(const Contact& c, const Prediction*& next) {
+bool Simulator::isLow(const Contact& c, const PredictedEvent*& next) {
   next = nullptr;
-  for (const Prediction& p : found_)
+  for (const PredictedEvent& p : found_)
     if (p.a == c.a && p.b == c.b && p.explained()) {
       next = &p;
       break;
@@ -79,7 +79,7 @@ bool Simulator::accumulates() {
   for (const Contact& c : event.contacts) {
     if (contactsLast()) break;
     const std::uint64_t pair = static_cast<std::uint64_t>(c.a) << 32 | static_cast<std::uint32_t>(c.b);
-    const Prediction* next;
+    const PredictedEvent* next;
     if (!isLow(c, next)) {
       if (!low_bounces_.empty()) low_bounces_.erase(pair);
       continue;
@@ -90,7 +90,7 @@ bool Simulator::accumulates() {
     finish(MotionStatus::cascade, event.time,
            textOf(10, namesOf(c.a, c.b), " stay in contact from t = ", event.time + (e < 1 ? gap / (1 - e) : gap),
                   " s on, at (", c.at.point.x(), ", ", c.at.point.y(), ", ", c.at.point.z(), "), after ",
-                  impactsWithDraft(), "; no contact lasts where the lowest bounce is 0, so the motion ends there"));
+                  impactsWithDraft(), "; with a lowest bounce of 0 no contact persists, so the motion ends there"));
     return true;
   }
   const double stall = kStall * scales_.instantOf(motion_, event);
@@ -118,7 +118,7 @@ void Simulator::requireFlight(int body, const Arc& arc) const {
                                " s on cannot be computed: ", what));
   };
   if (!(furthest <= kFurthest && s.q.coeffs().allFinite()))
-    refuseFlight("its place or its velocity is beyond the range of doubles");
+    refuseFlight("its position or velocity is beyond the range of doubles");
   if (arc.tier() == Tier::none) return;  // whose orientation is not asked for
   if (!(arc.spinBound() * (end - arc.start()) <= kMostTurn && s.L.allFinite()))
     refuseFlight("it spins so fast that no digit of its orientation is left");
@@ -164,12 +164,12 @@ void Simulator::endWork(bool stopped) {
   const std::size_t limit = work_.limit();
   work_ended_ = true;
   if (!motion_.geometry) motion_.geometry = contacts_.geometry();  // it never began
-  const std::string steps = std::to_string(stopped ? work_.steps() : limit) + " steps of work";
+  const std::string steps = std::to_string(stopped ? work_.steps() : limit) + " steps";
   work_.allowMore(kStepsToEnd);
   finish(stopped ? MotionStatus::stopped : MotionStatus::step_limit, now_, "");
   if (motion_.status == MotionStatus::not_computable) return;
   motion_.message = textOf(10, "stopped at t = ", motion_.end, " s after ", steps,
-                           stopped ? ", as was asked for" : ", the limit that was set");
+                           stopped ? ", as requested" : ", the limit");
 }
 
 void Simulator::forgetAfter(double end) {

@@ -20,7 +20,7 @@ constexpr double kOnBorder = 1e-11;
 }  // namespace
 
 // The pairs that hold a body, and those of it and the fixed bodies that its faces may go on with.
-std::vector<std::pair<int, int>> Simulator::heldPairs(const Onward& from) {
+std::vector<std::pair<int, int>> Simulator::persistentPairs(const BodyContactState& from) {
   std::vector<std::pair<int, int>> pairs;
   const auto add = [&](int a, int b) {
     const std::pair pair{std::min(a, b), std::max(a, b)};
@@ -38,7 +38,7 @@ std::vector<std::pair<int, int>> Simulator::heldPairs(const Onward& from) {
 }
 
 // Whether a contact with another fixed body than those that hold a body goes on with a face that holds it.
-bool Simulator::onSameFace(const Onward& from, const Contact& c) const {
+bool Simulator::onSameFace(const BodyContactState& from, const Contact& c) const {
   return std::ranges::any_of(from.held, [&](const Contact& h) {
     if (h.a == c.a && h.b == c.b) return true;
     const Vec3 n = isMoved(h.a) ? h.at.normal : Vec3(-h.at.normal), m = isMoved(c.a) ? c.at.normal : Vec3(-c.at.normal);

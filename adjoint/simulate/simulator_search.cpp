@@ -13,15 +13,15 @@ namespace carom::adjoint_detail {
 // First impacts of one body with whoever may be near, each searched no further than the earliest one found: nothing of
 // the body's arc beyond that will happen, unless the other body is struck before. In that case the search goes on when
 // that time is reached with the arc still in force. Adds everything found to found_.
-void Simulator::search(int body, double from, Outlook& outlook) {
-  const bool known = known_.has(body);
-  if (pathOf(body).integrated() && !known) followHeld(body, from);
-  double until = std::min({contacts_.window(body, from), motion_.duration, onwardOf(body).transition});
-  if (pathOf(body).integrated()) until = std::min(until, pathOf(body).knownUntil());
+void Simulator::search(int body, double from, NextImpact& next_impact) {
+  const bool known = reused_.has(body);
+  if (pathOf(body).isIntegrated() && !known) followConstrained(body, from);
+  double until = std::min({contacts_.window(body, from), motion_.duration, contactStateOf(body).transition});
+  if (pathOf(body).isIntegrated()) until = std::min(until, pathOf(body).knownUntil());
   contacts_.neighbours(body, neighbours_);
   if (known) {  // of those that are known, and of what stands still, the known motion tells
-    until = std::min(until, known_.nextTimeOf(body));
-    std::erase_if(neighbours_, [&](int other) { return known_.has(other) || !arcOf(other).moving(); });
+    until = std::min(until, reused_.nextTimeOf(body));
+    std::erase_if(neighbours_, [&](int other) { return reused_.has(other) || !arcOf(other).moving(); });
   }
   const std::size_t begin = found_.size();
   for (int other : neighbours_) {
@@ -40,15 +40,15 @@ void Simulator::search(int body, double from, Outlook& outlook) {
     const int version = version_[index(other)] + (in_draft_[index(other)] >= 0 && isMoved(other) ? 1 : 0);
     found_.push_back({impact->time, body, is_first ? body : other, is_first ? other : body, version, impact->features});
   }
-  outlook.first = {};
-  outlook.of_instant.clear();
-  outlook.horizon = until;
+  next_impact.first = {};
+  next_impact.of_instant.clear();
+  next_impact.horizon = until;
   if (found_.size() == begin) return;
   const auto first = std::min_element(found_.begin() + static_cast<std::ptrdiff_t>(begin), found_.end());
-  outlook.first = *first;
+  next_impact.first = *first;
   const double limit = first->time + (found_.size() > begin + 1 ? scaleOf(first->a, first->b, first->time).instant() : 0);
   for (std::size_t i = begin; i < found_.size(); ++i)
-    if (found_[i].time <= limit && &found_[i] != &*first) outlook.of_instant.push_back(found_[i]);
+    if (found_[i].time <= limit && &found_[i] != &*first) next_impact.of_instant.push_back(found_[i]);
 }
 
 // Bounds of an integrated path hold as far as it is known.
@@ -58,23 +58,23 @@ void Simulator::setPath(int body, const Arc& arc, double from) {
 
 // An integrated path is followed a step further where the search has come to the end of what is known. A search may
 // have followed it by itself, to find a root.
-void Simulator::followHeld(int body, double from) {
+void Simulator::followConstrained(int body, double from) {
   if (in_draft_[index(body)] >= 0) return;
   Arc& arc = pathOf(body);
-  if (!arc.integrated()->ended() && !(from < arc.knownUntil())) {
-    work_.step(kHeldStep);
+  if (std::isfinite(arc.availableUntil()) && !(from < arc.knownUntil())) {
+    work_.step(kConstrainedStep);
     try {
       arc.extendTo(std::nextafter(arc.knownUntil(), kInfinity));
     } catch (const NotComputable& error) {
-      const Contact& c = onward_[index(body)].held.front();
+      const Contact& c = contact_states_[index(body)].held.front();
       giveUp("contact", c.a, c.b, from, error);
     }
   }
-  Onward& onward = onward_[index(body)];
-  if (onward.steps == arc.series()) return;
-  onward.steps = arc.series();
-  onward.why = heldTransition(arc, arc.start());
-  if (onward.why.cause != TransitionCause::none) onward.transition = arc.knownUntil();
+  BodyContactState& contact_state = contact_states_[index(body)];
+  if (contact_state.steps == arc.series()) return;
+  contact_state.steps = arc.series();
+  contact_state.why = constrainedTransition(arc, arc.start());
+  if (contact_state.why.cause != TransitionCause::none) contact_state.transition = arc.knownUntil();
   setPath(body, arc, from);
 }
 
@@ -90,10 +90,10 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
   }
   const std::size_t before = workIn(arc_a) + workIn(arc_b);
   std::optional<PredictedImpact> impact;
-  if (arc_a.path() || arc_b.path()) {
-    const auto stays = [](const Arc& arc) { return !arc.moving() || arc.kind() == ArcKind::rest; };
+  if (arc_a.inContact() || arc_b.inContact()) {
+    const auto stays = [](const Arc& arc) { return arc.stays() || arc.kind() == ArcKind::rest; };
     if (stays(arc_a) && stays(arc_b)) return std::nullopt;
-    impact = besideHeld(a, b, from, until);
+    impact = besideConstrained(a, b, from, until);
   } else {
     impact = contacts_.firstImpact(a, b, arc_a, arc_b, from, until);
   }
@@ -101,18 +101,18 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
   return impact;
 }
 
-void Simulator::enter(int body, Outlook& outlook) {
-  const bool impact = outlook.first.a >= 0;
-  const bool over = !impact && !(outlook.horizon < motion_.duration);
-  queue_.set(body, impact ? outlook.first.time : over ? EventQueue::kNever : outlook.horizon, !impact);
-  std::swap(outlook_[index(body)], outlook);
+void Simulator::enter(int body, NextImpact& next_impact) {
+  const bool impact = next_impact.first.a >= 0;
+  const bool over = !impact && !(next_impact.horizon < motion_.duration);
+  queue_.set(body, impact ? next_impact.first.time : over ? EventQueue::kNever : next_impact.horizon, !impact);
+  std::swap(next_impacts_[index(body)], next_impact);
 }
 
 void Simulator::predictBody(int body, double from) {
   found_.clear();
-  draft_.outlooks.resize(1);
-  search(body, from, draft_.outlooks[0]);
-  enter(body, draft_.outlooks[0]);
+  draft_.next_impacts.resize(1);
+  search(body, from, draft_.next_impacts[0]);
+  enter(body, draft_.next_impacts[0]);
 }
 
 // The same for the participants of the draft, on their arcs after the event.
@@ -121,15 +121,15 @@ void Simulator::predictDraft() {
   for (std::size_t i = 0; i < draft_.arcs.size(); ++i)
     setPath(event.participants[i].body, draft_.arcs[i], event.time);
   found_.clear();
-  draft_.outlooks.resize(draft_.arcs.size());
+  draft_.next_impacts.resize(draft_.arcs.size());
   for (std::size_t i = 0; i < draft_.arcs.size(); ++i)
-    search(event.participants[i].body, event.time, draft_.outlooks[i]);
+    search(event.participants[i].body, event.time, draft_.next_impacts[i]);
 }
 
 // The earliest impact whose arcs are in force.
-bool Simulator::takeNext(Prediction& next) {
+bool Simulator::takeNext(PredictedEvent& next) {
   for (;;) {
-    const double known = known_.nextTime(), time = std::min(known, queue_.time());
+    const double known = reused_.nextTime(), time = std::min(known, queue_.time());
     if (time == EventQueue::kNever || time > last_asked_for_) return false;
     if (known <= queue_.time()) {
       next = {};
@@ -141,18 +141,18 @@ bool Simulator::takeNext(Prediction& next) {
     now_ = std::max(now_, queue_.time());
     work_.reached(now_, motion_.impacts);
     work_.step();
-    const Prediction& first = outlook_[index(body)].first;
+    const PredictedEvent& first = next_impacts_[index(body)].first;
     if (first.a >= 0 && holds(first)) {
       next = first;
       return true;
     }
-    if (const double due = onward_[index(body)].transition; first.a < 0 && !(queue_.time() < due)) {
+    if (const double due = contact_states_[index(body)].transition; first.a < 0 && !(queue_.time() < due)) {
       next = {due, body, body, -1, 0, {}};
       return true;
     }
     if (++searches_ > kMostSearches)
       throw NotComputable(textOf(6, "'", scene_.bodies[index(body)].name, "' flies so fast at t = ", now_,
-                                 " s that its neighbours cannot be kept: more than ", kMostSearches,
+                                 " s that its neighbour lists cannot be maintained: more than ", kMostSearches,
                                  " searches without an impact"));
     predictBody(body, queue_.time());
   }

@@ -22,7 +22,7 @@ double checkedBounce(double lowest) {
 Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options,
                      const Attempts& before)
     : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit), steps_before_(before.steps),
-      enough_(options.enough), least_duration_(options.least_duration),
+      stop_when_(options.stop_when), least_duration_(options.least_duration),
       refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
       builder_(scene, duration), motion_(builder_.motion),
       scales_(scene, *motion_.models), queue_(scene.bodies.size()) {
@@ -38,12 +38,13 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
   in_draft_.assign(n, -1);
   for (const Body& body : scene.bodies)
     simple_.push_back(std::holds_alternative<Sphere>(body.shape) || std::holds_alternative<Plane>(body.shape));
-  outlook_.resize(n);
-  onward_.resize(n);
+  next_impacts_.resize(n);
+  contact_states_.resize(n);
   for (std::size_t i = 0; i < scene.tilts.size(); ++i)
     tilts_.try_emplace({bodyIndex(scene, scene.tilts[i].body), scene.tilts[i].impact}, static_cast<int>(i));
-  if (options.known) known_ = KnownBodies(*options.known, motion_, duration, before.met);
-  motion_.taken_over = known_.count();
+  builder_.give(options.given);
+  if (options.baseline && options.given.empty()) reused_ = ReusedBodies(*options.baseline, motion_, duration, before.met);
+  motion_.taken_over = reused_.count();
 }
 
 // False where a contact at the start is beyond what is known of.
@@ -52,12 +53,12 @@ bool Simulator::start() {
   builder_.start();
   setSpeedsOfContact();
   for (int b = 0; b < n; ++b) arc_[index(b)] = &motion_.world_lines[index(b)].arcs.back();
-  startKnown();
+  startReused();
   contacts_.begin(scene_);
   motion_.geometry = contacts_.geometry();
   startOverlaps();
   for (const StartOverlap& overlap : motion_.overlaps)
-    if (meetsKnown(overlap.a) || meetsKnown(overlap.b)) return false;
+    if (invalidatesReuse(overlap.a) || invalidatesReuse(overlap.b)) return false;
   for (int b = 0; b < n; ++b) {
     requireFlight(b, arcOf(b));
     contacts_.setPath(b, arcOf(b), 0, motion_.duration);
@@ -69,9 +70,9 @@ bool Simulator::start() {
 }
 
 // The first arcs of known bodies, of which more is worked out than of new ones.
-void Simulator::startKnown() {
+void Simulator::startReused() {
   for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body)
-    if (known_.has(body)) arcOf(body) = takenArcOf(body);
+    if (reused_.has(body)) arcOf(body) = takenArcOf(body);
 }
 
 // Bodies that the scene starts in contact: those that neither part nor approach go on from an event of their own.
@@ -79,7 +80,7 @@ bool Simulator::placeAtStart() {
   if (!contactsLast()) return true;
   std::vector<PlacedContact> placed = contacts_.placed();
   for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
-    if (!isMoved(body) || known_.has(body)) continue;
+    if (!isMoved(body) || reused_.has(body)) continue;
     Event& event = draft_.event;
     event = {};
     event.kind = EventKind::placed;
@@ -87,7 +88,7 @@ bool Simulator::placeAtStart() {
     bodies_.clear();
     for (const PlacedContact& p : placed) {
       if ((p.a != body && p.b != body) || overlapOf(p.a, p.b)) continue;
-      if (arcOf(p.a == body ? p.b : p.a).moving()) continue;  // they meet at once, or part
+      if (!isFixed(p.a == body ? p.b : p.a)) continue;  // they meet at once, or part
       for (const FeaturePair& f : p.features) {
         Contact c = makeContact(0, p.a, p.b, f);
         const double alpha = accelerationOf(c);
@@ -121,7 +122,7 @@ void Simulator::solvePlaced(int body) {
   }
   chooseArcs();
   setPath(body, draft_.arcs[0], 0);
-  draft_.outlooks.assign(1, {});
+  draft_.next_impacts.assign(1, {});
   commit();
 }
 

@@ -72,8 +72,8 @@ JacobianOf<S> rimTaperedJacobian(const FeatureOf<S>& f, const FeatureOf<S>& g, i
   const Taper<S> cone(g);
   const BeforeTaper<S> before(at.point, cone);
   const V3<S>&d = f.direction, &n = before.n, &t = at.tangent;
-  using Wide = Eigen::Matrix<S, 3, 2 * kSide>;
-  Wide point = Wide::Zero();  // of a fixed place of the rim
+  using DoubleDouble = Eigen::Matrix<S, 3, 2 * kSide>;
+  DoubleDouble point = DoubleDouble::Zero();  // of a fixed place of the rim
   point.template middleCols<3>(kP1).setIdentity();
   point.template middleCols<3>(kD1) = -f.rim * d * at.u.transpose();
   point.col(kRim1) = at.u;

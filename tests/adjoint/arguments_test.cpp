@@ -184,6 +184,13 @@ std::vector<Misuse> misusesOfShapes() {
       {"rates of a cylinder", rate(Cylinder{}, 1), {"expected 2"}},
       {"rates of a compound", rate(Compound{{{Box{}}, {Sphere{}}}}, 3), {"expected 4"}},
       {"an inertia of NaN", [](Made&) { Inertia::fromMatrix(Mat3::Constant(kNotANumber)); }, {"nan"}},
+      {"an inertia that is not symmetric",
+       [](Made&) {
+         Mat3 upper = Vec3(1, 2, 2).asDiagonal();
+         upper(0, 1) = 0.1;
+         Inertia::fromMatrix(upper);
+       },
+       {"not symmetric"}},
       {"a polygon of two corners",
        [](Made&) {
          assembleSurface({Vec3::Zero(), Vec3::UnitX()}, {{0, 1}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a little spin makes of a block that slides without turning (11.26): against the same contacts held by collocation,
+// What a little spin makes of a block that slides without turning (11.28): against the same contacts held by collocation,
 // whose corners' friction turns, and against differences of motions that spin.
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "adjoint/derivative/arc_pass.hpp"
-#include "adjoint/derivative/held_pass.hpp"
+#include "adjoint/constrained/constrained_linearization.hpp"
 #include "adjoint/derivative/tangent.h"
 #include "adjoint/simulate/path_arc.hpp"
 #include "tests/support/compare.h"
@@ -53,7 +53,7 @@ Slide randomSlide(Random& random) {
   return out;
 }
 
-PathArc heldInstead(const Slide& slide) {
+PathArc constrainedInstead(const Slide& slide) {
   const Motion& m = slide.motion;
   std::vector<Contact> lasting;
   for (const Contact& c : m.events[0].contacts) {
@@ -63,18 +63,18 @@ PathArc heldInstead(const Slide& slide) {
   }
   const std::vector<const Contact*> closed = pointersTo(lasting);
   const State& start = slide.arc().startState();
-  const ContactChoice candidates = heldPathOf(m, slide.body, start, closed, std::vector<HeldContact>(closed.size()));
-  const HeldModes modes = chooseModes(candidates.scene, candidates.modes.contacts, start, {}, 1e-9);
+  const ContactChoice candidates = constrainedPathOf(m, slide.body, start, closed, std::vector<PersistentContact>(closed.size()));
+  const ConstrainedModes modes = chooseModes(candidates.scene, candidates.modes.contacts, start, {}, 1e-9);
   std::vector<const Contact*> holding;  // without corners that would have to pull
   for (const std::size_t k : modes.held) holding.push_back(closed[k]);
-  return makePathArc(m, heldPathOf(m, slide.body, start, holding, modes.contacts), slide.arc().start());
+  return makePathArc(m, constrainedPathOf(m, slide.body, start, holding, modes.contacts), slide.arc().start());
 }
 
 constexpr double kSame = 1e-10;
 // A spin ends as a power of the slip, which may be a small one; collocation leaves off at 1e-8 of the speed.
 constexpr double kSameAtEnd = 2e-8;
 
-TEST(BlockSpin, IsThatOfCornersThatAreHeld) {
+TEST(BlockSpin, IsThatOfCornersThatAreConstrained) {
   int compared = 0, at_end = 0;
   for (int seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -82,9 +82,9 @@ TEST(BlockSpin, IsThatOfCornersThatAreHeld) {
     const Slide slide = randomSlide(random);
     ASSERT_GE(slide.motion.world_lines[static_cast<std::size_t>(slide.body)].arcs.size(), 2u);
     const Arc& arc = slide.arc();
-    if (!arc.path() || arc.path()->form != PathForm::glide_block || arc.path()->inputs.begins) continue;
-    PathArc held = heldInstead(slide);
-    const auto& path = static_cast<const HeldPath&>(*held.arc.integrated());
+    if (!arc.closedForm() || arc.closedForm()->form != PathForm::glide_block || arc.closedForm()->inputs.begins) continue;
+    PathArc held = constrainedInstead(slide);
+    const auto& path = *held.arc.trajectory().constrained();
     const double until = slide.until();
     held.arc.extendTo(until < slide.motion.end ? until + 1e-3 : until);
     StateDerivative start;
@@ -93,16 +93,16 @@ TEST(BlockSpin, IsThatOfCornersThatAreHeld) {
     const BodyModelDerivative same;
     for (const double share : {0.1, 0.5, 0.9, 1.0}) {
       const double t = std::min(share * until, held.arc.knownUntil());
-      if (share == 1 && !(path.end() && std::abs(path.end()->time - until) < 1e-11)) continue;
+      if (share == 1 && !(path.ending() && std::abs(path.ending()->time - until) < 1e-11)) continue;
       SCOPED_TRACE("share " + std::to_string(share));
-      const HeldColumns columns(slide.motion, path);
+      const ConstrainedColumns columns(slide.motion, path);
       const StateDerivative expected =
-          asState(heldSensitivity(path, columns.inputs(), t) * columns.tangent(start, still, same));
+          asState(constrainedSensitivity(path, columns.inputs(), t) * columns.tangent(start, still, same));
       DerivativeTape tape(slide.motion);
       const double own = share == 1 ? until : t;
       const StateDerivative found =
           arcTangent(arc, own, tape.arcUntil(slide.body, 1, own), start, still, same);
-      const bool stops = share == 1 && arc.path()->elapsedAt(until) == arc.path()->slip_end;
+      const bool stops = share == 1 && arc.closedForm()->elapsedAt(until) == arc.closedForm()->slip_end;
       const double size = asVector(expected).norm(), allowed = stops ? kSameAtEnd : kSame;
       expectEntries(found.theta, expected.theta, allowed, "turn", size);
       expectEntries(found.x, expected.x, allowed, "place", size);
@@ -111,7 +111,7 @@ TEST(BlockSpin, IsThatOfCornersThatAreHeld) {
         expectEntries(found.L, expected.L, allowed, "momentum", size);
       } else {  // the last of a slip is known exactly: it only comes earlier or later, along its direction
         EXPECT_EQ(found.L, Vec3::Zero());
-        const PathInputs<double>& in = arc.path()->inputs;
+        const PathInputs<double>& in = arc.closedForm()->inputs;
         EXPECT_LE(found.v.cross(alongFace(in.normal, in.gravity)).norm(), 1e-14 * size);
       }
       ++compared, at_end += stops;

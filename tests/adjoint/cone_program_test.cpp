@@ -143,16 +143,16 @@ TEST(ConeProgram, IsSolvedIn32Digits) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Program q = randomProgram(seed);
-    const ConeProgramOf<Wide> wide = randomProgram<Wide>(seed);
-    const ConePointOf<Wide> point = solveConeProgram(wide);
-    expectSolved<Wide>(q, wide, point, 1e-15);
-    const ConeTerms<Wide> t(wide, point);
+    const ConeProgramOf<DoubleDouble> wide = randomProgram<DoubleDouble>(seed);
+    const ConePointOf<DoubleDouble> point = solveConeProgram(wide);
+    expectSolved<DoubleDouble>(q, wide, point, 1e-15);
+    const ConeTerms<DoubleDouble> t(wide, point);
     double worst = 0, size = 1;
     for (Index i = 0; i < t.residual.size(); ++i) worst = std::max(worst, std::abs(rounded(t.residual[i])));
     for (Index i = 0; i < t.f.size(); ++i) size = std::max(size, std::abs(rounded(t.f[i])));
     EXPECT_TRUE(worst <= 1e-26 * size) << worst << " of " << size;
     const VectorXd there = ConeTerms<double>(q, solveConeProgram(q)).Kf;
-    expectEntries(t.Kf.unaryExpr([](const Wide& x) { return rounded(x); }), there, 1e-12, "K f", size);
+    expectEntries(t.Kf.unaryExpr([](const DoubleDouble& x) { return rounded(x); }), there, 1e-12, "K f", size);
   }
 }
 

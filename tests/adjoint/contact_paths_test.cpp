@@ -318,7 +318,7 @@ TEST_F(ContactPathsAtRandom, BoundsHold) {
     in.axis = Vec3::UnitX();
     const PathForm form = kForms[k % 5];
     const double last = slipEnd(form, in).value_or(2), from = last * 0.2 * (1 + number()), until = from + 0.5 * last;
-    const PathBounds bounds = pathBounds(form, in, from, until);
+    const TrajectoryBounds bounds = pathBounds(form, in, from, until);
     for (int i = 0; i <= 20; ++i) {
       const double t = std::min(until, from + (until - from) * i / 20);
       const StateDerivative rate = pathRateAt(form, in, t);

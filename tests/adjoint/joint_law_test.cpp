@@ -180,7 +180,7 @@ TEST(JointLaw, SlabLosesWhatCoulombSays) {
 }
 
 // A contact that stays at n.u = 0 may pull, and does not rub then.
-TEST(JointLaw, HeldContactsPullWithoutFriction) {
+TEST(JointLaw, ConstrainedContactsPullWithoutFriction) {
   Impact i = slab({0.3, 0, 0}, 0.5, {0.4, 0.4, 0.4, 0.4});
   i.w[4] = 0.2;  // corners on one side come down, the others lift
   i.solveFor();

@@ -117,7 +117,7 @@ TEST(LastingStretches, BouncesToRestAreCountedAsPeopleDo) {
   EXPECT_EQ(stopped.status, MotionStatus::impact_limit);
   EXPECT_EQ(stopped.event_count, 15u);
   EXPECT_EQ(stopped.message,
-            "stopped after 15 events, " + std::to_string(expected) + " of them impacts, the limit that was set");
+            "stopped after 15 events, " + std::to_string(expected) + " of them impacts, the limit");
 }
 
 }  // namespace

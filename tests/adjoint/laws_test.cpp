@@ -313,7 +313,7 @@ TEST(Laws, JointLawOfTwoContactsApartIsTheLawOfEach) {
 }
 
 // A contact that is held alone: as of several.
-TEST(Laws, OneHeldContactStaysAndRubsWhereItPushes) {
+TEST(Laws, OneConstrainedContactStaysAndRubsWhereItPushes) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);

@@ -7,7 +7,7 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/exact/vector.h"
 #include "tests/support/scenes.h"
@@ -52,10 +52,10 @@ TEST(TwoPart, ProductsOfThinTetrahedra) {
 }
 
 TEST(TwoPart, NothingIsLost) {
-  const Wide third = Wide(1 / 3.) * Wide(1 / 3.), difference = Wide(1) - Wide(1e-20), sum = third + difference;
+  const DoubleDouble third = DoubleDouble(1 / 3.) * DoubleDouble(1 / 3.), difference = DoubleDouble(1) - DoubleDouble(1e-20), sum = third + difference;
   EXPECT_EQ(Real(third.high) + Real(third.low), Real(1 / 3.) * Real(1 / 3.));
-  expectEntries((sum - Wide(1) - third).high, -1e-20, 1e-31, "sum");
-  expectEntries((difference * Wide(3) - Wide(3)).high, -3e-20, 1e-31, "product");
+  expectEntries((sum - DoubleDouble(1) - third).high, -1e-20, 1e-31, "sum");
+  expectEntries((difference * DoubleDouble(3) - DoubleDouble(3)).high, -3e-20, 1e-31, "product");
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ TEST(Gliding, SpinAboutTheNormalHidesNoApproach) {
                                    turning(shaped(Capsule{0.1, 1}, {0, 0, 1}), {0, 0, 1e9})}),
                         1);
   EXPECT_EQ(m.status, MotionStatus::not_computable) << m.message;  // each of its turns would take steps
-  EXPECT_NE(m.message.find("it turns too fast"), std::string::npos) << m.message;
+  EXPECT_NE(m.message.find("it rotates too fast"), std::string::npos) << m.message;
   EXPECT_GE(m.events.size(), 18u);
 }
 

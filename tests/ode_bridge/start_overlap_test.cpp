@@ -27,7 +27,7 @@ TEST(StartOverlap, BallsPart) {
   ASSERT_TRUE(m.overlaps[0].parted);
   EXPECT_TRUE(std::abs(*m.overlaps[0].parted - 0.3) <= 1e-10) << *m.overlaps[0].parted;
   EXPECT_TRUE(m.events.empty());
-  EXPECT_NE(describeOverlap(scene, m.overlaps[0]).find("'low' and 'high' overlap by 0.6 m at the start and part at t = 0.3"),
+  EXPECT_NE(describeOverlap(scene, m.overlaps[0]).find("'low' and 'high' overlap by 0.6 m at the start and separate at t = 0.3"),
             std::string::npos)
       << describeOverlap(scene, m.overlaps[0]);
 }
@@ -39,7 +39,7 @@ TEST(StartOverlap, RemainsWhereNothingParts) {
   ASSERT_EQ(m.overlaps.size(), 1u);
   EXPECT_FALSE(m.overlaps[0].parted);
   EXPECT_EQ(m.status, MotionStatus::complete);
-  EXPECT_NE(describeOverlap(*m.scene, m.overlaps[0]).find("do not part"), std::string::npos);
+  EXPECT_NE(describeOverlap(*m.scene, m.overlaps[0]).find("do not separate"), std::string::npos);
 }
 
 // A ball is thrown up out of a table, falls back and bounces: from then on they collide.

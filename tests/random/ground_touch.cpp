@@ -19,8 +19,9 @@ std::vector<Vec3> lowestOf(const Shape& shape, const Mat3& R, const Vec3& n) {
   std::vector<Vec3> points;
   const Vec3 axis = R.col(2);
   const auto rim = [&](double height, double radius) {
-    Vec3 down = -(n - n.dot(axis) * axis);
-    if (down.norm() > kFlat) return points.push_back(height * axis + radius * down.normalized());
+    const Vec3 down = axis.cross(axis.cross(n));  // across the axis, even where it is all rounding
+    if (down.norm() > 0) points.push_back(height * axis + radius * down.normalized());
+    if (down.norm() > kFlat) return;
     for (int i = 0; i < kOfRim; ++i) {
       const double a = 2 * std::numbers::pi * i / kOfRim;
       points.push_back(height * axis + radius * (std::cos(a) * R.col(0) + std::sin(a) * R.col(1)));

@@ -72,7 +72,7 @@ Scene changed(Scene scene, std::uint64_t seed) {
 Motion playAlong(const Scene& scene, const Motion& known, double duration = kKnownDuration) {
   OdeContacts contacts(scene);
   SimulateOptions options;
-  options.known = &known;
+  options.baseline = &known;
   return simulate(scene, contacts, duration, options);
 }
 

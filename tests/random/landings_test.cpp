@@ -139,7 +139,7 @@ TEST(Landings, AreWhereBodiesFirstComeToOverlap) {
     Look look(m, landings);
     const std::vector<Arc>& arcs = m.world_lines[0].arcs;
     for (std::size_t k = 1; k < arcs.size(); ++k)
-      if (arcs[k].integrated()) look.at(k);
+      if (arcs[k].isIntegrated()) look.at(k);
   }
   std::printf("%d paths in contact, %d end with an impact, %d of them too slow to tell; found within %.2g s\n", landings.paths,
               landings.impacts, landings.close, landings.worst);

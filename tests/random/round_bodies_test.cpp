@@ -11,7 +11,7 @@
 
 #include "adjoint/motion/body_geometry.h"
 #include "ode_bridge/ode_contacts.h"
-#include "tests/support/held_checks.h"
+#include "tests/support/constrained_checks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/scenes.h"
 
@@ -74,7 +74,7 @@ double deepestOverlap(const Motion& m) {
 bool holdsAll(const Motion& m) {
   const Shape& shape = m.scene->bodies[0].shape;
   const double depth = deepestOverlap(m) / kindOf(shape).boundingRadius(shape);
-  const HeldFindings found = lookAtHeldPaths(m, 4);
+  const ConstrainedFindings found = lookAtConstrainedPaths(m, 4);
   EXPECT_TRUE(depth <= kDeepest) << depth << " of the size; " << m.message;
   EXPECT_TRUE(found.worst_gap <= kOpen) << found.worst_gap;
   EXPECT_TRUE(found.worst_growth <= kGrowth) << found.worst_growth;

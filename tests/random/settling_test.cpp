@@ -11,7 +11,7 @@
 #include "adjoint/motion/body_geometry.h"
 #include "ode_bridge/convex_hull.h"
 #include "ode_bridge/ode_contacts.h"
-#include "tests/support/held_checks.h"
+#include "tests/support/constrained_checks.h"
 #include "tests/support/scaled.h"
 #include "tests/support/scenes.h"
 
@@ -70,7 +70,7 @@ void settle(Tally& tally, const Scene& scene, double size, std::uint64_t seed) {
   options.impact_limit = 100000;
   const Motion m = simulate(scene, contacts, 60, options);
   ++tally.thrown;
-  const HeldFindings found = lookAtHeldPaths(m, 4);
+  const ConstrainedFindings found = lookAtConstrainedPaths(m, 4);
   tally.held += found.paths;
   tally.worst_gap = std::max(tally.worst_gap, found.worst_gap);
   tally.worst_growth = std::max(tally.worst_growth, found.worst_growth);

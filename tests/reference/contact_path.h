@@ -30,12 +30,16 @@ class ContactPath {
   }
   RVec momentum;  ///< angular, at the start
 
-  /// After the whole time. The speed of a body that rolls at the start is its velocity's.
+  /// After the whole time. What slips at the start of rolling is stopped by an impulse at the contact.
   void advance(const Real& time) {
     normal = unit(normal);
     v = v - dot(v, normal) * normal;
     spin = turns ? (1 / inertia) * momentum : RVec();
-    if (!slides) spin = (1 / reach) * cross(normal, v) + dot(spin, normal) * normal;
+    if (!slides) {
+      const RVec impulse = (-1 / (1 / mass + reach * reach / inertia)) * slip();
+      v = v + (1 / mass) * impulse;
+      spin = spin - (reach / inertia) * cross(normal, impulse);
+    }
     Real left = time;
     while (left > 0) {
       Real step = longest();

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "tests/reference/die_replay.h"
 
-#include "adjoint/held/held_path.hpp"
+#include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/impact/impact_pass.hpp"
-#include "adjoint/numeric/wide.hpp"
+#include "adjoint/numeric/double_double.hpp"
 
 namespace carom::reference {
 namespace {
 
-using adjoint_detail::HeldContact;
-using adjoint_detail::HeldMode;
-using adjoint_detail::HeldPath;
+using adjoint_detail::PersistentContact;
+using adjoint_detail::ContactMode;
+using adjoint_detail::ConstrainedPath;
 using adjoint_detail::ImpactProblemOf;
-using adjoint_detail::Wide;
+using adjoint_detail::DoubleDouble;
 
 // What the series leave out varies with the numbers no more than they do.
-constexpr int kHeldOrder = 16;
-const Real kHeldTolerance("1e-17");
+constexpr int kConstrainedOrder = 16;
+const Real kConstrainedTolerance("1e-17");
 const Real kLineFrom("1e-13");  // of its time: what is left of a slip then goes along a line
 
-Wide wide(const Real& x) {
+DoubleDouble wide(const Real& x) {
   const double high = static_cast<double>(x);
-  return Wide(high) + static_cast<double>(Real(x - high));
+  return DoubleDouble(high) + static_cast<double>(Real(x - high));
 }
-Eigen::Matrix<Wide, 3, 1> wide(const RVec& v) { return {wide(v[0]), wide(v[1]), wide(v[2])}; }
-Real real(const Wide& x) { return Real(x.high) + x.low; }
+Eigen::Matrix<DoubleDouble, 3, 1> wide(const RVec& v) { return {wide(v[0]), wide(v[1]), wide(v[2])}; }
+Real real(const DoubleDouble& x) { return Real(x.high) + x.low; }
 
 // The corner of the box that an arm goes to, in its axes.
 RVec cornerAt(const Vec3& arm, const RVec& size) {
@@ -43,7 +43,7 @@ DieNumbers::DieNumbers(const Scene& scene) {
   elasticity = scene.materials[0].elasticity, friction = scene.materials[0].friction, mass = *die.mass;
 }
 
-HeldBody DieNumbers::body() const {
+ConstrainedBody DieNumbers::body() const {
   const RVec square = times(size, size);
   return {mass, (mass / 12) * RVec{square[1] + square[2], square[2] + square[0], square[0] + square[1]}, gravity};
 }
@@ -70,7 +70,7 @@ DieReplay::DieReplay(const DieNumbers& numbers, const Motion& like, const DieRep
 
 // Moves the present state to that of the motion.
 void DieReplay::takeOver(const State& s, const BodyModel& model, const Real& at_time, const Place* near) {
-  const HeldState led = state_;
+  const ConstrainedState led = state_;
   const Real time = start_;
   if (near) {
     RMat change;
@@ -94,7 +94,7 @@ void DieReplay::settle(const Arc& arc, const Event& event) {
   if (arc.kind() == ArcKind::rest) {
     state_.v = state_.spin = RVec();
   } else if (arc.kind() != ArcKind::flight) {
-    if (!arc.integrated()) state_.spin = RVec();
+    if (!arc.isIntegrated()) state_.spin = RVec();
     state_ = projected(body_, cornersOf(arc, event), state_);
   }
 }
@@ -104,23 +104,23 @@ RVec DieReplay::cornerOf(const Contact& c) const {
 }
 
 // A block that slides without turning is one on all its corners.
-std::vector<HeldCorner> DieReplay::cornersOf(const Arc& arc, const Event& after) const {
-  const auto* path = static_cast<const HeldPath*>(arc.integrated());
+std::vector<ConstrainedCorner> DieReplay::cornersOf(const Arc& arc, const Event& after) const {
+  const auto* path = arc.trajectory().constrained();
   if (!path) {
-    std::vector<HeldCorner> corners;
+    std::vector<ConstrainedCorner> corners;
     for (const Contact& c : after.contacts)
       if (c.lasts) corners.push_back({cornerOf(c), n_.normal(), dot(n_.normal(), n_.floor), n_.friction, false, false, {}});
     return corners;
   }
   const State start = path->stateAt(path->start());
   const auto now = path->instantAt(path->start());
-  std::vector<HeldCorner> corners;
+  std::vector<ConstrainedCorner> corners;
   for (std::size_t k = 0; k < path->contacts().size(); ++k) {
-    const HeldContact& c = path->contacts()[k];
-    HeldCorner corner;
+    const PersistentContact& c = path->contacts()[k];
+    ConstrainedCorner corner;
     corner.at = cornerAt(start.q.conjugate() * now.contacts[k].r, n_.size);
     corner.normal = n_.normal(), corner.offset = dot(corner.normal, n_.floor), corner.friction = n_.friction;
-    corner.sticks = c.mode == HeldMode::sticks, corner.begins = c.begins, corner.slip = RVec(c.slip);
+    corner.sticks = c.mode == ContactMode::sticks, corner.begins = c.begins, corner.slip = RVec(c.slip);
     corners.push_back(corner);
   }
   return corners;
@@ -134,11 +134,11 @@ void DieReplay::startArc(const Arc& arc, const Event* after) {
     turning_ = std::make_unique<FreeRotation>(body_.inertia, state_.R, L);
   } else if (arc.kind() != ArcKind::rest) {
     settle(arc, *after);
-    held_ = std::make_unique<HeldSeries>(body_, cornersOf(arc, *after), state_, kHeldOrder, kHeldTolerance);
+    held_ = std::make_unique<ConstrainedSeries>(body_, cornersOf(arc, *after), state_, kConstrainedOrder, kConstrainedTolerance);
   }
 }
 
-HeldState DieReplay::at(const Real& time) {
+ConstrainedState DieReplay::at(const Real& time) {
   Real s = time - start_;
   if (turning_) {
     const RMat R = turning_->orientationAt(s);
@@ -151,12 +151,12 @@ HeldState DieReplay::at(const Real& time) {
   return held_->at(s);
 }
 
-Real DieReplay::gap(const RVec& corner, const HeldState& s) const {
+Real DieReplay::gap(const RVec& corner, const ConstrainedState& s) const {
   return dot(n_.normal(), s.x + s.R * corner - n_.floor);
 }
 
 // Of the corners that meet, weighted by their impulses.
-std::array<Real, 2> DieReplay::meanGap(const Event& event, const HeldState& s) const {
+std::array<Real, 2> DieReplay::meanGap(const Event& event, const ConstrainedState& s) const {
   Real sum = 0, rate = 0, total = 0;
   for (const Contact& c : event.contacts) {
     const Real weight = Real(c.impulse_normal.dot(c.impulse));
@@ -189,7 +189,7 @@ std::vector<RVec> DieReplay::impulsesOf(const Event& event, const std::vector<RV
     return {impulseOf(side, Side(), n, {first.captured ? Real(0) : n_.elasticity, n_.friction, 0}, mode, false)};
   }
   const auto m = static_cast<Eigen::Index>(3 * arms.size());
-  ImpactProblemOf<Wide> p;
+  ImpactProblemOf<DoubleDouble> p;
   p.K.setZero(m, m), p.u.setZero(m);
   for (std::size_t k = 0; k < arms.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(3 * k);
@@ -201,7 +201,7 @@ std::vector<RVec> DieReplay::impulsesOf(const Event& event, const std::vector<RV
       }
     p.normal.push_back(wide(n));
     const Contact& c = event.contacts[k];
-    p.pair.push_back({c.captured || c.kept ? Wide(0) : wide(n_.elasticity), wide(n_.friction), Wide(0)});
+    p.pair.push_back({c.captured || c.kept ? DoubleDouble(0) : wide(n_.elasticity), wide(n_.friction), DoubleDouble(0)});
     if (c.kept) p.held.resize(arms.size()), p.held[k] = 1;
   }
   const auto solution = adjoint_detail::solveLaw(p);
@@ -216,7 +216,7 @@ void DieReplay::strike(const Event& event) {
   for (const Contact& c : event.contacts) corners.push_back(cornerOf(c)), arms.push_back(state_.R * corners.back());
   const std::vector<RVec> impulses = impulsesOf(event, arms);
   RVec L = state_.R * times(body_.inertia, transposeTimes(state_.R, state_.spin));
-  std::vector<HeldCorner> lasting;
+  std::vector<ConstrainedCorner> lasting;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     state_.v = state_.v + (1 / n_.mass) * impulses[k], L = L + cross(arms[k], impulses[k]);
     if (event.contacts[k].lasts)
@@ -241,11 +241,11 @@ void DieReplay::follow(const Event& event, const Arc& arc, const DieReplay* near
     return;
   }
   if (!held_) throw UnknownTransition();
-  const auto* path = static_cast<const HeldPath*>(arc.integrated());
+  const auto* path = arc.trajectory().constrained();
   if (event.cause == TransitionCause::slip_ends) {
     time = endSlip(0);
   } else if (event.cause == TransitionCause::sticks) {
-    time = endSlip(static_cast<std::size_t>(path->end()->guard.contact));
+    time = endSlip(static_cast<std::size_t>(path->ending()->guard.contact));
   } else {
     time = root(event, arc, time);
     state_ = at(time);
@@ -308,9 +308,9 @@ Real DieReplay::value(TransitionCause cause, std::size_t k, const Real& time) {
 
 // By secants; a guard that falls through 0 by 1e-30 of the time has.
 Real DieReplay::root(const Event& event, const Arc& arc, const Real& guess) {
-  const auto* path = static_cast<const HeldPath*>(arc.integrated());
+  const auto* path = arc.trajectory().constrained();
   if (!path) throw UnknownTransition();
-  const auto corner = static_cast<std::size_t>(path->end()->guard.contact);
+  const auto corner = static_cast<std::size_t>(path->ending()->guard.contact);
   if (event.cause != TransitionCause::lifts && event.cause != TransitionCause::slips)
     throw UnknownTransition();
   Real a = guess - Real("1e-12"), fa = value(event.cause, corner, a), b = guess;

@@ -75,7 +75,7 @@ struct Errors {
 };
 
 // In units of the die's edge and of the speed that it gets by falling as far.
-Eigen::Matrix<double, 12, 1> rate(const HeldState& from, const HeldState& to) {
+Eigen::Matrix<double, 12, 1> rate(const ConstrainedState& from, const ConstrainedState& to) {
   Eigen::Matrix<double, 12, 1> d;
   const Real over = 1 / kChange;
   d << (over / kEdge * (to.x - from.x)).rounded(), (over * rotationBetween(from.R, to.R)).rounded(),
@@ -95,7 +95,7 @@ Errors compared(std::uint64_t seed, std::size_t stride) {
   const Scene scene = thrown(seed);
   OdeContacts contacts(scene);
   // of 1e-12 S, as is taken where nothing is said, this die has two bounces more, at 1e-6 m/s, where what is left of slips is
-  // stopped at the start of a path and the law does not know (docs/decisions.md)
+  // stopped at the start of a path and the law does not know (docs/progress.md)
   SimulateOptions options;
   if (seed == kTurnsRound) options.lowest_bounce = 1e-12;
   const Motion m = simulate(scene, contacts, 10, options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/numeric/so3.hpp"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
@@ -64,6 +65,13 @@ std::vector<int> movingBodies(const Scene& s) {
   for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b)
     if (!s.bodies[static_cast<std::size_t>(b)].fixed) list.push_back(b);
   return list;
+}
+
+Eigen::Matrix<double, 12, 1> changeOf(const BodyState& from, const BodyState& to) {
+  Eigen::Matrix<double, 12, 1> change;
+  change << to.position - from.position, adjoint_detail::logSO3(to.orientation * from.orientation.conjugate()), to.velocity - from.velocity,
+      to.angular_velocity - from.angular_velocity;
+  return change;
 }
 
 std::vector<ControlRow> controlRows() {

@@ -22,6 +22,11 @@ struct ControlRow {
 };
 std::vector<ControlRow> controlRows();
 
+/// Weights of the central difference of order h^8 over steps of h, 2 h, 3 h and 4 h.
+inline constexpr double kEighthOrder[] = {4. / 5, -1. / 5, 4. / 105, -1. / 280};
+/// Position, world rotation vector, velocity and angular velocity by which a state differs from another one.
+Eigen::Matrix<double, 12, 1> changeOf(const BodyState& from, const BodyState& to);
+
 std::vector<int> movingBodies(const Scene& scene);
 
 /// expectTransposed of random seeds at times and at impacts, along a random direction: all of it, and each control's

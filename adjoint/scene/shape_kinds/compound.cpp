@@ -57,7 +57,7 @@ M3<S> turned(const Mat3& R, const M3<S>& I) {
   return same + 0.5 * (rest + rest.transpose());
 }
 
-// Parallel axes: |d|^2 1 - d d^T, and its rate by d along e.
+// Parallel axes: |d|^2 1 - d d^T, and its rate with respect to d along e.
 template <class S>
 M3<S> shifted(const V3<S>& d) {
   return d.squaredNorm() * M3<S>::Identity() - d * d.transpose();
@@ -80,7 +80,7 @@ SolidPropertiesOf<S> combined(const Shape& s, const OfPart& of_part) {
     M3<S> inertia;  // of the part about the compound's centre, per unit mass of the part
   };
   if (parts(s).empty())
-    throw InputError("found the mass properties of a compound without parts asked for, expected parts");
+    throw InputError("found a compound without parts, which has no mass properties, expected parts");
   std::vector<Part> all;
   SolidPropertiesOf<S> p;
   for (const CompoundPart& part : parts(s)) {

@@ -57,7 +57,7 @@ inline SolidProperties carriedBy(const SolidPropertiesOf<Number>& p) {
 ///   static constexpr std::array words{"radius", "height"};
 ///   static auto numbers(auto& s);                                                 // std::tie of the members
 ///   template <class S>
-///   static SolidPropertiesOf<S> solid(const Cone&, const std::array<S, 2>& numbers);  // with the rates by them
+///   static SolidPropertiesOf<S> solid(const Cone&, const std::array<S, 2>& numbers);  // with the rates with respect to them
 ///   static double outer(const Cone&), inner(const Cone&);                         // radii, see ShapeKind
 ///   static FarthestPoint farthest(const Cone&, const Vec3& n);
 /// Numbers are taken to be lengths, and the shape to have a volume.

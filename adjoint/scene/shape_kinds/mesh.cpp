@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "adjoint/base/refuse.hpp"
 #include "adjoint/scene/shape_kinds/scaled_surface.hpp"
 
 namespace carom::shapes {
@@ -7,12 +13,28 @@ using namespace adjoint_detail;
 
 namespace {
 
-std::string borderOf(const Surface& s) {
+std::string placeOf(const Vec3& p) { return "(" + about(p.x(), 3) + ", " + about(p.y(), 3) + ", " + about(p.z(), 3) + ")"; }
+
+/// Boundary edges that hang together bound a hole.
+std::string holesOf(const Surface& s) {
+  std::vector<int> up(s.vertices.size());
+  std::iota(up.begin(), up.end(), 0);
+  const auto find = [&](int v) {
+    while (up[static_cast<std::size_t>(v)] != v) v = up[static_cast<std::size_t>(v)] = up[static_cast<std::size_t>(up[static_cast<std::size_t>(v)])];
+    return v;
+  };
+  std::map<int, Eigen::AlignedBox3d> holes;
+  for (const Surface::Edge& e : s.edges)
+    if (e.right < 0) up[static_cast<std::size_t>(find(e.from))] = find(e.to);
   for (const Surface::Edge& e : s.edges)
     if (e.right < 0)
-      return "the edge from " + validation::text(s.vertices[static_cast<std::size_t>(e.from)]) + " to " +
-             validation::text(s.vertices[static_cast<std::size_t>(e.to)]) + " has one triangle";
-  return "its surface does not close";
+      for (const int v : {e.from, e.to}) holes[find(v)].extend(s.vertices[static_cast<std::size_t>(v)]);
+  const auto widest = std::max_element(holes.begin(), holes.end(), [](const auto& a, const auto& b) {
+    return a.second.sizes().norm() < b.second.sizes().norm();
+  });
+  if (widest == holes.end()) return "its surface does not close";
+  const std::string many = holes.size() == 1 ? "a hole " : std::to_string(holes.size()) + " holes, the widest ";
+  return many + about(widest->second.sizes().norm(), 3) + " m across, around " + placeOf(widest->second.center()) + " m";
 }
 
 void checkMesh(const Shape& shape, const validation::ShapeCheck& at) {
@@ -24,8 +46,8 @@ void checkMesh(const Shape& shape, const validation::ShapeCheck& at) {
       validation::fail(at.where, "a face with " + std::to_string(face.count) + " corners", "triangles alone, as meshSurface makes them");
   requireScale(at, s.scale, *s.surface);
   if (at.derived && !s.surface->closed)
-    validation::fail(at.where, "an open mesh (" + borderOf(*s.surface) + ") on a moving body, whose " + at.derived,
-                     "a closed mesh, or \"mass\" and \"inertia\" both written, or \"fixed\": true");
+    validation::fail(at.where, "an open mesh (" + holesOf(*s.surface) + ") on a moving body, whose " + at.derived,
+                     "a closed mesh, or a \"hull\" of it, or \"mass\" and \"inertia\" both written, or \"fixed\": true");
 }
 
 struct MeshRow : ScaledRow<Mesh> {

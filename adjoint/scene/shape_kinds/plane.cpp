@@ -19,7 +19,7 @@ void checkPlane(const Shape& s, const validation::ShapeCheck& at) {
 }
 
 [[noreturn]] void noMass() {
-  throw InputError("found the mass properties of a plane asked for, expected a shape with a volume");
+  throw InputError("found a plane, which has no mass properties, expected a shape with a volume");
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ ShapeKind kindRow(KindOf<Plane>) {
       .boundingRadius = [](const Shape&) { return std::numeric_limits<double>::infinity(); },
       .innerRadius = [](const Shape&) { return 0.0; },
       .farthest = [](const Shape&, const Vec3&) -> FarthestPoint {
-        throw InputError("found the farthest point of a plane asked for, expected a shape that ends");
+        throw InputError("found a plane, which has no farthest point, expected a bounded shape");
       },
   };
 }

@@ -22,7 +22,7 @@ void requireScale(const validation::ShapeCheck& at, double scale, const Surface&
 
 FarthestPoint farthestVertex(const Surface* surface, double scale, const Vec3& n) {
   if (!surface || surface->vertices.empty())
-    throw InputError("found the farthest point of a shape without surface asked for, expected one with vertices");
+    throw InputError("found a shape without surface, which has no farthest point, expected one with vertices");
   const Vec3* farthest = nullptr;
   double most = -std::numeric_limits<double>::infinity(), second = most;
   for (const Vec3& v : surface->vertices) {

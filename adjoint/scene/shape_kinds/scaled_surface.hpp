@@ -26,8 +26,8 @@ struct ScaledRow {
   template <class S>
   static SolidPropertiesOf<S> solid(const T& shape, const std::array<S, 1>& numbers) {
     if (!hasVolume(shape))
-      throw InputError(std::string("found the mass properties of a ") + kindOf(shape).name +
-                       (shape.surface ? " that is open" : " without surface") + " asked for, expected a closed one");
+      throw InputError(std::string("found a ") + kindOf(shape).name +
+                       (shape.surface ? " that is open" : " without surface") + ", which has no mass properties, expected a closed one");
     const Surface& surface = *shape.surface;
     const auto& [s] = numbers;
     SolidPropertiesOf<S> p;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/constrained/constrained_forces.hpp"
+#include "adjoint/motion/body_geometry.h"
+#include "adjoint/motion/motion.h"
+
+namespace carom::adjoint_detail {
+
+/// What may end a path in lasting contact: a quantity that falls to 0.
+struct ConstrainedGuard {
+  TransitionCause cause = TransitionCause::none;
+  int contact = -1;     ///< of the path
+  int limit = -1;       ///< leaves: of BodyGeometry::limits
+  FeatureLimit border;  ///< leaves: as it is at the start; a circle's goes round with the contact
+
+  bool isSame(const ConstrainedGuard& o) const { return cause == o.cause && contact == o.contact && limit == o.limit; }
+};
+
+/// All guards of a path that begins with `start`.
+std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start);
+
+/// The value of a guard, and how much of it is rounding:
+///   lifts   n.f / (m a);    slips   (mu n.f - |f_t|) / (m a);    sticks   t.u / c;    leaves   see FeatureLimit
+/// with the units of force m a and speed c of the scene. `shareOfMargin`: by what a value is to be multiplied to be without a unit.
+double guardValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts,
+                  const Pose& own, const ConstrainedInstant& now, const ConstrainedForces& forces);
+double guardRounding(const ConstrainedGuard& guard, const ConstrainedScene& scene);
+double shareOfMargin(const ConstrainedGuard& guard, const ConstrainedScene& scene);
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/constrained/constrained_instant.hpp"
+
+namespace carom::adjoint_detail {
+
+void placeInstant(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& state, const Mat3& R,
+                  ConstrainedInstant& now) {
+  const BodyModel& model = *scene.model;
+  BodyInstant<double>& body = now.body;
+  body.v = state.v, body.L = state.L, body.gravity = scene.gravity;
+  body.A = model.inverseInertiaWorld(R);
+  body.omega = body.A * state.L;
+  body.inverse_mass = model.inverse_mass;
+  const Pose pose{state.x, model.shapeToWorld(R)};
+  now.contacts.resize(contacts.size());
+  now.gap_rate.resize(contacts.size());
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const PersistentContact& held = contacts[k];
+    const ContactMotion m = scene.contact(held, k, pose, state.v, body.omega);
+    const double sign = held.is_first ? 1 : -1;
+    ContactInstant<double>& c = now.contacts[k];
+    c.mode = held.mode;
+    c.n = sign * m.at.normal, c.normal_rate = sign * m.normal_rate;
+    c.r = m.at.point - state.x, c.point_rate = m.point_rate;
+    c.friction = held.friction;
+    now.gap_rate[k] = m.gap_rate;
+  }
+}
+
+ConstrainedInstant instantOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& state,
+                      const std::vector<Vec3>& slip) {
+  ConstrainedInstant now;
+  placeInstant(scene, contacts, state, state.q.toRotationMatrix(), now);
+  for (std::size_t k = 0; k < contacts.size(); ++k) now.contacts[k].slip = slip[k];
+  return now;
+}
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/constrained/constrained_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/constrained/constrained_dynamics.hpp"
+#include "adjoint/constrained/constrained_start.hpp"
+#include "adjoint/numeric/decompositions.hpp"
+#include "adjoint/numeric/elementary.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+// A slip that ends goes straight from this share of the unit of speed on, if what is left of it across is rounding, or from
+// the lesser one.
+constexpr double kStraight = 1e-8, kStraightAnyway = 1e-11;
+// The direction of a slip slower than this is better known by the nodes of the step.
+constexpr double kNoDirection = 1e-7;
+// Its direction at its end is found in so many rounds, if it is not further than this from that at a node, rad.
+constexpr int kAlignRounds = 3;
+constexpr double kMostAlign = 0.01;
+// A slip goes straight where it changes across its direction by no more than this share.
+constexpr double kTurns = 1e-4;
+// The first step turns the body by about so much, rad, and steps are never longer than this share of the first guess.
+constexpr double kFirstTurn = 0.3;
+// See lengthBeforeEnd.
+constexpr double kLeftOutOfSlip = 3e-13;
+// One that is nearer than this share of a step to its start, and cannot be come to by a step, is there at once.
+constexpr double kAtOnceOfStep = 1e-6;
+constexpr int kTries = 200;
+// Of the unit of speed: slower than that is what rounding leaves of speeds that an impact law stops.
+constexpr double kStopped = 1e-14;
+// Most steps of a path, and of one whose rims go round.
+constexpr std::size_t kMostSteps = 20'000, kMostOfRims = 100'000;
+// What a step leaves of speeds that contacts keep at 0 is less than this share of the unit of speed.
+constexpr double kMostTakenBack = 1e-10;
+// A rim that comes to lie flat before so many steps have passed is brought there by the next one.
+constexpr double kLooksForFlat = 1.5;
+
+// By which a step may be longer, or has to be shorter.
+double factorFor(double error) {
+  return std::clamp(0.9 * elementary::pow(std::max(error, 1e-12), -1.0 / 11), 0.2, 2.0);
+}
+
+// How far before its end a slip can be followed in one step, as a share of the time that is left of it: polynomials
+// through the nodes converge like 1/R^12 on the ellipse of axes R + 1/R that reaches to the end, and what they leave out
+// counts by the share that the slip has of the unit of speed.
+double lengthBeforeEnd(double share) {
+  const double R = elementary::pow(share / kLeftOutOfSlip, 1.0 / Gauss::kNodes);
+  return 2.6 / (0.5 * (R + 1 / R) + 1);
+}
+
+}  // namespace
+
+ConstrainedPath::ConstrainedPath(ConstrainedScene scene, std::vector<PersistentContact> contacts, bool redundant, std::vector<ConstrainedGuard> guards,
+                   const State& start, double time, double until, std::vector<Vec3> stopped)
+    : scene_(std::move(scene)),
+      contacts_(std::move(contacts)),
+      redundant_(redundant),
+      guards_(std::move(guards)),
+      start_state_(start),
+      last_(start),
+      start_(time),
+      until_(until),
+      known_(time),
+      stopped_(std::move(stopped)) {
+  findRims();
+  const ConstrainedInstant now = instantOf(scene_, contacts_, start, slipAfter());
+  const double spin = now.body.omega.norm() + std::sqrt(scene_.gravity.norm() / scene_.length);
+  next_length_ = kFirstTurn / spin;
+  ConstrainedForces forces;
+  forces.solve(now, redundant_);
+  bounds_.acceleration = forces.acceleration();
+  bounds_.straight = false;
+  for (const ContactInstant<double>& c : now.contacts)
+    rolls_ = rolls_ || (c.mode == ContactMode::sticks && c.point_rate.norm() > 1e-6 * scene_.speed);
+  if (start_ < until_) extend();
+}
+
+bool ConstrainedPath::slides() const {
+  return std::ranges::any_of(contacts_, [](const PersistentContact& c) { return c.mode == ContactMode::slides; });
+}
+
+ArcKind ConstrainedPath::kind() const {
+  if (slides()) return ArcKind::slide;
+  return rolls_ ? ArcKind::roll : ArcKind::pivot;
+}
+
+void ConstrainedPath::extendTo(const Arc&, double t) {
+  while (!end_ && known_ < std::min(t, until_)) extend();
+}
+
+std::vector<Vec3> ConstrainedPath::slipAfter() const {
+  if (!steps_.empty()) return steps_.back().slipAtNode(Gauss::kNodes - 1);
+  std::vector<Vec3> slip;
+  for (const PersistentContact& c : contacts_) slip.push_back(c.slip);
+  return slip;
+}
+
+// Looks at the slips with which a step starts: those that are about to end, as they are slow and become slower, are
+// frozen. Gives how long the step may be as they come to an end or turn.
+double ConstrainedPath::lookAtSlips(ConstrainedStepper::Start& start) const {
+  double longest = kInfinity;
+  if (!slides()) return longest;
+  const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+  ConstrainedForces forces;
+  forces.solve(now, redundant_);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (contacts_[k].mode != ContactMode::slides || !(contacts_[k].friction > 0)) continue;
+    if (contacts_[k].begins && steps_.empty()) continue;
+    const ContactInstant<double>& c = now.contacts[k];
+    const double slip = now.slipAt(k).norm(), share = slip / scene_.speed;
+    Vec3 rate = forces.slipRate(k);
+    rate -= c.n.dot(rate) * c.n;
+    const double along = start.slip[k].dot(rate), across = (rate - along * start.slip[k]).norm();
+    if (share < kStraightAnyway || (share < kStraight && share * across < kLeftOutOfSlip * rate.norm())) {
+      start.frozen[k] = along < 0;
+    } else if (across > kTurns * rate.norm()) {
+      longest = std::min(longest, slip / rate.norm() * lengthBeforeEnd(share));
+    }
+  }
+  return longest;
+}
+
+void ConstrainedPath::extend() {
+  if (end_ || !(known_ < until_)) return;
+  const bool goes_round = std::ranges::any_of(rims_, [](const auto& rim) { return rim.has_value(); });
+  if (steps_.size() >= (goes_round ? kMostOfRims : kMostSteps)) throw NotComputable(tooManySteps());
+  take(nextStep());
+}
+
+// The longest step that is as good as is asked for, or that ends where a guard falls to 0.
+ConstrainedStep ConstrainedPath::nextStep() {
+  ConstrainedStepper stepper(scene_, contacts_, redundant_);
+  ConstrainedStepper::Start start{last_, known_, slipAfter(), std::vector<char>(contacts_.size(), 0)};
+  double length = std::min(next_length_, lookAtSlips(start));  // however long the motion is: that must not matter
+  if (const std::optional<FlatAhead> ahead = flatAhead(start); ahead && ahead->time < kLooksForFlat * length) {
+    if (std::optional<ConstrainedStep> last = stepToFlat(stepper, start, *ahead)) {
+      end_ = Ending{last->start + last->length, {TransitionCause::leaves, static_cast<int>(ahead->contact), -1, {}}};
+      return *std::move(last);
+    }
+    length = std::min(length, 0.5 * ahead->time);
+  }
+  const ConstrainedStep* like = steps_.empty() ? nullptr : &steps_.back();
+  std::optional<ConstrainedStep> too_long;
+  for (int tries = 0; tries < kTries && known_ + length > known_; ++tries) {
+    std::optional<ConstrainedStep> step = stepper.tried(start, length, like);
+    if (!step) {
+      length *= 0.4;
+      continue;
+    }
+    std::optional<Ending> end;
+    try {
+      end = firstEnd(*step);
+    } catch (const NotComputable&) {  // as in ConstrainedStepper::tried
+      if (!(known_ + 1e-3 * length > known_)) throw;
+      length *= 0.4;
+      continue;
+    }
+    const double error = stepper.errorOf(*step);
+    if (!(error <= 1)) {
+      length = shorterLength(length, error, end);
+      too_long = std::move(step);
+      like = &*too_long;
+      continue;
+    }
+    next_length_ = factorFor(error) * length;
+    if (!end && passesFlat(*step)) {
+      length *= 0.5;
+      continue;
+    }
+    if (!end) return *step;
+    if (!(end->time > known_)) {  // at once
+      step->length = 0;
+    } else {
+      const double left = end->time - known_;
+      const bool comes = endAt(stepper, start, *step, *end);
+      if (comes ? passesBy(*step, *end) : left > kAtOnceOfStep * length) {
+        length *= 0.5;
+        continue;
+      }
+      if (!comes) step->length = 0;
+      end->time = step->start + step->length;
+    }
+    end_ = end;
+    return *step;
+  }
+  throw NotComputable("its path in contact cannot be computed beyond t = " + std::to_string(known_) + " s" + jamAt(start));
+}
+
+// What lies beyond an end need not be followed.
+double ConstrainedPath::shorterLength(double length, double error, const std::optional<Ending>& end) const {
+  const double shorter = factorFor(error) * length;
+  if (!end || !(end->time > known_) || !(end->time < known_ + 0.95 * length)) return shorter;
+  return std::max(end->time - known_, shorter);
+}
+
+// What steps leave out adds up: gaps and speeds that are 0 are taken back to it, as at the start, by as little as rounding.
+State ConstrainedPath::stayingOn(const State& state) const {
+  std::vector<PersistentContact> contacts = contacts_;
+  for (PersistentContact& c : contacts) c.begins = false;
+  return constrainedStart(scene_, contacts, state, 1);
+}
+
+void ConstrainedPath::take(ConstrainedStep step) {
+  const ConstrainedSlopes& c = step.slopes;
+  if (step.length > 0) {
+    const auto most = [&](int row) { return c.middleRows<3>(row).colwise().norm().eval(); };
+    const auto push = most(6), turn = most(3);
+    bounds_.variation = std::max(bounds_.variation, (Vec3(c.block<3, 1>(6, 0)) - bounds_.acceleration).norm() +
+                                                        push.tail(Gauss::kNodes - 1).sum());
+    // |P_k| <= 1 and |P_k'| <= k (k + 1)/2, of (x + 1)/2 twice that; omega = J theta' with |J| <= 1, |J'| <= |theta'|
+    double bend = 0;
+    for (int k = 1; k < Gauss::kNodes; ++k) bend += turn[k] * k * (k + 1) / step.length;
+    const double spin = turn.sum();
+    bounds_.spin = std::max(bounds_.spin, spin);
+    bounds_.spin_rate = std::max(bounds_.spin_rate, bend + spin * spin);
+    known_ = step.start + step.length;
+    const State end = step.stateAt(known_);
+    last_ = endsFlat() ? end : stayingOn(end);
+    if (!((last_.v - end.v).norm() <= kMostTakenBack * scene_.speed))
+      throw NotComputable("the normal velocity left at the contacts of its path is more than rounding");
+  }
+  steps_.add(std::move(step));
+}
+
+const ConstrainedStep& ConstrainedPath::stepAt(double t) const {
+  std::size_t low = 0, high = steps_.size();
+  while (high - low > 1) {  // the last one that starts before t
+    const std::size_t middle = (low + high) / 2;
+    (steps_[middle].start < t && steps_[middle].length > 0 ? low : high) = middle;
+  }
+  if (t > known_)  // a polynomial is good for about its length beyond it: rather that of a longer step before
+    while (low > 0 && steps_[low].length < t - known_ && steps_[low - 1].length > steps_[low].length) --low;
+  return steps_[low];
+}
+
+// Where what lies beyond a border is looked for, the path is seen a little beyond its end: further than a step is long its
+// polynomial tells nothing there, but how the body moves at the end.
+State ConstrainedPath::stateAt(double t) const {
+  if (!(t > start_)) return start_state_;
+  const bool moves = !steps_.empty() && steps_.front().length > 0;
+  if (moves) {
+    const ConstrainedStep& step = stepAt(t);
+    if (!(t > known_) || t - step.start <= 2 * step.length) return step.stateAt(t);
+  }
+  const State& end = moves ? last_ : start_state_;
+  const double beyond = t - known_;
+  if (!(beyond > 0)) return end;
+  ConstrainedVector change = ConstrainedVector::Zero();
+  change.head<3>() = beyond * end.v;
+  change.segment<3>(3) = beyond * (scene_.model->inverseInertiaWorld(end.q.toRotationMatrix()) * end.L);
+  return ConstrainedStep::moved(end, change);
+}
+
+Vec3 ConstrainedPath::velocityAt(const Arc&, double t) const {
+  if (!(t > start_) || steps_.empty() || !(steps_.front().length > 0)) return start_state_.v;
+  const ConstrainedStep& step = stepAt(t);
+  return step.from.v + step.changeAt(t).segment<3>(6);
+}
+
+std::optional<std::size_t> ConstrainedPath::contactThatStops() const {
+  if (!end_ || end_->guard.cause != TransitionCause::sticks) return std::nullopt;
+  return static_cast<std::size_t>(end_->guard.contact);
+}
+
+// Where a slip is 0 it goes along its acceleration, u' = -|u'| d, which the direction at a node comes near to: Newton's
+// method on (n x d).u' = 0, for all that stop there together.
+void ConstrainedPath::alignStop(ConstrainedInstant& now) const {
+  const std::optional<std::size_t> first = contactThatStops();
+  const auto stops = [&](std::size_t k) {
+    return contacts_[k].mode == ContactMode::slides && contacts_[k].friction > 0 &&
+           !(now.slipAt(k).norm() > kStraightAnyway * scene_.speed);
+  };
+  if (!first || !stops(*first)) return;
+  std::vector<std::size_t> turning;
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    if (stops(k)) turning.push_back(k);
+  const auto size = static_cast<Eigen::Index>(turning.size());
+  Eigen::MatrixXd J(size, size);
+  Eigen::VectorXd r(size);
+  for (int round = 0; round < kAlignRounds; ++round) {
+    const ConstrainedDynamics forces(now.body, now.contacts, redundant_);
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const std::vector<Vec3> answer = forces.answerToTurn(turning[static_cast<std::size_t>(j)], redundant_);
+      for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t k = turning[static_cast<std::size_t>(i)];
+        const ContactInstant<double>& c = now.contacts[k];
+        const Vec3 across = c.n.cross(c.slip), rate = forces.slipRate(k);
+        J(i, j) = across.dot(forces.responseAt(c.r, answer)) - (i == j ? c.slip.dot(rate) : 0.0);
+        r[i] = across.dot(rate);
+      }
+    }
+    const Eigen::VectorXd turn = -PartialLu(J).solve(r);
+    if (!(turn.cwiseAbs().maxCoeff() < kMostAlign)) return;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      ContactInstant<double>& c = now.contacts[turning[static_cast<std::size_t>(i)]];
+      c.slip = (c.slip + turn[i] * c.n.cross(c.slip)).normalized();
+    }
+  }
+}
+
+ConstrainedInstant ConstrainedPath::instantAt(double t) const {
+  std::vector<Vec3> slip;
+  if (steps_.empty() || !(steps_.front().length > 0)) {
+    slip = slipAfter();
+  } else {
+    stepAt(t).placeSlips(t, slip);
+    if (!(t > start_))
+      for (std::size_t k = 0; k < contacts_.size(); ++k) slip[k] = contacts_[k].slip;
+  }
+  ConstrainedInstant now = instantOf(scene_, contacts_, stateAt(t), slip);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (contacts_[k].mode != ContactMode::slides || !(contacts_[k].friction > 0)) continue;
+    ContactInstant<double>& c = now.contacts[k];
+    const Vec3 u = now.slipAt(k);
+    if (u.norm() > kNoDirection * scene_.speed) c.slip = u;
+    c.slip = inPlane(c.slip, c.n);
+  }
+  if (t > start_) alignStop(now);
+  return now;
+}
+
+StateDerivative ConstrainedPath::rateAt(double t) const {
+  if (endsFlat() && !(t < known_)) {  // the rim that lies flat there has no lowest point
+    const ConstrainedVector slope = steps_.back().slopeAt(known_);
+    StateDerivative rate;
+    rate.x = last_.v, rate.v = slope.segment<3>(6), rate.L = slope.tail<3>();
+    rate.theta = scene_.model->inverseInertiaWorld(last_.q.toRotationMatrix()) * last_.L;
+    return rate;
+  }
+  const ConstrainedInstant now = instantAt(t);
+  ConstrainedForces forces;
+  forces.solve(now, redundant_);
+  StateDerivative rate;
+  rate.x = now.body.v, rate.theta = now.body.omega, rate.v = forces.acceleration(), rate.L = forces.moment();
+  return rate;
+}
+
+bool ConstrainedPath::stopsSpeeds() const {
+  const double rounding = kStopped * scene_.speed * scene_.model->mass;
+  return std::ranges::any_of(stopped_, [&](const Vec3& impulse) { return impulse.norm() > rounding; });
+}
+
+}  // namespace carom::adjoint_detail

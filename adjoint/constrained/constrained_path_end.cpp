@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+// Where a path in contact ends: roots of its guards, and where they nearly are.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/constrained/constrained_dynamics.hpp"
+#include "adjoint/constrained/constrained_path_values.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+// Guards that fall to 0 nearer to one another than this share of the time do so at once.
+constexpr double kAtOnce = 1e-13;
+// Rounds of a step to its end, and by which share of it the end may still move.
+constexpr int kEndings = 6;
+constexpr double kSameEnd = 1e-15;
+// A rim is flat where its height varies by no more than this, m for bodies of 1 m: separations are known to 1e-13.
+constexpr double kFlat = 2e-13;
+// What is rounding of a tilt.
+constexpr double kTiltRounding = 8e-16;
+// At the last node of a step to where it lies flat the direction of its tilt is known to 1e-16 of a tilt of 0.009 of how far it
+// tilts in that step: it answers for an error of this share of g/c over its rate.
+constexpr double kNodeNoise = 0.05;
+// Rounds of a step to where it lies flat.
+constexpr int kLandings = 12;
+// How well the time of a least value is known, as a share of it or of the unit of time: values are flat there.
+constexpr double kLeastWithin = 1e-9;
+// What a slip that ends may have across its direction, as a share of the unit of speed: one that goes straight, and one
+// that still turns.
+constexpr double kStraightLeft = 1e-6, kNothingLeft = 1e-11;
+// A contact whose gap answers to its push by less than this share of its answer to the normal alone jams.
+constexpr double kJams = 1e-3;
+
+}  // namespace
+
+std::size_t ConstrainedPath::indexOf(const ConstrainedGuard& guard) const {
+  return static_cast<std::size_t>(std::ranges::find_if(guards_, [&](const ConstrainedGuard& g) { return g.isSame(guard); }) - guards_.begin());
+}
+
+TrajectoryEnd ConstrainedPath::end() const {
+  if (!end_) return {};
+  return {end_->time, end_->guard.cause, end_->guard.contact, end_->guard.limit};
+}
+
+// The state of an event is that at the end of a step: the step is made anew up to the root, which is found once more
+// there. False: there is no such step.
+bool ConstrainedPath::endAt(ConstrainedStepper& stepper, const ConstrainedStepper::Start& start, ConstrainedStep& step, Ending& end) const {
+  const std::size_t which = indexOf(end.guard);
+  for (int round = 0; round < kEndings; ++round) {
+    const double shorter = end.time - known_;
+    if (shorter == step.length) return true;
+    std::optional<ConstrainedStep> ending = stepper.tried(start, shorter, &step);
+    if (!ending) return false;
+    step = std::move(*ending);
+    Values values(*this, step);
+    const double h = step.length, value = values.at(known_ + h)[which], earlier = values.at(known_ + 0.999 * h)[which];
+    const double move = -value * (0.001 * h) / (value - earlier);
+    if (std::abs(move) <= std::max(kSameEnd * h, 1e-16 * known_)) return true;
+    const bool is_rounding = std::abs(value) <= guardRounding(guards_[which], scene_);  // of a guard that hardly moves
+    if (is_rounding && (round > 0 || !(value < earlier))) return true;
+    if (!(std::abs(move) <= 0.5 * h)) return false;
+    end.time += move;
+  }
+  return false;
+}
+
+// How often a rim's lowest point goes round tells how much work the rest of a motion is: some ten steps each time.
+std::string ConstrainedPath::tooManySteps() const {
+  std::string why = textOf(6, "its path in contact takes more than ", steps_.size(), " steps");
+  for (std::size_t k = 0; k < rims_.size(); ++k) {
+    if (!rims_[k]) continue;
+    const Tilt tilt = tiltOf(k, last_);
+    const double turns = tilt.x.cross(tilt.rate).norm() / tilt.x.squaredNorm() / (2 * std::numbers::pi);
+    return why + textOf(6, ": the lowest point of its rim, which is tilted by ", tilt.x.norm(), " rad, moves round ", turns, " times per second");
+  }
+  return why + ": it rotates too fast";
+}
+
+// Of a contact that slides: how its gap answers to the push n - mu d, while the others hold, over how it does to n. Where that
+// comes down to 0 its force grows beyond any bound: it jams (Painleve).
+std::string ConstrainedPath::jamAt(const ConstrainedStepper::Start& start) const {
+  const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+  Eigen::MatrixXd inverse;
+  const ConstrainedDynamics forces(now.body, now.contacts, redundant_, &inverse);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (contacts_[k].mode != ContactMode::slides || !(contacts_[k].friction > 0)) continue;
+    const ContactInstant<double>& c = now.contacts[k];
+    const Eigen::Index at = forces.unknown(k);
+    const double share = 1 / (inverse(at, at) * c.n.dot(forces.responseAt(c.r, k, c.n)));
+    if (!(share < kJams)) continue;
+    return textOf(3, ": it jams there (Painleve): n.K(n - mu d) of a sliding contact, the denominator of its force, has fallen to ", share,
+                  " of n.K n, and the force has grown to ", forces.pressing(k) / (scene_.model->mass * scene_.gravity.norm()),
+                  " times the weight");
+  }
+  return {};
+}
+
+void ConstrainedPath::findRims() {
+  rims_.resize(contacts_.size());
+  const auto* geometry = dynamic_cast<const RimGeometry*>(scene_.geometry.get());
+  for (std::size_t k = 0; k < contacts_.size() && geometry; ++k) {
+    const PersistentContact& c = contacts_[k];
+    const auto rim = c.is_first ? geometry->rimOnFace(scene_.body, c.with, c.features)
+                                : geometry->rimOnFace(c.with, scene_.body, c.features);
+    if (rim && rim->features == c.features && rim->of_first == c.is_first) rims_[k] = rim;
+  }
+}
+
+ConstrainedPath::Tilt ConstrainedPath::tiltOf(std::size_t k, const State& state) const {
+  const Mat3 R = state.q.toRotationMatrix();
+  const Vec3 d = scene_.model->shapeToWorld(R) * rims_[k]->axis, N = scene_.with[k].R * rims_[k]->normal;
+  const Vec3 omega = scene_.model->inverseInertiaWorld(R) * state.L;
+  return {RimOnFace::tilt(d, N), RimOnFace::tilt(omega.cross(d), N)};
+}
+
+// A tilt x = d x N comes to 0 only along a line: else it goes by at the distance |x x x'|/|x'|, and the lowest point of the rim
+// goes round. What passes so near that the heights of the rim never differ by more than is known of them lies flat (11.26).
+std::optional<ConstrainedPath::FlatAhead> ConstrainedPath::flatAhead(const ConstrainedStepper::Start& start) const {
+  const double flat = kFlat * std::max(1.0, start.state.x.cwiseAbs().maxCoeff());
+  for (std::size_t k = 0; k < rims_.size(); ++k) {
+    if (!rims_[k]) continue;
+    const Tilt tilt = tiltOf(k, start.state);
+    const double sine = tilt.x.norm(), speed = tilt.rate.norm(), across = 2 * rims_[k]->radius;
+    if (!(tilt.x.dot(tilt.rate) < 0) || (steps_.empty() && !(across * sine > flat))) continue;
+    if (!(across * tilt.x.cross(tilt.rate).norm() <= flat * speed)) continue;
+    const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+    ConstrainedForces forces;
+    forces.solve(now, redundant_);
+    const Mat3 R = start.state.q.toRotationMatrix();
+    const Vec3 d = scene_.model->shapeToWorld(R) * rims_[k]->axis, N = scene_.with[k].R * rims_[k]->normal, &omega = now.body.omega;
+    const Vec3 spin_rate = now.body.A * (forces.moment() - omega.cross(now.body.L));
+    const Vec3 bend = RimOnFace::tilt(spin_rate.cross(d) + omega.cross(omega.cross(d)), N);
+    const Vec3 axis = tilt.x / sine;
+    const double under = speed * speed - 2 * sine * axis.dot(bend);
+    if (!(under > 0)) continue;
+    return FlatAhead{k, axis, 2 * sine / (speed + std::sqrt(under))};
+  }
+  return std::nullopt;
+}
+
+// A step whose end is where the tilt comes to 0: its nodes lie before, where all is smooth.
+std::optional<ConstrainedStep> ConstrainedPath::stepToFlat(ConstrainedStepper& stepper, const ConstrainedStepper::Start& start, const FlatAhead& ahead) const {
+  double length = ahead.time;
+  const ConstrainedStep* like = steps_.empty() ? nullptr : &steps_.back();
+  std::optional<ConstrainedStep> step;
+  for (int round = 0; round < kLandings; ++round) {
+    std::optional<ConstrainedStep> next = stepper.tried(start, length, like);
+    if (!next) return std::nullopt;
+    step = std::move(next);
+    like = &*step;
+    const Tilt tilt = tiltOf(ahead.contact, ConstrainedStep::moved(step->from, step->changeAt(step->start + length)));
+    const double rate = ahead.axis.dot(tilt.rate), move = -ahead.axis.dot(tilt.x) / rate;
+    if (!(rate < 0)) return std::nullopt;
+    if (std::abs(move) <= std::max({kSameEnd * length, 2e-16 * known_, kTiltRounding / -rate})) {
+      const double noise = kNodeNoise * scene_.gravity.norm() / (scene_.speed * -rate);
+      if (!(stepper.errorOf(*step) <= 1 + noise) || firstEnd(*step, true)) return std::nullopt;
+      return step;
+    }
+    length += move;
+    if (!(length > 0 && known_ + length > known_)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool ConstrainedPath::beginsFlat() const {
+  for (std::size_t k = 0; k < rims_.size(); ++k)
+    if (rims_[k] && 2 * rims_[k]->radius * tiltOf(k, start_state_).x.norm() <= kFlat * std::max(1.0, start_state_.x.cwiseAbs().maxCoeff()))
+      return true;
+  return false;
+}
+
+// Whether a rim has come to tilt the other way since the last node, of which no node knows; or all but lies flat, where the step
+// is better one that ends flat.
+bool ConstrainedPath::passesFlat(const ConstrainedStep& step) const {
+  const double last = step.start + Gauss::get().node[Gauss::kNodes - 1] * step.length;
+  for (std::size_t k = 0; k < rims_.size(); ++k) {
+    if (!rims_[k]) continue;
+    const State state = step.stateAt(step.start + step.length);
+    const Tilt before = tiltOf(k, step.stateAt(last)), end = tiltOf(k, state);
+    const double flat = kFlat * std::max(1.0, state.x.cwiseAbs().maxCoeff()), across = 2 * rims_[k]->radius;
+    if (!(before.x.dot(end.x) > 0)) return true;
+    if (end.x.dot(end.rate) < 0 && across * end.x.norm() <= flat && across * end.x.cross(end.rate).norm() <= flat * end.rate.norm()) return true;
+  }
+  return false;
+}
+
+// A slip that was expected to end has not.
+bool ConstrainedPath::passesBy(const ConstrainedStep& step, const Ending& end) const {
+  if (end.guard.cause != TransitionCause::sticks) return false;
+  const ConstrainedInstant now = instantOf(scene_, contacts_, step.stateAt(step.start + step.length),
+                                    step.slipAtNode(Gauss::kNodes - 1));
+  const auto k = static_cast<std::size_t>(end.guard.contact);
+  return now.slipAt(k).norm() > (step.frozen[k] ? kStraightLeft : kNothingLeft) * scene_.speed;
+}
+
+// The first guard that falls through 0, looked for at the nodes and at both ends.
+std::optional<ConstrainedPath::Ending> ConstrainedPath::firstEnd(const ConstrainedStep& step, bool nodes_alone) const {
+  if (guards_.empty()) return std::nullopt;
+  const Gauss& gauss = Gauss::get();
+  double before = step.start;
+  Values values(*this, step);
+  std::vector<double> last = values.atStart();
+  for (int i = 0; i <= Gauss::kNodes - (nodes_alone ? 1 : 0); ++i) {
+    const double t = step.start + (i < Gauss::kNodes ? gauss.node[i] : 1) * step.length;
+    const std::vector<double> now = values.at(t);
+    std::optional<Ending> first;
+    for (std::size_t g = 0; g < guards_.size(); ++g) {
+      if (!(now[g] < -guardRounding(guards_[g], scene_)) || !(now[g] < last[g])) continue;
+      const double root = last[g] <= 0 ? before : rootOf(values, g, {before, t, last[g], now[g]});
+      // what comes at one instant comes in the order of the guards, whatever the rounding
+      if (!first || root < first->time - kAtOnce * std::abs(root)) first = Ending{root, guards_[g]};
+    }
+    if (first) return first;
+    before = t, last = now;
+  }
+  return std::nullopt;
+}
+
+double ConstrainedPath::guardAt(std::size_t guard, double t) const {
+  Values values(*this, stepAt(t));
+  return values.at(t)[guard];
+}
+
+// By golden sections.
+double ConstrainedPath::leastOf(std::size_t guard, double from, double to) const {
+  constexpr double kGolden = 0.6180339887498949;
+  double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
+  double at_left = guardAt(guard, left), at_right = guardAt(guard, right);
+  while (to - from > kLeastWithin * std::max(to, scene_.length / scene_.speed)) {
+    if (at_left < at_right) {
+      to = right, right = left, at_right = at_left;
+      at_left = guardAt(guard, left = to - kGolden * (to - from));
+    } else {
+      from = left, left = right, at_left = at_right;
+      at_right = guardAt(guard, right = from + kGolden * (to - from));
+    }
+  }
+  return 0.5 * (from + to);
+}
+
+ConstrainedPath::NearMiss ConstrainedPath::nearestMiss(double until) const {
+  NearMiss nearest;
+  std::vector<double> last, before;  // values at the two times looked at last
+  double at = start_, earlier = start_;
+  const auto look = [&](double t, const std::vector<double>& now) {
+    for (std::size_t g = 0; g < guards_.size() && !before.empty(); ++g) {
+      if (!(last[g] < before[g]) || !(last[g] <= now[g])) continue;
+      const double time = leastOf(g, earlier, t), margin = std::abs(guardAt(g, time)) * shareOfMargin(guards_[g], scene_);
+      if (time <= until && margin < nearest.margin) nearest = {margin, time, guards_[g]};
+    }
+    before = std::move(last), last = now, earlier = at, at = t;
+  };
+  for (const ConstrainedStep& step : steps_) {
+    if (!(step.length > 0) || !(step.start < until)) break;
+    Values values(*this, step);
+    for (const double node : Gauss::get().node) {
+      const double t = step.start + node * step.length;
+      look(t, values.at(t));
+      if (t > until) return nearest;
+    }
+  }
+  return nearest;
+}
+
+double ConstrainedPath::rootOf(Values& values, std::size_t guard, Bracket in) const {
+  const double length = in.below - in.above;
+  int side = 0;
+  for (int k = 0; k < 100 && std::nextafter(in.above, in.below) < in.below && in.low < 0; ++k) {
+    // the chord, drawn towards the end that has not moved (Illinois), with halving where it does not help
+    double t = k % 8 == 7 ? 0.5 * (in.above + in.below)
+                          : in.above + (in.below - in.above) * (in.high / (in.high - in.low));
+    t = std::clamp(t, std::nextafter(in.above, in.below), std::nextafter(in.below, in.above));
+    const double now = values.at(t)[guard];
+    if (now > 0) {
+      in.above = t, in.high = now;
+      if (side == 1) in.low *= 0.5;
+      side = 1;
+    } else {
+      in.below = t, in.low = now;
+      if (side == -1) in.high *= 0.5;
+      side = -1;
+    }
+    if (in.below - in.above <= 4e-16 * std::max(std::abs(in.below), length) || now == 0) break;
+  }
+  return in.below;
+}
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/constrained/constrained_rates.hpp"
+
+namespace carom::adjoint_detail {
+
+ConstrainedRates::ConstrainedRates(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const ConstrainedInputs& inputs,
+                     const State& state, std::vector<Vec3> slip, bool may_be_flat)
+    : scene_(scene), contacts_(contacts), inputs_(inputs), state_(state), slip_(std::move(slip)),
+      now_(instantOf(scene, contacts, state, slip_)),
+      own_{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())} {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const PersistentContact& c = contacts[k];
+    if (const double speed = now_.slipAt(k).norm(); follows(k) && speed > 0) now_.contacts[k].slip = now_.slipAt(k) / speed;
+    if (may_be_flat) flat_.push_back(FlatRim::of(scene, c, k, own_, now_.body.omega));
+    if (may_be_flat && flat_.back()) {  // it has no derivatives there by the pose alone
+      jacobians_.emplace_back(), jacobian_rates_.emplace_back();
+      continue;
+    }
+    const int a = c.is_first ? scene.body : c.with, b = c.is_first ? c.with : scene.body;
+    const Pose &A = c.is_first ? own_ : scene.with[k], &B = c.is_first ? scene.with[k] : own_;
+    jacobians_.push_back(scene.geometry->jacobian(a, b, c.features, A, B));
+    PairTangent way;
+    way.pose.segment<6>(c.is_first ? 0 : 6) << state.v, now_.body.omega;
+    jacobian_rates_.push_back(scene.geometry->jacobianRates(a, b, c.features, A, B, std::span(&way, 1)).front());
+  }
+}
+
+ConstrainedLanes ConstrainedRates::lanes(int first, int count) const {
+  ConstrainedLanes out;
+  fillBody(out, first, count);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    ConstrainedLanes::Number gap = 0;
+    out.contacts.push_back(contactLanes(out, k, first, count, gap));
+    out.gap.push_back(gap);
+  }
+  return out;
+}
+
+void ConstrainedRates::fillBody(ConstrainedLanes& out, int first, int count) const {
+  using Number = ConstrainedLanes::Number;
+  using I = ConstrainedInputs;
+  const BodyModel& model = *scene_.model;
+  BodyInstant<Number>& body = out.body;
+  out.x = state_.x.cast<Number>();
+  const Mat3 R = state_.q.toRotationMatrix();
+  M3<Number> turned = R.cast<Number>(), inverse = Mat3(model.inverse_inertia.asDiagonal()).cast<Number>();
+  body.v = state_.v.cast<Number>(), body.L = state_.L.cast<Number>(), body.gravity = scene_.gravity.cast<Number>();
+  body.inverse_mass = model.inverse_mass;
+  const auto in = [](int column, int begin, int size) { return column >= begin && column < begin + size; };
+  for (int lane = 0; lane < count; ++lane) {
+    const int column = first + lane;
+    const auto at = static_cast<std::size_t>(lane);
+    if (in(column, 0, 3)) out.x[column].rate[at] = 1;
+    if (in(column, 3, 3)) setRates(turned, Mat3(skew(Vec3(Vec3::Unit(column - 3))) * R), at);
+    if (in(column, 6, 3)) body.v[column - 6].rate[at] = 1;
+    if (in(column, 9, 3)) body.L[column - 9].rate[at] = 1;
+    if (in(column, I::kGravity, 3)) body.gravity[column - I::kGravity].rate[at] = model.gravity_factor;
+    if (column == I::kMass) body.inverse_mass.rate[at] = -model.inverse_mass * model.inverse_mass;
+    if (in(column, I::kInertia, 6)) {
+      Mat3 dJ = Mat3::Zero();
+      if (column < I::kProducts) {
+        const int i = column - I::kInertia;
+        dJ(i, i) = 1;
+      } else {
+        const int of = column - I::kProducts, row = (of + 1) % 3, other = (of + 2) % 3;
+        dJ(row, other) = dJ(other, row) = 1;
+      }
+      const Mat3 D = model.inverse_inertia.asDiagonal();
+      setRates(inverse, Mat3(-D * dJ * D), at);
+    }
+  }
+  body.A = turned * inverse * turned.transpose();
+  body.omega = body.A * body.L;
+  out.R = model.has_offset ? M3<Number>(turned * model.R_BG.cast<Number>()) : turned;
+}
+
+ContactInstant<ConstrainedLanes::Number> ConstrainedRates::contactLanes(const ConstrainedLanes& of, std::size_t k, int first, int count,
+                                                          ConstrainedLanes::Number& gap) const {
+  using Number = ConstrainedLanes::Number;
+  const PersistentContact& held = contacts_[k];
+  const ContactInstant<double>& now = now_.contacts[k];
+  ContactInstant<Number> c;
+  c.mode = held.mode;
+  c.n = now.n.cast<Number>(), c.normal_rate = now.normal_rate.cast<Number>();
+  c.point_rate = now.point_rate.cast<Number>();
+  c.friction = held.friction;
+  if (const int lane = inputs_.friction + static_cast<int>(k) - first; lane >= 0 && lane < count)
+    c.friction.rate[static_cast<std::size_t>(lane)] = 1;
+  if (!flat_.empty() && flat_[k]) {
+    flat_[k]->place(of, inputs_, k, first, count, c, gap);
+  } else {
+    placeLanes(of, k, first, count, c, gap);
+  }
+  c.slip = slip_[k].cast<Number>();
+  if (follows(k)) {
+    const V3<Number> u = of.body.velocityAt(c.r), along_face = u - c.n * c.n.dot(u);
+    const Number speed = sqrt(along_face.squaredNorm());
+    if (speed.value > 0) c.slip = along_face / speed;
+  }
+  return c;
+}
+
+void ConstrainedRates::placeLanes(const ConstrainedLanes& of, std::size_t k, int first, int count, ContactInstant<ConstrainedLanes::Number>& c,
+                           ConstrainedLanes::Number& gap) const {
+  using Number = ConstrainedLanes::Number;
+  const PersistentContact& held = contacts_[k];
+  const double sign = held.is_first ? 1 : -1;
+  const int own = held.is_first ? 0 : 6;
+  V3<Number> point = Vec3(now_.contacts[k].r + state_.x).cast<Number>();
+  // J q', where q' changes
+  for (int i = 0; i < 3; ++i) {
+    Number normal = 0, place = 0;
+    for (int j = 0; j < 6; ++j) {
+      const Number& rate = j < 3 ? of.body.v[j] : of.body.omega[j - 3];
+      normal += rate * (sign * jacobians_[k].pose(1 + i, own + j));
+      place += rate * jacobians_[k].pose(4 + i, own + j);
+    }
+    c.normal_rate[i].rate = normal.rate, c.point_rate[i].rate = place.rate;
+  }
+  addGeometry(c, point, gap, k, first, count);
+  c.r = point - of.x;
+}
+
+// Where columns move the pair: the gap, the normal and the point, and J q', where J changes. Second derivatives are
+// symmetric, so that is J' along each column, with J' along the way of the body; but for turns: the change of J q' as the
+// body turns by a is J' a + J (omega x a).
+void ConstrainedRates::addGeometry(ContactInstant<ConstrainedLanes::Number>& c, V3<ConstrainedLanes::Number>& point, ConstrainedLanes::Number& gap,
+                            std::size_t k, int first, int count) const {
+  const PersistentContact& held = contacts_[k];
+  const double sign = held.is_first ? 1 : -1;
+  const int own_turn = held.is_first ? 3 : 9;
+  for (int lane = 0; lane < count; ++lane) {
+    const int column = first + lane;
+    const auto d = inputs_.columnOf(jacobians_[k], held, k, column);
+    if (!d) continue;
+    const auto at = static_cast<std::size_t>(lane);
+    gap.rate[at] = (*d)[0];
+    setRates(c.n, Vec3(sign * d->segment<3>(1)), at);
+    setRates(point, Vec3(d->tail<3>()), at);
+    Eigen::Matrix<double, 7, 1> bent = *inputs_.columnOf(jacobian_rates_[k], held, k, column);
+    if (column >= 3 && column < 6)
+      bent += jacobians_[k].pose.middleCols<3>(own_turn) * now_.body.omega.cross(Vec3(Vec3::Unit(column - 3)));
+    for (int j = 0; j < 3; ++j) {
+      c.normal_rate[j].rate[at] += sign * bent[1 + j];
+      c.point_rate[j].rate[at] += bent[4 + j];
+    }
+  }
+}
+
+}  // namespace carom::adjoint_detail

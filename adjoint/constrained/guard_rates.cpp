@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/constrained/constrained_force_rates.hpp"
+#include "adjoint/constrained/constrained_share.hpp"
+#include "adjoint/numeric/decompositions.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using LaneNumber = ConstrainedLanes::Number;
+
+// weight . (R^T (p - x) - border) + normal_weight . R^T n, see FeatureLimit.
+LaneNumber borderRate(const ConstrainedGuard& guard, const ConstrainedPath& path, const ConstrainedInputs& inputs, const ConstrainedLanes& lanes,
+                  int first, int count) {
+  const FeatureLimit& limit = guard.border;
+  const auto k = static_cast<std::size_t>(guard.contact);
+  const PersistentContact& held = path.contacts()[k];
+  const bool own = limit.body != held.with;
+  const ConstrainedInputs::Partner& partner = inputs.partners[inputs.partner_of[k]];
+  V3<LaneNumber> x = lanes.x;
+  M3<LaneNumber> R = lanes.R;
+  if (!own) x = path.scene().with[k].x.cast<LaneNumber>(), R = path.scene().with[k].R.cast<LaneNumber>();
+  V3<LaneNumber> border = limit.border.cast<LaneNumber>(), normal_weight = limit.normal_weight.cast<LaneNumber>();
+  const int sizes = own ? ConstrainedInputs::kSizes : partner.sizes, size_count = own ? inputs.size_count : partner.size_count;
+  for (int lane = 0; lane < count; ++lane) {
+    const int column = first + lane;
+    const auto at = static_cast<std::size_t>(lane);
+    if (!own && column >= partner.pose && column < partner.pose + 3) x[column - partner.pose].rate[at] = 1;
+    if (!own && column >= partner.pose + 3 && column < partner.pose + 6)
+      setRates(R, Mat3(skew(Vec3(Vec3::Unit(column - partner.pose - 3))) * path.scene().with[k].R), at);
+    if (column < sizes || column >= sizes + size_count) continue;
+    if (limit.border_rates.cols() > 0) setRates(border, Vec3(limit.border_rates.col(column - sizes)), at);
+    if (limit.normal_rates.cols() > 0) setRates(normal_weight, Vec3(limit.normal_rates.col(column - sizes)), at);
+  }
+  const ContactInstant<LaneNumber>& c = lanes.contacts[k];
+  const V3<LaneNumber> at = R.transpose() * V3<LaneNumber>(lanes.x + c.r - x);
+  LaneNumber value = 0;
+  if (limit.radius > 0) {  // the border is where the weight pointed at the start; the circle's centre stays
+    const Vec3 center = limit.border + limit.radius * limit.point_weight;
+    const V3<LaneNumber> to = at - center.cast<LaneNumber>(), axis = limit.axis.cast<LaneNumber>();
+    const V3<LaneNumber> across = to - axis * axis.dot(to);
+    value = -sqrt(across.squaredNorm());
+    const V3<LaneNumber> outward = V3<LaneNumber>(border - limit.border.cast<LaneNumber>());  // how border and centre move
+    value += outward.dot(V3<LaneNumber>(-limit.point_weight.cast<LaneNumber>()));
+  } else if (!limit.point_weight.isZero(0)) {
+    value = limit.point_weight.cast<LaneNumber>().dot(V3<LaneNumber>(at - border));
+  }
+  const V3<LaneNumber> n = held.is_first ? c.n : V3<LaneNumber>(-c.n);
+  return value + normal_weight.dot(V3<LaneNumber>(R.transpose() * n));
+}
+
+LaneNumber roomOf(const ContactInstant<LaneNumber>& c, const V3<LaneNumber>& force) {
+  const LaneNumber pressing = c.n.dot(force);
+  return c.friction * pressing - sqrt(V3<LaneNumber>(force - c.n * pressing).squaredNorm());
+}
+
+// At the best share the least room does not change with what contacts push against each other, so pushes may change in
+// any way that leaves them without sum and moment, as arms move: by the least.
+LaneNumber sharedRate(const ConstrainedShare& share, const std::vector<ContactInstant<LaneNumber>>& contacts,
+                  const ForceLanes& forces) {
+  const auto n = static_cast<Eigen::Index>(share.contact.size());
+  Eigen::MatrixXd W(6, 3 * n);
+  V3<LaneNumber> moment = V3<LaneNumber>::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto ii = static_cast<std::size_t>(i);
+    const V3<LaneNumber>& r = contacts[share.contact[ii]].r;
+    W.middleCols<3>(3 * i) << Mat3::Identity(), skew(Vec3(r.unaryExpr([](const LaneNumber& x) { return x.value; })));
+    moment += r.cross(V3<LaneNumber>(share.push[ii].cast<LaneNumber>()));
+  }
+  Eigen::MatrixXd left(6, ConstrainedLanes::kColumns);
+  left.setZero();
+  for (int row = 0; row < 3; ++row)
+    for (int lane = 0; lane < ConstrainedLanes::kColumns; ++lane)
+      left(3 + row, lane) = -moment[row].rate[static_cast<std::size_t>(lane)];
+  const Eigen::MatrixXd pushed = CompleteOrthogonal(W, 1e-9).pseudoInverse() * left;
+  LaneNumber room = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto ii = static_cast<std::size_t>(i);
+    if (!(share.weight[ii] > 0)) continue;
+    const ContactInstant<LaneNumber>& c = contacts[share.contact[ii]];
+    V3<LaneNumber> force = forces.force(share.contact[ii]) + V3<LaneNumber>(share.push[ii].cast<LaneNumber>());
+    for (int row = 0; row < 3; ++row)
+      for (int lane = 0; lane < ConstrainedLanes::kColumns; ++lane)
+        force[row].rate[static_cast<std::size_t>(lane)] += pushed(3 * i + row, lane);
+    const LaneNumber pressing = c.n.dot(force);
+    room += LaneNumber(share.weight[ii]) * c.friction * pressing +
+            V3<LaneNumber>(share.turn[ii].cast<LaneNumber>()).dot(V3<LaneNumber>(force - c.n * pressing));
+  }
+  return room;
+}
+
+}  // namespace
+
+LaneNumber guardRateOf(const ConstrainedGuard& guard, const ConstrainedPath& path, const ConstrainedInputs& inputs,
+                   const ConstrainedForceRates& force_rates, const ConstrainedLanes& lanes, int first, int count) {
+  const auto k = static_cast<std::size_t>(guard.contact);
+  const ContactInstant<LaneNumber>& c = lanes.contacts[k];
+  if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count);
+  if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.velocityAt(c.r));
+  const ForceLanes forces = force_rates.in(lanes);
+  const bool slips = guard.cause == TransitionCause::slips;
+  if (c.mode == ContactMode::sticks)  // a force that comes to 0 leaves no room either
+    if (const auto share = shareOf<LaneNumber>(lanes.contacts, forces)) return sharedRate(*share, lanes.contacts, forces);
+  return slips ? roomOf(c, forces.force(k)) : c.n.dot(forces.force(k));
+}
+
+}  // namespace carom::adjoint_detail
