@@ -1,75 +1,117 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "adjoint/base/errors.h"
 #include "adjoint/base/types.h"
 #include "adjoint/scene/shape.h"
 
 namespace carom {
 
+/// The type of `any`.
+struct Free {};
 /// Leaves a component of a target free.
-inline constexpr double any = std::numeric_limits<double>::quiet_NaN();
+inline constexpr Free any{};
 
-/// When a constraint holds: at a time; just before the body's n-th impact (1 = first), counting only those with `with`
-/// when it is not empty; at some time of a span, which the edit chooses; or when the body has come to rest.
+/// A number of a target, SI: a value, or free. A computed NaN is not free: constraints refuse it.
+class TargetNumber {
+ public:
+  /// A value.
+  constexpr TargetNumber(double number) : number_(number) {}  // NOLINT: for {0.1, any, 2}
+  /// Free.
+  constexpr TargetNumber(Free) : number_(std::numeric_limits<double>::quiet_NaN()), free_(true) {}  // NOLINT
+  constexpr bool isFree() const { return free_; }       ///< no number
+  constexpr operator double() const { return number_; }  ///< NaN if free
+
+ private:
+  double number_;
+  bool free_ = false;
+};
+
+/// Arithmetic types that are no time in seconds when they are written for one.
+template <class T>
+concept NoTime = std::same_as<T, bool> || std::same_as<T, char> || std::same_as<T, signed char> ||
+                 std::same_as<T, unsigned char> || std::same_as<T, wchar_t> || std::same_as<T, char8_t> ||
+                 std::same_as<T, char16_t> || std::same_as<T, char32_t>;
+
+/// When a constraint holds: at a time; just before the body's n-th impact (1 = first), counting only those with
+/// `with` if not empty; at some time in an interval, which the edit chooses; or when the body has come to rest.
 struct When {
-  double time = 0;   ///< s; first of a span
+  double time = 0;   ///< s; start of an interval
   int impact = 0;    ///< 0: not at an impact
   std::string with;  ///< body that it meets; empty: any
-  std::optional<std::pair<double, double>> span;  ///< s, first and last; at some time in it
-  bool rest = false;  ///< from when on the body rests up to the end of the motion, whenever that is
+  std::optional<std::pair<double, double>> span;  ///< s, first and last: at some time in between
+  bool rest = false;  ///< when the body has come to rest for the remaining motion
 
   /// At a time, s.
-  When(double t) : time(t) {}  // NOLINT: nail("hat", 1.4) is how people write it
-  /// Just before the n-th impact, with one body or with any.
-  When(int n, std::string other) : impact(n), with(std::move(other)) {}
-  /// At a time that is given.
+  template <std::floating_point T>
+  When(T t) : time(t) {}  // NOLINT: for nail("hat", 1.4)
+  /// nail("hat", 2) does not compile: the second impact is nthImpact(2), a time is 2.0.
+  template <class T>
+    requires std::integral<T>
+  When(T) = delete;
+  /// Just before the n-th impact, with one body or with any. Throws InputError for n < 1.
+  When(int n, std::string other) : impact(n), with(std::move(other)) {
+    if (n < 1) throw InputError("nthImpact", "found impact " + std::to_string(n) + ", expected 1 (the first) or more");
+  }
+  /// At a given time.
   bool isTime() const { return impact == 0 && !span && !rest; }
 };
-/// Just before the n-th impact of the body (1 = first), with the body `with` or with any.
+/// Just before the n-th impact of the body (1 = first), with the body `with` or with any. Throws InputError for n < 1.
 inline When nthImpact(int n, std::string with = "") { return When(n, std::move(with)); }
+/// A number of impacts is an int.
+template <class T>
+  requires(std::floating_point<T> || NoTime<T>)
+When nthImpact(T n, std::string with = "") = delete;
 /// At some time in [from, to].
 inline When between(double from, double to) {
   When when(from);
   when.span = {from, to};
   return when;
 }
-/// When the body has come to rest, where it stays up to the end of the motion.
+/// Neither a bool nor a character is a time.
+template <class From, class To>
+  requires(NoTime<From> || NoTime<To>)
+When between(From from, To to) = delete;
+/// When the body has come to rest, and stays so to the end of the motion.
 inline When atRest() {
-  When when(0);
+  When when(0.0);
   when.rest = true;
   return when;
 }
 
 /// One target of a constraint. `quantity` is the word of the scene document: position, orientation, velocity,
-/// angular_velocity, time, point, speed, kinetic_energy, impulse, height, distance, closest_approach. `value` holds 3
-/// numbers (`any` leaves one free); for orientation the quaternion w, x, y, z (shape to world); from time on 1, but for
-/// point. A component may be held within a range instead: its `value` is `any` and `min`, `max` (empty, or as many as
-/// `value`; `any`: no limit on that side) give the range.
+/// angular_velocity, point, contact, time, speed, kinetic_energy, impulse, height, distance, closest_approach. `value`
+/// has 3 numbers (`any` leaves one free); the quaternion w, x, y, z (shape to world) for orientation; 1 number from
+/// time on. For a range, the `value` of the component is `any`, and `min`, `max` (empty, or as many as
+/// `value`; `any`: no limit on that side) give the bounds.
 struct Target {
   std::string quantity;            ///< word of the scene document
-  std::vector<double> value;       ///< SI; `any` where free or in a range
+  std::vector<TargetNumber> value;  ///< SI; `any` if free or in a range
   Vec3 body_point = Vec3::Zero();  ///< point: in the shape's axes
-  std::vector<double> min = {};    ///< least values, SI
-  std::vector<double> max = {};    ///< greatest values, SI
+  std::vector<TargetNumber> min = {};  ///< lower bounds, SI
+  std::vector<TargetNumber> max = {};  ///< upper bounds, SI
   std::string to = {};             ///< distance, closest_approach: name of the other body
   /// closest_approach: s, first and last; without it the whole motion.
   std::optional<std::pair<double, double>> during = std::nullopt;
 };
 
-/// A part of space that the body stays out of, or within, over a span of time: at every moment of it, not only at some.
+/// A region that the body stays out of, or within, during a time interval: at every moment, not only at samples.
 struct Region {
   /// Stays out of it, or within it.
   enum class Side { avoid, inside };
-  /// What of the body is kept there.
+  /// What is tested against the region.
   enum class Keep {
     ball,  ///< a ball about its centre of mass
-    shape  ///< its shape, however it turns
+    shape  ///< its exact shape
   };
   Side side = Side::avoid;                     ///< which of the two
   std::variant<Sphere, Box> shape = Sphere{};  ///< of the region
@@ -77,45 +119,45 @@ struct Region {
   Quat orientation = Quat::Identity();  ///< its axes to world, unit
   /// s, first and last; without it the whole motion.
   std::optional<std::pair<double, double>> during = std::nullopt;
-  /// m; of a ball its radius, without it that of one that holds the whole body. Of a shape how far it stays from the
-  /// border of the region, without it 0.
+  /// m; of a ball its radius (default: the bounding radius of the body); of a shape its distance from the boundary of
+  /// the region (default: 0).
   std::optional<double> margin = std::nullopt;
   Keep keep = Keep::ball;  ///< the ball or the shape
 };
 
-/// The n-th impact of a body (1 = first), counting only those with `with` when it is not empty.
+/// The n-th impact of a body (1 = first), counting only those with `with` if not empty.
 struct ImpactOf {
   std::string body;       ///< by name
   int n = 1;              ///< which of them
   std::string with = {};  ///< body that it meets; empty: any
 };
 
-/// That a body hits another one: the first impact of the two that is allowed. Where the motion has none in `during` but
-/// has one beside it, that one is moved there.
+/// Requires that a body hits another one: the first admissible impact of the two. If the motion has one only outside
+/// of `during`, that one is moved there.
 struct Hit {
   std::string with;  ///< the other body, by name
   /// s, first and last time; without it at any time.
   std::optional<std::pair<double, double>> during = std::nullopt;
-  std::optional<ImpactOf> after = std::nullopt;   ///< only after this impact, which has to come
-  std::optional<ImpactOf> before = std::nullopt;  ///< only before this impact, if that comes
+  std::optional<ImpactOf> after = std::nullopt;   ///< only after this impact, which is required
+  std::optional<ImpactOf> before = std::nullopt;  ///< only before this impact, if that happens
 };
 
-/// What is asked of one body at one moment; or which impacts come, and in which order.
+/// A constraint on one body at one moment; or a required impact sequence.
 struct Constraint {
   std::string body;             ///< by name; of a sequence: empty
   When at;                      ///< the moment
-  std::vector<Target> targets;  ///< what its numbers shall be then
-  /// Not empty: targets are seen from this body, in its shape's axes (docs/scenes.md).
+  std::vector<Target> targets;  ///< target values
+  /// Not empty: targets are relative to this body, in the axes of its shape (docs/scenes.md).
   std::string relative_to = {};
-  std::vector<Region> regions = {};  ///< whenever `at` is
-  /// The body hits another one. Such a constraint holds nothing else, and its `at` does not count.
+  std::vector<Region> regions = {};  ///< independent of `at`
+  /// The body hits another one. Such a constraint has no other targets, and its `at` is ignored.
   std::optional<Hit> hits = std::nullopt;
-  /// Not empty: impacts in the order in which they come, "cue red", names or patterns with * and ?; "..." stands for any
-  /// number of others. Features that meet may follow, "die table (face -z on *)", as Motion::describeEvent has them.
-  /// They are those of the bodies that are named first, with bodies that are named or move, from the first one on; what
-  /// comes after the last one is free. Such a constraint holds nothing else.
+  /// Not empty: required impacts in order, "cue red", names or patterns with * and ?; "..." stands for any number of
+  /// impacts. Features may follow, "die table (face -z on *)", as in Motion::describeEvent. Compared with the
+  /// reported impacts of the bodies named first, with bodies that are named or move, from the first one on; what
+  /// follows the last entry is free. Such a constraint has no other targets.
   std::vector<std::string> sequence = {};
-  std::string notes = {};            ///< for people; kept in documents
+  std::string notes = {};            ///< for readers; kept in documents
 };
 
 }  // namespace carom

@@ -8,7 +8,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/detail/messages.hpp"
 #include "editing/detail/thrown_by_user.hpp"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem_of.hpp"
 #include "editing/report/alternatives.hpp"
 #include "editing/report/explain.hpp"
 #include "editing/report/verify.hpp"
@@ -28,21 +28,21 @@ Edit::Edit(const Scene& scene, ContactSource& contacts, double duration, std::ve
   for (Constraint& constraint : constraints) nails_.push_back({next_id_++, std::move(constraint)});
 }
 
-Nail Edit::nail(const std::string& body, When at) {
+Nail Edit::nail(const std::string& body, When at) & {
   nails_.push_back({next_id_, Constraint{body, std::move(at), {}}});
   return Nail(this, next_id_++);
 }
 
-Edit& Edit::hit(const std::string& body, Hit hit) {
-  nails_.push_back({next_id_++, Constraint{body, When(0), {}}});
+Edit& Edit::hit(const std::string& body, Hit hit) & {
+  nails_.push_back({next_id_++, Constraint{body, When(0.0), {}}});
   nails_.back().constraint.hits = std::move(hit);
   return *this;
 }
 
-Edit& Edit::hit(const std::string& body, const std::string& with) { return hit(body, Hit{with}); }
+Edit& Edit::hit(const std::string& body, const std::string& with) & { return hit(body, Hit{with}); }
 
-Edit& Edit::sequence(std::vector<std::string> impacts) {
-  nails_.push_back({next_id_++, Constraint{"", When(0), {}}});
+Edit& Edit::sequence(std::vector<std::string> impacts) & {
+  nails_.push_back({next_id_++, Constraint{"", When(0.0), {}}});
   nails_.back().constraint.sequence = std::move(impacts);
   return *this;
 }
@@ -57,24 +57,26 @@ std::vector<Constraint> Edit::constraints() const {
   return constraints;
 }
 
-Edit& Edit::require(MotionFunction function, Wanted wanted) {
+Edit& Edit::require(MotionFunction function, Wanted wanted) & {
   required_.emplace_back(std::move(function), wanted);
   return *this;
 }
 
-Edit& Edit::minimise(MotionFunction function, double change_weight) {
+Edit& Edit::minimise(MotionFunction function, double change_weight) & {
   minimised_ = std::move(function);
   change_weight_ = change_weight;
   return *this;
 }
 
-EditProblem Edit::problem() const {
+EditProblem editing_detail::problemOf(const Edit& edit) {
   OwnFunctions own;
-  for (const auto& [function, wanted] : required_) own.rows.push_back({function, wanted});
-  own.objective = minimised_;
-  own.change_weight = change_weight_;
-  return EditProblem(scene_, contacts_, duration_, controls_, constraints(), own);
+  for (const auto& [function, wanted] : edit.required_) own.rows.push_back({function, wanted});
+  own.objective = edit.minimised_;
+  own.change_weight = edit.change_weight_;
+  return EditProblem(edit.scene_, edit.contacts_, edit.duration_, edit.controls_, edit.constraints(), own);
 }
+
+NlpEvaluator Edit::evaluator(std::size_t step_limit) const { return NlpEvaluator(problemOf(*this), step_limit); }
 
 namespace {
 
@@ -106,23 +108,21 @@ EditResult Edit::solve(const EditOptions& options) const {
 
 EditResult Edit::solved(const EditOptions& options) const {
   const auto began = std::chrono::steady_clock::now();
-  EditProblem problem = this->problem();
+  EditProblem problem = problemOf(*this);
   problem.step_limit = options.step_limit;
   problem.stop = options.stop;
-  if (problem.constraints.waits())
-    problem.enough = [&](const Motion& motion) { return problem.constraints.hasWhatItWaitsFor(motion); };
-  problem.least_duration = problem.constraints.leastDuration();
-  EditSearch search(problem, options);
-  EditSolution solution = findSolution(search);
+  endWhereNothingCounts(problem);
+  EditEvaluator evaluator(problem, options);
+  EditSolution solution = findSolution(evaluator);
   if (problem.constraints.objective() && solution.status == EditStatus::solved)
-    solution.point = lowerObjective(search, solution.point);
-  EditResult result = verify(scene_, search, solution);
-  if (options.explain) explainInto(result, scene_, search, solution);
+    solution.point = lowerObjective(evaluator, solution.point);
+  EditResult result = verify(scene_, evaluator, solution);
+  if (options.explain) explainInto(result, scene_, evaluator, solution);
   // what stands against each other is said there, or else here
   if (result.why_not.sentences.empty() && !solution.contradiction.empty())
     result.message = solution.contradiction + " " + result.message;
-  if (result.solved() && !search.isCancelled()) result.alternatives = alternativesTo(scene_, search, solution);
-  if (search.isCancelled()) endAsCancelled("its answer was completed", result);
+  if (result.solved() && !evaluator.isCancelled()) result.alternatives = alternativesTo(scene_, evaluator, solution);
+  if (evaluator.isCancelled()) endAsCancelled("its answer was completed", result);
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   return result;
 }

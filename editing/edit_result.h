@@ -12,101 +12,102 @@
 
 namespace carom {
 
-/// How an edit ended.
+/// Outcome of an edit.
 enum class EditStatus {
-  solved,                   ///< verified, in the impact sequence of the start
-  solved_sequence_changed,  ///< verified, but other impacts than before happen on the way
-  infeasible,               ///< it is proven that no motion meets the constraints
-  not_converged,            ///< the limit of iterations, or no progress
-  out_of_time,              ///< the time budget was used up
-  cancelled,  ///< by the progress callback, or a stop was requested: the best so far, see EditResult::met
-  bad_start,  ///< a constraint that the start's motion does not have: after its end, an impact not there
+  solved,                   ///< verified, in the initial impact sequence
+  solved_sequence_changed,  ///< verified, with another impact sequence
+  infeasible,               ///< proven: no motion meets the constraints
+  not_converged,            ///< iteration limit, or no progress
+  out_of_time,              ///< time budget exhausted
+  cancelled,  ///< by the progress callback or a stop request: the best point so far, see EditResult::met
+  bad_start,  ///< a constraint cannot be evaluated in the initial motion: after its end, or a missing impact
 };
-/// The word of the answers: "solved", "infeasible", ...
+/// The word in answers: "solved", "infeasible", ...
 const char* nameOf(EditStatus status);
 
-/// One number that was free to change.
+/// One control parameter.
 struct ChangedNumber {
   int control = -1;       ///< index of the Control
   std::string name;       ///< "velocity.x of 'hat'"
   std::string component;  ///< "x"
-  double before = 0;      ///< SI, at the start
+  double before = 0;      ///< SI, initially
   double after = 0;       ///< SI, in the result
-  /// Of what all changes cost: (w z)^2 over the sum of them, 0 where nothing changed. With Edit::minimise too, whatever
-  /// the change weighs beside the function.
+  /// Fraction of the objective: (w z)^2 / sum, 0 if nothing changed. With Edit::minimise likewise, independent of
+  /// change_weight.
   double share = 0;
 };
 
-/// One number that was held, in the verified motion.
-struct HeldNumber {
+/// One constrained quantity, in the verified motion.
+struct ConstrainedNumber {
   int constraint = -1;                      ///< index of the Constraint; -1: a function of Edit::require
   std::string name;                         ///< "position.x of 'hat' at 1.4 s"
   std::string component;                    ///< "position.x"
-  double value = 0;                         ///< SI; NaN where the motion does not have it
-  double target = 0;                        ///< SI; NaN where a range is allowed
-  double error = 0;                         ///< SI; NaN where the motion does not have it
+  double value = 0; ///< SI; NaN if it cannot be evaluated
+  double target = 0;                        ///< SI; NaN for a range
+  double error = 0; ///< SI; NaN if it cannot be evaluated
   double scaled_error = 0;                  ///< dimensionless
-  double lower = 0;                         ///< least allowed value, SI; -infinity where it is open
-  double upper = 0;                         ///< greatest allowed value, SI; infinity where it is open
+  double lower = 0;                         ///< lower bound, SI; -infinity if none
+  double upper = 0;                         ///< upper bound, SI; infinity if none
 };
 
-/// When a constraint at some time of a span is met, or a body that is held at rest comes to rest, in the verified
-/// motion.
+/// Time at which a constraint `between` two times is met, a body constrained at rest comes to rest, a required impact
+/// happens or a required sequence is complete, in the verified motion.
 struct MetTime {
   int constraint = -1;                ///< index of the Constraint
-  std::string name;                   ///< "'hat' between 1 s and 2 s", "'die' at rest"
-  double from = 0;     ///< s, begin of the span
-  double to = 0;       ///< s, end of the span; at rest: of the motion
-  double time = 0;     ///< s, when it is met
+  std::string name;                   ///< "'hat' between 1 s and 2 s", "'die' at rest", "'cue' hits 'red'"
+  double from = 0;     ///< s, start of the interval
+  double to = 0;       ///< s, end of the interval; at rest and of impacts: of the motion
+  double time = 0;     ///< s
 };
 
-/// An alternative that costs more than this many times the result is much dearer.
+/// An alternative whose objective exceeds that of the result by this factor is much_dearer.
 inline constexpr double kMuchDearer = 10;
 
-/// Another solution of an edit, simulated afresh like the result itself.
+/// Another solution of an edit, verified like the result itself.
 struct EditAlternative {
   Scene scene;                                   ///< with its new values
-  std::vector<ChangedNumber> changed;            ///< what differs from the start
-  double objective = 0;                          ///< 1/2 sum (w_i z_i)^2, or what Edit::minimise says
-  bool much_dearer = false;                      ///< its changes cost more than kMuchDearer times those of the result
+  std::vector<ChangedNumber> changed;            ///< parameters that changed
+  double objective = 0;                          ///< 1/2 sum (w_i z_i)^2, or that of Edit::minimise
+  bool much_dearer = false;                      ///< its objective exceeds kMuchDearer times that of the result
   double residual = 0;                           ///< largest |error|, SI
   double scaled_residual = 0;                    ///< the same, dimensionless
-  std::vector<std::string> sequence;             ///< one line an impact
-  std::vector<SequenceChange> sequence_changes;  ///< from the start's, as in EditResult
+  std::vector<std::string> sequence; ///< one line per impact
+  std::vector<SequenceChange> sequence_changes;  ///< from the initial motion, as in EditResult
 };
 
-/// What came of an edit.
+/// Result of an edit.
 struct EditResult {
-  EditStatus status = EditStatus::not_converged;  ///< how it ended
+  EditStatus status = EditStatus::not_converged;  ///< outcome
   std::string message;  ///< what happened, in sentences
   bool met = false;     ///< verified: all constraints are met in `motion`, in a cancelled edit too
-  Scene scene;          ///< with its new values: the best that was found, whatever the status
-  Motion motion;        ///< of that scene, simulated afresh
-  std::vector<ChangedNumber> changed;  ///< all numbers that were free to change
-  std::vector<HeldNumber> residuals;   ///< all numbers that were held
-  std::vector<MetTime> times;  ///< one for each constraint `between` two times or at rest
-  double residual = 0;         ///< largest |error| of that motion, SI (m, m/s, rad, rad/s, s mixed)
-  double scaled_residual = 0;  ///< the same, dimensionless: this is compared with EditOptions::tolerance
-  double objective = 0;        ///< 1/2 sum (w_i z_i)^2, or what Edit::minimise says
-  int iterations = 0;          ///< steps of all stages together
-  double milliseconds = 0;     ///< that it took
-  std::vector<std::string> sequence_before;  ///< of the start, one line an impact
-  std::vector<std::string> sequence_after;   ///< of the result, one line an impact
-  bool signature_changed = false;  ///< impacts that can matter to the constraints (up to the last one) are others
-  /// How the impacts differ from those of the start, from begin to end of both motions; those of signature_changed
-  /// are marked (SequenceChange::matters).
+  Scene scene;          ///< with its new values: the best point found, whatever the status
+  Motion motion;        ///< of that scene, simulated again
+  std::vector<ChangedNumber> changed;  ///< all control parameters
+  std::vector<ConstrainedNumber> residuals;   ///< all constrained quantities
+  std::vector<MetTime> times;  ///< of constraints `between` two times, at rest, hits, sequences
+  double residual = 0;         ///< largest |error| of that motion, SI (mixed units: m, m/s, rad, rad/s, s)
+  double scaled_residual = 0;  ///< the same, dimensionless; compared with EditOptions::tolerance
+  double objective = 0;        ///< 1/2 sum (w_i z_i)^2, or that of Edit::minimise
+  int iterations = 0;          ///< of all stages together
+  double milliseconds = 0;     ///< wall time
+  std::vector<std::string> sequence_before;  ///< of the initial motion, one line per impact
+  std::vector<std::string> sequence_after;   ///< of the result, one line per impact
+  bool signature_changed = false;  ///< whether impacts that can affect the constraints (up to the last one) differ
+  /// Differences of the impacts from those of the initial motion, over both motions; those of signature_changed are
+  /// marked (SequenceChange::matters).
   std::vector<SequenceChange> sequence_changes;
-  /// Solutions besides this one, where EditOptions::alternatives asks for several: each of another impact sequence, or
-  /// else clearly of other numbers; the smallest objective first, but what is much dearer last.
+  /// Further solutions, if EditOptions::alternatives asks for several: each with another impact sequence, or with
+  /// clearly different parameters; by increasing objective, those much_dearer last.
   std::vector<EditAlternative> alternatives;
   Reliability reliability;  ///< of the derivatives at the result, worst row
-  /// How much further the held numbers move with a small change of the start's states than in a free flight as long,
-  /// at the start of the edit; 0 where it was not measured: there was nothing to solve, or rows stand against each other.
+  /// Growth of the initial motion (docs/equations.md section 10): amplification of small changes of the initial
+  /// states in the constrained quantities, relative to free flight; 0 if not measured, because there was nothing to
+  /// solve or rows are dependent.
   double growth = 0;
   Certificate certificate;  ///< of that motion
-  WhyNot why_not;           ///< where the edit is infeasible or did not converge
+  WhyNot why_not;           ///< if the edit is infeasible or did not converge
 
-  /// Verified, whatever the sequence, and not cancelled: it ended by itself.
+  /// Verified, with any impact sequence, and not cancelled.
   bool solved() const { return status == EditStatus::solved || status == EditStatus::solved_sequence_changed; }
 };
 

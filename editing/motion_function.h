@@ -11,33 +11,33 @@
 
 namespace carom {
 
-/// A number that was read from a motion, with its derivative.
+/// A quantity evaluated on a motion, with its derivative.
 struct RowReading {
   double value = 0;  ///< SI
-  /// Derivative of the value by the states that it is read from, a sum: at times up to the end of the motion, or at its
-  /// events (a reading there moves along with the event). Empty where there is none; then `doubt` says why.
+  /// Derivative of the value with respect to the states that it depends on, as a sum of seeds: at times up to the end
+  /// of the motion, or at its events (whose time varies). Empty if there is none; then `doubt` gives the reason.
   std::vector<StateSeed> seeds = {};
-  /// How the weights of the seeds change with the states. Must not refer to the motion, which may be gone by then.
+  /// Derivatives of the weights of the seeds. Must not refer to the motion, whose lifetime may have ended.
   SeedRates seed_rates = {};
-  /// Whether second derivatives are known: by `seed_rates`, or as 0 where that is empty. Otherwise the curvature of this
-  /// number alone is learnt from its gradients, by a secant update.
+  /// Whether second derivatives are given: by `seed_rates`, or as 0 if that is empty. Otherwise the Hessian of this
+  /// quantity is approximated by secant updates.
   bool second_order = false;
-  std::string doubt = {};    ///< not empty: why the derivative cannot be trusted here, a clause
-  std::string missing = {};  ///< not empty: why this motion does not have the number, a sentence
+  std::string doubt = {};    ///< not empty: why the derivative is unreliable here, a clause
+  std::string missing = {};  ///< not empty: why the quantity cannot be evaluated on this motion, a sentence
 };
 
-/// A function of the motion that an edit holds (Edit::require) or makes small (Edit::minimise).
+/// A function of the motion that an edit constrains (Edit::require) or minimises (Edit::minimise).
 struct MotionFunction {
-  std::string name;  ///< for people: "angle of incidence"
-  /// Reads it. Called many times, from several threads at once, with motions of scenes near the one that is edited; the
-  /// same motion must give the same reading. What it throws comes out of Edit::solve.
+  std::string name;  ///< for messages: "angle of incidence"
+  /// Evaluates it. Called many times, concurrently from several threads, with motions of similar scenes; must be
+  /// deterministic. Edit::solve propagates its exceptions.
   std::function<RowReading(const Motion&)> read;
-  double scale = 1;  ///< SI: what counts as much as a natural scale of a body does
-  /// Up to when it reads the motion: a time, or just after an impact of `body` or its coming to rest, without which it
-  /// is not asked. Empty: up to the end. What comes later than a time or an impact is not simulated for it, and may
-  /// change freely.
+  double scale = 1;  ///< SI: natural scale of the quantity
+  /// The latest time that it depends on: a time, or just after an impact of `body` or its coming to rest, without
+  /// which it is not called. Empty: the end. Later parts of the motion need not be simulated for it, and may change
+  /// freely.
   std::optional<When> until = std::nullopt;
-  std::string body = {};  ///< whose impact or rest `until` means; else empty
+  std::string body = {};  ///< whose impact or rest `until` refers to; else empty
 };
 
 }  // namespace carom

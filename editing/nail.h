@@ -12,43 +12,47 @@ namespace carom {
 
 class Edit;
 
-/// A handle to one constraint of an Edit, which holds until Edit::unnail. Each function nails one more quantity down
-/// (again: replaces its target). A component `any` stays free, and one may be held within a range instead:
+/// A handle to one constraint of an Edit, active until Edit::unnail. Each function adds a target, or replaces it. A
+/// component `any` is free, and one may be a range:
 ///   edit.nail("ball", between(1, 2)).position(within(0.1, 0.3), any, 2.0);
 /// Valid as long as its Edit.
 class Nail {
  public:
-  Nail& position(const Vec3& p_W);  ///< m
+  Nail& position(const WantedVector& p_W);       ///< m: position(p), position({5, any, 0.3})
   Nail& position(Wanted x, Wanted y, Wanted z);  ///< m, component by component
   Nail& orientation(const Quat& q);  ///< shape to world, unit
-  Nail& velocity(const Vec3& v_W);   ///< m/s
+  Nail& velocity(const WantedVector& v_W);       ///< m/s
   Nail& velocity(Wanted x, Wanted y, Wanted z);  ///< m/s, component by component
-  Nail& angularVelocity(const Vec3& w_W);  ///< rad/s, world axes
+  Nail& angularVelocity(const WantedVector& w_W);       ///< rad/s, world axes
   Nail& angularVelocity(Wanted x, Wanted y, Wanted z);  ///< rad/s, component by component
-  Nail& time(Wanted t);                                    ///< s, of the impact, or when the body comes to rest
-  Nail& point(const Vec3& body_point, const Vec3& world);  ///< a point in shape axes comes to a place in the world
+  Nail& time(Wanted t);                                    ///< s, of the impact, or of coming to rest
+  /// Position in the world of a point in shape axes, m.
+  Nail& point(const Vec3& body_point, const WantedVector& world);
   /// The same, component by component.
   Nail& point(const Vec3& body_point, Wanted x, Wanted y, Wanted z);
+  /// m, world: where the body touches in the impact, the mean of its contacts; only for nails at an impact. Along the
+  /// normal it is where the surface is: leave one component free.
+  Nail& contact(Wanted x, Wanted y, Wanted z);
 
   Nail& speed(Wanted v);           ///< m/s, of the velocity
-  Nail& kineticEnergy(Wanted e);   ///< J, of moving and turning
-  Nail& impulse(Wanted p);         ///< N s, that the body gets in the impact; only for nails at an impact
-  Nail& height(Wanted h);          ///< m, of the lowest point, against gravity (along z without it)
+  Nail& kineticEnergy(Wanted e);   ///< J, translational and rotational
+  Nail& impulse(Wanted p);         ///< N s, on the body in the impact; only for nails at an impact
+  Nail& height(Wanted h);          ///< m, of the lowest point, opposite to gravity (along z without gravity)
 
-  /// m, from the body's shape to that of another body, more than 0.
+  /// m, between the surfaces of the body and another, greater than 0.
   Nail& distance(const std::string& to, Wanted distance);
-  /// m, the least distance of the two over a time of its own (s, first and last; without it the whole motion),
-  /// whatever the time of the nail.
+  /// m, the minimum distance of the two over an interval of its own (s, first and last; default: the whole motion),
+  /// independent of the time of the nail.
   Nail& closestApproach(const std::string& to, Wanted distance,
                         std::optional<std::pair<double, double>> during = std::nullopt);
 
-  /// All quantities are those of the body as seen from another one, in the axes of its shape
-  /// (docs/scenes.md). "" takes it back.
+  /// Makes all targets relative to another body, in the axes of its shape (docs/scenes.md). "" resets it to the
+  /// world.
   Nail& relativeTo(const std::string& body);
 
-  /// One more region that the body stays out of, over the region's own time, whatever that of the nail.
+  /// Adds a region that the body stays out of, during the region's own interval, independent of the time of the nail.
   Nail& avoid(Region region);
-  /// One more region that the body stays within.
+  /// Adds a region that the body stays within.
   Nail& inside(Region region);
 
  private:
@@ -57,7 +61,7 @@ class Nail {
   Constraint& constraint();
   Nail& set(Target target);
   Nail& setNumber(const char* quantity, const Wanted& wanted);
-  Nail& set(const char* quantity, const Wanted (&wanted)[3], const Vec3& body_point = Vec3::Zero());
+  Nail& set(const char* quantity, const WantedVector& wanted, const Vec3& body_point = Vec3::Zero());
 
   Edit* edit_;
   int id_;

@@ -123,13 +123,13 @@ std::string featuresOf(const Motion& motion, int index) {
 
 std::string timeOf(const Motion& motion, int index) { return brief(eventOf(motion, index).time) + " s"; }
 
-bool isHeld(const Sequence& sequence, int index) { return static_cast<std::size_t>(index) < sequence.held; }
+bool isConstrained(const Sequence& sequence, int index) { return static_cast<std::size_t>(index) < sequence.held; }
 
 /// Of one pair of matched impacts; nothing where they are alike.
 void compare(const Sequence& before, int e, const Sequence& after, int f, const std::string& impact,
              std::vector<SequenceChange>& changes) {
   const Event &a = eventOf(before.motion, e), &b = eventOf(after.motion, f);
-  const bool was_held = isHeld(before, e), is_held = isHeld(after, f);
+  const bool was_held = isConstrained(before, e), is_held = isConstrained(after, f);
   if (was_held != is_held) {
     const std::string side = is_held ? "before" : "after";
     changes.push_back({Kind::passed, e, f, true,
@@ -160,19 +160,19 @@ void compareBodies(const Sequence& before, const Sequence& after, const Bodies& 
     if (j < 0) {
       const int e = a[static_cast<std::size_t>(i)];
       changes.push_back(
-          {Kind::went, e, -1, isHeld(before, e),
+          {Kind::went, e, -1, isConstrained(before, e),
            "The " + impact + ", which was at " + timeOf(before.motion, e) + ", no longer happens."});
     } else if (i < 0) {
       const int f = b[static_cast<std::size_t>(j)];
-      changes.push_back({Kind::came, -1, f, isHeld(after, f),
-                         "The " + impact + ", at " + timeOf(after.motion, f) + ", came anew."});
+      changes.push_back({Kind::came, -1, f, isConstrained(after, f),
+                         "The " + impact + ", at " + timeOf(after.motion, f) + ", is new."});
     } else {
       compare(before, a[static_cast<std::size_t>(i)], after, b[static_cast<std::size_t>(j)], impact, changes);
     }
   }
 }
 
-// Those that count, or those that begin, change or end a contact that lasts.
+// Those that count, or those that begin, change or end a persistent contact.
 std::vector<int> eventsOf(const Motion& motion, std::size_t count, bool lasting) {
   std::vector<int> events;
   for (std::size_t e = 0; e < std::min(count, motion.events.size()); ++e)
@@ -189,13 +189,13 @@ std::optional<SequenceChange> otherOrder(const Motion& before, std::size_t count
     const Bodies was = bodiesOf(eventOf(before, a[i])), is = bodiesOf(eventOf(after, b[i]));
     if (was == is) continue;
     return SequenceChange{Kind::order, a[i], b[i], true,
-                          "The impacts come in another order: that of " + namesOf(after, is) + " is the " +
-                              ordinal(static_cast<int>(i) + 1) + " one, where that of " + namesOf(before, was) + " was."};
+                          "The impacts have another order: that of " + namesOf(after, is) + " is the " +
+                              ordinal(static_cast<int>(i) + 1) + " one, instead of that of " + namesOf(before, was) + "."};
   }
   return std::nullopt;
 }
 
-/// The first place at which contact that lasts goes on otherwise.
+/// The first difference in persistent contact.
 SequenceChange otherContact(const Motion& before, std::size_t count_before, const Motion& after,
                             std::size_t count_after) {
   const std::vector<int> a = eventsOf(before, count_before, true), b = eventsOf(after, count_after, true);
@@ -206,11 +206,11 @@ SequenceChange otherContact(const Motion& before, std::size_t count_before, cons
   while (i < std::min(a.size(), b.size()) && alike(eventOf(before, a[i]), eventOf(after, b[i]))) ++i;
   const int was = i < a.size() ? a[i] : -1, is = i < b.size() ? b[i] : -1;
   if (was < 0 && is < 0)
-    return {Kind::contact, was, is, true, "What lasts in contact has changed: it begins or ends between other impacts."};
-  std::string what = "What lasts in contact has changed: ";
-  if (is < 0) return {Kind::contact, was, is, true, what + before.describeEvent(was) + " no longer comes."};
+    return {Kind::contact, was, is, true, "Persistent contact has changed: it begins or ends between other impacts."};
+  std::string what = "Persistent contact has changed: ";
+  if (is < 0) return {Kind::contact, was, is, true, what + before.describeEvent(was) + " no longer happens."};
   what += after.describeEvent(is);
-  if (was < 0) return {Kind::contact, was, is, true, what + " comes anew."};
+  if (was < 0) return {Kind::contact, was, is, true, what + " is new."};
   return {Kind::contact, was, is, true, what + ", where it was " + before.describeEvent(was) + "."};
 }
 

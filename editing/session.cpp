@@ -88,7 +88,7 @@ void EditSession::setControls(std::vector<Control> controls) {
   const ControlSet checked(*s.now.scene, controls);
   SessionGesture gesture = s.newGesture(SessionGesture::Kind::controls);
   gesture.controls = controls;
-  s.remember(s.now, "change of what may vary");
+  s.remember(s.now, "change of the controls");
   s.now.setControls(std::move(controls));
   s.stay("", s.last.motion);
   s.record(std::move(gesture));
@@ -101,7 +101,7 @@ NailId EditSession::nail(Constraint constraint, std::stop_token stop) {
 
 NailId EditSession::nailAsItIs(const std::string& body, When at) {
   const BodyState state = stateAtMoment(motion(), body, at, "nailAsItIs");
-  return nail(heldConstraint(body, at, {.position = state.position, .orientation = state.orientation}));
+  return nail(nailConstraint(body, at, {.position = state.position, .orientation = state.orientation}));
 }
 
 void EditSession::setNail(NailId id, Constraint constraint, std::stop_token stop) {
@@ -159,6 +159,12 @@ SessionUpdate EditSession::dragTo(const Vec3& place, const Quat& orientation, st
   return state_->dragTo(place, orientation, std::move(stop));
 }
 
+SessionUpdate EditSession::slideTo(const Vec3& place, const std::vector<std::string>& components,
+                                   std::stop_token stop) {
+  state_->slide(place, components);
+  return state_->dragTo(place, std::nullopt, std::move(stop));
+}
+
 SessionUpdate EditSession::dwell(std::stop_token stop, const std::function<void(const SessionUpdate&)>& better) {
   return state_->dwell(std::move(stop), better);
 }
@@ -188,8 +194,7 @@ const SessionDrag& requireDrag(const std::optional<SessionDrag>& drag, const cha
 
 Vec3 EditSession::grabbedPlace() const {
   const SessionGesture& record = requireDrag(state_->drag, "grabbedPlace").record;
-  const BodyState state = stateAtMoment(motion(), record.body, record.at, "grabbedPlace");
-  return state.position + state.orientation * record.grip.body_point.value_or(Vec3::Zero());
+  return placeConstrained(motion(), record, "grabbedPlace");
 }
 
 Quat EditSession::grabbedOrientation() const {

@@ -15,16 +15,17 @@ const char* nameOf(SessionGesture::Ending ending) {
   return nameIn({"release", "release_nailed", "cancel", "release_nailed_where_it_got"}, ending);
 }
 
-Constraint heldConstraint(const std::string& body, const When& at, const Held& held) {
+Constraint nailConstraint(const std::string& body, const When& at, const NailTargets& targets) {
   Constraint constraint{body, at, {}};
-  const auto three = [&](const char* quantity, const std::optional<Vec3>& v) {
-    if (v) constraint.targets.push_back({quantity, {v->x(), v->y(), v->z()}});
+  const auto three = [&](const char* quantity, const std::optional<WantedVector>& v) {
+    if (v) constraint.targets.push_back(targetOf(quantity, *v));
   };
-  three("position", held.position);
-  if (const auto& q = held.orientation) constraint.targets.push_back({"orientation", {q->w(), q->x(), q->y(), q->z()}});
-  three("velocity", held.velocity);
-  three("angular_velocity", held.angular_velocity);
-  if (held.time) constraint.targets.push_back({"time", {*held.time}});
+  three("position", targets.position);
+  if (const auto& q = targets.orientation)
+    constraint.targets.push_back({"orientation", {q->w(), q->x(), q->y(), q->z()}});
+  three("velocity", targets.velocity);
+  three("angular_velocity", targets.angular_velocity);
+  if (targets.time) constraint.targets.push_back({"time", {*targets.time}});
   return constraint;
 }
 

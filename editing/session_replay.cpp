@@ -96,7 +96,8 @@ void SessionReplay::playDrag(const SessionGesture& gesture, ReplayedGesture& out
     state.replayed_cut = target.cut_after;
     const SessionUpdate update = target.dwell         ? session_.dwell()
                                  : target.orientation ? session_.dragTo(target.place, *target.orientation)
-                                                      : session_.dragTo(target.place);
+                                 : !target.components.empty() ? session_.slideTo(target.place, target.components)
+                                                              : session_.dragTo(target.place);
     ++out.updates;
     out.slowest_milliseconds = std::max(out.slowest_milliseconds, update.milliseconds);
   }

@@ -8,27 +8,27 @@
 
 namespace carom {
 
-/// What became of one gesture when it was played again.
+/// Outcome of one replayed gesture.
 struct ReplayedGesture {
   SessionUpdate update;                  ///< at its end
   int updates = 0;                       ///< calls of dragTo and dwell
   double slowest_milliseconds = 0;       ///< of them
-  std::vector<std::string> differences;  ///< from what the journal says came of it; empty: the same bits
+  std::vector<std::string> differences;  ///< from the outcome in the journal; empty: the same bits
 };
 
-/// Plays a journal again, gesture by gesture, with the work limits of the journal and without a clock: updates that the
-/// clock cut, or a stop, end where they did. The same journal gives the same bits.
+/// Replays a journal, gesture by gesture, with its work limits and without time limits: updates ended by a time-out
+/// or a stop end at the same point. The same journal gives the same bits.
 class SessionReplay {
  public:
-  /// Keeps the journal and `contacts` by reference. Throws InputError for a journal that makes no sense.
+  /// Keeps the journal and `contacts` by reference. Throws InputError for an invalid journal.
   SessionReplay(const SessionJournal& journal, ContactSource& contacts);
 
-  /// All gestures were played.
+  /// Whether all gestures were replayed.
   bool done() const { return next_ == journal_.gestures.size(); }
-  /// Throws InputError naming "/gestures/<i>" for a gesture that cannot be done.
+  /// Replays the next gesture. Throws InputError naming "/gestures/<i>" for an invalid one.
   ReplayedGesture next();
 
-  /// As it is after the gestures so far.
+  /// The session after the gestures so far.
   const EditSession& session() const { return session_; }
 
  private:

@@ -56,7 +56,7 @@ int main() {
   std::printf("%s\n", nameOf(result.status));
   for (const ChangedNumber& number : result.changed)
     std::printf("  %-28s %8.3f -> %8.3f\n", number.name.c_str(), number.before, tidy(number.after));
-  for (const HeldNumber& number : result.residuals)
+  for (const ConstrainedNumber& number : result.residuals)
     std::printf("  %-50s %8.4f (%.4f to %.4f)\n", number.name.c_str(), tidy(number.value), number.lower, number.upper);
   for (const MetTime& met : result.times) std::printf("  %s: at %.3f s\n", met.name.c_str(), met.time);
   std::printf("largest error below 1e-9: %s\n", result.residual < 1e-9 ? "yes" : "no");

@@ -27,7 +27,7 @@ int main() {
   std::printf("%s\n", nameOf(result.status));
   for (const ChangedNumber& number : result.changed)
     std::printf("%-24s %9.5f -> %9.5f\n", number.name.c_str(), number.before, number.after);
-  for (const HeldNumber& number : result.residuals)
+  for (const ConstrainedNumber& number : result.residuals)
     std::printf("%-40s %9.5f (wanted %.5f)\n", number.name.c_str(), number.value, number.target);
   std::printf("largest error below 1e-9: %s\n", result.residual < 1e-9 ? "yes" : "no");
 }

@@ -28,7 +28,7 @@ Scene ballAndCrate() {
 
 void print(const char* what, const EditResult& result) {
   std::printf("%s: %s\n", what, nameOf(result.status));
-  for (const HeldNumber& number : result.residuals)
+  for (const ConstrainedNumber& number : result.residuals)
     std::printf("  %-50s %8.4f\n", number.name.c_str(), std::abs(number.value) < 1e-9 ? 0.0 : number.value);
   std::printf("  largest error below 1e-9: %s\n", result.residual < 1e-9 ? "yes" : "no");
 }

@@ -46,7 +46,7 @@ int main() {
   std::printf("with inertia: %s\n", nameOf(result.status));
   for (const ChangedNumber& number : result.changed)
     std::printf("  %-26s %8.5f -> %8.5f\n", number.name.c_str(), number.before, number.after);
-  for (const HeldNumber& number : result.residuals)
+  for (const ConstrainedNumber& number : result.residuals)
     std::printf("  %-32s %8.5f (wanted %.5f)\n", number.name.c_str(), number.value, number.target);
   std::printf("largest error below 1e-9: %s\n", result.residual < 1e-9 ? "yes" : "no");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ball is thrown through a ring and then strikes a net under a wished angle: the ring is a nail, and the angle a
+// A ball is thrown through a ring and then strikes a net at a given angle: the ring is a nail, and the angle a
 // function of the motion that carom does not know, with its derivative.
 #include <cmath>
 #include <cstdio>

@@ -21,7 +21,7 @@ namespace carom::editing_detail {
 
 /// Debian's oneTBB is not instrumented, so that ThreadSanitizer takes its tasks, and all that they hand on, for races.
 /// Under it plain threads run the same work.
-struct Crew::Threads {
+struct ThreadPool::Threads {
   explicit Threads(int threads) : count(threads > 0 ? threads : 2) {}
 
   void forAll(std::size_t n, const std::function<void(std::size_t)>& work) { inOrder(n, n, work); }
@@ -51,8 +51,8 @@ struct Crew::Threads {
       }
     };
     {
-      std::vector<std::jthread> crew;
-      for (int t = 0; t < count; ++t) crew.emplace_back(each);
+      std::vector<std::jthread> pool;
+      for (int t = 0; t < count; ++t) pool.emplace_back(each);
     }
     if (thrown) std::rethrow_exception(thrown);
   }
@@ -62,7 +62,7 @@ struct Crew::Threads {
 
 #else
 
-struct Crew::Threads {
+struct ThreadPool::Threads {
   explicit Threads(int threads) : arena(threads > 0 ? threads : tbb::task_arena::automatic) {
     // More threads than cores are for those who ask for them; without this oneTBB warns and ignores the request.
     if (threads > tbb::info::default_concurrency())
@@ -92,18 +92,18 @@ struct Crew::Threads {
 
 #endif
 
-Crew::Crew(int threads) {
+ThreadPool::ThreadPool(int threads) {
   if (threads != 1) threads_ = std::make_unique<Threads>(threads);
 }
 
-Crew::~Crew() = default;
+ThreadPool::~ThreadPool() = default;
 
-void Crew::forAll(std::size_t count, const std::function<void(std::size_t)>& work) {
+void ThreadPool::forAll(std::size_t count, const std::function<void(std::size_t)>& work) {
   if (threads_ && count > 1) return threads_->forAll(count, work);
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
-void Crew::inOrder(std::size_t count, std::size_t ahead, const std::function<void(std::size_t)>& work) {
+void ThreadPool::inOrder(std::size_t count, std::size_t ahead, const std::function<void(std::size_t)>& work) {
   if (threads_ && count > 1 && ahead > 1) return threads_->inOrder(count, ahead, work);
   for (std::size_t i = 0; i < count; ++i) work(i);
 }

@@ -12,12 +12,12 @@
 /// Work on several cores, with answers that do not depend on how many. Internal to editing/.
 namespace carom::editing_detail {
 
-/// Threads that stay together from one batch of work to the next: to gather them takes longer than many a batch. Both calls
-/// return when all is done; an exception of one of the works comes out of them.
-class Crew {
+/// Threads that are kept from one batch of tasks to the next: starting them takes longer than many a batch. Both calls
+/// return when all tasks are done, and throw what a task has thrown.
+class ThreadPool {
  public:
-  explicit Crew(int threads);  ///< 0: as many as there are cores
-  ~Crew();
+  explicit ThreadPool(int threads);  ///< 0: as many as there are cores
+  ~ThreadPool();
 
   /// Calls work(0) to work(count - 1), in any order.
   void forAll(std::size_t count, const std::function<void(std::size_t)>& work);

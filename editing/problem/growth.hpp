@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 
 /// How sensitive a motion is. Internal to editing/.
 namespace carom::editing_detail {

@@ -18,7 +18,7 @@ struct Readings {
   std::vector<StateSeed> seeds;
   std::vector<int> row;                    // of each seed; that of an objective of one's own comes after all
   std::vector<int> free_time;              // or -1
-  std::vector<Eigen::VectorXd> time_rate;  // of the instant by the controls; empty: it stays
+  std::vector<Eigen::VectorXd> time_rate;  // of the instant, with respect to the controls; empty: it is fixed
 };
 
 StateSeed weighted(StateSeed seed, double weight) {
@@ -34,7 +34,7 @@ int freeTimeOf(const EditProblem& problem, const Row& row) {
 void addObjective(const EditProblem& problem, const RowValues& rows, double weight, Readings& out) {
   if (weight == 0) return;
   if (!rows.objective || !rows.objective->second_order)
-    throw NotComputable("second derivatives are not known of the objective");
+    throw NotComputable("second derivatives of the objective are not available");
   for (const StateSeed& seed : rows.objective->seeds) {
     out.seeds.push_back(weighted(seed, weight));
     out.row.push_back(problem.constraints.size());
@@ -49,7 +49,7 @@ Readings readingsOf(const EditProblem& problem, DerivativeTape& tape, const RowV
   for (int i = 0; i < problem.constraints.size(); ++i) {
     if (weights[i] == 0) continue;
     if (!rows.notes[i].second_order)
-      throw NotComputable("second derivatives are not known of " + problem.constraints.describeRow(i));
+      throw NotComputable("second derivatives are not available for " + problem.constraints.describeRow(i));
     const Row& row = problem.constraints.rows()[i];
     Eigen::VectorXd time_rate;
     if (row.overSpan()) time_rate = problem.constraints.timeRate(tape, i, controls);
@@ -86,54 +86,67 @@ SeedRates seedRatesOf(const EditProblem& problem, const Motion& motion, const Ro
   };
 }
 
-// By control values and free times.
+// H D by control values and free times.
 Eigen::MatrixXd assemble(const EditProblem& problem, const Eigen::VectorXd& values, const Readings& readings,
-                         const SecondOrder& second) {
-  const Eigen::Index n = problem.controls.size(), all = problem.unknowns();
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(all, all);
-  for (Eigen::Index a = 0; a < all; ++a) {
+                         const Eigen::MatrixXd& directions, const SecondOrder& second) {
+  const Eigen::Index n = problem.controls.size();
+  Eigen::MatrixXd HD = Eigen::MatrixXd::Zero(directions.rows(), directions.cols());
+  for (Eigen::Index a = 0; a < directions.cols(); ++a) {
     const auto direction = static_cast<std::size_t>(a);
-    H.row(a).head(n) = problem.controls.gather(second.gradient_rates[direction], values);
-    if (a < n) H.row(a).head(n) += problem.controls.gatherRate(second.gradient, values, Eigen::VectorXd::Unit(n, a));
+    HD.col(a).head(n) = problem.controls.gather(second.gradient_rates[direction], values);
+    HD.col(a).head(n) += problem.controls.gatherRate(second.gradient, values, directions.col(a).head(n));
     for (std::size_t s = 0; s < readings.seeds.size(); ++s) {
       const double rate = second.time_rates[direction][static_cast<Eigen::Index>(s)];
-      if (readings.time_rate[s].size() > 0) H.row(a).head(n) += rate * readings.time_rate[s];
-      if (readings.free_time[s] >= 0) H(a, n + readings.free_time[s]) += rate;
+      if (readings.time_rate[s].size() > 0) HD.col(a).head(n) += rate * readings.time_rate[s];
+      if (readings.free_time[s] >= 0) HD(n + readings.free_time[s], a) += rate;
     }
   }
-  return H;
+  return HD;
+}
+
+// How the time of each seed moves along a direction.
+Eigen::VectorXd timeRatesAlong(const Readings& readings, const Eigen::VectorXd& direction, Eigen::Index controls) {
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(readings.seeds.size()));
+  for (Eigen::Index s = 0; s < rates.size(); ++s) {
+    const auto seed = static_cast<std::size_t>(s);
+    if (readings.time_rate[seed].size() > 0) rates[s] = readings.time_rate[seed].dot(direction.head(controls));
+    if (readings.free_time[seed] >= 0) rates[s] = direction[controls + readings.free_time[seed]];
+  }
+  return rates;
 }
 
 }  // namespace
 
+RowsCurvature rowsCurvature(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
+                            const RowValues& rows, const Eigen::VectorXd& weights, double objective_weight,
+                            const Eigen::MatrixXd& directions, RatesWanted wanted) {
+  const Eigen::Index n = problem.controls.size();
+  std::vector<ReadingDirection> controls;
+  for (Eigen::Index j = 0; j < n; ++j)
+    controls.push_back({problem.controls.scatter(Eigen::VectorXd::Unit(n, j), values), {}});
+  DerivativeTape tape(motion);
+  Readings readings = readingsOf(problem, tape, rows, weights, controls);
+  addObjective(problem, rows, objective_weight, readings);
+  if (readings.seeds.empty() || directions.size() == 0)
+    return {Eigen::MatrixXd::Zero(directions.rows(), directions.cols()), Eigen::VectorXd::Zero(n)};
+  std::vector<ReadingDirection> along;
+  for (Eigen::Index a = 0; a < directions.cols(); ++a)
+    along.push_back({problem.controls.scatter(directions.col(a).head(n), values),
+                     timeRatesAlong(readings, directions.col(a), n)});
+  const SecondOrder second = secondOrder(
+      tape, readings.seeds, seedRatesOf(problem, motion, rows, weights, objective_weight, readings), along, wanted);
+  return {assemble(problem, values, readings, directions, second), problem.controls.gather(second.gradient, values)};
+}
+
 Eigen::MatrixXd rowsHessian(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
                             const RowValues& rows, const Eigen::VectorXd& weights, double objective_weight) {
   const Eigen::Index n = problem.controls.size(), all = problem.unknowns();
-  const Eigen::VectorXd values = problem.valuesOf(unknowns);
-  std::vector<ReadingDirection> directions;
-  for (Eigen::Index j = 0; j < n; ++j)
-    directions.push_back({problem.controls.scatter(Eigen::VectorXd::Unit(n, j), values), {}});
-  DerivativeTape tape(motion);
-  Readings readings = readingsOf(problem, tape, rows, weights, directions);
-  addObjective(problem, rows, objective_weight, readings);
-  if (readings.seeds.empty() || all == 0) return Eigen::MatrixXd::Zero(all, all);
-  const auto count = static_cast<Eigen::Index>(readings.seeds.size());
-  for (Eigen::Index a = 0; a < all; ++a) {
-    if (a >= n) directions.push_back({SceneTangent(*motion.scene), {}});
-    Eigen::VectorXd& time = directions[static_cast<std::size_t>(a)].time;
-    time = Eigen::VectorXd::Zero(count);
-    for (Eigen::Index s = 0; s < count; ++s) {
-      const auto ss = static_cast<std::size_t>(s);
-      if (a < n && readings.time_rate[ss].size() > 0) time[s] = readings.time_rate[ss][a];
-      if (a >= n && readings.free_time[ss] == a - n) time[s] = 1;
-    }
-  }
-  const SecondOrder second = secondOrder(tape, readings.seeds, seedRatesOf(problem, motion, rows, weights, objective_weight, readings), directions,
-                                          RatesWanted::varied);
+  const RowsCurvature second =
+      rowsCurvature(problem, problem.valuesOf(unknowns), motion, rows, weights, objective_weight,
+                    Eigen::MatrixXd::Identity(all, all), RatesWanted::varied);
   const Eigen::VectorXd rates = problem.rates(unknowns);
-  Eigen::MatrixXd H = rates.asDiagonal() * assemble(problem, values, readings, second) * rates.asDiagonal();
-  H.diagonal().head(n) +=
-      problem.controls.gather(second.gradient, values).cwiseProduct(problem.controls.valueBends(unknowns.head(n)));
+  Eigen::MatrixXd H = rates.asDiagonal() * second.along.transpose() * rates.asDiagonal();
+  H.diagonal().head(n) += second.gradient.cwiseProduct(problem.controls.valueBends(unknowns.head(n)));
   return 0.5 * (H + H.transpose());  // symmetric to rounding already
 }
 

@@ -6,9 +6,9 @@
 /// Several solutions of one edit. Internal to editing/.
 namespace carom::editing_detail {
 
-/// The solutions that a search met besides its best, each simulated afresh, as many as the options ask for; what is
+/// The solutions that a search met besides its best, each simulated again, as many as the options ask for; what is
 /// not confirmed is left out.
-std::vector<EditAlternative> alternativesTo(const Scene& written, const EditSearch& search,
+std::vector<EditAlternative> alternativesTo(const Scene& written, const EditEvaluator& evaluator,
                                             const EditSolution& solution);
 
 }  // namespace carom::editing_detail

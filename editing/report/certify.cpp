@@ -2,8 +2,8 @@
 #include "editing/report/certify.hpp"
 
 #include "editing/detail/messages.hpp"
-#include "editing/problem/jacobian.hpp"
-#include "editing/problem/margins/sequence_borders.hpp"
+#include "editing/problem/edit_problem.hpp"
+#include "editing/problem/margins/sequence_boundaries.hpp"
 #include "editing/report/motion_checks.hpp"
 
 namespace carom::editing_detail {
@@ -11,7 +11,7 @@ namespace {
 
 void predictSignature(const EditProblem& problem, const Eigen::VectorXd& unknowns, DerivativeTape& tape,
                       const RowValues& rows, Certificate& certificate) {
-  const std::vector<EventMargin> margins = sequenceBorders(problem, unknowns, tape, rows, kMarginEvents);
+  const std::vector<EventMargin> margins = sequenceBoundaries(problem, unknowns, tape, rows, kMarginEvents);
   const EventMargin* nearest = nullptr;
   for (const EventMargin& margin : margins) {
     if (!(margin.distance() < certificate.signature_radius)) continue;

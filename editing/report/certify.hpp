@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editing/certificate.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 
 namespace carom::editing_detail {
 

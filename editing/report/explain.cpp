@@ -30,7 +30,7 @@ int rankOf(const Eigen::MatrixXd& J) { return J.cols() == 0 ? 0 : static_cast<in
 double share(double before, double after) { return before > 0 ? std::clamp(1 - after / before, 0.0, 1.0) : 0; }
 
 struct Explanation {
-  EditSearch& search;
+  EditEvaluator& evaluator;
   const EditProblem& problem;
   EditPoint& point;
   LinearModel linear;
@@ -38,9 +38,9 @@ struct Explanation {
   double met = 0;
   WhyNot why;
 
-  Explanation(EditSearch& s, EditPoint& p)
-      : search(s), problem(s.problem()), point(p), linear(s, p), nearest(linear.nearest(linear.allRows())) {
-    met = std::max(10 * search.options().tolerance, kReachable * point.rows.scaled.norm());
+  Explanation(EditEvaluator& s, EditPoint& p)
+      : evaluator(s), problem(s.problem()), point(p), linear(s, p), nearest(linear.nearest(linear.allRows())) {
+    met = std::max(10 * evaluator.options().tolerance, kReachable * point.rows.scaled.norm());
     why.rows = problem.constraints.size();
     why.rank = rankOf(linear.J);
   }
@@ -60,7 +60,7 @@ struct Explanation {
       const Variable& v = problem.controls.variables()[static_cast<std::size_t>(j)];
       const double y = point.changes[j];
       for (const bool upper : {false, true}) {
-        const double bound = upper ? search.upper()[j] : search.lower()[j];
+        const double bound = upper ? evaluator.upper()[j] : evaluator.lower()[j];
         if (!std::isfinite(bound) || !(std::abs(y - bound) <= 1e-7 * (1 + std::abs(bound)))) continue;
         WhyNot::AtBound at{v.control, problem.controls.describeVariable(j), upper ? v.upper : v.lower, upper, 0, 0};
         LinearModel freed = linear;
@@ -148,7 +148,7 @@ struct Explanation {
   std::string refusal() const {
     for (const double length : {1.0, 0.3, 0.1, 0.03}) {
       const Eigen::VectorXd step = length * nearest.step.cwiseMax(-1).cwiseMin(1);
-      const Eigen::VectorXd there = (point.changes + step).cwiseMax(search.lower()).cwiseMin(search.upper());
+      const Eigen::VectorXd there = (point.changes + step).cwiseMax(evaluator.lower()).cwiseMin(evaluator.upper());
       try {
         const Motion motion = simulateAt(problem, problem.valuesOf(there), problem.horizon);
         const RowValues rows = problem.constraints.evaluate(motion, problem.timesOf(there));
@@ -161,9 +161,9 @@ struct Explanation {
   }
 };
 
-void tryHelp(const Scene& written, const EditSearch& search, WhyNot& why) {
-  if (search.iterationsLeft() <= 0) return;  // what is asked for first then is more of them
-  const EditProblem& problem = search.problem();
+void tryHelp(const Scene& written, const EditEvaluator& evaluator, WhyNot& why) {
+  if (evaluator.iterationsLeft() <= 0) return;  // what is asked for first then is more of them
+  const EditProblem& problem = evaluator.problem();
   std::vector<Control> controls;
   for (const BoundControl& bound : problem.controls.controls()) controls.push_back(bound.control);
   for (std::size_t k = 0; k < why.would_help.size() && k < kTries; ++k) {
@@ -172,14 +172,14 @@ void tryHelp(const Scene& written, const EditSearch& search, WhyNot& why) {
     more.push_back(help.control);
     EditOptions options;
     options.max_iterations = kTryIterations;
-    options.tolerance = search.options().tolerance;
+    options.tolerance = evaluator.options().tolerance;
     options.sequence = SequencePolicy::stay;
-    options.time_budget_seconds = search.secondsLeft();
+    options.time_budget_seconds = evaluator.secondsLeft();
     if (!(options.time_budget_seconds > 0)) return;
     EditProblem extended(written, *problem.contacts, problem.duration, more, problem.constraints.constraints());
     extended.step_limit = problem.step_limit;
     extended.stop = options.stop = problem.stop;
-    EditSearch again(extended, options);
+    EditEvaluator again(extended, options);
     const EditSolution solution = findSolution(again);
     help.tried = true;
     help.solves = solution.status == EditStatus::solved && again.reached(*solution.point);
@@ -196,30 +196,31 @@ void tell(WhyNot& why, bool out_of_reach, const std::string& refusal) {
   std::vector<std::string>& say = why.sentences;
   for (const WhyNot::Inside& inside : why.inside)
     say.push_back("The nail of " + inside.name + " lies inside '" + inside.solid +
-                  "', where no motion takes the body.");
+                  "', which no motion can reach.");
   for (const WhyNot::Conflict& conflict : why.conflicts) {
     if (conflict.names.size() == 1) {
-      say.push_back(conflict.names[0] + " is out of reach of everything that varies.");
+      say.push_back("To first order no change of the controls meets " + conflict.names[0] + " from the nearest point.");
     } else {
-      say.push_back(listOf(conflict.names) + " stand against each other: all but any one of them can be met.");
+      say.push_back("To first order " + listOf(conflict.names) + " cannot be met together from the nearest point: drop " +
+                    (conflict.names.size() == 2 ? "either one." : "any one of them (an irreducible infeasible subset)."));
     }
   }
   if (!out_of_reach)
     say.push_back(
-        "To first order nothing stands in the way from the nearest point: what does is the curvature of the "
-        "motion, or impacts that come and go.");
+        "To first order the constraints can be met from the nearest point: the obstacle is the curvature of the "
+        "motion, or a boundary of the impact sequence.");
   if (!refusal.empty()) say.push_back("On the way: " + refusal);
   std::vector<std::string> held, useless;
   for (const WhyNot::AtBound& at : why.at_bounds) {
     const std::string name = at.name + " at its " + (at.upper ? "upper" : "lower") + " bound " + number(at.bound);
     if (at.removes >= kSomeHelp) {
-      held.push_back(name + " (without it " + percent(at.removes) + " of the error goes)");
+      held.push_back(name + " (without it " + percent(at.removes) + " of the error vanishes)");
     } else {
       useless.push_back(name);
     }
   }
-  if (!held.empty()) say.push_back("Held back by bounds: " + listOf(held) + ".");
-  if (!useless.empty()) say.push_back("Also at a bound: " + listOf(useless) + ".");
+  if (!held.empty()) say.push_back("Active bounds that hold it back: " + listOf(held) + ".");
+  if (!useless.empty()) say.push_back("Other active bounds: " + listOf(useless) + ".");
   for (const WhyNot::Help& help : why.would_help) {
     if (help.solves) say.push_back(solvable(help));
   }
@@ -228,33 +229,33 @@ void tell(WhyNot& why, bool out_of_reach, const std::string& refusal) {
     if (!help.solves)
       hopeful.push_back(help.name + " (" + percent(help.removes) + (help.tried ? "; tried, not enough)" : ")"));
   if (!hopeful.empty())
-    say.push_back("Would take off that much of the error, to first order: " + listOf(hopeful) + ".");
-  if (out_of_reach && why.would_help.empty()) say.push_back("No other number of the scene would help, to first order.");
+    say.push_back("Would remove that much of the error if they varied, to first order: " + listOf(hopeful) + ".");
+  if (out_of_reach && why.would_help.empty()) say.push_back("No other scene parameter would help, to first order.");
   for (std::string& sentence : say)
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
 }
 
 }  // namespace
 
-WhyNot explain(const Scene& written, EditSearch& search, const EditSolution& solution) {
-  Explanation explanation(search, *solution.point);
+WhyNot explain(const Scene& written, EditEvaluator& evaluator, const EditSolution& solution) {
+  Explanation explanation(evaluator, *solution.point);
   WhyNot& why = explanation.why;
-  why.inside = nailsInSolids(search.problem(), written);
+  why.inside = nailsInSolids(evaluator.problem(), written);
   std::string refusal;
   explanation.findConflicts();
   explanation.findBounds();
   if (explanation.outOfReach()) explanation.findHelp();
   // Nothing helps a nail in a wall.
-  if (why.inside.empty()) tryHelp(written, search, why);
+  if (why.inside.empty()) tryHelp(written, evaluator, why);
   if (solution.point->rows.scaled.norm() > 0) refusal = explanation.refusal();
   tell(why, explanation.outOfReach(), refusal);
   return std::move(why);
 }
 
-void explainInto(EditResult& result, const Scene& written, EditSearch& search, const EditSolution& solution) {
+void explainInto(EditResult& result, const Scene& written, EditEvaluator& evaluator, const EditSolution& solution) {
   if (result.status != EditStatus::infeasible && result.status != EditStatus::not_converged) return;
-  if (!solution.point->rows.available || !search.differentiate(*solution.point)) return;
-  result.why_not = explain(written, search, solution);
+  if (!solution.point->rows.available || !evaluator.differentiate(*solution.point)) return;
+  result.why_not = explain(written, evaluator, solution);
   if (!result.why_not.inside.empty()) result.status = EditStatus::infeasible;
   const WhyNot& why = result.why_not;
   if (!why.inside.empty() && !why.sentences.empty()) result.message = why.sentences[0] + " " + result.message;

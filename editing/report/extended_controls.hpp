@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// Everything else that could vary. Internal to editing/.
 namespace carom::editing_detail {
@@ -22,7 +22,7 @@ struct Candidate {
 bool varyTheSame(const Control& a, const Control& b);
 
 /// All kinds of controls for all their owners: bodies, materials, gravity, and tilts of the impacts that happened (the
-/// first kTiltedImpacts of a body). Two reverse passes a row give the derivatives by all of them, and as many again for
+/// first kTiltedImpacts of a body). Two reverse passes a row give the derivatives with respect to all of them, and as many again for
 /// the kinds that write the scene in other words (mass, moments).
 std::vector<Candidate> candidatesFor(const EditProblem& problem, const EditPoint& point);
 inline constexpr int kTiltedImpacts = 6;

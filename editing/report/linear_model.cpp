@@ -11,9 +11,9 @@ namespace carom::editing_detail {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-LinearModel::LinearModel(const EditSearch& search, EditPoint& point) {
-  if (!search.differentiate(point)) throw NotComputable(point.not_computable);
-  const EditProblem& problem = search.problem();
+LinearModel::LinearModel(const EditEvaluator& evaluator, EditPoint& point) {
+  if (!evaluator.differentiate(point)) throw NotComputable(point.not_computable);
+  const EditProblem& problem = evaluator.problem();
   J = *point.row_jacobian;
   const Index m = J.rows(), n = J.cols();
   value.resize(m), low.resize(m), high.resize(m);
@@ -22,7 +22,7 @@ LinearModel::LinearModel(const EditSearch& search, EditPoint& point) {
     value[i] = point.rows.values[i] / row.scale;
     low[i] = row.lower / row.scale, high[i] = row.upper / row.scale;
   }
-  lower = search.lower() - point.changes, upper = search.upper() - point.changes;
+  lower = evaluator.lower() - point.changes, upper = evaluator.upper() - point.changes;
   for (Index j = 0; j < n && j < problem.controls.size(); ++j) {
     const Variable& v = problem.controls.variables()[static_cast<std::size_t>(j)];
     const double far = kLargestStep * problem.controls.controls()[static_cast<std::size_t>(v.control)].control.weight;

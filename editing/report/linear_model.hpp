@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// What can be reached from a point to first order. Internal to editing/.
 namespace carom::editing_detail {
@@ -18,7 +18,7 @@ struct LinearModel {
   Eigen::VectorXd low, high;     ///< allowed values of the rows
   Eigen::VectorXd lower, upper;  ///< of the step
 
-  LinearModel(const EditSearch& search, EditPoint& point);
+  LinearModel(const EditEvaluator& evaluator, EditPoint& point);
 
   /// The step that brings some rows nearest to what is allowed, and how far off they stay (Euclidean).
   struct Nearest {

@@ -24,9 +24,9 @@ double endOf(const Motion& motion, const WorldLine& line, std::size_t k) {
 }
 
 // Energy that comes or goes, as a share of what there is; of a body that slides, energy that comes.
-double driftOf(const Arc& arc, double end, int samples) {
+double driftOf(const Arc& arc, const Vec3& of_scene, double end, int samples) {
   const BodyModel& model = arc.model();
-  const Vec3 gravity = arc.path() ? arc.path()->inputs.gravity : arc.acceleration();
+  const Vec3 gravity = model.gravity_factor * of_scene;
   const bool slides = arc.kind() == ArcKind::slide;
   const auto potential = [&](const State& s) { return -model.mass * gravity.dot(s.x); };
   const double kinetic = kineticEnergy(model, arc.startState()), height = potential(arc.startState());
@@ -97,7 +97,7 @@ double energyDrift(const Motion& motion, int samples) {
     for (std::size_t k = 0; k < line.arcs.size(); ++k) {
       const double end = endOf(motion, line, k);
       if (line.arcs[k].moving() && end > line.arcs[k].start())
-        worst = std::max(worst, driftOf(line.arcs[k], end, samples));
+        worst = std::max(worst, driftOf(line.arcs[k], motion.scene->gravity, end, samples));
     }
   }
   return worst;

@@ -18,7 +18,7 @@ const Target* find(const Constraint& constraint, const char* quantity) {
 }
 
 /// Whether moving along the free components keeps the distance to the body.
-bool runsAlong(const Body& solid, const std::vector<double>& place) {
+bool runsAlong(const Body& solid, const std::vector<TargetNumber>& place) {
   const auto* plane = std::get_if<Plane>(&solid.shape);
   const Vec3 normal = plane ? Vec3(solid.orientation * plane->normal) : Vec3::Ones();
   for (int k = 0; k < 3; ++k)

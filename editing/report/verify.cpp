@@ -7,6 +7,7 @@
 
 #include "adjoint/derivative/adjoint.h"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/jacobian.hpp"
 #include "editing/report/certify.hpp"
 
 namespace carom::editing_detail {
@@ -24,20 +25,27 @@ std::vector<ChangedNumber> changesOf(const ControlSet& controls, const EditPoint
   return changed;
 }
 
-std::vector<HeldNumber> heldNumbers(const ConstraintSet& constraints, const RowValues& rows) {
-  std::vector<HeldNumber> held;
+std::vector<ConstrainedNumber> constrainedNumbers(const ConstraintSet& constraints, const RowValues& rows) {
+  std::vector<ConstrainedNumber> numbers;
   for (int i = 0; i < constraints.size(); ++i) {
     const Row& row = constraints.rows()[i];
-    held.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.target, rows.residuals[i],
-                    rows.scaled[i], row.lower, row.upper});
+    numbers.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.target, rows.residuals[i],
+                       rows.scaled[i], row.lower, row.upper});
   }
-  return held;
+  return numbers;
 }
 
 std::vector<MetTime> metTimes(const ConstraintSet& constraints, const Motion& motion, const RowValues& rows) {
   std::vector<MetTime> times;
-  for (const HeldTime& held : constraints.heldTimes(motion, rows.times))
-    times.push_back({held.constraint, constraints.describeConstraint(held.constraint), held.from, held.to, held.time});
+  for (const ConstrainedTime& time : constraints.constrainedTimes(motion, rows.times))
+    times.push_back({time.constraint, constraints.describeConstraint(time.constraint), time.from, time.to, time.time});
+  for (int i = 0; i < static_cast<int>(constraints.constraints().size()); ++i) {
+    const Constraint& constraint = constraints.constraints()[static_cast<std::size_t>(i)];
+    if (!requiresImpacts(constraint)) continue;
+    if (const auto time = constraints.timeOfAwaited(motion, i))
+      times.push_back({i, constraint.hits ? "'" + constraint.body + "' hits '" + constraint.hits->with + "'" : constraints.describeConstraint(i),
+                       0, motion.end, *time});
+  }
   return times;
 }
 
@@ -75,7 +83,8 @@ std::string sentencesOf(const std::vector<SequenceChange>& changes) {
   int count = 0;
   for (const SequenceChange& change : changes)
     if (change.matters && ++count <= kMost) text += " " + change.sentence;
-  if (count > kMost) text += " (" + std::to_string(count - kMost) + " more differences.)";
+  const char* more = count == kMost + 1 ? " more difference.)" : " more differences.)";
+  if (count > kMost) text += " (" + std::to_string(count - kMost) + more;
   return text;
 }
 
@@ -83,12 +92,14 @@ std::string sentencesOf(const std::vector<SequenceChange>& changes) {
 /// scene too, unless its bounds moved it.
 void compareImpacts(const EditProblem& problem, const EditSolution& solution, const Motion& motion,
                     EditResult& result) {
-  const auto held = [&](const Motion& m, const Eigen::VectorXd& times) {
-    return problem.constraints.extentIn(m, times).events;
-  };
   const Eigen::VectorXd times = problem.controls.startMoved() ? Eigen::VectorXd() : solution.start->rows.times;
-  result.sequence_changes =
-      wholeSequenceChanges(motion, held(motion, times), result.motion, held(result.motion, solution.point->rows.times));
+  const ConstraintSet::Extent is = problem.constraints.extentIn(result.motion, solution.point->rows.times);
+  // Where the motion before lacks an impact that is held, it has no last constraint: it is compared up to the same time.
+  std::size_t held_before = problem.constraints.extentIn(motion, times).events;
+  if (!problem.constraints.hasAllAwaited(motion))
+    held_before = static_cast<std::size_t>(std::count_if(motion.events.begin(), motion.events.end(),
+                                                         [&](const Event& event) { return event.time <= is.time; }));
+  result.sequence_changes = wholeSequenceChanges(motion, held_before, result.motion, is.events);
   result.signature_changed = std::any_of(result.sequence_changes.begin(), result.sequence_changes.end(),
                                          [](const SequenceChange& c) { return c.matters; });
   result.sequence_before = motion.describeEvents();
@@ -98,7 +109,7 @@ void compareImpacts(const EditProblem& problem, const EditSolution& solution, co
 /// Fills in everything that is read from the motion of result.scene.
 void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditResult& result) {
   const RowValues rows = problem.constraints.evaluate(result.motion, times);
-  result.residuals = heldNumbers(problem.constraints, rows);
+  result.residuals = constrainedNumbers(problem.constraints, rows);
   result.times = metTimes(problem.constraints, result.motion, rows);
   result.residual = largest(rows.residuals);
   result.scaled_residual = largest(rows.scaled);
@@ -129,19 +140,19 @@ void conclude(const EditOptions& options, const EditSolution& solution, bool as_
   // Written so that a NaN does not pass.
   if (!(result.scaled_residual <= options.tolerance)) {
     result.status = EditStatus::not_converged;
-    result.message = "The solution was not confirmed by simulating it afresh: it misses by " +
+    result.message = "The solution was not confirmed by a new simulation: it misses by " +
                      brief(result.scaled_residual) + " of the natural scales.";
     return;
   }
   result.met = true;
   const bool unchanged = as_it_was && result.iterations == 0;
-  result.message = unchanged ? "The start meets all constraints already."
+  result.message = unchanged ? "The initial motion already meets all constraints."
                              : "All constraints are met, the largest error is " + brief(result.residual) + ".";
   if (result.signature_changed) {
     result.status = EditStatus::solved_sequence_changed;
-    result.message += " The impacts on the way are others than before." + sentencesOf(result.sequence_changes);
+    result.message += " The impact sequence has changed." + sentencesOf(result.sequence_changes);
   }
-  if (!result.reliability.reliable) result.message += " " + result.reliability.message;
+  if (!result.reliability.reliable) result.message += " Its derivatives are unreliable: " + result.reliability.message + ".";
 }
 
 }  // namespace
@@ -152,8 +163,8 @@ void endAsCancelled(const std::string& meanwhile, EditResult& result) {
   result.message += " It was cancelled while " + meanwhile + ".";
 }
 
-EditResult verify(const Scene& written, const EditSearch& search, const EditSolution& solution) {
-  const EditProblem& problem = search.problem();
+EditResult verify(const Scene& written, const EditEvaluator& evaluator, const EditSolution& solution) {
+  const EditProblem& problem = evaluator.problem();
   const EditPoint& point = *solution.point;
   EditResult result;
   const bool as_it_was = problem.change(point.changes) == 0;
@@ -161,7 +172,7 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
   result.scene = untouched ? written : problem.controls.sceneAt(point.values);
   result.changed = changesOf(problem.controls, point);
   result.objective = point.objective;
-  result.iterations = search.iterations();
+  result.iterations = evaluator.iterations();
   result.motion = simulateScene(problem, result.scene, problem.duration);
   if (untouched) {
     compareImpacts(problem, solution, result.motion, result);
@@ -169,16 +180,16 @@ EditResult verify(const Scene& written, const EditSearch& search, const EditSolu
     compareImpacts(problem, solution, simulateScene(problem, written, problem.duration), result);
   }
   readMotion(problem, problem.timesOf(point.changes), result);
-  if (search.options().certify && !search.isCancelled()) {
+  if (evaluator.options().certify && !evaluator.isCancelled()) {
     Certificate& certificate = result.certificate = certificateOf(problem, point, untouched, result.motion);
     certificate.residual = result.residual;
     certificate.scaled_residual = result.scaled_residual;
     certificate.reliability = result.reliability;
   }
-  conclude(search.options(), solution, as_it_was, result);
-  if (search.halt() == Halt::cancelled) endAsCancelled("it looked for a smaller change", result);
+  conclude(evaluator.options(), solution, as_it_was, result);
+  if (evaluator.halt() == Halt::cancelled) endAsCancelled("it looked for a smaller change", result);
   result.growth = solution.growth;
-  if (!result.solved()) result.message += roundingSentence(result.growth, search.options().tolerance);
+  if (!result.solved()) result.message += roundingSentence(result.growth, evaluator.options().tolerance);
   for (const std::string& note : problem.controls.notes()) result.message += " " + note;
   return result;
 }

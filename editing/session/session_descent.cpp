@@ -29,18 +29,18 @@ constexpr double kShortestStep = 1e-4;
 constexpr double kFirstStep = 0.25;
 /// Shares of the way towards the smallest change that a step may take.
 constexpr double kLeastEase = 1.0 / 16, kMostEase = 2;
-/// So much work is kept for coming onto the constraints, whatever the change.
-constexpr int kLanding = 3;
-/// Borders of impact sequences that an update follows.
+/// So much work is kept for the projection onto the constraints, whatever the change.
+constexpr int kProjectionSteps = 3;
+/// Boundaries of impact sequences that an update follows.
 constexpr std::size_t kMostKinks = 3;
-/// Steps across the border of an impact sequence that may make things worse at first, in one update.
+/// Steps across the boundary of an impact sequence that may make things worse at first, in one update.
 constexpr int kLeaps = 2;
 /// An update ends after so many steps that hardly bring the goal nearer, or leave the change as large as it was.
 constexpr int kStalls = 3;
 constexpr double kHardly = 0.99;
 /// It is worth while to go on where the goal came at least so much nearer, as a share of what was left.
 constexpr double kNearer = 0.5;
-/// Steps from the best point, along a border, and from samples; samples of which the best is followed.
+/// Steps from the best point, along a boundary, and from samples; samples of which the best is followed.
 constexpr int kSteps = 8, kStepsAlong = 5, kStepsElsewhere = 6, kBatch = 3;
 
 }  // namespace
@@ -57,6 +57,10 @@ StepProblem SessionSolver::stepProblem(EditPoint& point) const {
     const Row& row = problem_.constraints.rows()[static_cast<std::size_t>(i)];
     if (!row.isRange()) {
       (row.constraint == goal_ ? step.soft : step.hard).add(J.row(i), point.rows.scaled[i]);
+      continue;
+    }
+    if (row.constraint == goal_ && point.rows.scaled[i] != 0) {  // a nail's range is kept to, the goal's is come to
+      step.soft.add(J.row(i), point.rows.scaled[i]);
       continue;
     }
     const double value = point.rows.values[i];
@@ -99,7 +103,7 @@ void SessionSolver::learnEase(const EditPoint& at, const Step& step) {
   last_towards_.resize(0);
 }
 
-/// Keeps the steps from `at` on its own side of the border that a trial went across; false where there is none that
+/// Keeps the steps from `at` on its own side of the boundary that a trial went across; false where there is none that
 /// could be held.
 bool SessionSolver::holdAtKink(EditPoint& at, EditPoint& trial) {
   if (kinks_.size() >= kMostKinks || trial.signature == at.signature) return false;
@@ -118,7 +122,7 @@ void SessionSolver::improveHere(Budget& budget) {
   keepIfBetter(start_);  // a drag that comes back finds what was there
   beyond_.reset();
   descendFromBest(budget);
-  if (!reached() && beyond_) {  // leaps across the border led nowhere: along it
+  if (!reached() && beyond_) {  // leaps across the boundary led nowhere: along it
     holds_jumps_ = true;
     descend(point_, budget, kStepsAlong);
     holds_jumps_ = false;
@@ -149,7 +153,7 @@ std::optional<Surroundings> SessionSolver::surroundings(EditPoint& point) const 
 void SessionSolver::lookElsewhere(Budget& budget) {
   const double longest = longest_, ease = ease_;
   std::vector<std::string> known{point_->signature};  // where steps began in this update
-  for (int round = 0; !reached() && budget.left() >= kBatch + kLanding; ++round) {
+  for (int round = 0; !reached() && budget.left() >= kBatch + kProjectionSteps; ++round) {
     EditPoint& centre = round % 2 ? *start_ : *point_;
     const std::optional<Surroundings> here = surroundings(centre);
     if (!here) return;
@@ -177,7 +181,7 @@ void SessionSolver::lookElsewhere(Budget& budget) {
 /// Takes at most so many steps, tried or taken, from a point on.
 void SessionSolver::descend(EditPointPtr at, Budget& budget, int most) {
   int stalls = 0, leaps = 0;
-  bool lands = false, crosses = false;
+  bool projects = false, crosses = false;
   longest_ = std::max(longest_, kFirstStep);
   kinks_.clear();
   last_towards_.resize(0);
@@ -185,17 +189,17 @@ void SessionSolver::descend(EditPointPtr at, Budget& budget, int most) {
     const int left = std::min(most, budget.left());
     StepProblem problem = stepProblem(*at);
     if (!at->row_jacobian->allFinite()) return;
-    lands = !reached() && (lands || left <= kLanding);
-    if (lands) problem.ease = 0;
+    projects = !reached() && (projects || left <= kProjectionSteps);
+    if (projects) problem.ease = 0;
     Step step = hierarchicalStep(problem);
-    if (!lands && last_towards_.size() > 0) {
+    if (!projects && last_towards_.size() > 0) {
       learnEase(*at, step);
       problem.ease = ease_;
       step = hierarchicalStep(problem);
     }
     if (isSettled(*at, step)) {
       if (reached() || kinks_.empty() || leaps >= kLeaps || crosses) return;
-      kinks_.clear();  // the border is as near as this side gets: what is beyond it?
+      kinks_.clear();  // the boundary is as near as this side gets: what is beyond it?
       crosses = true;
       continue;
     }
@@ -211,13 +215,13 @@ void SessionSolver::descend(EditPointPtr at, Budget& budget, int most) {
       longest_ = std::max(longest_, 2 * length);
       keepIfBetter(trial);
       crosses = false;
-      if (!lands) last_towards_ = step.towards_zero, last_signature_ = at->signature;
+      if (!projects) last_towards_ = step.towards_zero, last_signature_ = at->signature;
       at = trial;
     } else if (trial && !crosses && holdAtKink(*at, *trial)) {
       continue;
     } else if (eased > 0.5 * length) {
       ease_ = std::max(kLeastEase, ease_ / 2);
-      lands = true;
+      projects = true;
       if (reached()) ++stalls;
     } else if (trial && leaps < kLeaps && options_.sequence != SequencePolicy::stay &&
                trial->signature != at->signature) {

@@ -26,13 +26,15 @@ void requireUnit(const Quat& q, const std::string& where) {
   throw InputError(where, "found a quaternion of length " + number(q.norm()) + ", expected 1");
 }
 
-bool isPlace(const Target& target) { return target.quantity == "position" || target.quantity == "point"; }
+bool isPlace(const Target& target) {
+  return target.quantity == "position" || target.quantity == "point" || target.quantity == "contact";
+}
 
 /// The target of a nail that holds a place; -1 where there is none with a number.
 int placeTargetOf(const Constraint& nail) {
   for (std::size_t i = 0; i < nail.targets.size(); ++i) {
     const Target& target = nail.targets[i];
-    const auto is_number = [](double v) { return !std::isnan(v); };
+    const auto is_number = [](const TargetNumber& v) { return !v.isFree(); };
     if (isPlace(target) && std::any_of(target.value.begin(), target.value.end(), is_number)) return static_cast<int>(i);
   }
   return -1;
@@ -47,6 +49,7 @@ int turnTargetOf(const Constraint& nail) {
 /// What a nail holds besides the place and the orientation that are dragged; without targets and regions: nothing.
 Constraint restOf(Constraint nail, int place, int turn) {
   Target& held = nail.targets[static_cast<std::size_t>(place)];
+  if (held.quantity == "contact") held.min = held.max = {};  // they move with it
   std::fill(held.value.begin(), held.value.end(), any);
   const auto at = [&](int i) { return nail.targets.begin() + i; };
   const bool has_range = !held.min.empty() || !held.max.empty();
@@ -58,8 +61,8 @@ Constraint restOf(Constraint nail, int place, int turn) {
 
 }  // namespace
 
-std::vector<double> editing_detail::heldPlace(const Vec3& place, const Grip& grip) {
-  std::vector<double> value{place.x(), place.y(), place.z()};
+std::vector<TargetNumber> editing_detail::constrainedPlace(const Vec3& place, const Grip& grip) {
+  std::vector<TargetNumber> value{place.x(), place.y(), place.z()};
   if (grip.components.empty()) return value;
   const std::vector<std::string> names{"x", "y", "z"};
   for (const std::string& wanted : grip.components)
@@ -71,25 +74,27 @@ std::vector<double> editing_detail::heldPlace(const Vec3& place, const Grip& gri
 }
 
 void editing_detail::putNail(Constraint& nail, const Vec3& place, const std::optional<Quat>& orientation) {
-  std::vector<double>& value = nail.targets[static_cast<std::size_t>(placeTargetOf(nail))].value;
+  std::vector<TargetNumber>& value = nail.targets[static_cast<std::size_t>(placeTargetOf(nail))].value;
   for (int k = 0; k < 3; ++k) {
-    double& held = value[static_cast<std::size_t>(k)];
-    if (!std::isnan(held)) held = place[k];
+    TargetNumber& held = value[static_cast<std::size_t>(k)];
+    if (!held.isFree()) held = place[k];
   }
   if (orientation) nail.targets[static_cast<std::size_t>(turnTargetOf(nail))].value = numbersOf(*orientation);
 }
 
-std::vector<double> editing_detail::numbersOf(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+std::vector<TargetNumber> editing_detail::numbersOf(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 Constraint editing_detail::goalOf(const SessionDrag& drag) {
   const SessionGesture& record = drag.record;
   Constraint goal{record.body, record.at, {}};
-  const std::vector<double> place = heldPlace(drag.place, record.grip);
+  const std::vector<TargetNumber> place = constrainedPlace(drag.place, drag.held);
   if (!record.grip.place) {
     goal.targets.push_back({"orientation", numbersOf(*drag.orientation)});
     return goal;
   }
-  if (record.grip.body_point) {
+  if (record.grip.contact) {
+    goal.targets.push_back(contactTarget(drag.place, drag.held, drag.sheet));
+  } else if (record.grip.body_point) {
     goal.targets.push_back({"point", place, *record.grip.body_point});
   } else {
     goal.targets.push_back({"position", place});
@@ -117,15 +122,18 @@ void EditSession::State::grab(const std::string& body, const When& at, const Gri
   const BodyState state = stateAtMoment(*last.motion, body, at, "grab");
   SessionDrag next;
   next.record = newGesture(SessionGesture::Kind::drag);
-  next.record.body = body, next.record.at = at, next.record.grip = grip;
+  next.record.body = body, next.record.at = at, next.record.grip = next.held = grip;
   if (now.scene->bodies[static_cast<std::size_t>(bodyIndex(*now.scene, body))].fixed)
     throw InputError("grab", "found the fixed body '" + body + "', expected a moving body");
   if (!grip.place && !grip.orientation)
-    throw InputError("grab", "found a grip that holds nothing, expected a place, an orientation or both");
+    throw InputError("grab", "found a grip that holds nothing, expected a position, an orientation or both");
   if (grip.body_point) requireFinite(*grip.body_point, "grab/body_point");
-  next.place = state.position + state.orientation * grip.body_point.value_or(Vec3::Zero());
+  if (grip.contact && (at.impact == 0 || grip.body_point || !grip.place))
+    throw InputError("grab/contact", "found a time, another point or no position beside it, expected an impact alone");
+  next.place = placeConstrained(*last.motion, next.record, "grab");
+  if (grip.contact) next.sheet = sheetOf(*now.scene, next.record);
   if (grip.orientation) next.orientation = state.orientation;
-  HeldNails held = heldNails(now.nails);
+  ConstrainedNails held = constrainedNails(now.nails);
   next.left_out = std::move(held.left_out);
   SessionMoment moment = now;
   std::unique_ptr<SessionSolver> solver;
@@ -152,11 +160,9 @@ void EditSession::State::grabNail(NailId id) {
   };
   if (nail.at.span) refuse("at some time of a span", "at a time, an impact or rest: setNail moves the others");
   if (!nail.relative_to.empty())
-    refuse("seen from '" + nail.relative_to + "'", "seen from the world: setNail moves the others");
+    refuse("relative to '" + nail.relative_to + "'", "relative to the world: setNail moves the others");
   const int place = placeTargetOf(nail), turn = turnTargetOf(nail);
-  if (place < 0) refuse("that holds no place", "with a position or a point: setNail moves the others");
-  const BodyState state = stateAtMoment(*last.motion, nail.body, nail.at, "grabNail");
-
+  if (place < 0) refuse("without a position", "with a position or a point: setNail moves the others");
   SessionDrag next;
   next.record = newGesture(SessionGesture::Kind::drag);
   next.record.grabbed_nail = id.value;
@@ -164,22 +170,24 @@ void EditSession::State::grabNail(NailId id) {
   Grip& grip = next.record.grip;
   const Target& target = nail.targets[static_cast<std::size_t>(place)];
   if (target.quantity == "point") grip.body_point = target.body_point;
-  next.place = state.position + state.orientation * grip.body_point.value_or(Vec3::Zero());
+  grip.contact = target.quantity == "contact";
+  next.place = placeConstrained(*last.motion, next.record, "grabNail");
   for (int k = 0; k < 3; ++k) {
-    const double value = target.value[static_cast<std::size_t>(k)];
-    if (std::isnan(value)) continue;
+    const TargetNumber& value = target.value[static_cast<std::size_t>(k)];
+    if (value.isFree()) continue;
     next.place[k] = value;
     grip.components.push_back(std::string(1, "xyz"[k]));
   }
   if (grip.components.size() == 3) grip.components.clear();
   if (turn >= 0) {
-    const std::vector<double>& q = nail.targets[static_cast<std::size_t>(turn)].value;
+    const std::vector<TargetNumber>& q = nail.targets[static_cast<std::size_t>(turn)].value;
     grip.orientation = true;
     next.orientation = Quat(q[0], q[1], q[2], q[3]);
   }
+  next.held = grip;
   std::vector<SessionNail> others = now.nails;
   std::erase_if(others, [&](const SessionNail& other) { return other.id == id; });
-  HeldNails held = heldNails(others);
+  ConstrainedNails held = constrainedNails(others);
   next.left_out = std::move(held.left_out);
   Constraint rest = restOf(nail, place, turn);
   if (!rest.targets.empty() || !rest.regions.empty()) held.constraints.push_back(std::move(rest));
@@ -212,7 +220,8 @@ SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<
   if (orientation) requireUnit(*orientation, "dragTo");
 
   drag->place = place;
-  if (drag->record.grip.place) drag->solver->aim(0, heldPlace(place, drag->record.grip));
+  if (drag->held.contact) drag->solver->aim(0, contactTarget(place, drag->held, drag->sheet));
+  else if (drag->held.place) drag->solver->aim(0, constrainedPlace(place, drag->held));
   if (orientation) {
     drag->orientation = orientation;
     drag->solver->aim(drag->turn_target, numbersOf(*orientation));
@@ -220,7 +229,20 @@ SessionUpdate EditSession::State::dragTo(const Vec3& place, const std::optional<
   if (drag->record.grabbed_nail) putNail(nailOf({*drag->record.grabbed_nail}).constraint, place, drag->orientation);
   DragTarget target;
   target.place = place, target.orientation = orientation;
+  if (drag->held.contact && isOnSheet(drag->held)) target.components = drag->held.components;
   return follow(std::move(target), budget(options.drag_simulations, options.drag_seconds, std::move(stop)), {});
+}
+
+void EditSession::State::slide(const Vec3& place, const std::vector<std::string>& components) {
+  if (!drag || !drag->held.contact || drag->held.components.size() == 1)
+    throw InputError("slideTo", "found no grabbed contact, or one component of it, expected one (Grip::contact)");
+  Grip held = drag->held;
+  held.components = components;
+  constrainedPlace(place, held);  // throws for components that there are not
+  if (!isOnSheet(held) || components[0] == components[1])
+    throw InputError("slideTo/components", "found " + listOf(components) + ", expected two of x, y and z");
+  requireFinite(place, "slideTo");
+  drag->held = std::move(held);
 }
 
 SessionUpdate EditSession::State::dwell(std::stop_token stop, const Better& better) {

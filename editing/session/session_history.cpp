@@ -47,7 +47,7 @@ SessionUpdate EditSession::State::stay(const std::string& message, const std::sh
   update.motion = last.motion;
   update.moved = update.motion != shown;
   update.message = message.empty() ? earlyEnd(*update.motion) : message;
-  const std::string left_out = heldNails(now.nails).left_out;
+  const std::string left_out = constrainedNails(now.nails).left_out;
   if (!left_out.empty()) update.message += (update.message.empty() ? "" : " ") + left_out;
   measureNails(update);
   update.milliseconds = millisecondsSince(began_at);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "adjoint/numeric/decompositions.hpp"
-#include "editing/problem/margins/sequence_borders.hpp"
+#include "editing/problem/margins/sequence_boundaries.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 constexpr double kSharp = 0.02;
 /// Other ranks of the change are smaller than this share of the first: else it is no kink but a jump.
 constexpr double kOneRank = 0.3;
-/// A border is crossed on the way where that is so, to first order, after so much of it.
+/// A boundary is crossed on the way where that is so, to first order, after so much of it.
 constexpr double kOnTheWay = 1.3;
-/// Share of the way to a border that may be taken.
+/// Share of the way to a boundary that may be taken.
 constexpr double kBefore = 0.9;
 
 }  // namespace
@@ -39,7 +39,7 @@ std::optional<Kink> kinkBetween(const EditProblem& problem, const EditPoint& a, 
 
 std::vector<Kink> jumpsBetween(const EditProblem& problem, const EditPoint& a, const EditPoint& b) {
   const std::size_t events = problem.constraints.extentIn(a.motion, a.rows.times).events;
-  if (events == 0 || events > kBordersUpTo) return {};
+  if (events == 0 || events > kBoundariesUpTo) return {};
   const Eigen::VectorXd way = b.changes - a.changes;
   const Eigen::Index n = problem.controls.size();
   const auto byChanges = [&](const SceneGradient& gradient) { return problem.byChanges(gradient, a.changes); };

@@ -8,7 +8,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 #include "editing/problem/rows/instants.hpp"
-#include "editing/problem/rows/wished_impacts.hpp"
+#include "editing/problem/rows/required_impacts.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session/session_words.hpp"
 
@@ -43,14 +43,39 @@ std::string worstOf(const ConstraintSet& set, const RowValues& rows) {
 
 double timeOf(const ConstraintSet& set, const RowValues& rows, const Motion& motion) {
   const Constraint& nail = set.constraints()[0];
-  if (wishesImpacts(nail)) return set.extentIn(motion).time;
+  if (requiresImpacts(nail)) return set.extentIn(motion).time;
   if (nail.targets.empty()) return set.timeOfClearance(motion, 0).value_or(0);
   if (nail.at.span) return rows.times[0];
   const auto instant = findInstant(motion, bodyIndex(*motion.scene, nail.body), nail.at);
   return instant ? editing_detail::timeOf(motion, *instant) : std::numeric_limits<double>::quiet_NaN();
 }
 
+NailState stateIn(const Scene& scene, const Motion& motion, const Constraint& constraint, double duration,
+                  double tolerance) {
+  NailState state;
+  const ConstraintSet set(scene, {constraint}, duration);
+  const RowValues rows = set.evaluate(motion);
+  if (!rows.available) {
+    state.available = state.met = false;
+    state.time = state.error = state.scaled_error = std::numeric_limits<double>::quiet_NaN();
+    state.message = requiresImpacts(constraint) ? rows.message : whyMissing(constraint, motion);
+    return state;
+  }
+  state.time = timeOf(set, rows, motion);
+  state.met = true;
+  if (set.size() == 0) return state;
+  state.error = rows.residuals.cwiseAbs().maxCoeff();
+  state.scaled_error = rows.scaled.cwiseAbs().maxCoeff();
+  state.met = state.scaled_error <= tolerance;
+  if (!state.met) state.message = worstOf(set, rows);
+  return state;
+}
+
 }  // namespace
+
+NailState nailStateIn(const Motion& motion, const Constraint& constraint, double duration, double tolerance) {
+  return stateIn(*motion.scene, motion, constraint, duration, tolerance);
+}
 
 SessionNail& EditSession::State::nailOf(NailId id) {
   if (SessionNail* nail = now.find(id)) return *nail;
@@ -61,29 +86,13 @@ SessionNail& EditSession::State::nailOf(NailId id) {
 }
 
 NailState EditSession::State::stateOf(const SessionNail& nail, const Motion& motion) const {
-  NailState state;
+  NailState state = stateIn(*now.scene, motion, nail.constraint, now.duration, options.tolerance);
   state.id = nail.id, state.on = nail.on;
-  const ConstraintSet set(*now.scene, {nail.constraint}, now.duration);
-  const RowValues rows = set.evaluate(motion);
-  if (!rows.available) {
-    state.available = state.met = false;
-    state.time = state.error = state.scaled_error = std::numeric_limits<double>::quiet_NaN();
-    const bool wishes = wishesImpacts(nail.constraint);
-    state.message = wishes ? rows.message : whyMissing(nail.constraint, motion);
-    return state;
-  }
-  state.time = timeOf(set, rows, motion);
-  state.met = true;
-  if (set.size() == 0) return state;
-  state.error = rows.residuals.cwiseAbs().maxCoeff();
-  state.scaled_error = rows.scaled.cwiseAbs().maxCoeff();
-  state.met = state.scaled_error <= options.tolerance;
-  if (!state.met) state.message = worstOf(set, rows);
   return state;
 }
 
-HeldNails EditSession::State::heldNails(const std::vector<SessionNail>& nails) const {
-  HeldNails held;
+ConstrainedNails EditSession::State::constrainedNails(const std::vector<SessionNail>& nails) const {
+  ConstrainedNails held;
   std::vector<std::string> missing;
   for (const SessionNail& nail : nails) {
     if (!nail.on) continue;
@@ -99,7 +108,7 @@ HeldNails EditSession::State::heldNails(const std::vector<SessionNail>& nails) c
     missing.resize(kNamedNails);
     missing.push_back(std::to_string(count - kNamedNails) + " more");
   }
-  held.left_out = "The motion lacks " + std::string(count == 1 ? "a nail" : "nails") + ", left out: " +
+  held.left_out = "The motion cannot evaluate " + std::string(count == 1 ? "a nail" : "nails") + ", which a gesture ignores: " +
                   listOf(missing) + ".";
   return held;
 }
@@ -138,7 +147,7 @@ NailId EditSession::State::addNail(Constraint constraint, std::stop_token stop) 
   gesture.constraint = constraint;
   const NailId id{next_nail};
   gesture.nail = id.value;
-  NailStep step{now, heldNails(now.nails), -1, "nail of " + wordsOf(constraint), true};
+  NailStep step{now, constrainedNails(now.nails), -1, "nail of " + wordsOf(constraint), true};
   step.held.constraints.push_back(constraint);
   step.goal = static_cast<int>(step.held.constraints.size()) - 1;
   step.next.nails.push_back({id, std::move(constraint)});
@@ -165,7 +174,7 @@ void EditSession::State::setNail(NailId id, Constraint constraint, std::stop_tok
   }
   std::vector<SessionNail> others = now.nails;
   std::erase_if(others, [&](const SessionNail& other) { return other.id == id; });
-  step.held = heldNails(others);
+  step.held = constrainedNails(others);
   step.held.constraints.push_back(std::move(constraint));
   step.goal = static_cast<int>(step.held.constraints.size()) - 1;
   solveStep(std::move(step), std::move(gesture), std::move(stop));
@@ -177,7 +186,7 @@ SessionUpdate EditSession::State::meetNails(std::stop_token stop) {
     step.changes_nails = step.changes_nails || !nail.on;
     nail.on = true;
   }
-  step.held = heldNails(step.next.nails);
+  step.held = constrainedNails(step.next.nails);
   return solveStep(std::move(step), newGesture(SessionGesture::Kind::meet_nails), std::move(stop));
 }
 

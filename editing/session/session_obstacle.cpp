@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands in the way of a gesture, by first derivatives: a step is tried without one thing after the other.
+// The obstacle of a gesture, by first derivatives: a step is tried without one thing after the other.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,14 +27,14 @@ std::size_t eventsThatCount(const EditProblem& problem, const EditPoint& point) 
 }
 
 /// Where a step would have led: other bodies meet, or the same ones in another way.
-std::string describeBorder(const EditProblem& problem, const EditPoint& from, const EditPoint& to) {
+std::string describeBoundary(const EditProblem& problem, const EditPoint& from, const EditPoint& to) {
   const std::vector<SequenceChange> changes =
       sequenceChanges(from.motion, eventsThatCount(problem, from), to.motion, eventsThatCount(problem, to));
-  std::string what = "the order in which bodies meet";
+  std::string what = "the order of the impacts";
   if (!changes.empty() && changes[0].kind != SequenceChange::Kind::order) {
     const SequenceChange& first = changes[0];
     if (first.before < 0 && first.after < 0) {
-      what = "what lasts in contact";
+      what = "persistent contact";
     } else {
       const Motion& motion = first.before >= 0 ? from.motion : to.motion;
       const Event& event = motion.events[static_cast<std::size_t>(first.before >= 0 ? first.before : first.after)];
@@ -42,7 +42,7 @@ std::string describeBorder(const EditProblem& problem, const EditPoint& from, co
       what = "how " + name(event.contacts[0].a) + " and " + name(event.contacts[0].b) + " meet";
     }
   }
-  return "A step nearer changes " + what + ", and of what was tried nothing leads there.";
+  return "A step nearer changes " + what + ", and no trial got there.";
 }
 
 std::vector<std::string> controlsAtBounds(const ControlSet& controls, const Eigen::VectorXd& changes) {
@@ -81,8 +81,8 @@ std::string boundsIn(const std::vector<std::string>& names) {
 }  // namespace
 
 std::string SessionSolver::nothingMoves() const {
-  if (goal_ < 0) return "Nothing that may vary moves what is nailed.";
-  return "Nothing that may vary moves " +
+  if (goal_ < 0) return "No control moves what is nailed.";
+  return "No control moves " +
          wordsOf(problem_.constraints.constraints()[static_cast<std::size_t>(goal_)]) + ".";
 }
 
@@ -95,7 +95,7 @@ bool SessionSolver::isMoved() const {
 SessionObstacle SessionSolver::obstacle() {
   if (reached()) return {};
   if (problem_.controls.size() == 0)
-    return {Obstacle::no_control_moves_it, {}, "Nothing may vary: there are no controls."};
+    return {Obstacle::no_control_moves_it, {}, "There are no controls."};
   return part_ ? part_->obstacleHere() : obstacleHere();
 }
 
@@ -103,9 +103,9 @@ SessionObstacle SessionSolver::obstacleHere() {
   SessionObstacle out{Obstacle::no_control_moves_it, {}, nothingMoves()};
   if (problem_.controls.size() == 0) return out;
   const bool known = differentiate(problem_, *point_);
-  if (!known) return {Obstacle::border, {}, "The derivatives are not known there."};
+  if (!known) return {Obstacle::border, {}, "There are no derivatives there."};
   StepProblem problem = stepProblem(*point_);
-  if (!point_->row_jacobian->allFinite()) return {Obstacle::border, {}, "The derivatives are not known there."};
+  if (!point_->row_jacobian->allFinite()) return {Obstacle::border, {}, "There are no derivatives there."};
   problem.longest = kAnyLength;
   const bool nails_alone = goal_ < 0;
   if (nails_alone) std::swap(problem.hard, problem.soft);
@@ -118,22 +118,22 @@ SessionObstacle SessionSolver::obstacleHere() {
   if (problem.soft.J.isZero(0)) return out;
   if (problem.soft.r.norm() <= options_.tolerance) return is(Obstacle::nails, "Not all nails are met.");
   if (goesOn(problem)) {
-    const bool at_border = beyond_ && beyond_->signature != point_->signature;
-    if (at_border) return is(Obstacle::border, describeBorder(problem_, *point_, *beyond_));
-    return is(Obstacle::work, "No way there was found with the work that one update may do.");
+    const bool at_boundary = beyond_ && beyond_->signature != point_->signature;
+    if (at_boundary) return is(Obstacle::border, describeBoundary(problem_, *point_, *beyond_));
+    return is(Obstacle::work, "The work limit of one update was reached first.");
   }
   if (!out.at_bounds.empty() && goesOn(withoutBounds(problem))) return is(Obstacle::bounds, boundsIn(out.at_bounds));
   const StepProblem alone = withoutRows(problem);
   const bool bounded = !goesOn(alone);
   if (bounded && (out.at_bounds.empty() || !goesOn(withoutBounds(alone)))) {
     const bool against = nails_alone && problem.soft.size() > 1;
-    if (against) return is(Obstacle::nails, "No small change of what may vary brings all nails nearer to being met.");
-    return is(Obstacle::no_control_moves_it, "No small change of what may vary brings it nearer.");
+    if (against) return is(Obstacle::nails, "No small change of the controls brings all nails nearer to being met.");
+    return is(Obstacle::no_control_moves_it, "No small change of the controls brings it nearer.");
   }
   if (!kinks_.empty() && problem.hard.size() == 0)
-    return is(Obstacle::border, "A step nearer changes how bodies meet, and of what was tried nothing leads there.");
+    return is(Obstacle::border, "A step nearer changes the impacts, and no trial got there.");
   const bool nothing_free = !hierarchicalStep(problem).free_for_soft;
-  return is(Obstacle::nails, nothing_free ? "The nails leave nothing free that would move it."
+  return is(Obstacle::nails, nothing_free ? "The nails leave no freedom to move it."
                                           : "The nails keep it from coming nearer.");
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// The part of a scene that a gesture depends on. Internal to editing/.
 namespace carom::editing_detail {

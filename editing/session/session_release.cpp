@@ -44,11 +44,15 @@ void EditSession::State::leaveNail(SessionDrag& ended, const SessionUpdate& upda
   const bool at_target = record.ending == Ending::release_nailed || update.scaled_distance <= options.tolerance;
   if (!at_target) {
     const BodyState state = stateAtMoment(*update.motion, record.body, record.at, "release");
-    ended.place = state.position + state.orientation * record.grip.body_point.value_or(Vec3::Zero());
+    ended.place = placeConstrained(*update.motion, record, "release");
     if (ended.orientation) ended.orientation = state.orientation;
   }
   if (record.grabbed_nail) {
-    if (!record.targets.empty()) putNail(nailOf({*record.grabbed_nail}).constraint, ended.place, ended.orientation);
+    Constraint& nail = nailOf({*record.grabbed_nail}).constraint;
+    if (!record.targets.empty()) putNail(nail, ended.place, ended.orientation);
+    if (!record.targets.empty() && record.grip.contact)
+      for (Target& target : nail.targets)
+        if (target.quantity == "contact") recentre(target, placeConstrained(*update.motion, record, "release"));
   } else if (record.ending != Ending::release) {
     ended.record.nail = next_nail;
     now.nails.push_back({{next_nail++}, goalOf(ended)});

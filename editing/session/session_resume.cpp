@@ -40,7 +40,7 @@ std::vector<To> eachHistory(const std::vector<From>& from, const Make& make) {
 void EditSession::State::resume(const SessionHistory& history) {
   // a change that is measured from the start of the session would be measured from here
   if (options.measure_from == MeasureFrom::start)
-    throw InputError("/options/measure_from", "found start, expected grab: a history does not know the changes so far");
+    throw InputError("/options/measure_from", "found start, expected grab: a history lacks the changes so far");
   now = historyMoment(history.now);
   const EditProblem checked(*now.scene, contacts, now.duration, now.controls, now.constraints());
   past = eachHistory<SessionMoment>(history.past, historyMoment);

@@ -47,7 +47,7 @@ SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, do
   if (changes.size() > 0) unknowns.head(problem_.controls.size()) = changes;
   start_ = point_ = pointAt(problem_, unknowns, until_, true);
   if (!point_->rows.available)
-    throw InputError("found a constraint that the motion lacks, expected one that it has: " + point_->rows.message);
+    throw InputError("found a constraint that the motion cannot evaluate, expected one that it can: " + point_->rows.message);
   if (!problem_.constraints.holdsAtRest())
     until_ = std::min(until_, kMarginAfterLast * problem_.constraints.extentIn(point_->motion).time);
   if (!is_part_ && until_ > kNearlyAll * duration) until_ = duration;
@@ -65,12 +65,18 @@ EditPointPtr SessionSolver::evaluate(const Eigen::VectorXd& changes) const {
 /// A motion that may be shown takes as long as it takes.
 EditPointPtr SessionSolver::evaluateToShow(const Eigen::VectorXd& changes) const {
   MotionMaker maker;
-  maker.how.known = known_.get();
+  maker.how.baseline = known_.get();
   return trialAt(problem_, changes, until_, false, maker);
 }
 
-void SessionSolver::aim(int target, const std::vector<double>& value) {
-  problem_.constraints.setTarget(goal_, target, value);
+void SessionSolver::aim(int target, const std::vector<TargetNumber>& value) {
+  Target moved = problem_.constraints.constraints()[static_cast<std::size_t>(goal_)].targets[static_cast<std::size_t>(target)];
+  moved.value = value;
+  aim(target, moved);
+}
+
+void SessionSolver::aim(int target, const Target& moved) {
+  problem_.constraints.setTarget(goal_, target, moved);
   // Errors are other ones; derivatives of places are the same, those of a turn depend on where it is to end.
   const std::vector<Row>& rows = problem_.constraints.rows();
   const bool turns = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
@@ -80,7 +86,7 @@ void SessionSolver::aim(int target, const std::vector<double>& value) {
     readRows(problem_, *point);
     if (turns) point->row_jacobian.reset();
   }
-  if (part_) part_->aim(target, value);
+  if (part_) part_->aim(target, moved);
 }
 
 double SessionSolver::nailError(const RowValues& rows) const {
@@ -132,18 +138,18 @@ void SessionSolver::finishHere(Budget& budget) {
   {
     const Interruptible motions(problem_, budget.stop());
     options.stop = budget.stop();
-    EditSearch search(problem_, options);
+    EditEvaluator evaluator(problem_, options);
     options.progress = [&](const EditProgress&) {
       if (!budget.take()) return false;
-      counted = search.best();
-      return !budget.expired() && search.work() < options_.release_steps;
+      counted = evaluator.best();
+      return !budget.expired() && evaluator.work() < options_.release_steps;
     };
     if (!reached()) {
-      found = findSolution(search).point;
-    } else if (const EditPointPtr from = search.evaluate(point_->changes)) {
-      found = minimiseWithin(search, from, search.iterationsLeft());
+      found = findSolution(evaluator).point;
+    } else if (const EditPointPtr from = evaluator.evaluate(point_->changes)) {
+      found = minimiseWithin(evaluator, from, evaluator.iterationsLeft());
     }
-    iterations_ += search.iterations();
+    iterations_ += evaluator.iterations();
   }
   if (!budget.pass()) found = counted;
   if (!found || !found->rows.available || !reached(*found)) return;

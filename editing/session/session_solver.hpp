@@ -12,7 +12,7 @@
 #include "editing/session/session_step.hpp"
 #include "editing/session_journal.h"
 #include "editing/session_update.h"
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "editing/strategy/samples.hpp"
 
 /// One gesture as an edit whose targets move. Internal to editing/.
@@ -35,10 +35,12 @@ class SessionSolver {
   bool reached() const { return reached(*point_); }
   int iterations() const { return iterations_; }
 
-  /// The motion that is shown: what nobody comes near is taken over from it (SimulateOptions::known).
+  /// The motion that is shown: what nobody comes near is taken over from it (SimulateOptions::baseline).
   void takeOverFrom(std::shared_ptr<const Motion> shown) { known_ = std::move(shown); }
   /// Gives one target of the goal other numbers.
-  void aim(int target, const std::vector<double>& value);
+  void aim(int target, const std::vector<TargetNumber>& value);
+  /// Other numbers or ranges in place of one another; what is free stays free.
+  void aim(int target, const Target& moved);
   /// Comes nearer to the constraints and makes the change smaller, by differential updates. Where few of the bodies
   /// matter, it works with a scene of those alone, and what came of that is verified with all. `better` is called
   /// whenever a better point was found, of all bodies. `sparing`: a motion of many steps counts as several
@@ -100,7 +102,7 @@ class SessionSolver {
   double nails_allowed_ = 0;  // nails that are not met may stay as far off as they are
   double longest_ = 1, ease_ = 1;
   std::vector<Kink> kinks_;       // met in this update
-  bool holds_jumps_ = false;      // steps are held before borders where the motion jumps, once
+  bool holds_jumps_ = false;      // steps are held before boundaries where the motion jumps, once
   EditPointPtr beyond_;           // a step from the best point, with other impacts
   Eigen::VectorXd last_towards_;  // what would have made the change smallest, at the last step
   std::string last_signature_;

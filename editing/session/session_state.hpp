@@ -47,19 +47,21 @@ struct SessionDrag {
   int turn_target = -1;  ///< index of the goal's target that holds the orientation
   Vec3 place = Vec3::Zero();
   std::optional<Quat> orientation;
-  std::string left_out;  ///< a sentence about nails that the motion lacks
+  Grip held;         ///< that of the record, with the components that are held now
+  double sheet = 0;  ///< m, see sheetOf
+  std::string left_out;  ///< a sentence about nails that cannot be evaluated
 };
 
 /// Nails that gestures hold.
-struct HeldNails {
+struct ConstrainedNails {
   std::vector<Constraint> constraints;
-  std::string left_out;  ///< a sentence about those that the motion lacks; empty where it has all
+  std::string left_out;  ///< a sentence about those that cannot be evaluated; empty if none
 };
 
 /// A step that solves for nails.
 struct NailStep {
   SessionMoment next;  ///< but for the scene, which is solved for
-  HeldNails held;
+  ConstrainedNails held;
   int goal = -1;  ///< index of the constraint that gives way to the others; -1: none
   std::string name;
   bool changes_nails = true;  ///< it is a step even where the motion stays
@@ -70,12 +72,28 @@ std::string stepName(const SessionDrag& drag);
 /// What a grab holds, with its last target.
 Constraint goalOf(const SessionDrag& drag);
 /// The components of a place that a grip holds. Throws InputError for components that there are not.
-std::vector<double> heldPlace(const Vec3& place, const Grip& grip);
-std::vector<double> numbersOf(const Quat& q);
+std::vector<TargetNumber> constrainedPlace(const Vec3& place, const Grip& grip);
+std::vector<TargetNumber> numbersOf(const Quat& q);
 /// Puts a nail that was grabbed elsewhere; components that it leaves free stay free.
 void putNail(Constraint& nail, const Vec3& place, const std::optional<Quat>& orientation);
 /// A body at a moment of a motion. Throws InputError naming `where` when the motion does not have it.
 BodyState stateAtMoment(const Motion& motion, const std::string& body, const When& at, const std::string& where);
+
+// session_contact.cpp
+/// Where that is in a motion which a gesture holds, m. Throws as stateAtMoment.
+Vec3 placeConstrained(const Motion& motion, const SessionGesture& record, const std::string& where);
+/// How far that is from the target of a drag, m, in what is held.
+Vec3 awayFrom(const SessionDrag& drag, const Vec3& place);
+/// m: how much a contact may be off the place at which the hand is in a component that it leaves to the surface. So it
+/// is on that side of the body, not on another one with the same two coordinates.
+double sheetOf(const Scene& scene, const SessionGesture& record);
+/// Whether two components of a place are held, so that the third is on a sheet.
+bool isOnSheet(const Grip& grip);
+/// What a grip of a contact wants: two components exactly, and the third within the sheet; sheet 0: free.
+Target contactTarget(const Vec3& place, const Grip& grip, double sheet);
+/// Moves the ranges of a target there; their widths stay.
+void recentre(Target& target, const Vec3& place);
+
 double millisecondsSince(std::chrono::steady_clock::time_point start);
 
 }  // namespace carom::editing_detail
@@ -130,6 +148,7 @@ struct EditSession::State {
   void beginDrag(SessionDrag next, SessionMoment moment, std::vector<Constraint> held,
                  std::unique_ptr<SessionSolver> solver = nullptr);
   SessionUpdate dragTo(const Vec3& place, const std::optional<Quat>& orientation, std::stop_token stop);
+  void slide(const Vec3& place, const std::vector<std::string>& components);
   SessionUpdate dwell(std::stop_token stop, const Better& better);
   SessionUpdate follow(DragTarget target, Budget budget, const Better& better);
 
@@ -143,7 +162,7 @@ struct EditSession::State {
   // session_nails.cpp
   /// Throws InputError for one that is not there.
   SessionNail& nailOf(NailId id);
-  HeldNails heldNails(const std::vector<SessionNail>& nails) const;
+  ConstrainedNails constrainedNails(const std::vector<SessionNail>& nails) const;
   NailState stateOf(const SessionNail& nail, const Motion& motion) const;
   SessionUpdate solveStep(NailStep step, SessionGesture gesture, std::stop_token stop);
   NailId addNail(Constraint constraint, std::stop_token stop);

@@ -109,13 +109,7 @@ void EditSession::State::measureGoal(const SessionSolver& solver, SessionUpdate&
 void EditSession::State::measureDrag(SessionUpdate& update) const {
   const SessionGesture& record = drag->record;
   const BodyState state = stateAtMoment(*update.motion, record.body, record.at, "dragTo");
-  const Vec3 place = state.position + state.orientation * record.grip.body_point.value_or(Vec3::Zero());
-  Vec3 away = place - drag->place;
-  const std::vector<std::string>& held = record.grip.components;
-  for (int k = 0; k < 3; ++k)
-    if (!held.empty() && std::find(held.begin(), held.end(), std::string(1, "xyz"[k])) == held.end()) away[k] = 0;
-  if (!record.grip.place) away.setZero();
-  update.distance = away.norm();
+  update.distance = awayFrom(*drag, placeConstrained(*update.motion, record, "dragTo")).norm();
   if (drag->orientation) update.turn = logSO3(state.orientation * drag->orientation->normalized().conjugate()).norm();
 }
 
@@ -146,9 +140,9 @@ void EditSession::State::describe(SessionSolver& solver, const Motion& before, c
       const std::string name =
           wordsOf(solver.problem().constraints.constraints()[static_cast<std::size_t>(solver.goal())]);
       if (drag && update.distance > 0)
-        sentences.push_back(name + " stays " + brief(update.distance) + " m from where it is dragged to.");
+        sentences.push_back(name + " stays " + brief(update.distance) + " m from its target.");
       else if (drag && update.turn > 0)
-        sentences.push_back(name + " stays " + brief(update.turn) + " rad from how it is turned.");
+        sentences.push_back(name + " stays " + brief(update.turn) + " rad from its target orientation.");
       if (!drag && update.scaled_distance > options.tolerance)
         sentences.push_back("The nail of " + name + " is not met.");
     }
@@ -157,10 +151,10 @@ void EditSession::State::describe(SessionSolver& solver, const Motion& before, c
     const bool nothing_else = update.obstacle.kind == Kind::work;
     if (nothing_else && update.cut_by_clock) {
       update.obstacle.kind = Kind::clock;
-      update.obstacle.sentence = replays ? "It was ended there when it was recorded."
-                                         : "The time for one update was over before it got there.";
+      update.obstacle.sentence = replays ? "It was ended there in the recording."
+                                         : "The time limit of one update was reached first.";
     } else if (nothing_else && update.stopped) {
-      update.obstacle.sentence = "It was stopped on the way.";
+      update.obstacle.sentence = "It was stopped first.";
     }
     sentences.push_back(update.obstacle.sentence);
   }

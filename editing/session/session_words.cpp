@@ -33,8 +33,8 @@ std::string namesOfGroup(const Motion& motion, int event) {
 
 std::string wordsOf(const GroupChange& group) {
   if (group.order) return group.names + " meet in another order";
-  if (group.contact) return "what lasts in contact is other";
-  if (group.more == 0) return group.names + " meet otherwise";
+  if (group.contact) return "persistent contact changes";
+  if (group.more == 0) return group.names + " meet differently";
   const int times = std::abs(group.more);
   const std::string count = times == 1 ? "once" : std::to_string(times) + " times";
   return group.names + " meet " + count + (group.more > 0 ? " more" : " less");
@@ -51,7 +51,7 @@ std::string wordsOf(const When& at) {
 std::string wordsOf(const Constraint& constraint) {
   const std::string name = "'" + constraint.body + "'";
   if (constraint.hits) return name + " hits '" + constraint.hits->with + "'";
-  if (!constraint.sequence.empty()) return "the wished sequence of impacts";
+  if (!constraint.sequence.empty()) return "the required impact sequence";
   return constraint.targets.empty() ? name : name + " " + wordsOf(constraint.at);
 }
 
@@ -88,7 +88,7 @@ std::string otherImpacts(const std::vector<SequenceChange>& changes, const Motio
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(kNamedGroups, groups.size()); ++i) parts.push_back(wordsOf(groups[i]));
   if (groups.size() > kNamedGroups) parts.push_back(std::to_string(groups.size() - kNamedGroups) + " more groups differ");
-  return "Other impacts than before: " + listOf(parts) + ".";
+  return "The impacts have changed: " + listOf(parts) + ".";
 }
 
 }  // namespace carom::editing_detail

@@ -8,7 +8,7 @@
 #include "editing/constraint.h"
 #include "editing/sequence_changes.h"
 
-/// What sessions say to people. Internal to editing/.
+/// The sentences of sessions. Internal to editing/.
 namespace carom::editing_detail {
 
 /// "at 0.6 s", "at its impact 3 with 'table'", "between 1 s and 2 s".

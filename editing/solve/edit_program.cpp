@@ -9,30 +9,30 @@
 #include "editing/problem/hessian.hpp"
 
 namespace carom::editing_detail {
-EditProgram::EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature)
-    : search_(search),
+EditProgram::EditProgram(EditEvaluator& evaluator, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature)
+    : evaluator_(evaluator),
       start_(std::move(start)),
       rows_(std::move(rows)),
       equations_(rows_.size()),
       signature_(signature) {
-  const std::vector<int>& ranges = search.problem().constraints.ranges();
+  const std::vector<int>& ranges = evaluator.problem().constraints.ranges();
   rows_.insert(rows_.end(), ranges.begin(), ranges.end());
 }
 
 // A range is measured from one of its limits, an equation from its target.
 double EditProgram::anchor(int row) const {
-  const Row& r = search_.problem().constraints.rows()[static_cast<std::size_t>(row)];
+  const Row& r = evaluator_.problem().constraints.rows()[static_cast<std::size_t>(row)];
   return std::isfinite(r.lower) ? r.lower : r.upper;
 }
 
-int EditProgram::constraints() const { return static_cast<int>(rows_.size()) + search_.problem().validity.size(); }
+int EditProgram::constraints() const { return static_cast<int>(rows_.size()) + evaluator_.problem().validity.size(); }
 
 NonlinearProgram::Bounds EditProgram::bounds() const {
   const Eigen::Index rows = static_cast<Eigen::Index>(rows_.size());
-  Bounds bounds{search_.lower(), search_.upper(), Eigen::VectorXd::Zero(constraints()),
+  Bounds bounds{evaluator_.lower(), evaluator_.upper(), Eigen::VectorXd::Zero(constraints()),
                 Eigen::VectorXd::Zero(constraints())};
   for (std::size_t k = equations_; k < rows_.size(); ++k) {
-    const Row& row = search_.problem().constraints.rows()[static_cast<std::size_t>(rows_[k])];
+    const Row& row = evaluator_.problem().constraints.rows()[static_cast<std::size_t>(rows_[k])];
     const auto at = static_cast<Eigen::Index>(k);
     bounds.g_lower[at] = (row.lower - anchor(rows_[k])) / row.scale;
     bounds.g_upper[at] = (row.upper - anchor(rows_[k])) / row.scale;
@@ -43,12 +43,12 @@ NonlinearProgram::Bounds EditProgram::bounds() const {
 }
 
 EditPointPtr EditProgram::at(const Eigen::VectorXd& x) {
-  EditPointPtr point = search_.evaluate(x);
+  EditPointPtr point = evaluator_.evaluate(x);
   return point && (!signature_ || point->signature == *signature_) ? point : nullptr;
 }
 
 bool EditProgram::objective(const Eigen::VectorXd& x, double& f) {
-  const EditProblem& problem = search_.problem();
+  const EditProblem& problem = evaluator_.problem();
   if (!problem.constraints.objective()) {
     f = problem.change(x);
     return true;
@@ -59,7 +59,7 @@ bool EditProgram::objective(const Eigen::VectorXd& x, double& f) {
 }
 
 bool EditProgram::gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) {
-  const EditProblem& problem = search_.problem();
+  const EditProblem& problem = evaluator_.problem();
   df_dx = x;
   df_dx.tail(problem.times()).setZero();
   if (!problem.constraints.objective()) return true;
@@ -75,7 +75,7 @@ bool EditProgram::constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g)
   if (!point) return false;
   g.resize(constraints());
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const double scale = search_.problem().constraints.rows()[static_cast<std::size_t>(rows_[k])].scale;
+    const double scale = evaluator_.problem().constraints.rows()[static_cast<std::size_t>(rows_[k])].scale;
     g[static_cast<Eigen::Index>(k)] =
         k < equations_ ? point->rows.scaled[rows_[k]] : (point->rows.values[rows_[k]] - anchor(rows_[k])) / scale;
   }
@@ -86,7 +86,7 @@ bool EditProgram::constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g)
 bool EditProgram::jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) {
   const EditPointPtr point = at(x);
   if (!point) return false;
-  if (!search_.differentiate(*point)) return false;
+  if (!evaluator_.differentiate(*point)) return false;
   dg_dx.resize(constraints(), x.size());
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     dg_dx.row(static_cast<Eigen::Index>(k)) = point->row_jacobian->row(rows_[k]);
@@ -98,7 +98,7 @@ bool EditProgram::jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) {
 // Of the constraints, then of an objective of one's own without the change.
 bool EditProgram::gradients(const Eigen::VectorXd& x, Eigen::MatrixXd& df_dx) {
   if (!jacobian(x, df_dx)) return false;
-  const EditProblem& problem = search_.problem();
+  const EditProblem& problem = evaluator_.problem();
   if (!problem.constraints.objective()) return true;
   const EditPointPtr point = at(x);
   differentiateObjective(problem, *point);
@@ -129,19 +129,19 @@ bool EditProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::
                           Eigen::MatrixXd& h) {
   const EditPointPtr point = at(x);
   if (!point) return false;
-  const EditProblem& problem = search_.problem();
+  const EditProblem& problem = evaluator_.problem();
   h = Eigen::MatrixXd::Zero(x.size(), x.size());
   h.diagonal().head(problem.controls.size()).setConstant(factor * problem.changeWeight());
   Eigen::VectorXd factors(constraints() + (problem.constraints.objective() ? 1 : 0));
   factors.head(constraints()) = multipliers;
   if (problem.constraints.objective()) factors.tail(1).setConstant(factor);
-  const bool exact = search_.options().second_derivatives == SecondDerivatives::exact;
+  const bool exact = evaluator_.options().second_derivatives == SecondDerivatives::exact;
   return exact && hasSecondOrder(point->motion) ? addExact(x, *point, factors, h) : addLearnt(x, factors, h);
 }
 
 bool EditProgram::addExact(const Eigen::VectorXd& x, const EditPoint& point, const Eigen::VectorXd& factors,
                            Eigen::MatrixXd& h) {
-  const EditProblem& problem = search_.problem();
+  const EditProblem& problem = evaluator_.problem();
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(problem.constraints.size());
   Eigen::VectorXd learnt = Eigen::VectorXd::Zero(factors.size());
   for (std::size_t k = 0; k < rows_.size(); ++k) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "editing/solve/nonlinear_program.hpp"
 #include "editing/solve/progress_monitor.hpp"
 
@@ -22,7 +22,7 @@ class EditProgram final : public NonlinearProgram {
  public:
   /// `rows` are of those that hold a number. With a signature, points whose motion has another impact sequence are
   /// refused.
-  EditProgram(EditSearch& search, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature);
+  EditProgram(EditEvaluator& evaluator, Eigen::VectorXd start, std::vector<int> rows, const std::string* signature);
 
   int variables() const override { return static_cast<int>(start_.size()); }
   int constraints() const override;
@@ -32,11 +32,11 @@ class EditProgram final : public NonlinearProgram {
   bool gradient(const Eigen::VectorXd& x, Eigen::VectorXd& df_dx) override;
   bool constraintValues(const Eigen::VectorXd& x, Eigen::VectorXd& g) override;
   bool jacobian(const Eigen::VectorXd& x, Eigen::MatrixXd& dg_dx) override;
-  bool hasHessian() const override { return search_.options().second_derivatives != SecondDerivatives::limited_memory; }
+  bool hasHessian() const override { return evaluator_.options().second_derivatives != SecondDerivatives::limited_memory; }
   bool hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                Eigen::MatrixXd& h) override;
-  /// Also stops where the violation hardly falls any more: at the border of the impact sequence, mostly.
-  bool iteration(const Iteration& i) override { return monitor_.allows(search_, i); }
+  /// Also stops where the violation hardly falls any more: at the boundary of the impact sequence, mostly.
+  bool iteration(const Iteration& i) override { return monitor_.allows(evaluator_, i); }
 
  private:
   EditPointPtr at(const Eigen::VectorXd& x);
@@ -46,7 +46,7 @@ class EditProgram final : public NonlinearProgram {
   void learnCurvature(const Eigen::VectorXd& x, const Eigen::MatrixXd& df_dx);
   bool addLearnt(const Eigen::VectorXd& x, const Eigen::VectorXd& factors, Eigen::MatrixXd& h);
 
-  EditSearch& search_;
+  EditEvaluator& evaluator_;
   Eigen::VectorXd start_;
   std::vector<int> rows_;  // equations first, then ranges
   std::size_t equations_;  // how many

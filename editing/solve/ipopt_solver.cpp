@@ -193,19 +193,19 @@ struct Outcome {
 
 constexpr Outcome kOutcomes[] = {
     {Solve_Succeeded, SolverStatus::converged, "The solver converged."},
-    {Solved_To_Acceptable_Level, SolverStatus::acceptable, "The solver converged to its looser tolerance."},
+    {Solved_To_Acceptable_Level, SolverStatus::acceptable, "The solver converged to its acceptable tolerance."},
     {Feasible_Point_Found, SolverStatus::converged, "The solver found a feasible point."},
     {Infeasible_Problem_Detected, SolverStatus::infeasible,
-     "The solver stopped where the violation cannot be made smaller nearby."},
+     "The solver converged to a point of local infeasibility."},
     {Search_Direction_Becomes_Too_Small, SolverStatus::no_progress, "The solver's steps became too small."},
-    {Diverging_Iterates, SolverStatus::no_progress, "The solver's points ran away."},
+    {Diverging_Iterates, SolverStatus::no_progress, "The solver's iterates diverged."},
     {User_Requested_Stop, SolverStatus::stopped, "The solver was stopped."},
     {Maximum_Iterations_Exceeded, SolverStatus::iteration_limit, "The solver reached its limit of iterations."},
     {Restoration_Failed, SolverStatus::no_progress, "The solver could not come nearer to the constraints."},
     {Error_In_Step_Computation, SolverStatus::no_progress, "The solver could not compute a step."},
     {Not_Enough_Degrees_Of_Freedom, SolverStatus::too_few_variables,
-     "There are more equations than numbers that vary."},
-    {Invalid_Number_Detected, SolverStatus::cannot_evaluate, "The start could not be evaluated."},
+     "There are more equations than unknowns."},
+    {Invalid_Number_Detected, SolverStatus::cannot_evaluate, "The initial point could not be evaluated."},
 };
 
 void explain(ApplicationReturnStatus code, SolverResult& result) {
@@ -281,7 +281,7 @@ SolverResult solveWithIpopt(NonlinearProgram& program, const SolverOptions& opti
   if (program.variables() == 0) {
     SolverResult result;
     result.status = SolverStatus::too_few_variables;
-    result.message = "Nothing may vary.";
+    result.message = "There are no unknowns.";
     result.x = Eigen::VectorXd(0);
     return result;
   }

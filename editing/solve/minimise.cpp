@@ -19,56 +19,56 @@ constexpr double kLowers = 1e-9;
 
 }  // namespace
 
-EditPointPtr minimiseChange(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+EditPointPtr minimiseChange(EditEvaluator& evaluator, const EditPointPtr& from, const std::vector<int>& rows,
                             const std::string* signature, int max_iterations) {
   if (max_iterations <= 0) return from;
   // From a point that meets the constraints the solver has only the change left to minimise.
-  const EditPointPtr projected = projectOntoConstraints(search, from, kOntoSteps, signature);
-  const EditPointPtr start = search.reached(*projected) ? projected : from;
-  EditProgram program(search, start->changes, rows, signature);
+  const EditPointPtr projected = projectOntoConstraints(evaluator, from, kOntoSteps, signature);
+  const EditPointPtr start = evaluator.reached(*projected) ? projected : from;
+  EditProgram program(evaluator, start->changes, rows, signature);
   SolverOptions options;
   options.max_iterations = max_iterations;
   options.tolerance = kOptimality;
-  options.constraint_tolerance = std::max(search.options().tolerance, kLeastTolerance);
+  options.constraint_tolerance = std::max(evaluator.options().tolerance, kLeastTolerance);
   const SolverResult result = solveWithIpopt(program, options);
-  EditPointPtr end = search.evaluate(result.x);
+  EditPointPtr end = evaluator.evaluate(result.x);
   if (!end || (signature && end->signature != *signature)) return start;
-  end = projectOntoConstraints(search, end, kOntoSteps, signature);
-  const bool worse = search.reached(*start) && (!search.reached(*end) || end->objective > start->objective);
+  end = projectOntoConstraints(evaluator, end, kOntoSteps, signature);
+  const bool worse = evaluator.reached(*start) && (!evaluator.reached(*end) || end->objective > start->objective);
   return worse ? start : end;
 }
 
-EditPointPtr followSequence(EditSearch& search, const EditPointPtr& from, const std::vector<int>& rows,
+EditPointPtr followSequence(EditEvaluator& evaluator, const EditPointPtr& from, const std::vector<int>& rows,
                             int max_iterations) {
-  EditSearch smooth = search.branch({{}, from}, false);
+  EditEvaluator smooth = evaluator.branch({{}, from}, false);
   const EditPointPtr end = minimiseChange(smooth, from, rows, nullptr, max_iterations);
-  search.adopt(smooth);
-  const EditPointPtr real = search.make(end->changes, false, {{nullptr, true}});
-  if (real) search.consider(real);
+  evaluator.adopt(smooth);
+  const EditPointPtr real = evaluator.make(end->changes, false, {{nullptr, true}});
+  if (real) evaluator.consider(real);
   return real;
 }
 
-EditPointPtr lowerObjective(EditSearch& search, EditPointPtr point) {
-  for (int round = 0; round < kLoweringRounds && search.goesOn(); ++round) {
-    if (!search.differentiate(*point)) break;
-    const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
+EditPointPtr lowerObjective(EditEvaluator& evaluator, EditPointPtr point) {
+  for (int round = 0; round < kLoweringRounds && evaluator.goesOn(); ++round) {
+    if (!evaluator.differentiate(*point)) break;
+    const RowSplit split = splitRows(*point->row_jacobian, evaluator.problem().constraints.equations());
     const double before = point->objective, enough = before - kLowers * (1 + std::abs(before));
     const auto takeIfLower = [&](const EditPointPtr& end) {
-      if (end && search.reached(*end) && end->objective < point->objective) point = end;
+      if (end && evaluator.reached(*end) && end->objective < point->objective) point = end;
     };
     const EditPointPtr from = point;
-    takeIfLower(minimiseWithin(search, from, kLoweringIterations));
-    takeIfLower(followSequence(search, from, split.independent, std::min(kLoweringIterations, search.iterationsLeft())));
+    takeIfLower(minimiseWithin(evaluator, from, kLoweringIterations));
+    takeIfLower(followSequence(evaluator, from, split.independent, std::min(kLoweringIterations, evaluator.iterationsLeft())));
     if (!(point->objective < enough)) break;
   }
   return point;
 }
 
-EditPointPtr minimiseWithin(EditSearch& search, const EditPointPtr& point, int max_iterations) {
-  if (!search.differentiate(*point)) return point;
-  const RowSplit split = splitRows(*point->row_jacobian, search.problem().constraints.equations());
-  return minimiseChange(search, point, split.independent, &point->signature,
-                        std::min(max_iterations, search.iterationsLeft()));
+EditPointPtr minimiseWithin(EditEvaluator& evaluator, const EditPointPtr& point, int max_iterations) {
+  if (!evaluator.differentiate(*point)) return point;
+  const RowSplit split = splitRows(*point->row_jacobian, evaluator.problem().constraints.equations());
+  return minimiseChange(evaluator, point, split.independent, &point->signature,
+                        std::min(max_iterations, evaluator.iterationsLeft()));
 }
 
 }  // namespace carom::editing_detail

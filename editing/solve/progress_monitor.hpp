@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "editing/solve/nonlinear_program.hpp"
 
 namespace carom::editing_detail {
@@ -15,9 +15,9 @@ namespace carom::editing_detail {
 class ProgressMonitor {
  public:
   /// Counts an iteration of the solver as a step of the search; false where it should stop.
-  bool allows(EditSearch& search, const NonlinearProgram::Iteration& i) {
-    if (i.number == 0) return search.halt() == Halt::none;
-    if (!search.step(i.objective, i.violation)) return false;
+  bool allows(EditEvaluator& evaluator, const NonlinearProgram::Iteration& i) {
+    if (i.number == 0) return evaluator.halt() == Halt::none;
+    if (!evaluator.step(i.objective, i.violation)) return false;
     lowest_violation_ = std::min(lowest_violation_, i.violation);
     if (i.number % kMark != 0) return true;
     const bool falls = lowest_violation_ <= kEnoughProgress * lowest_at_mark_;

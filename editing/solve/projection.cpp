@@ -12,7 +12,7 @@ namespace {
 
 /// Validity rows nearer than this to their limit are held at it.
 constexpr double kActiveValidity = 1e-6;
-/// Steps across the border of an impact sequence that may make things worse at first.
+/// Steps across the boundary of an impact sequence that may make things worse at first.
 constexpr int kProjectionLeaps = 8;
 /// Where rounding leaves nothing to improve.
 constexpr double kExact = 1e-14;
@@ -90,8 +90,8 @@ Eigen::VectorXd boundedStep(const System& system, double damping, const StepBoun
 
 }  // namespace
 
-Eigen::VectorXd residualsAfter(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& step) {
-  const ConstraintSet& constraints = search.problem().constraints;
+Eigen::VectorXd residualsAfter(const EditEvaluator& evaluator, const EditPoint& point, const Eigen::VectorXd& step) {
+  const ConstraintSet& constraints = evaluator.problem().constraints;
   Eigen::VectorXd residuals = *point.row_jacobian * step;
   for (int i = 0; i < constraints.size(); ++i) {
     const double scale = constraints.rows()[i].scale;
@@ -101,8 +101,8 @@ Eigen::VectorXd residualsAfter(const EditSearch& search, const EditPoint& point,
 }
 
 // Ranges that the step would leave are held at their limits in another try, until none is left out.
-Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, double damping) {
-  const EditProblem& problem = search.problem();
+Eigen::VectorXd smallestStep(const EditEvaluator& evaluator, const EditPoint& point, double damping) {
+  const EditProblem& problem = evaluator.problem();
   std::vector<int> active;
   for (int i : problem.constraints.ranges())
     if (point.rows.residuals[i] != 0) active.push_back(i);
@@ -113,14 +113,14 @@ Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, d
     return v;
   };
   const Eigen::VectorXd at = stretched(point.changes, 1 / kTimeIsCheap);
-  const Eigen::VectorXd lower = stretched(search.lower(), 1 / kTimeIsCheap);
-  const Eigen::VectorXd upper = stretched(search.upper(), 1 / kTimeIsCheap);
+  const Eigen::VectorXd lower = stretched(evaluator.lower(), 1 / kTimeIsCheap);
+  const Eigen::VectorXd upper = stretched(evaluator.upper(), 1 / kTimeIsCheap);
   for (;;) {
     System system = systemAt(problem, point, active);
     system.J.rightCols(times) *= kTimeIsCheap;
     const Eigen::VectorXd step = stretched(boundedStep(system, damping, {at, lower, upper}), kTimeIsCheap);
     if (problem.constraints.ranges().empty()) return step;
-    const Eigen::VectorXd after = residualsAfter(search, point, step);
+    const Eigen::VectorXd after = residualsAfter(evaluator, point, step);
     const std::size_t before = active.size();
     for (int i : problem.constraints.ranges())
       if (std::abs(after[i]) > kLeavesRange && std::find(active.begin(), active.end(), i) == active.end())
@@ -133,19 +133,19 @@ namespace {
 
 /// The steps from one point.
 struct Descent {
-  EditSearch& search;
+  EditEvaluator& evaluator;
   const EditPoint& from;
   const std::string* signature;
   const Trials& trials;
 
   EditPointPtr tryStep(const Eigen::VectorXd& step) const {
-    EditPointPtr trial = search.evaluate(from.changes + step);
+    EditPointPtr trial = evaluator.evaluate(from.changes + step);
     return trial && (!signature || trial->signature == *signature) ? trial : nullptr;
   }
 
   /// The first point along a step with a smaller violation; null where there is none. `full` is the one at its end.
   EditPointPtr along(const Eigen::VectorXd& step, EditPointPtr& full) const {
-    for (double length = 1; length > trials.shortest && search.halt() == Halt::none; length *= trials.shorter) {
+    for (double length = 1; length > trials.shortest && evaluator.halt() == Halt::none; length *= trials.shorter) {
       EditPointPtr trial = tryStep(length * step);
       if (!trial) continue;
       if (length == 1) full = trial;
@@ -157,8 +157,8 @@ struct Descent {
   /// A damped step with a smaller violation, the least damping first; null where there is none.
   EditPointPtr damped(double& damping) const {
     for (damping = std::max(damping / kLessDamping, kLeastDamping);
-         damping <= kMostDamping && search.halt() == Halt::none; damping *= trials.more_damping) {
-      EditPointPtr trial = tryStep(smallestStep(search, from, damping));
+         damping <= kMostDamping && evaluator.halt() == Halt::none; damping *= trials.more_damping) {
+      EditPointPtr trial = tryStep(smallestStep(evaluator, from, damping));
       if (trial && trial->violation < from.violation) return trial;
     }
     damping = 0;
@@ -168,26 +168,26 @@ struct Descent {
 
 }  // namespace
 
-EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int max_steps,
+EditPointPtr projectOntoConstraints(EditEvaluator& evaluator, EditPointPtr from, int max_steps,
                                     const std::string* signature, Care care) {
   EditPointPtr point = std::move(from), nearest = point;
   int leaps = 0;
   double damping = 0;
   for (int k = 0; k < max_steps && point->violation > kExact; ++k) {
-    if (!search.differentiate(*point)) break;
-    const Descent descent{search, *point, signature, care == Care::full ? kFull : kCoarse};
+    if (!evaluator.differentiate(*point)) break;
+    const Descent descent{evaluator, *point, signature, care == Care::full ? kFull : kCoarse};
     EditPointPtr full, next;
-    if (damping <= kLeastDamping) next = descent.along(smallestStep(search, *point), full);
-    // At the border of two impact sequences the violation may have a kink that no descent leaves.
+    if (damping <= kLeastDamping) next = descent.along(smallestStep(evaluator, *point), full);
+    // At the boundary of two impact sequences the violation may have a kink that no descent leaves.
     const bool may_leap = !signature && full && leaps < kProjectionLeaps && full->signature != point->signature;
     if (!next && may_leap) next = full, ++leaps;
     // Where even a short way along the undamped step is too far, the rows are nearly dependent.
-    const bool nearly_met = point->violation <= search.options().tolerance;
+    const bool nearly_met = point->violation <= evaluator.options().tolerance;
     if (!next && !nearly_met) next = descent.damped(damping);
     if (!next) break;
     point = std::move(next);
     if (point->violation < nearest->violation) nearest = point;
-    if (!search.step(point->objective, point->violation)) break;
+    if (!evaluator.step(point->objective, point->violation)) break;
   }
   return nearest;
 }

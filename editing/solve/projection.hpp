@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// Straight onto the constraints, without minimising the change. Internal to editing/.
 namespace carom::editing_detail {
@@ -23,13 +23,13 @@ enum class Care {
 /// damped (Levenberg and Marquardt) where no way along such a step makes the violation smaller. Quadratic near a
 /// solution. With a signature, points of another impact sequence are refused. Returns the point with the smallest
 /// violation that was met.
-EditPointPtr projectOntoConstraints(EditSearch& search, EditPointPtr from, int max_steps,
+EditPointPtr projectOntoConstraints(EditEvaluator& evaluator, EditPointPtr from, int max_steps,
                                     const std::string* signature = nullptr, Care care = Care::full);
 
 /// The step that projectOntoConstraints would take from a differentiated point.
-Eigen::VectorXd smallestStep(const EditSearch& search, const EditPoint& point, double damping = 0);
+Eigen::VectorXd smallestStep(const EditEvaluator& evaluator, const EditPoint& point, double damping = 0);
 
 /// Scaled residuals of all rows after a step, to first order.
-Eigen::VectorXd residualsAfter(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& step);
+Eigen::VectorXd residualsAfter(const EditEvaluator& evaluator, const EditPoint& point, const Eigen::VectorXd& step);
 
 }  // namespace carom::editing_detail

@@ -6,7 +6,7 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Curvatures along a step that are learned from: beyond them the step crossed a border, or a bend.
+/// Curvatures along a step that are learned from: beyond them the step crossed a boundary, or a bend.
 constexpr double kLeastCurvature = 0.05, kMostCurvature = 20;
 /// No step is longer than so many of those for straight rows.
 constexpr double kLonger = 3;

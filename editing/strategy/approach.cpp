@@ -8,18 +8,21 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/adjoint.h"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/controls/natural_scales.hpp"
 #include "editing/problem/rows/closest_approach.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-/// A share of the wish counts as much as so many distances.
+/// A share of what is required counts as much as so many distances.
 constexpr double kShareCounts = 10;
 /// How far into the other body a step aims, in lengths of the smaller one; just into it, with a share of the distance.
 constexpr double kWellInto = 0.3, kJustInto = 1e-7, kBeyondDistance = 0.02;
 /// Shares of a step that are tried.
 constexpr double kShortenings[] = {1, 0.5, 0.2};
+/// Share of a distance that a natural speed has to take off, so that it is told.
+constexpr double kSomeNearer = 0.1;
 
 /// Null where it is not known: the motion ends at once, or nothing tells distances.
 std::optional<ClosestApproach> nearestOf(const EditPoint& point, const LackingImpact& lacking) {
@@ -51,8 +54,8 @@ double lackOf(const EditProblem& problem, const EditPoint& point) {
   return lack;
 }
 
-EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps, Aim aim) {
-  const EditProblem& problem = search.problem();
+EditPointPtr approach(EditEvaluator& evaluator, EditPointPtr point, int max_steps, Aim aim) {
+  const EditProblem& problem = evaluator.problem();
   const Eigen::Index n = problem.controls.size();
   double lack = lackOf(problem, *point);
   for (int k = 0; k < max_steps; ++k) {
@@ -70,19 +73,51 @@ EditPointPtr approach(EditSearch& search, EditPointPtr point, int max_steps, Aim
     step.head(n) = -way / row.squaredNorm() * row;
     EditPointPtr next;
     for (const double share : kShortenings) {
-      const Eigen::VectorXd there = (point->changes + share * step).cwiseMax(search.lower()).cwiseMin(search.upper());
-      const EditPointPtr trial = search.evaluate(there, true);
+      const Eigen::VectorXd there = (point->changes + share * step).cwiseMax(evaluator.lower()).cwiseMin(evaluator.upper());
+      const EditPointPtr trial = evaluator.evaluate(there, true);
       if (!trial) continue;
       const double left = lackOf(problem, *trial);
       if (!(left < lack)) continue;
       next = trial, lack = left;
       break;
     }
-    if (!next || !search.step(next->objective, next->violation)) break;
+    if (!next || !evaluator.step(next->objective, next->violation)) break;
     point = std::move(next);
   }
   return point;
 }
+
+namespace {
+
+/// The component of a start velocity that does not vary and would bring two bodies nearer most, if by more than a little.
+std::string lockedHint(const EditProblem& problem, const EditPoint& point, const ClosestApproach& nearest) {
+  if (!nearest.nearest.apart()) return "";
+  const Scene& scene = problem.controls.startScene();
+  const std::vector<StateSeed> seeds = nearest.seeds();
+  const SceneGradient gradient = adjoint(point.motion, seeds);
+  std::string best;
+  double most = kSomeNearer * nearest.value();
+  for (const int b : {nearest.a, nearest.b}) {
+    const Body& body = scene.bodies[static_cast<std::size_t>(b)];
+    if (body.immovable()) continue;
+    const double speed = naturalScales(scene, b).velocity;
+    for (int k = 0; k < 3; ++k) {
+      const std::string component(1, "xyz"[k]);
+      const auto varies = [&](const Variable& v) {
+        const Control& control = problem.controls.controls()[static_cast<std::size_t>(v.control)].control;
+        return control.body == body.name && control.vary == "velocity" && v.component == component;
+      };
+      const std::vector<Variable>& variables = problem.controls.variables();
+      const double nearer = std::abs(gradient.bodies[static_cast<std::size_t>(b)].velocity[k]) * speed;
+      if (!(nearer > most) || std::any_of(variables.begin(), variables.end(), varies)) continue;
+      most = nearer;
+      best = " Velocity." + component + " of '" + body.name + "', which does not vary, would bring them nearer.";
+    }
+  }
+  return best;
+}
+
+}  // namespace
 
 std::string describeApproach(const EditProblem& problem, const EditPoint& point) {
   if (point.rows.lacking.empty()) return "";
@@ -99,7 +134,7 @@ std::string describeApproach(const EditProblem& problem, const EditPoint& point)
   const std::vector<Body>& bodies = problem.controls.startScene().bodies;
   const auto name = [&](int body) { return "'" + bodies[static_cast<std::size_t>(body)].name + "'"; };
   return "The nearest that " + name(nearest->a) + " and " + name(nearest->b) + " came was " +
-         brief(nearest->value()) + " m, at " + brief(nearest->time) + " s.";
+         brief(nearest->value()) + " m, at " + brief(nearest->time) + " s." + lockedHint(problem, point, *nearest);
 }
 
 }  // namespace carom::editing_detail

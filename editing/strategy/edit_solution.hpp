@@ -4,7 +4,7 @@
 #include <string>
 
 #include "editing/edit_result.h"
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// The stages of solving an edit. Internal to editing/.
 namespace carom::editing_detail {
@@ -17,9 +17,9 @@ struct EditSolution {
   double growth = 0;                 ///< of the start's motion, see growthOf; 0: not measured
   EditStatus status = EditStatus::not_converged;
   std::string message;  ///< why, when it is not solved
-  std::string contradiction;  ///< which constraints stand against each other in the start's impacts; may be empty
+  std::string contradiction;  ///< which constraints are in conflict in the start's impacts; may be empty
 };
 
-EditSolution findSolution(EditSearch& search);
+EditSolution findSolution(EditEvaluator& evaluator);
 
 }  // namespace carom::editing_detail

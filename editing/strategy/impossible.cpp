@@ -6,12 +6,13 @@
 #include <optional>
 
 #include "editing/detail/messages.hpp"
+#include "editing/strategy/proven_bounds.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-bool nothingVaries(const EditSearch& search) {
-  return search.lower().size() == 0 || (search.lower().array() == search.upper().array()).all();
+bool nothingVaries(const EditEvaluator& evaluator) {
+  return evaluator.lower().size() == 0 || (evaluator.lower().array() == evaluator.upper().array()).all();
 }
 
 bool sameMoment(const Constraint& a, const Constraint& b) {
@@ -38,14 +39,14 @@ std::string withWanted(const ConstraintSet& set, int row) {
   return name + " in [" + number(r.lower) + ", " + number(r.upper) + "]";
 }
 
-std::string twoValues(const EditSearch& search) {
-  const ConstraintSet& set = search.problem().constraints;
+std::string twoValues(const EditEvaluator& evaluator) {
+  const ConstraintSet& set = evaluator.problem().constraints;
   for (int i = 0; i < set.size(); ++i)
     for (int j = i + 1; j < set.size(); ++j) {
       const Row &a = set.rows()[static_cast<std::size_t>(i)], &b = set.rows()[static_cast<std::size_t>(j)];
       const double between = std::max(a.lower, b.lower) - std::min(a.upper, b.upper);
-      if (readTheSame(set, a, b) && between > 2 * search.options().tolerance * a.scale)
-        return withWanted(set, i) + " cannot be met together with " + withWanted(set, j) + ": they are one number.";
+      if (readTheSame(set, a, b) && between > 2 * evaluator.options().tolerance * a.scale)
+        return withWanted(set, i) + " cannot be met together with " + withWanted(set, j) + ": they constrain the same quantity.";
     }
   return "";
 }
@@ -71,29 +72,33 @@ std::optional<double> firstEffect(const EditProblem& problem, const Motion& moti
   return motion.status == MotionStatus::complete ? motion.end : std::nextafter(motion.end, 0);
 }
 
-std::string readTooEarly(const EditSearch& search, const EditPoint& start) {
-  const EditProblem& problem = search.problem();
+std::string readTooEarly(const EditEvaluator& evaluator, const EditPoint& start) {
+  const EditProblem& problem = evaluator.problem();
   const std::optional<double> first = firstEffect(problem, start.motion);
   if (!first || !start.rows.available) return "";
   for (int i = 0; i < problem.constraints.size(); ++i) {
     const Row& row = problem.constraints.rows()[static_cast<std::size_t>(i)];
-    const bool is_met = std::abs(start.rows.scaled[i]) <= search.options().tolerance;
+    const bool is_met = std::abs(start.rows.scaled[i]) <= evaluator.options().tolerance;
     if (row.constraint < 0 || row.region >= 0 || is_met) continue;
     const When& at = problem.constraints.constraints()[static_cast<std::size_t>(row.constraint)].at;
     if (!at.isTime() || !(at.time <= *first)) continue;
     return "In this impact sequence no control can influence " + problem.constraints.describeRow(i) + " (off by " +
            brief(start.rows.residuals[i]) +
-           "), and in no other: what varies acts in impacts alone, and none comes before.";
+           "), nor in any other: the controls act in impacts only, and none happens before.";
   }
   return "";
 }
 
 }  // namespace
 
-std::string whyImpossible(const EditSearch& search, const EditPoint& start) {
-  if (nothingVaries(search)) return "Nothing varies.";
-  const std::string two = twoValues(search);
-  return two.empty() ? readTooEarly(search, start) : two;
+std::string whyImpossible(const EditEvaluator& evaluator, const EditPoint& start) {
+  if (nothingVaries(evaluator)) return "Nothing varies.";
+  const EditProblem& problem = evaluator.problem();
+  const double tolerance = evaluator.options().tolerance;
+  for (const std::string& why : {twoValues(evaluator), whyTheyNeverMeet(problem), whyItCannotRest(problem, tolerance),
+                                 whyItIsTooHigh(problem, tolerance)})
+    if (!why.empty()) return why;
+  return readTooEarly(evaluator, start);
 }
 
 }  // namespace carom::editing_detail

@@ -3,15 +3,17 @@
 
 #include <string>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// Constraints that no motion meets. Internal to editing/.
 namespace carom::editing_detail {
 
 /// Why the constraints cannot be met whatever impacts come, as far as that is proven; else empty:
 /// - nothing varies;
+/// - an impact is required of bodies that never collide, a rest in the air, a height above what energy allows
+///   (proven_bounds.hpp);
 /// - one number is held at two values, or in ranges that have nothing in common;
 /// - only what acts in impacts varies (materials, tilts), and a number is read before the first impact that it acts in.
-std::string whyImpossible(const EditSearch& search, const EditPoint& start);
+std::string whyImpossible(const EditEvaluator& evaluator, const EditPoint& start);
 
 }  // namespace carom::editing_detail

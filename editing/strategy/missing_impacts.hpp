@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// Impacts that a motion lacks. Internal to editing/.
 namespace carom::editing_detail {

@@ -17,7 +17,7 @@ constexpr double kContradiction = 1e-7;
 
 /// A point near the start, in the same impact sequence; null where none is found. Offsets are irregular, so that no
 /// symmetry of the scene survives, and the same every time.
-EditPointPtr pointBeside(EditSearch& search, const EditPoint& start, int which) {
+EditPointPtr pointBeside(EditEvaluator& evaluator, const EditPoint& start, int which) {
   const Eigen::Index n = start.changes.size();
   Eigen::VectorXd direction(n);
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -26,15 +26,15 @@ EditPointPtr pointBeside(EditSearch& search, const EditPoint& start, int which) 
   }
   for (double length = kStepBeside; length > 1e-7; length /= 10) {
     const Eigen::VectorXd changes =
-        (start.changes + length * direction).cwiseMax(search.lower()).cwiseMin(search.upper());
-    EditPointPtr point = search.evaluate(changes);
-    if (point && point->signature == start.signature && search.differentiate(*point)) return point;
+        (start.changes + length * direction).cwiseMax(evaluator.lower()).cwiseMin(evaluator.upper());
+    EditPointPtr point = evaluator.evaluate(changes);
+    if (point && point->signature == start.signature && evaluator.differentiate(*point)) return point;
   }
   return nullptr;
 }
 
-std::string offBy(const EditSearch& search, const EditPoint& point, int row) {
-  const ConstraintSet& constraints = search.problem().constraints;
+std::string offBy(const EditEvaluator& evaluator, const EditPoint& point, int row) {
+  const ConstraintSet& constraints = evaluator.problem().constraints;
   return constraints.describeRow(row) + " (off by " + brief(point.rows.residuals[row]) + ")";
 }
 
@@ -46,13 +46,13 @@ std::string withTarget(const ConstraintSet& constraints, int index) {
   return constraints.describeRow(index) + " = " + number(row.target);
 }
 
-std::string explainContradictions(const EditSearch& search, const EditPoint& start, const RowSplit& split) {
+std::string explainContradictions(const EditEvaluator& evaluator, const EditPoint& start, const RowSplit& split) {
   std::string text;
-  const ConstraintSet& constraints = search.problem().constraints;
+  const ConstraintSet& constraints = evaluator.problem().constraints;
   for (int row : split.zero) {
-    if (std::abs(start.rows.scaled[row]) <= search.options().tolerance) continue;
+    if (std::abs(start.rows.scaled[row]) <= evaluator.options().tolerance) continue;
     text += (text.empty() ? "" : " ") + std::string("In this impact sequence no control can influence ") +
-            offBy(search, start, row) + ".";
+            offBy(evaluator, start, row) + ".";
   }
   for (const DependentRow& dependent : split.dependent) {
     double size = 1;
@@ -69,17 +69,17 @@ std::string explainContradictions(const EditSearch& search, const EditPoint& sta
 
 }  // namespace
 
-RowChoice chooseRows(EditSearch& search, const EditPointPtr& start) {
-  search.differentiate(*start);
+RowChoice chooseRows(EditEvaluator& evaluator, const EditPointPtr& start) {
+  evaluator.differentiate(*start);
   const Eigen::MatrixXd& J = *start->row_jacobian;
-  const std::vector<int>& equations = search.problem().constraints.equations();
+  const std::vector<int>& equations = evaluator.problem().constraints.equations();
   const RowSplit split = splitRows(J, equations);
   RowChoice choice{split.independent, start, ""};
   if (split.zero.empty() && split.dependent.empty()) return choice;
 
   Eigen::MatrixXd all = J;
   for (int k = 0; k < kPointsTried; ++k) {
-    const EditPointPtr point = pointBeside(search, *start, k);
+    const EditPointPtr point = pointBeside(evaluator, *start, k);
     if (!point) continue;
     const Eigen::MatrixXd& beside = *point->row_jacobian;
     all.conservativeResize(Eigen::NoChange, all.cols() + beside.cols());
@@ -87,7 +87,7 @@ RowChoice chooseRows(EditSearch& search, const EditPointPtr& start) {
     const RowSplit split_beside = splitRows(beside, equations);
     if (split_beside.independent.size() > choice.rows.size()) choice = {split_beside.independent, point, ""};
   }
-  choice.contradiction = explainContradictions(search, *start, splitRows(all, equations));
+  choice.contradiction = explainContradictions(evaluator, *start, splitRows(all, equations));
   return choice;
 }
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 /// Which rows the solver gets. Internal to editing/.
 namespace carom::editing_detail {
 
-/// Rows that say the same as others would stop the solver, and rows that nothing influences cannot be met.
+/// Redundant rows would stop the solver, and rows that nothing influences cannot be met.
 struct RowChoice {
   std::vector<int> rows;      ///< independent, of those that hold a number: for the solver; the others are left to
                               ///< verification
@@ -19,6 +19,6 @@ struct RowChoice {
 
 /// Looks at the derivatives at the start, and where rows depend on each other there, also at points beside it: what
 /// holds at all of them is taken as true of the whole impact sequence, the rest as a coincidence.
-RowChoice chooseRows(EditSearch& search, const EditPointPtr& start);
+RowChoice chooseRows(EditEvaluator& evaluator, const EditPointPtr& start);
 
 }  // namespace carom::editing_detail

@@ -20,9 +20,9 @@ constexpr double kSmallerRadii[] = {0.95, 0.7, 0.85, 0.5, 1, 0.35, 0.6};
 constexpr double kShares[] = {1, 0.5, 1.5, 0.75, 0.25, 2};
 /// Numbers beyond a bound come to lie so far on the way to it.
 constexpr double kBefore = 0.95;
-/// Places whose numbers differ by less are the same.
-constexpr double kSamePlace = 1e-9;
-/// All numbers vary in every so many places.
+/// Points whose numbers differ by less are one.
+constexpr double kRoundedTo = 1e-9;
+/// All numbers vary in every so many points.
 constexpr std::size_t kAllVary = 4;
 /// Sines of the angle between a change and the span of the gradients; used in turn.
 constexpr double kSines[] = {0, 0.25, 0.5, 0.125, 0.375};
@@ -102,8 +102,8 @@ Eigen::VectorXd nearlySpanned(int k, const Span& span, const Eigen::MatrixXd& fr
 
 }  // namespace
 
-Place::Place(const Eigen::VectorXd& numbers) : rounded_(numbers.begin(), numbers.end()) {
-  for (double& number : rounded_) number = std::round(number / kSamePlace);
+RoundedPoint::RoundedPoint(const Eigen::VectorXd& numbers) : rounded_(numbers.begin(), numbers.end()) {
+  for (double& number : rounded_) number = std::round(number / kRoundedTo);
 }
 
 EvenPoints::EvenPoints(Eigen::Index dimensions) : steps_(2 * dimensions), dimensions_(dimensions) {

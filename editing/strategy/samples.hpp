@@ -25,11 +25,11 @@ class EvenPoints {
   Eigen::Index dimensions_;
 };
 
-/// Numbers rounded to 1e-9: places with the same ones differ by rounding.
-class Place {
+/// Changes rounded to 1e-9, to recognise points that differ by rounding alone.
+class RoundedPoint {
  public:
-  explicit Place(const Eigen::VectorXd& numbers);
-  auto operator<=>(const Place&) const = default;
+  explicit RoundedPoint(const Eigen::VectorXd& numbers);
+  auto operator<=>(const RoundedPoint&) const = default;
 
  private:
   std::vector<double> rounded_;
@@ -57,7 +57,7 @@ std::vector<Eigen::VectorXd> samples(const Eigen::VectorXd& centre, const std::v
                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int first, int count,
                                      const SampleReach& reach = {});
 
-/// Three of four places get the numbers of `start` where these have no influence, as far as is known (none: all may): the mass of
+/// Three of four points get the values of `start` where these have no influence, as far as is known (none: all may): the mass of
 /// a body that meets only fixed ones changes nothing, nor does the elasticity of a wall that none comes to.
 void keepInMost(std::vector<Eigen::VectorXd>& places, const Eigen::VectorXd& start, const std::vector<char>& has_influence);
 

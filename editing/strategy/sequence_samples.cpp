@@ -7,7 +7,7 @@
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/projection.hpp"
 #include "editing/strategy/approach.hpp"
-#include "editing/strategy/landing.hpp"
+#include "editing/strategy/local_solve.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 #include "editing/strategy/neighbours.hpp"
 #include "editing/strategy/samples.hpp"
@@ -16,15 +16,15 @@
 namespace carom::editing_detail {
 namespace {
 
-/// Of points that lack impacts so many for each landing, at most, are looked at.
+/// Of points that lack impacts so many for each local solve, at most, are looked at.
 constexpr std::size_t kLackingForEach = 4;
 constexpr int kApproachSteps = 8;
 /// Of the bodies of a motion that nearly meet so many pairs are made to; none where hardly another way changes less.
 constexpr std::size_t kNearMisses = 12;
-/// Points beyond whose borders one round looks.
+/// Points beyond whose boundaries one round looks.
 constexpr std::size_t kCrossedInRound = 4;
-/// A solution from which the change could still fall by this share, if it were not for the border of its sequence.
-constexpr double kAtBorder = 0.05;
+/// A solution from which the change could still fall by this share, if it were not for the boundary of its sequence.
+constexpr double kAtBoundary = 0.05;
 /// Samples double from one round without a solution to the next, so often.
 constexpr int kDoublings = 6;
 /// What a sample takes beside its motion, in steps of simulations.
@@ -43,14 +43,14 @@ Surroundings anywhereAround(const EditPoint& point) {
 }
 
 // Around a point that meets the constraints the step is one towards a smaller change: along the free directions, which
-// matters at the border of a sequence, or else back to the start.
-Surroundings surroundingsOf(const EditSearch& search, EditPoint& point) {
-  if (!search.differentiate(point)) return anywhereAround(point);
+// matters at the boundary of a sequence, or else back to the start.
+Surroundings surroundingsOf(const EditEvaluator& evaluator, EditPoint& point) {
+  if (!evaluator.differentiate(point)) return anywhereAround(point);
   const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
-  if (!search.reached(point)) return {point.changes, smallestStep(search, point), free};
+  if (!evaluator.reached(point)) return {point.changes, smallestStep(evaluator, point), free};
   const Eigen::VectorXd smaller = -free * (free.transpose() * point.changes);
-  const bool at_border = smaller.norm() > kAtBorder * point.changes.norm();
-  return {point.changes, at_border ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
+  const bool at_boundary = smaller.norm() > kAtBoundary * point.changes.norm();
+  return {point.changes, at_boundary ? smaller : Eigen::VectorXd(-0.5 * point.changes), free};
 }
 
 }  // namespace
@@ -71,19 +71,19 @@ int SequenceSearch::sampleCount() const {
 // What changes less than the best lies nearer to the start. While there is none, every other round reaches further.
 SampleReach SequenceSearch::reach() const {
   if (solutions_.empty()) return {std::ldexp(kReach, rounds_without_ / 2)};
-  const double known = lengthOf(search_.problem(), solutions_.front()->changes);
+  const double known = lengthOf(evaluator_.problem(), solutions_.front()->changes);
   return known < kReach ? SampleReach{known, true} : SampleReach{kReach};
 }
 
-// Within bounds many samples, and points beyond borders, come to lie where others were.
+// Within bounds many samples, and points beyond boundaries, come to lie where others were.
 void SequenceSearch::eraseKnown(std::vector<Eigen::VectorXd>& places) {
-  const Eigen::Index n = search_.problem().controls.size();
-  std::erase_if(places, [&](const Eigen::VectorXd& place) { return !known_.insert(Place(place.head(n))).second; });
+  const Eigen::Index n = evaluator_.problem().controls.size();
+  std::erase_if(places, [&](const Eigen::VectorXd& place) { return !known_.insert(RoundedPoint(place.head(n))).second; });
 }
 
 void SequenceSearch::noteInfluence(const EditPoint& point) {
   if (!point.row_jacobian || point.row_jacobian->size() == 0) return;
-  const Eigen::Index n = search_.problem().controls.size();
+  const Eigen::Index n = evaluator_.problem().controls.size();
   has_influence_.resize(static_cast<std::size_t>(n), 0);
   const double largest = point.row_jacobian->cwiseAbs().maxCoeff();
   for (Eigen::Index j = 0; j < n; ++j)
@@ -92,38 +92,38 @@ void SequenceSearch::noteInfluence(const EditPoint& point) {
 
 std::vector<EditPointPtr> SequenceSearch::sample(Seek seek) {
   std::vector<Surroundings> around;
-  if (start_->rows.available) around.push_back(surroundingsOf(search_, *start_));
+  if (start_->rows.available) around.push_back(surroundingsOf(evaluator_, *start_));
   if (nearest_lacking_ && solutions_.empty()) around.push_back(anywhereAround(*nearest_lacking_));
-  if (search_.best() != start_) around.push_back(surroundingsOf(search_, *search_.best()));
+  if (evaluator_.best() != start_) around.push_back(surroundingsOf(evaluator_, *evaluator_.best()));
   const int count = sampleCount();
   std::vector<Eigen::VectorXd> places =
-      samples(start_->changes, around, search_.lower(), search_.upper(), samples_, count, reach());
+      samples(start_->changes, around, evaluator_.lower(), evaluator_.upper(), samples_, count, reach());
   keepInMost(places, start_->changes, has_influence_);
   eraseKnown(places);
   samples_ += count;
   std::vector<EditPointPtr> made(places.size());
   std::vector<char> is_lacking(places.size(), 0);
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
-    made[i] = search_.make(places[i], true, {{&contacts}, nullptr, true});
-    is_lacking[i] = made[i] && lacksImpacts(search_.problem(), *made[i]);
+    made[i] = evaluator_.make(places[i], true, {{&contacts}, nullptr, true});
+    is_lacking[i] = made[i] && lacksImpacts(evaluator_.problem(), *made[i]);
   });
   std::vector<EditPointPtr> points, lacking;
   for (std::size_t i = 0; i < made.size(); ++i)
     if (made[i]) (is_lacking[i] ? lacking : points).push_back(std::move(made[i]));
   const double to_beat = lengthToBeat(seek);
-  std::erase_if(lacking, [&](const EditPointPtr& p) { return lengthOf(search_.problem(), p->changes) > to_beat; });
-  if (round_ == 0 && lacksImpacts(search_.problem(), *start_)) lacking.push_back(start_);
+  std::erase_if(lacking, [&](const EditPointPtr& p) { return lengthOf(evaluator_.problem(), p->changes) > to_beat; });
+  if (round_ == 0 && lacksImpacts(evaluator_.problem(), *start_)) lacking.push_back(start_);
   for (const EditPointPtr& point : approachAll(lacking)) points.push_back(point);
   letGo(std::move(lacking));
   if (round_ == 0 && start_->rows.available) points.insert(points.begin(), start_);
-  if (search_.best() != start_) points.insert(points.begin(), search_.best());
+  if (evaluator_.best() != start_) points.insert(points.begin(), evaluator_.best());
   for (const EditPointPtr& point : neighbours(seek)) points.push_back(point);
   for (const EditPointPtr& point : crossings(points)) points.push_back(point);
-  for (const EditPointPtr& point : points) search_.consider(point);
+  for (const EditPointPtr& point : points) evaluator_.consider(point);
   return points;
 }
 
-// Beyond the borders of the sequences of the start, of the smallest solutions and of what was most promising in the last
+// Beyond the boundaries of the sequences of the start, of the smallest solutions and of what was most promising in the last
 // round, of each of them once.
 std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
   std::vector<EditPointPtr> around;
@@ -131,31 +131,31 @@ std::vector<EditPointPtr> SequenceSearch::neighbours(Seek seek) {
     if (around.size() >= kCrossedInRound || std::find(crossed_.begin(), crossed_.end(), point) != crossed_.end()) return;
     around.push_back(point), crossed_.push_back(point);
   };
-  if (start_->rows.available && !lacksImpacts(search_.problem(), *start_)) take(start_);
+  if (start_->rows.available && !lacksImpacts(evaluator_.problem(), *start_)) take(start_);
   for (const EditPointPtr& solution : solutions_) take(solution);
   for (const EditPointPtr& point : promising_) take(point);
   const std::size_t misses = hasSmallChangeInside() ? 0 : kNearMisses;
   std::vector<std::vector<Eigen::VectorXd>> beyond(around.size());
   forAll(around.size(), [&](std::size_t i, ContactSource&) {
-    if (search_.differentiate(*around[i])) beyond[i] = beyondBorders(search_, *around[i], lengthToBeat(seek), misses);
+    if (evaluator_.differentiate(*around[i])) beyond[i] = beyondBoundaries(evaluator_, *around[i], lengthToBeat(seek), misses);
   });
   std::vector<Eigen::VectorXd> places;
   for (const auto& list : beyond)
-    places.insert(places.end(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(std::min(list.size(), landings())));
+    places.insert(places.end(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(std::min(list.size(), localSolves())));
   eraseKnown(places);
   std::vector<EditPointPtr> points(places.size());
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
-    points[i] = search_.make(places[i], true, {{&contacts}});
+    points[i] = evaluator_.make(places[i], true, {{&contacts}});
   });
   std::erase(points, nullptr);
-  std::erase_if(points, [&](const EditPointPtr& p) { return lacksImpacts(search_.problem(), *p); });
+  std::erase_if(points, [&](const EditPointPtr& p) { return lacksImpacts(evaluator_.problem(), *p); });
   return points;
 }
 
 // Where the one row changes its sign between two points of a sequence, of each sequence between those that change
 // least. The arc on which a strongly bent row is met may be too short for steps to come onto it.
 std::vector<EditPointPtr> SequenceSearch::crossings(const std::vector<EditPointPtr>& points) {
-  if (search_.problem().constraints.size() != 1 || search_.problem().constraints.equations().size() != 1) return {};
+  if (evaluator_.problem().constraints.size() != 1 || evaluator_.problem().constraints.equations().size() != 1) return {};
   std::map<std::string, std::pair<EditPointPtr, EditPointPtr>> smallest;  // below and above the target
   for (const EditPointPtr& point : points) {
     if (!point->rows.available) continue;
@@ -169,13 +169,13 @@ std::vector<EditPointPtr> SequenceSearch::crossings(const std::vector<EditPointP
     if (!below || !above) continue;
     const double low = below->rows.scaled[0], high = above->rows.scaled[0];
     const Eigen::VectorXd place = below->changes - low / (high - low) * (above->changes - below->changes);
-    places.emplace_back(lengthOf(search_.problem(), place), place);
+    places.emplace_back(lengthOf(evaluator_.problem(), place), place);
   }
   std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  places.resize(std::min(places.size(), landings()));
+  places.resize(std::min(places.size(), localSolves()));
   std::vector<EditPointPtr> found(places.size());
   forAll(places.size(), [&](std::size_t i, ContactSource& contacts) {
-    found[i] = search_.make(places[i].second, true, {{&contacts}});
+    found[i] = evaluator_.make(places[i].second, true, {{&contacts}});
   });
   std::erase(found, nullptr);
   return found;
@@ -186,22 +186,22 @@ std::vector<EditPointPtr> SequenceSearch::approachAll(const std::vector<EditPoin
   const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::vector<std::pair<double, EditPointPtr>> ranked(lacking.size());
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
-    double left = 0;  // of what was wished
-    for (const LackingImpact& impact : missingImpacts(search_.problem(), *lacking[i])) left += 1 - impact.share;
+    double left = 0;  // of what was required
+    for (const LackingImpact& impact : missingImpacts(evaluator_.problem(), *lacking[i])) left += 1 - impact.share;
     ranked[i] = {left, lacking[i]};
   });
   std::stable_sort(ranked.begin(), ranked.end(), nearer);
-  const std::size_t followed = solutions_.empty() ? landings() : (landings() + 1) / 2;
+  const std::size_t followed = solutions_.empty() ? localSolves() : (localSolves() + 1) / 2;
   ranked.resize(std::min(ranked.size(), kLackingForEach * followed));
   forAll(ranked.size(), [&](std::size_t i, ContactSource&) {
-    ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
+    ranked[i].first = lackOf(evaluator_.problem(), *ranked[i].second);
   });
   std::stable_sort(ranked.begin(), ranked.end(), nearer);
   ranked.resize(std::min(ranked.size(), followed));
   forAll(ranked.size(), [&](std::size_t i, ContactSource& contacts) {
-    EditSearch branch = search_.branch({{&contacts}, nullptr, true}, true);
+    EditEvaluator branch = evaluator_.branch({{&contacts}, nullptr, true}, true);
     ranked[i].second = approach(branch, ranked[i].second, kApproachSteps);
-    ranked[i].first = lackOf(search_.problem(), *ranked[i].second);
+    ranked[i].first = lackOf(evaluator_.problem(), *ranked[i].second);
   });
   std::vector<EditPointPtr> arrived;
   for (const auto& [lack, point] : ranked) {

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "editing/detail/parallel.hpp"
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "editing/strategy/effort.hpp"
-#include "editing/strategy/landing_score.hpp"
+#include "editing/strategy/local_solve_score.hpp"
 #include "editing/strategy/samples.hpp"
 
 /// Solutions in other impact sequences. Internal to editing/.
 namespace carom::editing_detail {
 
 /// A local discrete search, after Harada, Witkin and Baraff (1995), in rounds. Each simulates samples around the start
-/// and the best point on all cores, and points beyond the borders of their sequences, leads some of those that lack an
+/// and the best point on all cores, and points beyond the boundaries of their sequences, leads some of those that lack an
 /// impact towards it, groups them by impact sequence and goes from the most promising of each group onto the
 /// constraints, whatever impacts that takes. Where the smallest of those that arrived changes less than the best so
 /// far, its change is minimised within its sequence. Once there is a solution, only smaller changes are looked for:
@@ -26,7 +26,7 @@ namespace carom::editing_detail {
 /// callback are asked between batches.
 class SequenceSearch {
  public:
-  SequenceSearch(EditSearch& search, EditPointPtr start);
+  SequenceSearch(EditEvaluator& evaluator, EditPointPtr start);
 
   /// What a round looks for.
   enum class Seek {
@@ -42,7 +42,7 @@ class SequenceSearch {
   /// Takes one of the solutions out again.
   void drop(const EditPointPtr& solution);
   /// Brings so many of the smallest to where their changes are as small as they get within their sequences, along the
-  /// borders of these where the minimum lies on one.
+  /// boundaries of these where the minimum lies on one.
   void polish(std::size_t count);
   /// The same of the smallest and of the few next to it that may become the smallest by that.
   void polishSmallest();
@@ -55,7 +55,7 @@ class SequenceSearch {
   bool isBestInside() const;
   /// Of the best, up to the last that a constraint holds; 0 without one.
   int impactsOfBest() const;
-  /// Of the landings since expectAnew(), with a solution to beat.
+  /// Of the local solves since expectAnew(), with a solution to beat.
   const ExpectedImprovement& expected() const { return expected_; }
   void expectAnew() { expected_ = {}; }
   /// The point that lacks least of the impacts that are waited for; null where none lacked any.
@@ -65,7 +65,7 @@ class SequenceSearch {
   bool isInPart() const;
   bool takesLong() const;
   int sampleCount() const;
-  std::size_t landings() const;
+  std::size_t localSolves() const;
   SampleReach reach() const;
   std::size_t wanted() const;
   double lengthToBeat(Seek seek) const;
@@ -79,13 +79,13 @@ class SequenceSearch {
   std::vector<EditPointPtr> nearestOfEachGroup(const std::vector<EditPointPtr>& points) const;
   struct Candidate {
     double score;
-    Prospect prospect;
+    LocalSolveEstimate estimate;
     EditPointPtr point;
   };
   std::vector<Candidate> promising(const std::vector<EditPointPtr>& points, double to_beat);
-  std::vector<EditPointPtr> landingsFrom(const std::vector<Candidate>& ranked, double to_beat);
-  std::vector<EditPointPtr> landAll(const std::vector<EditPointPtr>& candidates, Seek seek);
-  void minimise(const std::vector<EditPointPtr>& landed, Seek seek);
+  std::vector<EditPointPtr> startsFrom(const std::vector<Candidate>& ranked, double to_beat);
+  std::vector<EditPointPtr> solveAllLocally(const std::vector<EditPointPtr>& candidates, Seek seek);
+  void minimise(const std::vector<EditPointPtr>& solved, Seek seek);
   EditPointPtr smallerWithin(const EditPointPtr& point);
   std::vector<EditPointPtr> smallestSolutions(std::size_t count) const;
   void polish(const EditPointPtr& solution);
@@ -94,17 +94,17 @@ class SequenceSearch {
   template <class Work>
   void forAll(std::size_t count, const Work& work);
 
-  EditSearch& search_;
+  EditEvaluator& evaluator_;
   const SearchPlan& plan_;
   ContactPool pool_;
-  Crew crew_;
+  ThreadPool threads_;
   EditPointPtr start_;
-  std::map<std::string, int> tries_;  // landings from a sequence so far
+  std::map<std::string, int> tries_;  // local solves from a sequence so far
   std::vector<EditPointPtr> solutions_;
   std::vector<EditPointPtr> promising_;  // of the last round, the most promising
-  std::vector<EditPointPtr> crossed_;    // points beyond whose borders was looked
-  std::map<Place, double> begun_;        // where landings began, and what they had to beat
-  std::set<Place> known_;                // places where points were made
+  std::vector<EditPointPtr> crossed_;    // points beyond whose boundaries was looked
+  std::map<RoundedPoint, double> begun_;  // where local solves began, and what they had to beat
+  std::set<RoundedPoint> known_;          // evaluated so far
   std::vector<char> has_influence_;      // numbers of the controls: on a row at any of the promising points so far
   EditPointPtr nearest_lacking_;
   ExpectedImprovement expected_;
@@ -115,7 +115,7 @@ class SequenceSearch {
 
 template <class Work>
 void SequenceSearch::forAll(std::size_t count, const Work& work) {
-  crew_.forAll(count, [&](std::size_t i) {
+  threads_.forAll(count, [&](std::size_t i) {
     const ContactPool::Loan loan(pool_);
     work(i, loan.source());
   });

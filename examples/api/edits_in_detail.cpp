@@ -24,10 +24,14 @@ int main() {
   edit.vary(throw_it);
   const When early = between(0.9, 1.1);  // the edit chooses the moment
   const Wanted far = atLeast(3.5);
-  edit.nail("ball", early).position(far, any, within(0.3, 0.5));
+  constexpr Free sideways = any;
+  edit.nail("ball", early).position(far, sideways, within(0.3, 0.5));
   for (const Constraint& held : edit.constraints()) {
     const Target& target = held.targets[0];
-    std::printf("%s of %s is held\n", target.quantity.c_str(), held.body.c_str());
+    int free = 0;
+    for (const TargetNumber& number : target.value) free += number.isFree();  // left open, or in a range
+    std::printf("%s of %s is held, %d of its components as numbers\n", target.quantity.c_str(), held.body.c_str(),
+                static_cast<int>(target.value.size()) - free);
   }
 
   EditOptions options;

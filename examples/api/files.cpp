@@ -32,6 +32,8 @@ int main() {
   const ImportReport& report = imported.report;
   std::printf("%zu bodies and %zu constraints came back, with %zu warnings\n", imported.document.scene.bodies.size(),
               imported.document.constraints.size(), report.warnings.size());
+  for (const FileRepair& repair : imported.document.repairs)
+    std::printf("%s: %s\n", repair.file.c_str(), repair.what.c_str());
   const auto meshes = saveWithMeshes((folder / "again.json").string(), imported.document);
   std::printf("%zu mesh files beside the document\n", meshes.size());
 

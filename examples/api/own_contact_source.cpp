@@ -68,7 +68,7 @@ class FloorContacts final : public ContactSource {
   }
   // Where fixed bodies lie flush, a face goes on from one to the next, and what holds a ball there holds it on all of them.
   // Here is one floor: what holds the ball is this pair, and nothing else is met beside it.
-  std::optional<PredictedImpact> firstImpactOnGround(int, int, std::span<const HeldFeatures> held, Arc& ball, Arc& floor,
+  std::optional<PredictedImpact> firstImpactOnGround(int, int, std::span<const PersistentFeatures> held, Arc& ball, Arc& floor,
                                                      double from, double until) override {
     return held.empty() ? firstImpact(0, 1, ball, floor, from, until) : std::nullopt;
   }

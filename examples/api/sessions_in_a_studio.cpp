@@ -35,7 +35,8 @@ int main() {
   SessionOptions options;
   options.unmet_nails_off = true;                       // nothing moves by itself
   options.drag_seconds = options.release_seconds = 60;  // so that no clock ends an update, however slow the machine
-  const Constraint goal = heldConstraint("ball", 0.5, {.position = Vec3(1.2, any, any)});
+  const NailTargets targets{.position = WantedVector(1.2, any, any)};
+  const Constraint goal = nailConstraint("ball", 0.5, targets);
   EditSession session(scene, contacts, 1, {velocity("ball").within(-3, 3)}, {goal}, options);
   std::printf("opened:\n");
   tellNails(session);
@@ -56,7 +57,8 @@ int main() {
   session.grabNail(nail);
   session.dragTo({1, 0, 1.5});
   session.release();
-  std::printf("the nail is at x %.2f m\n", session.constraintOf(nail).targets[0].value[0]);
+  const double nailed_at = session.constraintOf(nail).targets[0].value[0];
+  std::printf("the nail is at x %.2f m\n", nailed_at);
 
   // its spin may vary as well, but only where nothing else moved the ball
   session.grab("ball", 0.5, {}, {angularVelocity("ball")}, AlsoVary::where_nothing_moves_it);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 #include "editing/report/certify.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 
 #include "editing/edit.h"
 #include "editing/problem/margins/event_margins.hpp"
+#include "editing/problem_of.hpp"
 #include "editing/report/motion_checks.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
@@ -141,7 +142,7 @@ double realRadius(const EditProblem& problem, const Certificate& certificate, do
 }
 
 Certificate certificateOf(const Edit& edit) {
-  const EditProblem problem = edit.problem();
+  const EditProblem problem = problemOf(edit);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem.unknowns());
   const Motion motion = simulate(problem.controls.startScene(), *problem.contacts, problem.duration);
   return certify(problem, zero, motion, problem.constraints.evaluate(motion));
@@ -152,7 +153,7 @@ void expectRadius(const Edit& edit, double share, const std::string& word) {
   ASSERT_TRUE(std::isfinite(certificate.signature_radius));
   EXPECT_NE(certificate.signature_event.find(word), std::string::npos) << certificate.signature_event;
   EXPECT_NEAR(certificate.signature_step.norm(), certificate.signature_radius, 1e-12);
-  const double real = realRadius(edit.problem(), certificate, 3 * certificate.signature_radius);
+  const double real = realRadius(problemOf(edit), certificate, 3 * certificate.signature_radius);
   EXPECT_TRUE(std::abs(real - certificate.signature_radius) <= share * real)
       << certificate.signature_event << " Found " << certificate.signature_radius << ", really " << real;
 }
@@ -164,7 +165,7 @@ TEST(Certificate, RadiusToAnInstantThatIsRead) {
   Edit edit(scene, contacts, 0.6);
   edit.vary(velocity("ball"));
   edit.nail("ball", wall + 0.003).position({0, 0, 1});
-  expectRadius(edit, 0.02, "when it is read");
+  expectRadius(edit, 0.02, "the time of a constraint");
 }
 
 TEST(Certificate, RadiusToSliding) {
@@ -249,7 +250,7 @@ TEST(Certificate, RadiusToImpactsThatChangePlaces) {
   Edit edit(scene, contacts, 0.6);
   edit.vary(velocity("ball"));
   edit.nail("ball", 0.6).position({0, 0, 1});
-  expectRadius(edit, 0.02, "change places");
+  expectRadius(edit, 0.02, "change order");
 }
 
 TEST(Certificate, OfASolvedEdit) {

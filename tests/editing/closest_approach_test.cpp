@@ -172,7 +172,7 @@ TEST(ClosestApproach, AnEditKeepsItsDistances) {
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 1);
   edit.vary(velocity("cue"));
-  edit.nail("cue", 0).closestApproach("red", 0.21, std::pair{0.0, 0.9});
+  edit.nail("cue", 0.0).closestApproach("red", 0.21, std::pair{0.0, 0.9});
   edit.nail("cue", 0.9).distance("yellow", within(0.25, 0.3));
   const EditResult r = edit.solve();
   ASSERT_TRUE(r.solved()) << r.message;

@@ -59,8 +59,8 @@ Constraint seen(Constraint constraint, const std::string& from) {
   return constraint;
 }
 
-Target ranged(std::string quantity, std::vector<double> min, std::vector<double> max) {
-  Target target{std::move(quantity), std::vector<double>(min.size(), any)};
+Target ranged(std::string quantity, std::vector<TargetNumber> min, std::vector<TargetNumber> max) {
+  Target target{std::move(quantity), std::vector<TargetNumber>(min.size(), any)};
   target.min = std::move(min), target.max = std::move(max);
   return target;
 }

@@ -41,9 +41,10 @@ TEST(ConstraintSet, NamesItsRows) {
                             "orientation.z", "velocity.x", "velocity.y",    "time",
                             "point.x",       "point.y",    "point.z",       "angular_velocity.y",
                             "speed",         "kinetic_energy", "height",    "distance to 'floor'",
-                            "closest_approach to 'floor'", "impulse", "speed", "kinetic_energy"};
-  ASSERT_EQ(set.size(), 20);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
+                            "closest_approach to 'floor'", "impulse", "speed", "kinetic_energy",
+                            "contact.x", "contact.y"};
+  ASSERT_EQ(set.size(), 22);
+  for (int i = 0; i < 22; ++i) EXPECT_EQ(set.rows()[i].name, expected[i]);
   EXPECT_EQ(set.describeRow(0), "position.x of 'box' at 0.4 s");
   EXPECT_EQ(set.describeRow(15), "distance to 'floor' of 'box' at 0.4 s");
   EXPECT_EQ(set.describeRow(16), "closest_approach to 'floor' of 'box' from 0.05 s to 0.3 s");
@@ -96,7 +97,7 @@ TEST(Jacobian, AdjointAndTangentAgreeEntryByEntry) {
         problem.controls.valuesOf(Eigen::VectorXd::LinSpaced(problem.controls.size(), -away, away));
     const RowsAndJacobian a = evaluateByAdjoint(problem, values), t = evaluateByTangent(problem, values);
     ASSERT_TRUE(a.rows.available) << a.rows.message;
-    ASSERT_EQ(a.jacobian.rows(), 20);
+    ASSERT_EQ(a.jacobian.rows(), 22);
     ASSERT_EQ(a.jacobian.cols(), problem.controls.size());
     for (int j = 0; j < a.jacobian.cols(); ++j) {
       const double scale = t.jacobian.col(j).cwiseAbs().maxCoeff();
@@ -169,6 +170,12 @@ When restAnd(void (*change)(When&)) {
   return at;
 }
 
+When wrongImpact() {
+  When at = nthImpact(1);
+  at.impact = -1;
+  return at;
+}
+
 const BadConstraint kBadConstraints[] = {
     {"body", {"bix", 0.4, {{"position", {0, 0, 0}}}}, "/constraints/0/body", "bix"},
     {"with", {"box", nthImpact(1, "wall"), {{"position", {0, 0, 0}}}}, "/constraints/0/at/with", "wall"},
@@ -177,11 +184,14 @@ const BadConstraint kBadConstraints[] = {
     {"infinite", {"box", 0.4, {{"position", {0, 0, INFINITY}}}}, "/constraints/0/position", "infinite"},
     {"quaternion", {"box", 0.4, {{"orientation", {2, 0, 0, 0}}}}, "/constraints/0/orientation", "expected 1"},
     {"nan_quaternion", {"box", 0.4, {{"orientation", {1, kNaN, 0, 0}}}}, "/constraints/0/orientation", "NaN"},
+    {"nan_position", {"box", 0.4, {{"position", {kNaN, 0, any}}}}, "/constraints/0/position", "NaN"},
+    {"nan_min", {"box", 0.4, {{"position", {any, 0, any}, {}, {kNaN, any, any}}}}, "/constraints/0/position/min", "NaN"},
+    {"free_time", {"box", nthImpact(1), {{"time", {any}}}}, "/constraints/0/time", "free"},
     {"nan_time", {"box", nthImpact(1), {{"time", {kNaN}}}}, "/constraints/0/time", "NaN"},
     {"time_at_time", {"box", 0.4, {{"time", {0.4}}}}, "/constraints/0/time", "expected an impact"},
     {"at", {"box", kNaN, {{"position", {0, 0, 0}}}}, "/constraints/0/at", "expected a time"},
-    {"negative", {"box", -1, {{"position", {0, 0, 0}}}}, "/constraints/0/at", "expected a time"},
-    {"impact", {"box", nthImpact(0, "floor"), {{"position", {0, 0, 0}}}}, "/constraints/0/at/impact", "1 or more"},
+    {"negative", {"box", -1.0, {{"position", {0, 0, 0}}}}, "/constraints/0/at", "expected a time"},
+    {"impact", {"box", wrongImpact(), {{"position", {0, 0, 0}}}}, "/constraints/0/at/impact", "1 or more"},
     {"impulse_at_time", {"box", 0.4, {{"impulse", {1}}}}, "/constraints/0/impulse", "expected an impact"},
     {"no_speed", {"box", 0.4, {{"speed", {0}}}}, "/constraints/0/speed", "expected more than 0 m/s; what is at rest"},
     {"negative_energy", {"box", 0.4, {{"kinetic_energy", {-1}}}}, "/constraints/0/kinetic_energy", "more than 0 J"},
@@ -191,6 +201,8 @@ const BadConstraint kBadConstraints[] = {
      "found 0, expected more than 0 N s"},
     {"free_height", {"box", 0.4, {{"height", {any}}}}, "/constraints/0/height", "cannot be left free"},
     {"two_heights", {"box", 0.4, {{"height", {1, 2}}}}, "/constraints/0/height", "found 2 numbers, expected 1"},
+    {"place_of_floor", {"floor", 0.4, {{"position", {0, any, any}}}}, "/constraints/0/body", "found the fixed body 'floor'"},
+    {"impact_of_floor", {"floor", nthImpact(1), {{"time", {0.3}}}}, "/constraints/0/body", "an impact of the fixed body"},
     {"energy_of_floor", {"floor", 0.4, {{"kinetic_energy", {1}}}}, "/constraints/0/body", "found the fixed body 'floor'"},
     {"height_of_floor", {"floor", 0.4, {{"height", {1}}}}, "/constraints/0/body", "with a lowest point"},
     {"energy_seen", {"box", 0.4, {{"kinetic_energy", {1}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
@@ -205,6 +217,9 @@ const BadConstraint kBadConstraints[] = {
      "/constraints/0/velocity",
      "found velocity held at rest, expected a time or an impact"},
     {"speed_at_rest", {"box", atRest(), {{"speed", {1}}}}, "/constraints/0/speed", "a body at rest has none"},
+    {"contact_at_time", {"box", 0.4, {{"contact", {1, 1, any}}}}, "/constraints/0/contact", "expected an impact"},
+    {"contact_at_rest", {"box", atRest(), {{"contact", {1, 1, any}}}}, "/constraints/0/contact", "at rest, expected an impact"},
+    {"contact_seen", {"box", nthImpact(1), {{"contact", {1, 1, any}}}, "floor"}, "/constraints/0/relative_to", "in the world"},
     {"impulse_at_rest", {"box", atRest(), {{"impulse", {1}}}}, "/constraints/0/impulse", "at rest, expected an impact"},
     {"rest_and_impact",
      {"box", restAnd([](When& at) { at.impact = 1; }), {{"position", {0, 0, 0}}}},
@@ -218,8 +233,8 @@ const BadConstraint kBadConstraints[] = {
      {"box", restAnd([](When& at) { at.time = 1; }), {{"position", {0, 0, 0}}}},
      "/constraints/0/at",
      "found rest and a time"},
-    {"all_free", {"box", 0.4, {{"position", {any, any, any}}}}, "/constraints/0", "no number to hold"},
-    {"nothing", {"box", 0.4, {}}, "/constraints/0", "no number to hold"},
+    {"all_free", {"box", 0.4, {{"position", {any, any, any}}}}, "/constraints/0", "no target"},
+    {"nothing", {"box", 0.4, {}}, "/constraints/0", "no target"},
 };
 
 class ConstraintMistake : public testing::TestWithParam<BadConstraint> {};

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "editing/problem/rows/closest_approach.hpp"
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 

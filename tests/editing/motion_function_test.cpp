@@ -13,7 +13,7 @@
 #include "editing/edit.h"
 #include "editing/problem/controls/natural_scales.hpp"
 #include "editing/problem/hessian.hpp"
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
@@ -68,7 +68,7 @@ void expectSameChanges(const EditResult& a, const EditResult& b, double toleranc
 
 std::vector<Control> boxControls() { return {velocity("box"), angularVelocity("box"), elasticity("felt")}; }
 
-// At 2 m/s the smallest change lies within its impact sequence; at 2.2 m/s on a border, where it is found to 1e-4 alone, so
+// At 2 m/s the smallest change lies within its impact sequence; at 2.2 m/s on a boundary, where it is found to 1e-4 alone, so
 // that only what goes the same way ends at the same place.
 TEST(MotionFunction, RowIsTheBuiltInOne) {
   for (const double speed : {2.0, 2.2}) {

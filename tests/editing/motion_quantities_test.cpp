@@ -11,7 +11,7 @@
 #include "editing/edit.h"
 #include "editing/problem/hessian.hpp"
 #include "editing/problem/jacobian.hpp"
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "ode_bridge/convex_hull.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
@@ -275,7 +275,9 @@ std::vector<Constraint> ofMeeting() {
           {"other", nthImpact(1), {{"impulse", {1}}}},
           {"box", between(0.05, 0.15), {{"height", {1}}}},
           {"box", 0.6, {{"speed", {1}}}, "other"},
-          {"other", 0.6, {{"kinetic_energy", {1}}}}};
+          {"other", 0.6, {{"kinetic_energy", {1}}}},
+          {"box", nthImpact(1, "other"), {{"contact", {1, 1, 1}}}},
+          {"other", nthImpact(1), {{"contact", {1, any, any}}}}};
 }
 
 std::vector<Control> allOfBoth() {

@@ -10,7 +10,8 @@
 
 #include "adjoint/base/errors.h"
 #include "editing/edit.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
+#include "editing/problem_of.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
@@ -22,12 +23,12 @@ using namespace editing_detail;
 namespace {
 
 using namespace testing_scenes;
-using Numbers = std::vector<double>;
+using Numbers = std::vector<TargetNumber>;
 
 /// Numbers with the free ones as 99.
 Numbers shown(Numbers numbers) {
-  for (double& x : numbers)
-    if (std::isnan(x)) x = 99;
+  for (TargetNumber& x : numbers)
+    if (x.isFree()) x = 99;
   return numbers;
 }
 
@@ -49,7 +50,7 @@ class Nails : public testing::Test {
 };
 
 TEST_F(Nails, VectorsAreTargetsWithFreeComponents) {
-  edit->nail("ball", 0.5).position({1, any, 2}).velocity(Vec3(0, 0, any)).orientation(Quat(0, 1, 0, 0));
+  edit->nail("ball", 0.5).position({1, any, 2}).velocity({0, 0, any}).orientation(Quat(0, 1, 0, 0));
   EXPECT_EQ(only().body, "ball");
   EXPECT_EQ(only().at.time, 0.5);
   ASSERT_EQ(only().targets.size(), 3u);
@@ -110,7 +111,7 @@ TEST_F(Nails, AreSeenFromOtherBodiesAndKeepToRegions) {
   EXPECT_EQ(std::get<Sphere>(only().regions[0].shape).radius, 0.3);
   EXPECT_EQ(only().regions[1].side, Region::Side::inside);
   EXPECT_EQ(only().regions[1].margin, 0.2);
-  const EditProblem problem = edit->problem();
+  const EditProblem problem = problemOf(*edit);
   EXPECT_EQ(problem.constraints.size(), 3 + 1 + 6);
   EXPECT_EQ(problem.times(), 1);
 }

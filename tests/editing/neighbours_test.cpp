@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places beyond the borders of an impact sequence.
+// Places beyond the boundaries of an impact sequence.
 
 #include "editing/strategy/neighbours.hpp"
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "editing/problem/margins/near_misses.hpp"
-#include "editing/strategy/landing.hpp"
+#include "editing/strategy/local_solve.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
@@ -25,21 +25,21 @@ namespace {
 constexpr double kAnyLength = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMisses = 12;
 
-/// A search for an edit of one second of a scene.
+/// An edit of one second of a scene.
 struct SecondOf {
   Scene scene;
   OdeContacts contacts;
   EditOptions options;
   EditProblem problem;
-  EditSearch search;
+  EditEvaluator evaluator;
   EditPointPtr start;
 
   SecondOf(Scene s, const std::vector<Control>& controls, const std::vector<Constraint>& constraints, bool reversed)
       : scene(std::move(s)),
         contacts(ordered(scene, reversed)),
         problem(scene, contacts, 1, controls, constraints),
-        search(problem, options),
-        start(search.evaluateStart()) {}
+        evaluator(problem, options),
+        start(evaluator.evaluateStart()) {}
 
   static const Scene& ordered(Scene& scene, bool reversed) {
     if (reversed) std::reverse(scene.bodies.begin(), scene.bodies.end());
@@ -60,9 +60,9 @@ struct TumblingBox : SecondOf {
 
 TEST(Neighbours, HaveOtherImpacts) {
   TumblingBox t(false);
-  ASSERT_TRUE(t.search.differentiate(*t.start));
+  ASSERT_TRUE(t.evaluator.differentiate(*t.start));
   const std::string before = t.start->signature;
-  const std::vector<Eigen::VectorXd> places = beyondBorders(t.search, *t.start, kAnyLength, kMisses);
+  const std::vector<Eigen::VectorXd> places = beyondBoundaries(t.evaluator, *t.start, kAnyLength, kMisses);
   ASSERT_GE(places.size(), 6u);
   int others = 0, simulated = 0;
   double length = 0;
@@ -70,7 +70,7 @@ TEST(Neighbours, HaveOtherImpacts) {
     EXPECT_GE(lengthOf(t.problem, place), length);  // the smallest change first
     length = lengthOf(t.problem, place);
     if (length > 0.5) continue;  // what is linear at the start says little of places far away
-    const EditPointPtr point = t.search.evaluate(place);
+    const EditPointPtr point = t.evaluator.evaluate(place);
     if (!point) continue;
     ++simulated, others += point->signature != t.start->signature;
   }
@@ -81,20 +81,20 @@ TEST(Neighbours, HaveOtherImpacts) {
 
 TEST(Neighbours, KeepBelowALength) {
   TumblingBox t(false);
-  ASSERT_TRUE(t.search.differentiate(*t.start));
-  const std::vector<Eigen::VectorXd> all = beyondBorders(t.search, *t.start, kAnyLength, kMisses);
+  ASSERT_TRUE(t.evaluator.differentiate(*t.start));
+  const std::vector<Eigen::VectorXd> all = beyondBoundaries(t.evaluator, *t.start, kAnyLength, kMisses);
   ASSERT_FALSE(all.empty());
   const double below = lengthOf(t.problem, all[all.size() / 2]);
-  const std::vector<Eigen::VectorXd> some = beyondBorders(t.search, *t.start, below, kMisses);
+  const std::vector<Eigen::VectorXd> some = beyondBoundaries(t.evaluator, *t.start, below, kMisses);
   EXPECT_LE(some.size(), all.size() / 2);
   for (const Eigen::VectorXd& place : some) EXPECT_LT(lengthOf(t.problem, place), below);
 }
 
 TEST(Neighbours, AreTheSameWithBodiesInReverseOrder) {
   TumblingBox a(false), b(true);
-  ASSERT_TRUE(a.search.differentiate(*a.start) && b.search.differentiate(*b.start));
-  const std::vector<Eigen::VectorXd> one = beyondBorders(a.search, *a.start, kAnyLength, kMisses),
-                                     other = beyondBorders(b.search, *b.start, kAnyLength, kMisses);
+  ASSERT_TRUE(a.evaluator.differentiate(*a.start) && b.evaluator.differentiate(*b.start));
+  const std::vector<Eigen::VectorXd> one = beyondBoundaries(a.evaluator, *a.start, kAnyLength, kMisses),
+                                     other = beyondBoundaries(b.evaluator, *b.start, kAnyLength, kMisses);
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t i = 0; i < one.size(); ++i)
     EXPECT_NEAR(lengthOf(a.problem, one[i]), lengthOf(b.problem, other[i]), 1e-9) << i;
@@ -147,11 +147,11 @@ TEST(Neighbours, KnowHowNearBodiesPass) {
 
 TEST(Neighbours, MeetWhatTheMotionPasses) {
   PassingBall p(false);
-  ASSERT_TRUE(p.search.differentiate(*p.start));
-  EXPECT_TRUE(beyondBorders(p.search, *p.start, kAnyLength, 0).empty());
-  const std::vector<Eigen::VectorXd> places = beyondBorders(p.search, *p.start, kAnyLength, kMisses);
+  ASSERT_TRUE(p.evaluator.differentiate(*p.start));
+  EXPECT_TRUE(beyondBoundaries(p.evaluator, *p.start, kAnyLength, 0).empty());
+  const std::vector<Eigen::VectorXd> places = beyondBoundaries(p.evaluator, *p.start, kAnyLength, kMisses);
   ASSERT_FALSE(places.empty());
-  const EditPointPtr nearest = p.search.evaluate(places[0]);
+  const EditPointPtr nearest = p.evaluator.evaluate(places[0]);
   ASSERT_TRUE(nearest);
   EXPECT_EQ(p.start->motion.impacts, 0u);
   EXPECT_EQ(nearest->motion.impacts, 1u);

@@ -34,7 +34,7 @@ TEST_P(BouncingOptimum, IsFoundFromEveryElasticity) {
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 15);
   edit.vary(elasticity("rubber"));
-  edit.nail("ball", 15).position({any, any, 20.1});
+  edit.nail("ball", 15.0).position({any, any, 20.1});
   const EditResult r = edit.solve();
   ASSERT_TRUE(r.solved()) << r.message;
   EXPECT_NEAR(r.changed[0].after, 0.9880083920248763, 1e-12);

@@ -152,7 +152,7 @@ TEST(QuantityEdits, UpHasNoDerivativeWithoutGravity) {
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.where(), "/constraints/0/height");
-    EXPECT_EQ(error.message(), "found a gravity of 0 that may vary, expected another one: up is against it");
+    EXPECT_EQ(error.message(), "found a varying gravity of 0, expected another one: it defines the direction up");
   }
 }
 

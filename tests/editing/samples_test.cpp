@@ -111,16 +111,16 @@ TEST(Samples, KeepWhatHasNoInfluenceInThreeOfFour) {
   for (const std::size_t times : all_vary) EXPECT_EQ(times, places.size() / 8 / 4);  // of each kind as often
 }
 
-TEST(Place, IsTheSameButForRounding) {
+TEST(RoundedPoint, IsTheSameButForRounding) {
   const Eigen::VectorXd x = Eigen::Vector3d(0.18620000000012, -0.0812, 0);
   Eigen::VectorXd rounded = x, other = x;
   rounded[0] += 1e-16, rounded[2] = -1e-17;  // -0 is 0
   other[1] += 2e-9;
-  const Place place(x);
-  EXPECT_EQ(place, Place(rounded));
-  EXPECT_NE(place, Place(other));
-  EXPECT_LT(place, Place(other));
-  EXPECT_EQ((std::set<Place>{place, Place(rounded), Place(other)}.size()), 2u);
+  const RoundedPoint place(x);
+  EXPECT_EQ(place, RoundedPoint(rounded));
+  EXPECT_NE(place, RoundedPoint(other));
+  EXPECT_LT(place, RoundedPoint(other));
+  EXPECT_EQ((std::set<RoundedPoint>{place, RoundedPoint(rounded), RoundedPoint(other)}.size()), 2u);
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/editing/scenes.h"
 
+#include <gtest/gtest.h>
+
+#include "adjoint/simulate/simulate.h"
+
 namespace carom::testing_scenes {
 
 Material material(const std::string& name, double elasticity, double friction) {
@@ -84,7 +88,16 @@ std::vector<Constraint> everyQuantity() {
             {"height", {1}},
             {.quantity = "distance", .value = {0.3}, .to = "floor"},
             {.quantity = "closest_approach", .value = {0.5}, .to = "floor", .during = {{0.05, 0.3}}}}},
-          {"box", nthImpact(2, "floor"), {{"impulse", {4}}, {"speed", {2}}, {"kinetic_energy", {10}}}}};
+          {"box", nthImpact(2, "floor"), {{"impulse", {4}}, {"speed", {2}}, {"kinetic_energy", {10}}, {"contact", {1, 2, any}}}}};
+}
+
+void expectHonest(const EditResult& r, double duration, ContactSource& contacts) {
+  EXPECT_FALSE(r.message.empty());
+  const Motion again = simulate(r.scene, contacts, duration);
+  EXPECT_EQ(again.signature(), r.motion.signature());
+  if (r.solved()) {
+    EXPECT_TRUE(r.scaled_residual <= 1e-9) << r.scaled_residual;
+  }
 }
 
 }  // namespace carom::testing_scenes

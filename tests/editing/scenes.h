@@ -28,6 +28,9 @@ std::vector<Control> everyControl();
 /// Constraints on every quantity of that body, at a time and at its second impact.
 std::vector<Constraint> everyQuantity();
 
+/// What every result must keep, whatever its status: it says what its own scene does.
+void expectHonest(const EditResult& r, double duration, ContactSource& contacts);
+
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

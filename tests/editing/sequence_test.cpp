@@ -11,6 +11,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
+#include "editing/problem_of.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
@@ -45,7 +46,7 @@ TEST(SequenceEdit, OneBounceLess) {
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 15);
   edit.vary(elasticity("rubber").within(0.8, 0.998));
-  edit.nail("ball", 15).position({any, any, 20.1});
+  edit.nail("ball", 15.0).position({any, any, 20.1});
   const EditResult r = edit.solve();
   expectOtherSequence(r, scene, 15);
   EXPECT_NEAR(r.changed[0].after, 0.9880083920248765, 1e-9);
@@ -61,7 +62,7 @@ TEST(SequenceEdit, OneBounceMore) {
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 15);
   edit.vary(elasticity("rubber").within(0.5, 0.998));
-  edit.nail("ball", 15).position({any, any, 8.594217007606033});  // where 0.8 and 3 bounces bring it
+  edit.nail("ball", 15.0).position({any, any, 8.594217007606033});  // where 0.8 and 3 bounces bring it
   const EditResult r = edit.solve();
   ASSERT_TRUE(r.solved()) << r.message;
   EXPECT_EQ(r.signature_changed, countOf(r.sequence_changes, Kind::came) > 0) << r.message;
@@ -230,7 +231,7 @@ TEST(SequenceEdit, CancelKeepsTheBest) {
   Edit edit(scene, contacts, 1);
   edit.vary(velocity("ball"));
   edit.nail("ball", 1.0).position({3.2, 0, 0.4});
-  const EditProblem problem = edit.problem();
+  const EditProblem problem = problemOf(edit);
   double before = evaluateByAdjoint(problem, problem.controls.startValues()).rows.scaled.cwiseAbs().maxCoeff();
   for (int last : {1, 5, 20}) {
     EditOptions options;

@@ -27,7 +27,7 @@ TEST(SessionContents, ReplaceAllThereIsInOneStep) {
   content.duration = 0.9;
   content.controls = {velocity("pebble")};
   content.nails.pop_back();
-  content.nails.push_back({NailId(), heldConstraint("pebble", 0.3, {.position = Vec3(3, 0, 1)})});
+  content.nails.push_back({NailId(), nailConstraint("pebble", 0.3, {.position = Vec3(3, 0, 1)})});
   session.setContent(content, "velocity.x of 'box'");
   EXPECT_TRUE(session.last().moved);
   EXPECT_EQ(session.undoName(), "velocity.x of 'box'");
@@ -119,7 +119,7 @@ TEST(SessionContents, AGrabMayLetMoreVary) {
   session.grab("box", 0.2);
   SessionUpdate u = session.dragTo(session.grabbedPlace() + Vec3(0.05, 0, 0));
   EXPECT_EQ(u.obstacle.kind, SessionObstacle::Kind::no_control_moves_it) << u.message;
-  EXPECT_EQ(u.obstacle.sentence, "Nothing that may vary moves 'box' at 0.2 s.");
+  EXPECT_EQ(u.obstacle.sentence, "No control moves 'box' at 0.2 s.");
   session.cancel();
 
   const std::vector<Control> throws{velocity("box").weighted(0.2), angularVelocity("box").weighted(0.2)};
@@ -157,7 +157,7 @@ TEST(SessionContents, ABodyThatNoControlMovesSaysSoInACrowd) {
   session.grab("ball 1", 0.2);
   const SessionUpdate u = session.dragTo(session.grabbedPlace() + Vec3(0.05, 0, 0));
   EXPECT_EQ(u.obstacle.kind, SessionObstacle::Kind::no_control_moves_it) << u.message;
-  EXPECT_NE(u.message.find("Nothing that may vary moves 'ball 1'"), std::string::npos) << u.message;
+  EXPECT_NE(u.message.find("No control moves 'ball 1'"), std::string::npos) << u.message;
 }
 
 TEST(SessionContents, ObstaclesAreData) {
@@ -201,7 +201,7 @@ TEST(SessionContents, SequenceChangesAreEventsOfBothMotions) {
     }
   }
   ASSERT_FALSE(u.sequence_changes.empty()) << u.message;
-  EXPECT_NE(u.message.find("Other impacts than before: 'wall' and 'ball' meet once less."), std::string::npos)
+  EXPECT_NE(u.message.find("The impacts have changed: 'wall' and 'ball' meet once less."), std::string::npos)
       << u.message;
   EXPECT_EQ(u.sequence_changes[0].kind, SequenceChange::Kind::went);
   EXPECT_TRUE(before.events[static_cast<std::size_t>(u.sequence_changes[0].before)].touches(2, 1));
@@ -210,7 +210,7 @@ TEST(SessionContents, SequenceChangesAreEventsOfBothMotions) {
 TEST(SessionContents, StepsHaveNames) {
   BoxSession s;
   EditSession& session = s.session;
-  EXPECT_EQ(session.undoName(), "change of what may vary");
+  EXPECT_EQ(session.undoName(), "change of the controls");
   session.grab("box", nthImpact(1, "floor"), {.components = {"x"}});
   EXPECT_EQ(session.undoName(), "drag of 'box' at its impact 1 with 'floor'");
   EXPECT_EQ(session.redoName(), "");
@@ -228,7 +228,7 @@ TEST(SessionContents, StepsHaveNames) {
   session.undo();
   session.undo();
   EXPECT_EQ(session.undoName(), "");
-  EXPECT_EQ(session.redoName(), "change of what may vary");
+  EXPECT_EQ(session.redoName(), "change of the controls");
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ TEST(SessionErrors, WithoutAGrab) {
   expectRefused(session, "found 'w'", [&] { session.grab("box", 1.0, {.components = {"w"}}); });
   expectRefused(session, "three finite numbers", [&] { session.grab("box", 1.0, {.body_point = Vec3(nan, 0, 0)}); });
   expectRefused(session, "'cat'", [&] { session.nail("cat", 0.5, {.position = Vec3(0, 0, 1)}); });
-  expectRefused(session, "no number to hold", [&] { session.nail("box", 0.5, {}); });
+  expectRefused(session, "no target", [&] { session.nail("box", 0.5, {}); });
   expectRefused(session, "", [&] { session.nail("box", 50.0, {.position = Vec3(0, 0, 1)}); });
   expectRefused(session, "", [&] { session.vary(velocity("cat")); });
   expectRefused(session, "varies already", [&] { session.vary(velocity("box")); });

@@ -19,8 +19,8 @@ TEST(SessionNails, OneThatTheMotionLacksIsLeftOutAndNamed) {
   const Scene scene = thrownBox();
   OdeContacts contacts(scene);
   const std::vector<Constraint> nails = {
-      heldConstraint("box", nthImpact(40, "floor"), {.position = Vec3(0.5, any, any)}),
-      heldConstraint("box", 0.2, {.velocity = Vec3(any, 0.2, any)})};
+      nailConstraint("box", nthImpact(40, "floor"), {.position = WantedVector(0.5, any, any)}),
+      nailConstraint("box", 0.2, {.velocity = WantedVector(any, 0.2, any)})};
   EditSession session(scene, contacts, 1.2, {velocity("box")}, nails, withoutClock());
   EXPECT_NE(session.last().message.find("'box' at its impact 40 with 'floor'"), std::string::npos)
       << session.last().message;
@@ -39,7 +39,7 @@ TEST(SessionNails, OneThatTheMotionLacksIsLeftOutAndNamed) {
   EXPECT_TRUE(u.scaled_nail_error <= 1e-9);
   EXPECT_EQ(session.constraints().size(), 3u) << "what is saved has all nails";
   const SessionUpdate released = session.release();
-  EXPECT_NE(released.message.find("left out: 'box' at its impact 40"), std::string::npos) << released.message;
+  EXPECT_NE(released.message.find("ignores: 'box' at its impact 40"), std::string::npos) << released.message;
   session.nailAsItIs("box", 0.6);
   EXPECT_EQ(session.nails().size(), 3u);
   expectSameAgain(session, scene);
@@ -48,7 +48,7 @@ TEST(SessionNails, OneThatTheMotionLacksIsLeftOutAndNamed) {
 TEST(SessionNails, AtAnImpactTheTimeIsWhereItIsNow) {
   BoxSession s;
   EditSession& session = s.session;
-  session.nail("box", nthImpact(1, "floor"), {.position = Vec3(0.9, any, any)});
+  session.nail("box", nthImpact(1, "floor"), {.position = WantedVector(0.9, any, any)});
   ASSERT_TRUE(session.last().reached) << session.last().message;
   const double before = session.nailStates()[0].time;
   EXPECT_EQ(before, session.motion().events[0].time);
@@ -60,7 +60,7 @@ TEST(SessionNails, AtAnImpactTheTimeIsWhereItIsNow) {
   EXPECT_GT(std::abs(state.time - before), 1e-3);
 }
 
-TEST(SessionNails, OffTheyAreKeptAndNotHeld) {
+TEST(SessionNails, OffTheyAreKeptAndNotConstrained) {
   BoxSession s;
   EditSession& session = s.session;
   const NailId nail = session.nail("box", 0.6, {.position = placeOf(session, 0.6)});
@@ -97,9 +97,9 @@ TEST(SessionNails, GoalsThatAreNotMetBeginOffAndAreMetTogether) {
   SessionOptions options = withoutClock();
   options.unmet_nails_off = true;
   EditSession session(scene, contacts, 1.2, {velocity("box"), position("box")},
-                      {heldConstraint("box", 0.2, {.position = Vec3(early + Vec3(0.02, 0.01, 0))}),
-                       heldConstraint("box", 0.35, {.position = Vec3(late + Vec3(0, 0, 0.03))}),
-                       heldConstraint("box", 0.0, {.velocity = scene.bodies[1].velocity})},
+                      {nailConstraint("box", 0.2, {.position = Vec3(early + Vec3(0.02, 0.01, 0))}),
+                       nailConstraint("box", 0.35, {.position = Vec3(late + Vec3(0, 0, 0.03))}),
+                       nailConstraint("box", 0.0, {.velocity = scene.bodies[1].velocity})},
                       options);
   EXPECT_FALSE(session.canUndo());
   std::vector<NailState> states = session.nailStates();
@@ -130,23 +130,23 @@ TEST(SessionNails, AnotherTargetForTheSameNail) {
   const NailId nail = session.nailAsItIs("box", 0.3), other = session.nailAsItIs("box", 0.0);
   const Vec3 place = placeOf(session, 0.4) + Vec3(0, 0.05, 0);
   session.unnail(other);
-  session.setNail(nail, heldConstraint("box", 0.4, {.position = place}));
+  session.setNail(nail, nailConstraint("box", 0.4, {.position = place}));
   EXPECT_TRUE(session.last().reached) << session.last().message;
   EXPECT_TRUE((placeOf(session, 0.4) - place).norm() <= 1e-9);
   EXPECT_EQ(session.nails(), std::vector<NailId>{nail});
   EXPECT_EQ(session.constraintOf(nail).targets.size(), 1u);
   EXPECT_EQ(session.undoName(), "change of the nail of 'box' at 0.3 s");
   const Scene moved = session.scene();
-  EXPECT_THROW(session.setNail(other, heldConstraint("box", 0.4, {.position = place})), InputError);
-  EXPECT_THROW(session.setNail(nail, heldConstraint("hat", 0.4, {.position = place})), InputError);
-  EXPECT_THROW(session.setNail(nail, heldConstraint("box", 7.0, {.position = place})), InputError);
+  EXPECT_THROW(session.setNail(other, nailConstraint("box", 0.4, {.position = place})), InputError);
+  EXPECT_THROW(session.setNail(nail, nailConstraint("hat", 0.4, {.position = place})), InputError);
+  EXPECT_THROW(session.setNail(nail, nailConstraint("box", 7.0, {.position = place})), InputError);
   EXPECT_TRUE(sameScene(session.scene(), moved));
   session.undo();
   EXPECT_EQ(session.constraintOf(nail).at.time, 0.3);
   session.setNailOn(nail, false);
-  session.setNail(nail, heldConstraint("box", 0.1, {.position = Vec3(5, 5, 5)}));
+  session.setNail(nail, nailConstraint("box", 0.1, {.position = Vec3(5, 5, 5)}));
   EXPECT_FALSE(session.last().moved) << "it is off";
-  EXPECT_THROW(session.setNail(nail, heldConstraint("box", 0.1, {})), InputError);
+  EXPECT_THROW(session.setNail(nail, nailConstraint("box", 0.1, {})), InputError);
   expectSameAgain(session, s.scene);
 }
 
@@ -154,7 +154,7 @@ TEST(SessionNails, OneIsDraggedAndStaysWhereItGotTo) {
   BoxSession s;
   EditSession& session = s.session;
   const Vec3 held = placeOf(session, 0.5);
-  const NailId nail = session.nail("box", 0.5, {.position = Vec3(held.x(), any, held.z())});
+  const NailId nail = session.nail("box", 0.5, {.position = WantedVector(held.x(), any, held.z())});
   session.grabNail(nail);
   EXPECT_TRUE(session.isGrabbed());
   EXPECT_EQ(session.undoName(), "drag of the nail of 'box' at 0.5 s");
@@ -216,7 +216,7 @@ TEST(SessionNails, WhatADraggedNailHoldsBesidesItsPlaceIsKept) {
   session.vary(position("box"), orientation("box"));
   const BodyState at = session.motion().stateAt("box", 0.3);
   const NailId nail = session.nail(
-      "box", 0.3, {.position = at.position, .orientation = at.orientation, .velocity = Vec3(at.velocity)});
+      "box", 0.3, {.position = at.position, .orientation = at.orientation, .velocity = WantedVector(at.velocity)});
   session.grabNail(nail);
   const Quat turned = Quat(Eigen::AngleAxisd(0.2, Vec3::UnitZ())) * at.orientation;
   const SessionUpdate u = session.dragTo(at.position + Vec3(0.05, 0.02, 0), turned);
@@ -244,11 +244,11 @@ TEST(SessionNails, WhichCannotBeDragged) {
   };
   const BodyState at = session.motion().stateAt("box", 0.3);
   refused({4}, "not there");
-  refused(session.nail("box", 0.3, {.velocity = Vec3(at.velocity)}), "holds no place");
-  Constraint seen = heldConstraint("box", 0.3, {.position = Vec3(at.position)});
+  refused(session.nail("box", 0.3, {.velocity = WantedVector(at.velocity)}), "without a position");
+  Constraint seen = nailConstraint("box", 0.3, {.position = Vec3(at.position)});
   seen.relative_to = "floor";
-  refused(session.nail(seen), "seen from 'floor'");
-  seen = heldConstraint("box", between(0.25, 0.35), {.position = Vec3(at.position.x(), any, any)});
+  refused(session.nail(seen), "relative to 'floor'");
+  seen = nailConstraint("box", between(0.25, 0.35), {.position = WantedVector(at.position.x(), any, any)});
   refused(session.nail(seen), "some time of a span");
 }
 

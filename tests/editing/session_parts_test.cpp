@@ -52,7 +52,7 @@ TEST(SessionParts, BodiesThatCountAreThoseThatMetBefore) {
   const Scene scene = rowOfBalls();
   OdeContacts contacts(scene);
   const EditProblem problem(scene, contacts, 1.0, allVelocities(scene),
-                            {heldConstraint("hit", 0.5, {.position = Vec3(0, 0, 1)})});
+                            {nailConstraint("hit", 0.5, {.position = Vec3(0, 0, 1)})});
   EditPointPtr point = pointAt(problem, Eigen::VectorXd::Zero(problem.unknowns()), 1.0, true);
   EXPECT_EQ(bodiesThatCount(problem, *point),
             (std::vector<bool>{false, true, true, false, false, false, false, false, false}));
@@ -60,7 +60,7 @@ TEST(SessionParts, BodiesThatCountAreThoseThatMetBefore) {
   EXPECT_TRUE(bodiesThatCount(problem, *point)[3]);
 
   const EditProblem earlier(scene, contacts, 1.0, allVelocities(scene),
-                            {heldConstraint("hit", 0.05, {.position = Vec3(0, 0, 1)})});
+                            {nailConstraint("hit", 0.05, {.position = Vec3(0, 0, 1)})});
   point = pointAt(earlier, Eigen::VectorXd::Zero(earlier.unknowns()), 1.0, true);
   EXPECT_FALSE(bodiesThatCount(earlier, *point)[1]) << "they had not met by then";
 }
@@ -68,7 +68,7 @@ TEST(SessionParts, BodiesThatCountAreThoseThatMetBefore) {
 TEST(SessionParts, APartHasTheUnknownsOfTheWhole) {
   const Scene scene = rowOfBalls();
   OdeContacts contacts(scene);
-  const std::vector<Constraint> held{heldConstraint("hit", 0.5, {.position = Vec3(0, 0, 1)})};
+  const std::vector<Constraint> held{nailConstraint("hit", 0.5, {.position = Vec3(0, 0, 1)})};
   const EditProblem whole(scene, contacts, 1.0, allVelocities(scene), held);
   ScenePart part = scenePart(whole, {false, false, true, false, false, true, false, false, false});
   EXPECT_EQ(part.moving, 2);

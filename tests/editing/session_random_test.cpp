@@ -57,7 +57,7 @@ class RestlessPerson {
   Vec3 near(const Vec3& place) { return place + Vec3(within(0.2), within(0.1), within(0.2)); }
   Constraint somewhere() {
     const double t = time();
-    return heldConstraint(body_, t, {.position = near(session_.motion().stateAt(body_, t).position)});
+    return nailConstraint(body_, t, {.position = near(session_.motion().stateAt(body_, t).position)});
   }
   void note() { stopped_ += session_.last().stopped; }
 

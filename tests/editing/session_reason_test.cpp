@@ -86,7 +86,7 @@ TEST(SessionTurn, AsksForTheOrientationAlone) {
     EditSession session(scene, contacts, 1.2, withoutClock());
     session.vary(velocity("box"), angularVelocity("box"));
     // six numbers: with the place of an impact nailed, a turn that holds the place as well has nothing left
-    const NailId nail = session.nail("box", nthImpact(1, "floor"), {.position = Vec3(0.75, 0.15, any)});
+    const NailId nail = session.nail("box", nthImpact(1, "floor"), {.position = WantedVector(0.75, 0.15, any)});
     ASSERT_TRUE(session.last().reached);
     session.grab("box", 0.3, {.orientation = true, .place = false});
     const Quat turned = Quat(Eigen::AngleAxisd(0.25, Vec3(0.6, 0, 0.8))) * session.grabbedOrientation();
@@ -143,6 +143,23 @@ TEST(SessionFreedom, WhatNothingMovesIsFreedAndNothingElse) {
   EXPECT_TRUE(freed({elasticity("wood")}, "other", 0.1));
   EXPECT_FALSE(freed({gravity()}, "other", 0.1));
   EXPECT_FALSE(freed({velocity("other")}, "other", nthImpact(1, "floor")));
+}
+
+// The session that was asked whether anything moves the body goes on to drag it, by the components that are held.
+TEST(SessionFreedom, ComponentsThatAreFreeStayFree) {
+  const Scene scene = twoOnAFloor();
+  OdeContacts contacts(scene);
+  EditSession session(scene, contacts, 1.2, withoutClock());
+  session.setControls({velocity("box")});
+  Grip grip;
+  grip.components = {"x", "y"};
+  session.grab("box", 0.6, grip, {angularVelocity("box")}, AlsoVary::where_nothing_moves_it);
+  EXPECT_EQ(session.controls().size(), 1u);
+  const Vec3 to = session.grabbedPlace() + Vec3(0.02, 0.03, 1);
+  ASSERT_TRUE(session.dragTo(to).reached) << session.last().message;
+  const Vec3 off = session.grabbedPlace() - to;
+  EXPECT_TRUE(off.head<2>().norm() <= 1e-6) << off.transpose();
+  EXPECT_TRUE(std::abs(off.z()) > 0.5) << off.transpose();
 }
 
 }  // namespace

@@ -84,16 +84,16 @@ TEST(SessionRest, ANailHoldsWhereItStopsWheneverThatIs) {
   EXPECT_TRUE(session.dragTo(other).reached) << session.last().message;
   session.release();
   EXPECT_TRUE((s.end() - other).norm() <= 1e-9) << s.end().transpose();
-  session.setNail(nail, heldConstraint("stone", atRest(), {.position = Vec3(any, 0.5, any)}));
+  session.setNail(nail, nailConstraint("stone", atRest(), {.position = WantedVector(any, 0.5, any)}));
   EXPECT_TRUE(session.last().reached) << session.last().message;
   EXPECT_TRUE(std::abs(s.end().y() - 0.5) <= 1e-9) << s.end().transpose();
   expectSameAgain(session, s.scene);
 }
 
 TEST(SessionRest, WhatDoesNotComeToRestIsLeftOutAndNamed) {
-  Stone s(0, {heldConstraint("stone", atRest(), {.position = Vec3(1, any, any)})});
+  Stone s(0, {nailConstraint("stone", atRest(), {.position = WantedVector(1, any, any)})});
   EditSession& session = s.session;
-  EXPECT_NE(session.last().message.find("left out: 'stone' at rest."), std::string::npos) << session.last().message;
+  EXPECT_NE(session.last().message.find("ignores: 'stone' at rest."), std::string::npos) << session.last().message;
   const NailState state = session.nailStates()[0];
   EXPECT_TRUE(!state.available && std::isnan(state.time));
   EXPECT_EQ(state.message, "'stone' does not come to rest.");

@@ -45,9 +45,9 @@ int playAndStop(StoppedSession& s, const std::string& body, double t, const Vec3
     session.release(soon(150)), note();
   }
   const NailId nail = session.nail(
-      heldConstraint(body, t, {.position = session.motion().stateAt(body, t).position + 0.3 * by}), soon(40));
+      nailConstraint(body, t, {.position = session.motion().stateAt(body, t).position + 0.3 * by}), soon(40));
   note();
-  session.setNail(nail, heldConstraint(body, 0.9 * t, {.position = session.motion().stateAt(body, t).position}),
+  session.setNail(nail, nailConstraint(body, 0.9 * t, {.position = session.motion().stateAt(body, t).position}),
                   soon(40));
   note();
   session.meetNails(soon(40)), note();

@@ -10,7 +10,7 @@
 #include "editing/edit.h"
 #include "editing/problem/hessian.hpp"
 #include "editing/problem/jacobian.hpp"
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 #include "tests/editing/scenes.h"
 #include "tests/editing/shape_regions.h"
 

@@ -24,7 +24,7 @@ struct StopAfter {
 };
 
 /// Collision detection that counts motions.
-class StoppingContacts final : public ContactSource {
+class StoppingContacts : public ContactSource {
  public:
   StoppingContacts(ContactSource& inner, StopAfter& stop) : inner_(inner), stop_(stop) {}
   StoppingContacts(std::unique_ptr<ContactSource> own, StopAfter& stop)
@@ -51,7 +51,7 @@ class StoppingContacts final : public ContactSource {
                                                    Arc& arc_b, double from, double until) override {
     return inner_.firstImpactBeside(a, b, held, arc_a, arc_b, from, until);
   }
-  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,
+  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const PersistentFeatures> held, Arc& arc_a,
                                                      Arc& arc_b, double from, double until) override {
     return inner_.firstImpactOnGround(a, b, held, arc_a, arc_b, from, until);
   }

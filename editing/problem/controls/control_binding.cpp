@@ -52,7 +52,7 @@ ControlOwner findOwner(Scene& scene, const Control& control, const ControlKind& 
   }
   if (must_be_free && scene.bodies[owner.body].kinematic) {
     throw InputError(where + "/body", std::string(kind.word) + " cannot vary: body '" + control.body +
-                                          "' is kinematic, expected a body that impacts move");
+                                          "' is kinematic, expected a dynamic body");
   }
   if (kind.owner == OwnerKind::impact) {
     if (control.impact < 1) {
@@ -108,7 +108,7 @@ BoundControl bindControl(Scene& scene, const Control& control, const std::string
 std::vector<int> varyingSlots(const Scene& scene, const BoundControl& bound, const std::string& where) {
   const std::vector<std::string> names = bound.kind->components(scene, bound.owner);
   if (names.empty()) {
-    throw InputError(where, describe(bound.control) + " has no number that could vary");
+    throw InputError(where, describe(bound.control) + " has no parameter that can vary");
   }
   std::set<int> slots;
   for (const std::string& wanted : bound.control.components) {

@@ -22,7 +22,7 @@ inline std::vector<std::string> oneComponent(const Scene&, const ControlOwner&) 
 inline Eigen::VectorXd oneNumber(double value) { return Eigen::VectorXd::Constant(1, value); }
 
 /// Functions of a kind whose numbers are a field of the scene: kField(scene, owner) refers to it in a scene, kRate to
-/// its place in a derivative by the scene.
+/// its place in a derivative with respect to scene parameters.
 template <auto kField, auto kRate = kField>
 struct FieldNumbers {
   static Eigen::VectorXd get(const Scene& scene, const ControlOwner& o) { return asVector(kField(scene, o)); }

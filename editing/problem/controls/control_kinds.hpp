@@ -35,7 +35,7 @@ struct ControlKind {
   Eigen::VectorXd (*get)(const Scene&, const ControlOwner&);
   /// Writes values into `scene`, a copy of `start`.
   void (*set)(const Eigen::VectorXd& values, const Scene& start, const ControlOwner&, Scene& scene);
-  /// Derivative by the values (at `values`) from the derivative by the fields of the scene; and its adjoint.
+  /// Derivative with respect to the values (at `values`) from that with respect to scene parameters; and its adjoint.
   Eigen::VectorXd (*gather)(const SceneGradient&, const ControlOwner&, const Eigen::VectorXd& values);
   void (*scatter)(const Eigen::VectorXd& rates, const ControlOwner&, const Eigen::VectorXd& values, SceneTangent&);
   /// Natural scale of a change; of a logarithmic kind, of its logarithm.

@@ -204,6 +204,13 @@ Eigen::VectorXd ControlSet::valuesOf(const Eigen::VectorXd& changes) const {
   return values;
 }
 
+Eigen::VectorXd ControlSet::changesOf(const Eigen::VectorXd& values) const {
+  checkSize("changesOf", values, size());
+  Eigen::VectorXd changes(size());
+  for (int i = 0; i < size(); ++i) changes[i] = changeOf(variables_[i], values[i]);
+  return changes;
+}
+
 Eigen::VectorXd ControlSet::valueRates(const Eigen::VectorXd& changes) const {
   checkSize("valueRates", changes, size());
   Eigen::VectorXd rates(size());

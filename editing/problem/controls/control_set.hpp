@@ -56,7 +56,7 @@ class ControlSet {
   Eigen::VectorXd startValues() const;
   Scene sceneAt(const Eigen::VectorXd& values) const;
 
-  /// d(quantity)/d(values) at `values` from the derivative by the fields of the scene; and its adjoint.
+  /// d(quantity)/d(values) at `values` from the derivative with respect to scene parameters; and its adjoint.
   Eigen::VectorXd gather(const SceneGradient& gradient, const Eigen::VectorXd& values) const;
   SceneTangent scatter(const Eigen::VectorXd& rates, const Eigen::VectorXd& values) const;
   /// How `gather` changes, at one and the same gradient, as the values change at `rates`.
@@ -64,6 +64,8 @@ class ControlSet {
                              const Eigen::VectorXd& rates) const;
 
   Eigen::VectorXd valuesOf(const Eigen::VectorXd& changes) const;
+  /// The inverse, of values within the bounds and beyond; -infinity where a logarithm has none.
+  Eigen::VectorXd changesOf(const Eigen::VectorXd& values) const;
   /// d(values)/d(changes), a diagonal.
   Eigen::VectorXd valueRates(const Eigen::VectorXd& changes) const;
   /// d^2(values)/d(changes)^2, each by its own change.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Controls of what a body is: mass, principal moments, the dimensions of its shape.
 //
-// A derivative by one number holds all others as written, so the number that varies must itself be written: a body
+// A derivative with respect to one number holds all others as written, so the number that varies must itself be written: a body
 // given by density becomes one given by mass before its mass varies, a derived inertia becomes three written moments
 // before they vary. The motion at the start is the same. What a size moves and is not written (mass by density, derived
 // moments, the shape's own centre of mass) moves along.

@@ -2,7 +2,7 @@
 // Controls of how things start to move: position, orientation, velocity, angular velocity; and gravity.
 //
 // Orientation is a world rotation vector u applied on the left of the written orientation: R = exp([u]x) R_written. Its
-// start is 0. A change of u turns the body by theta = J_l(u) du, so that the derivative by u is J_l(u)^T theta_bar.
+// start is 0. A change of u turns the body by theta = J_l(u) du, so that the derivative with respect to u is J_l(u)^T theta_bar.
 
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/numeric/so3_rates.hpp"

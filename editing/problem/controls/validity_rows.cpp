@@ -19,6 +19,12 @@ ValidityRows::ValidityRows(const ControlSet& controls) {
   }
 }
 
+std::string ValidityRows::describe(const ControlSet& controls, int index) const {
+  const Row& row = rows_[static_cast<std::size_t>(index)];
+  const std::string of = " of " + editing_detail::describe(controls.controls()[static_cast<std::size_t>(row.control)].control);
+  return row.moment < 0 ? "cone" + of : "triangle inequality" + of + ", " + "xyz"[row.moment];
+}
+
 double ValidityRows::value(const Row& row, const Eigen::VectorXd& slots) {
   if (row.moment < 0) return 1 - slots.squaredNorm() / row.scale;
   return (slots.sum() - 2 * slots[row.moment]) / row.scale;

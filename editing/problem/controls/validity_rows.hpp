@@ -22,6 +22,9 @@ class ValidityRows {
   explicit ValidityRows(const ControlSet& controls);
 
   int size() const { return static_cast<int>(rows_.size()); }
+  /// Index of the control of a row, and what it demands: "triangle inequality of inertia of 'hat', Ixx", "cone of ...".
+  int control(int row) const { return rows_[static_cast<std::size_t>(row)].control; }
+  std::string describe(const ControlSet& controls, int row) const;
   Eigen::VectorXd evaluate(const ControlSet& controls, const Eigen::VectorXd& values) const;
   /// By the control values, size() x controls.size().
   Eigen::MatrixXd jacobian(const ControlSet& controls, const Eigen::VectorXd& values) const;

@@ -72,9 +72,12 @@ SceneGradient EventBars::gradient() const {
   }
   pass_.impact().betweenPullback(between, bars);
   SceneGradient direct = direct_;
+  std::vector<BodyModelDerivative> models(motion_.scene->bodies.size());
+  for (std::size_t i = 0; i < bars.model.size(); ++i)
+    models[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    pass_.contactPullback(k, bars.contact[k], bars.pair[k], bars.before, direct);
-    pass_.scatter(pass_.parts()[k], contacts_[k], bars.before, direct);
+    pass_.contactPullback(k, bars.contact[k], bars.pair[k], bars.before, direct, models);
+    pass_.scatter(pass_.parts()[k], contacts_[k], bars.before, direct, models);
   }
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     seeds[i].center_of_mass += bars.before[i].x;
@@ -82,11 +85,8 @@ SceneGradient EventBars::gradient() const {
   }
 
   SceneGradient g = adjoint(tape_, seeds);
-  for (std::size_t i = 0; i < bars.model.size(); ++i) {
-    const auto b = static_cast<std::size_t>(event_.participants[i].body);
-    if (!bars.model[i].isZero())
-      modelPullback(motion_.scene->bodies[b], (*motion_.models)[b], bars.model[i], g.bodies[b]);
-  }
+  for (std::size_t b = 0; b < models.size(); ++b)
+    if (!models[b].isZero()) modelPullback(motion_.scene->bodies[b], (*motion_.models)[b], models[b], g.bodies[b]);
   for (std::size_t i = 0; i < direct.tilts.size(); ++i) g.tilts[i] += direct.tilts[i];
   for (std::size_t i = 0; i < direct.materials.size(); ++i) {
     g.materials[i].elasticity += direct.materials[i].elasticity;

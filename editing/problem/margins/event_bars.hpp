@@ -13,7 +13,7 @@ namespace carom::editing_detail {
 using namespace adjoint_detail;
 
 /// d of a number by what is known just before an event: poses, velocities and spins of its bodies, contact geometry,
-/// mass properties and coefficients. `gradient` turns it into the derivative by every number of the scene.
+/// mass properties and coefficients. `gradient` turns it into the derivative with respect to all scene parameters.
 class EventBars {
  public:
   /// `tape` must outlive it.

@@ -59,7 +59,7 @@ class MarginReader {
     EventMargin m = start(Way::order, event);
     m.value = second.time - first.time;
     m.gradient = timeGradient(next) - timeGradient(event);
-    m.what = name(event, 0, second.time) + " and " + name(next, 0, first.time) + " change places";
+    m.what = name(event, 0, second.time) + " and " + name(next, 0, first.time) + " change order";
     margins_.push_back(std::move(m));
   }
 
@@ -73,7 +73,7 @@ class MarginReader {
       m.what = name(event, 0) + " comes after the end of the motion";
     } else {
       m.what = name(event, 0, instant.time) + (m.value >= 0 ? " comes after " : " comes before ") +
-               briefBeside(instant.time, e.time) + " s, when it is read";
+               briefBeside(instant.time, e.time) + " s (the time of a constraint)";
     }
     margins_.push_back(std::move(m));
   }
@@ -166,7 +166,7 @@ class MarginReader {
     bars.addContact(k, Vec7::Unit(0));
     EventMargin m = start(Way::parts, event);
     m.gradient = gradientOf(bars);
-    m.what = "the contacts of " + name(event, k) + " no longer come at one instant";
+    m.what = "the contacts of " + name(event, k) + " are no longer simultaneous";
     margins_.push_back(std::move(m));
   }
 

@@ -10,7 +10,7 @@
 /// How far the impacts of a motion are from being others. Internal to editing/.
 namespace carom::editing_detail {
 
-/// One way in which the impacts of a motion can change: a number that is 0 where they do, with its derivative by the
+/// One way in which the impacts of a motion can change: a number that is 0 where they do, with its derivative with respect to the
 /// changes of an edit. To first order that is |value| / |gradient| away.
 struct EventMargin {
   enum class Way {
@@ -42,7 +42,7 @@ struct ReadInstant {
 };
 
 /// The margins of the first `count` events, of the order up to the one after them, and of all events to the instants.
-/// `byChanges` turns a derivative by the numbers of the scene into that by the changes. Left out are bodies, and parts
+/// `byChanges` turns a derivative with respect to scene parameters into that with respect to the changes. Left out are bodies, and parts
 /// of a compound, that nothing meets as it is and something would meet then.
 std::vector<EventMargin> eventMargins(DerivativeTape& tape, std::size_t count, const std::vector<ReadInstant>& instants,
                                       const std::function<Eigen::VectorXd(const SceneGradient&)>& byChanges);

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 
 /// Internal to editing/.
 namespace carom::editing_detail {

@@ -20,9 +20,9 @@ namespace {
 void check(const RowReading& reading, const Motion& motion, const std::string& where) {
   if (!std::isfinite(reading.value))
     throw InputError(where, "found the value " + number(reading.value) +
-                                ", expected a finite number, or in `missing` why there is none");
+                                ", expected a finite number, or the reason in `missing`");
   if (reading.seeds.empty() && reading.doubt.empty())
-    throw InputError(where, "found no seeds, expected the derivative, or in `doubt` why there is none");
+    throw InputError(where, "found no seeds, expected the derivative, or the reason in `doubt`");
   for (const StateSeed& seed : reading.seeds) checkSeed(where.c_str(), motion, seed);
 }
 
@@ -45,7 +45,7 @@ BoundFunction::BoundFunction(const Scene& scene, const MotionFunction& f, double
     : function(f), where(std::move(place)), end(duration) {
   if (f.name.empty()) throw InputError(where, "found no name, expected one for messages");
   where += " '" + f.name + "'";
-  if (!f.read) throw InputError(where, "found no function, expected one that reads the motion");
+  if (!f.read) throw InputError(where, "found no function, expected one of the motion");
   if (!(f.scale > 0 && std::isfinite(f.scale)))
     throw InputError(where + "/scale", "found " + number(f.scale) + ", expected a number > 0");
   if (!f.until) return;

@@ -6,35 +6,20 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/seed.hpp"
-#include "adjoint/motion/guard.hpp"
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/instants.hpp"
+#include "editing/problem/rows/pose_seeds.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-Pose poseAt(const Motion& motion, int body, const Instant& at) {
-  return shapePose(motion, body, readPlace(motion, body, at).state);
-}
 DistanceReading placeAt(const Motion& motion, int a, int b, const Instant& at) {
   DistanceReading d;
   d.a = a, d.b = b, d.at = at;
   d.time = timeOf(motion, at);
   d.geometry = motion.geometry;
-  d.pose_a = poseAt(motion, a, at), d.pose_b = poseAt(motion, b, at);
+  d.pose_a = shapePoseAt(motion, a, at), d.pose_b = shapePoseAt(motion, b, at);
   return d;
-}
-
-using SizeRow = Eigen::Matrix<double, 7, Eigen::Dynamic>;
-
-StateSeed seedOf(int body, const Instant& at, const Eigen::Matrix<double, 1, 6>& by_pose, const SizeRow& by_size) {
-  StateSeed seed;
-  seed.size = by_size.row(0).transpose();
-  seed.body = body;
-  seed.at = at;
-  seed.center_of_mass = by_pose.head<3>().transpose();
-  seed.orientation = by_pose.tail<3>().transpose();
-  return seed;
 }
 
 using PoseRate = Eigen::Matrix<double, 12, 1>;
@@ -70,9 +55,6 @@ BodyRates inTime(const Motion& motion, int body, double time) {
 BodyRates alongControl(const BodyStateRate& d) {
   return {sixOf(d.center_of_mass, d.orientation), sixOf(d.velocity, d.angular_velocity)};
 }
-PairTangent alongBoth(const BodyStateRate& da, const BodyStateRate& db) {
-  return {both(alongControl(da).pose, alongControl(db).pose), da.size, db.size};
-}
 
 ContactJacobian nothing() {
   ContactJacobian J;
@@ -81,7 +63,7 @@ ContactJacobian nothing() {
 }
 
 std::vector<StateSeed> seedPair(const DistanceReading& d, const ContactJacobian& J) {
-  return {seedOf(d.a, d.at, J.pose.row(0).head<6>(), J.size_a), seedOf(d.b, d.at, J.pose.row(0).tail<6>(), J.size_b)};
+  return seedsOfPair(J, 0, d.a, d.b, d.at);
 }
 
 }  // namespace
@@ -89,7 +71,7 @@ std::vector<StateSeed> seedPair(const DistanceReading& d, const ContactJacobian&
 const BodyDistance& distancesOf(const Motion& motion) {
   const auto* distances = dynamic_cast<const BodyDistance*>(motion.geometry.get());
   if (!distances)
-    throw InputError("the source of contacts does not know how far bodies are from each other, expected one that does");
+    throw InputError("the contact source has no distances between bodies, expected one that has");
   return *distances;
 }
 
@@ -100,7 +82,7 @@ std::vector<StateSeed> DistanceReading::seeds() const {
 
 std::vector<StateSeed> DistanceReading::seedRates(const BodyStateRate& da, const BodyStateRate& db) const {
   if (!nearest.apart()) return seedPair(*this, nothing());
-  const std::array<PairTangent, 1> direction{alongBoth(da, db)};
+  const std::array<PairTangent, 1> direction{tangentOfPair(da, db)};
   return seedPair(*this, geometry->jacobianRates(a, b, nearest.features, pose_a, pose_b, direction)[0]);
 }
 
@@ -122,7 +104,7 @@ Eigen::VectorXd ClosestApproach::timeRate(DerivativeTape& tape, std::span<const 
   for (const ReadingDirection& control : controls) {
     const MotionTangent moved = tangent(tape, control.scene);
     const BodyStateRate da = moved.at(a, at), db = moved.at(b, at);
-    directions.push_back(alongBoth(da, db));
+    directions.push_back(tangentOfPair(da, db));
     accelerations.push_back(both(alongControl(da).velocity, alongControl(db).velocity));
   }
   const ContactJacobian J = geometry->jacobian(a, b, nearest.features, pose_a, pose_b);

@@ -20,7 +20,7 @@ using namespace adjoint_detail;
 /// The distance of two shapes at one instant of a motion, m; 0 where they touch or overlap. Its derivative is that of
 /// the gap of the features that are nearest (the way along which these move on the shapes does not count, as the
 /// distance is the least of all), so that
-///   d distance = n . (velocity of the place on a - velocity of the place on b) + its rates by the dimensions.
+///   d distance = n . (velocity of the place on a - velocity of the place on b) + its rates with respect to the dimensions.
 struct DistanceReading {
   int a = -1, b = -1;  ///< bodies
   Instant at;

@@ -15,8 +15,11 @@ std::string quantityWords() {
   return listOf(words);
 }
 
+/// A NaN that somebody computed, not a number that is left free.
+bool isNotANumber(const TargetNumber& number) { return !number.isFree() && std::isnan(number); }
+
 void checkLimits(const Target& target, const QuantityKind& kind, const std::string& where) {
-  for (const std::vector<double>* limits : {&target.min, &target.max}) {
+  for (const std::vector<TargetNumber>* limits : {&target.min, &target.max}) {
     if (limits->empty()) continue;
     const char* word = limits == &target.min ? "/min" : "/max";
     if (kind.numbers == 4) throw InputError(where + word, "found a range of an orientation, expected a quaternion");
@@ -26,6 +29,7 @@ void checkLimits(const Target& target, const QuantityKind& kind, const std::stri
     }
     for (std::size_t i = 0; i < limits->size(); ++i) {
       if (std::isinf((*limits)[i])) throw InputError(where + word, "found an infinite number, expected a finite one");
+      if (isNotANumber((*limits)[i])) throw InputError(where + word, "found NaN, expected a number, or `any` for no limit");
       if (!std::isnan((*limits)[i]) && !std::isnan(target.value[i])) {
         throw InputError(where + word, "found a limit of a component that has a target, expected one of the two");
       }
@@ -46,7 +50,7 @@ bool hasLimit(const Target& target, std::size_t component) {
 }
 
 void checkPositive(const Target& target, const QuantityKind& kind, const std::string& where) {
-  const auto check = [&](const std::vector<double>& numbers, const std::string& place) {
+  const auto check = [&](const std::vector<TargetNumber>& numbers, const std::string& place) {
     if (numbers.empty() || std::isnan(numbers[0]) || numbers[0] > 0) return;
     throw InputError(place, "found " + number(numbers[0]) + ", expected more than 0 " + kind.unit +
                                 (findQuantityKind("speed") == &kind ? "; what is at rest has a velocity of [0, 0, 0]" : ""));
@@ -64,8 +68,10 @@ void checkNumbers(const Target& target, const QuantityKind& kind, const std::str
   for (std::size_t i = 0; i < target.value.size(); ++i) {
     const double value = target.value[i];
     if (std::isinf(value)) throw InputError(where, "found an infinite number, expected a finite one");
+    if (isNotANumber(target.value[i]))
+      throw InputError(where, "found NaN, expected a number, or `any` for a component that is free");
     if (kind.all_or_nothing && std::isnan(value) && !hasLimit(target, i)) {
-      throw InputError(where, "found NaN, expected a number: a component of this cannot be left free");
+      throw InputError(where, "found a free component, expected a number: a component of this cannot be left free");
     }
   }
   if (kind.positive) checkPositive(target, kind, where);
@@ -105,12 +111,15 @@ void checkWanted(const Target& target, const std::string& where) {
 void checkBody(const QuantityKind& kind, const Body& body, const Constraint& constraint, const std::string& where) {
   if (kind.by_mass && body.immovable())
     throw InputError(where + "/body", std::string("found the ") + (body.fixed ? "fixed" : "kinematic") + " body '" +
-                                          body.name + "', expected one that impacts move: others have no " + kind.word);
+                                          body.name + "', expected a dynamic one: others have no " + kind.word);
   if (kind.of_shape && kindOf(body.shape).endless)
-    throw InputError(where + "/body", "found the endless body '" + body.name + "', expected one with a lowest point");
+    throw InputError(where + "/body", "found the unbounded body '" + body.name + "', expected one with a lowest point");
+  if (body.fixed && constraint.relative_to.empty() && !kind.to_another)
+    throw InputError(where + "/body", "found the fixed body '" + body.name +
+                                          "', expected one that moves: nothing changes the " + kind.word + " of others");
   if (!kind.from_another && !constraint.relative_to.empty())
     throw InputError(where + "/relative_to", "found '" + constraint.relative_to + "' beside " + kind.word +
-                                                 ", expected none: it is of the body itself, in the world");
+                                                 ", expected none: this quantity is always that of the body itself, in the world");
 }
 
 int checkedOther(const QuantityKind& kind, const Target& target, const Scene& scene, const std::string& body,
@@ -139,7 +148,7 @@ void checkSpan(const std::pair<double, double>& span, const std::string& where) 
 void checkComesToRest(const Body& body, const std::string& where) {
   if (!body.immovable()) return;
   throw InputError(where, std::string("found the ") + (body.fixed ? "fixed" : "kinematic") + " body '" + body.name +
-                              "' held at rest, expected one that impacts move: others never come to rest");
+                              "' constrained at rest, expected a dynamic one: others never come to rest");
 }
 
 void checkWhen(const When& at, const std::string& where) {

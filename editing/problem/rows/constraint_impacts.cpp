@@ -26,10 +26,10 @@ void ConstraintSet::bindImpacts(const Scene& scene, int index, const std::string
   Bound& bound = bound_[index];
   const bool holds_more = !constraint.targets.empty() || !constraint.regions.empty();
   if (constraint.hits && holds_more)
-    throw InputError(where + "/hits", "found other things to hold beside it, expected a constraint of its own");
+    throw InputError(where + "/hits", "found other targets beside it, expected a constraint of its own");
   if (!constraint.sequence.empty()) {
     if (constraint.hits || holds_more)
-      throw InputError(where + "/sequence", "found other things to hold beside it, expected a constraint of its own");
+      throw InputError(where + "/sequence", "found other targets beside it, expected a constraint of its own");
     bound.sequence.emplace(scene, constraint.sequence, where + "/sequence");
     constraint.body = scene.bodies[bound.sequence->body()].name;
   }
@@ -58,6 +58,17 @@ std::optional<Instant> ConstraintSet::awaited(const Motion& motion, int index) c
   if (!bound.sequence && !bound.hit) return findInstant(motion, bound.body, constraints_[index].at, bound.with);
   const std::optional<int> event = bound.sequence ? bound.sequence->find(motion) : bound.hit->find(motion);
   return event ? std::optional(Instant::before(*event)) : std::nullopt;
+}
+
+std::optional<double> ConstraintSet::timeOfAwaited(const Motion& motion, int index) const {
+  const std::optional<Instant> instant = awaited(motion, index);
+  return instant ? std::optional(timeOf(motion, *instant)) : std::nullopt;
+}
+
+bool ConstraintSet::hasAllAwaited(const Motion& motion) const {
+  for (int i = 0; i < static_cast<int>(constraints_.size()); ++i)
+    if (waitsForEvent(i) && !awaited(motion, i)) return false;
+  return true;
 }
 
 LackingImpact ConstraintSet::lacking(const Motion& motion, int index) const {

@@ -88,9 +88,10 @@ void ConstraintSet::readRow(int i, const Reading& reading, RowValues& out) const
 RowReading ConstraintSet::readMotionQuantity(const Reading& reading, int i) const {
   const Row& row = rows_[i];
   const Bound& bound = bound_[row.constraint];
-  return row.kind->read(
-      {*reading.motion, bound.body, bound.relative_to, reading.instant, reading.time, row.scale,
-       bound.to[row.target_index]});
+  QuantityPlace place{*reading.motion, bound.body, bound.relative_to, reading.instant, reading.time, row.scale};
+  if (row.target_index >= 0) place.to = bound.to[row.target_index];
+  place.component = row.component, place.with = bound.with;
+  return row.kind->read(place);
 }
 
 RowReading ConstraintSet::readOverSpan(const Motion& motion, int i) const {
@@ -267,18 +268,18 @@ double ConstraintSet::missAt(const Motion& motion, int index, double time) const
   return sum;
 }
 
-std::vector<HeldTime> ConstraintSet::heldTimes(const Motion& motion, const Eigen::VectorXd& times) const {
-  std::vector<HeldTime> held;
+std::vector<ConstrainedTime> ConstraintSet::constrainedTimes(const Motion& motion, const Eigen::VectorXd& times) const {
+  std::vector<ConstrainedTime> found;
   for (std::size_t k = 0; k < constraints_.size(); ++k) {
     const int index = static_cast<int>(k), free = bound_[k].free_time;
     if (free >= 0) {
       const FreeTime& span = free_times_[static_cast<std::size_t>(free)];
-      held.push_back({index, span.from, span.to, times[free]});
+      found.push_back({index, span.from, span.to, times[free]});
     } else if (constraints_[k].at.rest && bound_[k].at_instant) {
-      if (const auto rest = awaited(motion, index)) held.push_back({index, 0, motion.end, timeOf(motion, *rest)});
+      if (const auto rest = awaited(motion, index)) found.push_back({index, 0, motion.end, timeOf(motion, *rest)});
     }
   }
-  return held;
+  return found;
 }
 
 Eigen::VectorXd ConstraintSet::nearestTimes(const Motion& motion) const {

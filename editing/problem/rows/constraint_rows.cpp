@@ -16,10 +16,18 @@ namespace {
 
 constexpr double kNoTarget = std::numeric_limits<double>::quiet_NaN();
 
-double limitOf(const std::vector<double>& limits, int component, double none) {
+double limitOf(const std::vector<TargetNumber>& limits, int component, double none) {
   if (limits.empty()) return none;
   const double limit = limits[static_cast<std::size_t>(component)];
   return std::isnan(limit) ? none : limit;
+}
+
+/// What a target allows of the component of a row; false where that is anything.
+bool putWanted(const Target& target, const Vec3& wanted, Row& row) {
+  row.target = row.lower = row.upper = wanted[row.component];
+  if (!std::isnan(row.target)) return true;
+  row.lower = limitOf(target.min, row.component, -kInfinity), row.upper = limitOf(target.max, row.component, kInfinity);
+  return std::isfinite(row.lower) || std::isfinite(row.upper);
 }
 
 /// Of a ball about the centre of mass that holds the whole body.
@@ -35,6 +43,11 @@ ConstraintSet::ConstraintSet(const Scene& scene, const std::vector<Constraint>& 
   for (std::size_t i = 0; i < constraints.size(); ++i) bind(scene, static_cast<int>(i), duration);
   for (std::size_t i = 0; i < own.rows.size(); ++i) addOwnRow(scene, static_cast<int>(i), own.rows[i], duration);
   if (own.objective) objective_.emplace(scene, *own.objective, duration, "minimise");
+  sortRows();
+}
+
+void ConstraintSet::sortRows() {
+  equations_.clear(), ranges_.clear();
   for (int i = 0; i < size(); ++i) (rows_[i].isRange() ? ranges_ : equations_).push_back(i);
 }
 
@@ -46,6 +59,9 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
   bound.body = findAt(where + "/body", [&] { return bodyIndex(scene, constraint.body); });
   const When& at = constraint.at;
   checkWhen(at, where + "/at");
+  if (at.impact > 0 && scene.bodies[bound.body].fixed)
+    throw InputError(where + "/body", "found an impact of the fixed body '" + constraint.body +
+                                          "', expected a body that moves: impacts are counted by the bodies that move");
   if (at.rest) checkComesToRest(scene.bodies[bound.body], where + "/body");
   if (!at.with.empty()) bound.with = findAt(where + "/at/with", [&] { return bodyIndex(scene, at.with); });
   if (!constraint.relative_to.empty()) {
@@ -66,7 +82,7 @@ void ConstraintSet::bind(const Scene& scene, int index, double duration) {
     addRegionRows(scene, index, static_cast<int>(r), duration);
   }
   if (rows_.size() == first_row && !bound.hit && !bound.sequence)
-    throw InputError(where, "found no number to hold, expected at least one");
+    throw InputError(where, "found no target, expected at least one");
 }
 
 void ConstraintSet::bindTarget(const Scene& scene, int index, int target_index, double duration) {
@@ -94,11 +110,7 @@ void ConstraintSet::addTargetRows(const Scene& scene, int index, int target_inde
     row.name = kind.word;
     if (kind.rows > 1) row.name += std::string(".") + "xyz"[c];
     if (kind.to_another) row.name += " to '" + target.to + "'";
-    row.target = row.lower = row.upper = wanted[c];
-    if (std::isnan(wanted[c])) {
-      row.lower = limitOf(target.min, c, -kInfinity), row.upper = limitOf(target.max, c, kInfinity);
-      if (std::isinf(row.lower) && std::isinf(row.upper)) continue;  // left free
-    }
+    if (!putWanted(target, wanted, row)) continue;  // left free
     row.scale = kind.scale ? scales.*kind.scale : 1;
     if (kind.by_mass) row.scale *= modelOf(scene.bodies[bound_[index].body]).mass;
     rows_.push_back(std::move(row));
@@ -160,29 +172,32 @@ std::vector<bool> ConstraintSet::asksOrientation() const {
   return asks;
 }
 
-void ConstraintSet::setTarget(int index, int target_index, const std::vector<double>& value) {
-  Target& target = constraints_[index].targets[target_index];
-  Target moved = target;
-  moved.value = value;
-  const QuantityKind& kind = checkedKind(moved, constraints_[index].at, "/constraints/" + std::to_string(index));
-  for (std::size_t k = 0; k < value.size(); ++k) {
-    if (std::isnan(value[k]) == std::isnan(target.value[k])) continue;
-    throw InputError("/constraints/" + std::to_string(index) + "/" + target.quantity,
-                     "found other components free than before, expected the same ones");
+void ConstraintSet::setTarget(int index, int target_index, Target moved) {
+  const std::string where = "/constraints/" + std::to_string(index);
+  const QuantityKind& kind = checkedKind(moved, constraints_[index].at, where);
+  const Vec3 wanted = kind.target(moved);
+  const auto is_of_it = [&](const Row& row) { return row.constraint == index && row.target_index == target_index; };
+  int held = 0;
+  for (Row row; row.component < kind.rows; ++row.component) held += putWanted(moved, wanted, row);
+  std::vector<Row> rows = rows_;
+  for (Row& row : rows) {
+    if (!is_of_it(row)) continue;
+    --held;
+    if (!putWanted(moved, wanted, row)) held = -kind.rows;
   }
-  target = std::move(moved);
-  const Vec3 wanted = kind.target(target);
-  for (Row& row : rows_) {
-    if (row.constraint != index || row.target_index != target_index || row.isRange()) continue;
-    row.target = row.lower = row.upper = wanted[row.component];
-  }
+  if (held != 0)
+    throw InputError(where + "/" + moved.quantity, "found other components free than before, expected the same ones");
+  rows_ = std::move(rows);
+  constraints_[index].targets[target_index] = std::move(moved);
+  sortRows();
 }
 
 std::string ConstraintSet::describeConstraint(int index) const {
   const Constraint& constraint = constraints_[index];
   const When& at = constraint.at;
+  if (!constraint.sequence.empty()) return "the required sequence, up to \"" + constraint.sequence.back() + "\"";
   std::string text = "'" + constraint.body + "'";
-  if (!constraint.relative_to.empty()) text += " seen from '" + constraint.relative_to + "'";
+  if (!constraint.relative_to.empty()) text += " relative to '" + constraint.relative_to + "'";
   if (constraint.hits) return text + " when it hits '" + constraint.hits->with + "'";
   if (constraint.targets.empty()) return text;
   if (at.span) return text + " between " + number(at.span->first) + " s and " + number(at.span->second) + " s";

@@ -14,8 +14,8 @@
 #include "editing/problem/rows/bound_function.hpp"
 #include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
+#include "editing/problem/rows/required_impacts.hpp"
 #include "editing/problem/rows/shape_clearance.hpp"
-#include "editing/problem/rows/wished_impacts.hpp"
 #include "editing/wanted.h"
 
 namespace carom::editing_detail {
@@ -59,7 +59,7 @@ struct FreeTime {
 };
 
 /// When a constraint holds whose time the edit chooses, in a span, or the motion, at rest.
-struct HeldTime {
+struct ConstrainedTime {
   int constraint = -1;
   double from = 0, to = 0;  ///< s, in which it may hold
   double time = 0;          ///< s
@@ -76,12 +76,12 @@ struct RowNote {
 struct RowValues {
   bool available = true;      ///< false: some row does not exist in this motion
   std::string message;        ///< which, and why
-  std::vector<LackingImpact> lacking;  ///< impacts that were wished and are not there
+  std::vector<LackingImpact> lacking;  ///< impacts that were required and are not there
   Eigen::VectorXd times;      ///< of the free times, at which rows were read, s
   Eigen::VectorXd values;     ///< NaN where not available
   Eigen::VectorXd residuals;  ///< value - target; of a range how far outside, negative below it
   Eigen::VectorXd scaled;     ///< residual / scale
-  /// Derivative of each value by the states of bodies, a sum; empty where not available.
+  /// Derivative of each value with respect to the states of bodies, a sum; empty where not available.
   std::vector<std::vector<StateSeed>> seeds;
   std::vector<RowNote> notes;  ///< one a row
   std::optional<RowReading> objective;  ///< of one's own, where there is one and the motion has it
@@ -112,7 +112,7 @@ class ConstraintSet {
   RowValues evaluate(const Motion& motion, const Eigen::VectorXd& times) const;
   /// When constraints hold whose time is not given: those at some time of a span, and those at rest that the motion
   /// has.
-  std::vector<HeldTime> heldTimes(const Motion& motion, const Eigen::VectorXd& times) const;
+  std::vector<ConstrainedTime> constrainedTimes(const Motion& motion, const Eigen::VectorXd& times) const;
   /// For each free time one at which its constraint is most nearly met, among many.
   Eigen::VectorXd nearestTimes(const Motion& motion) const;
 
@@ -150,11 +150,15 @@ class ConstraintSet {
     double time = 0;
   };
   Extent extentIn(const Motion& motion, const Eigen::VectorXd& times = {}) const;
+  /// When a required impact happens, or a required sequence is complete; null where it does not. And whether all that is
+  /// waited for is there.
+  std::optional<double> timeOfAwaited(const Motion& motion, int constraint) const;
+  bool hasAllAwaited(const Motion& motion) const;
   /// Bodies whose orientation some row depends on directly.
   std::vector<bool> asksOrientation() const;
 
-  /// Puts other numbers in the place of one target, whose free components stay the same ones.
-  void setTarget(int constraint, int target, const std::vector<double>& value);
+  /// Puts other numbers and ranges in the place of one target, whose free components stay the same ones.
+  void setTarget(int constraint, int target, Target moved);
 
   /// "position.x of 'hat' at 1.4 s", "time of 'mug' at its impact 3 with 'floor'".
   std::string describeRow(int row) const;
@@ -192,6 +196,7 @@ class ConstraintSet {
   LackingImpact lacking(const Motion& motion, int constraint) const;
   const Target& targetOf(const Row& row) const;
   void addTargetRows(const Scene& scene, int index, int target);
+  void sortRows();
   void addOwnRow(const Scene& scene, int index, const OwnFunctions::Row& own, double duration);
   void addRegionRows(const Scene& scene, int index, int region, double duration);
   Reading read(const Motion& motion, int constraint, double free_time) const;

@@ -65,7 +65,7 @@ class LeastInTime {
       if (lowest >= best_.value - slack_ || !(middle > span.a.time && middle < span.b.time)) continue;
       if (halvings > kMostHalvings)
         throw NotComputable("it takes more than " + std::to_string(kMostHalvings) +
-                            " steps to see how near a body comes to the border of a region: it turns too fast");
+                            " steps to find the clearance of a body from the boundary of a region: it rotates too fast");
       if (halvings % kHalvingsOfSlack == 0) slack_ *= 2;
       const ValueInTime between = read_(middle);
       if (between.value < best_.value - same_) keep(wayDown(between));

@@ -4,6 +4,7 @@
 #include "adjoint/numeric/so3.hpp"
 #include "adjoint/numeric/so3_rates.hpp"
 #include "editing/problem/rows/closest_approach.hpp"
+#include "editing/problem/rows/contact_place.hpp"
 #include "editing/problem/rows/motion_quantities.hpp"
 
 namespace carom::editing_detail {
@@ -191,6 +192,19 @@ const QuantityKind kImpulse{
     .from_another = false,
     .unit = "N s",
 };
+const QuantityKind kContact{
+    .word = "contact",
+    .rows = 3,
+    .numbers = 3,
+    .only_at_events = true,
+    .of_rest = false,
+    .turns = true,
+    .scale = &NaturalScales::length,
+    .target = threeNumbers,
+    .read = readContactPlace,
+    .from_another = false,
+    .unit = "m",
+};
 const QuantityKind kHeight{
     .word = "height",
     .rows = 1,
@@ -237,7 +251,8 @@ const QuantityKind kClosestApproach{
 
 const QuantityKind* const kQuantityTable[] = {&kPosition, &kOrientation, &kVelocity,      &kAngularVelocity,
                                               &kTime,     &kPoint,       &kSpeed,         &kKineticEnergy,
-                                              &kImpulse,  &kHeight,      &kDistance,      &kClosestApproach};
+                                              &kImpulse,  &kContact,     &kHeight,        &kDistance,
+                                              &kClosestApproach};
 
 }  // namespace
 

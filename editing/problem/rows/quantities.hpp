@@ -27,14 +27,14 @@ struct QuantityKind {
   Vec3 (*target)(const Target&);
   /// Values of the rows, with the time at which the state is read.
   Vec3 (*value)(const BodyState&, double time, const Target&) = nullptr;
-  /// The row's derivative by the state (body and instant are filled in by the caller).
+  /// The row's derivative with respect to the state (body and instant are filled in by the caller).
   StateSeed (*seed)(const BodyState&, const Target&, int component) = nullptr;
   /// How that changes with the state; null where it does not.
   StateSeed (*seed_rate)(const BodyState&, const BodyStateRate&, const Target&, int component) = nullptr;
   /// Values are measured from the target: their own target is 0, and derivatives depend on where it is.
   bool from_target = false;
 
-  /// In place of `value` and `seed`: a single number that depends on more than the state, such as mass or shape.
+  /// In place of `value` and `seed`: one component of what depends on more than the state, such as mass or shape.
   RowReading (*read)(const QuantityPlace&) = nullptr;
   bool by_mass = false;      ///< its scale is that of a kilogram; the body must be one that impacts move
   bool positive = false;     ///< never below 0, and without a regular derivative at 0: targets and maxima lie above

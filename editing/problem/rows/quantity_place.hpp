@@ -15,6 +15,8 @@ struct QuantityPlace {
   double scale;  ///< of the row, see Row::scale
   int to = -1;   ///< the other body of a distance
   double from = 0, until = 0;  ///< s, of a quantity of a span
+  int component = 0;  ///< of a quantity of three numbers
+  int with = -1;      ///< at an impact: the body that is met; -1: any
 };
 
 }  // namespace carom::editing_detail

@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "adjoint/contact/contact_path.hpp"
 #include "editing/problem/rows/region_way.hpp"
 
 namespace carom::editing_detail {
 namespace {
+
+// A time that is counted from elsewhere is not exact: an end of the span is that end, and nothing lies beyond it.
+void putTime(PlaceOnWay& place, const Stretch& stretch, double from, double to) {
+  place.first = place.s == stretch.lo;
+  place.last = place.s == stretch.hi;
+  place.time = place.first ? from : place.last ? to : std::clamp(stretch.start + place.s, from, to);
+}
+
+// Of what is integrated no bound over a span is known but that of all its path, which is too wide to end the search where
+// the clearance hardly changes. It is looked at in so many spans first, and how its acceleration varies in one is taken
+// from the middle and the end of it, so many times over: chosen, not proved.
+constexpr int kSpans = 32;
+constexpr double kSafety = 4;
 
 // A slide round a bend keeps near to the parabola that it follows at the start of a span: no further off than half of
 // what its acceleration varies by, times the time squared. Spans that cannot hold the least are passed over, the
@@ -20,7 +34,8 @@ class CurvedWay {
     if (rowsOf(bound.region) == 1) return;
     // A face of a box is approached by what goes along its normal alone.
     const Vec3 normal = bound.region.orientation.normalized() * Vec3::Unit(component / 2);
-    share_ = adjoint_detail::alongFace<double>(arc.path()->inputs.normal, normal).norm();
+    normal_ = normal;
+    if (arc.closedForm()) share_ = adjoint_detail::alongFace<double>(arc.closedForm()->inputs.normal, normal).norm();
   }
 
   PlaceOnWay find() {
@@ -41,7 +56,7 @@ class CurvedWay {
   PlaceOnWay around(double time, double from, double to) const {
     const Stretch stretch = stretchAround(arc_, bound_.region, time, from, to);
     PlaceOnWay place = least(stretch, bound_, component_);
-    place.time = place.s == stretch.lo ? from : place.s == stretch.hi ? to : std::clamp(time + place.s, from, to);
+    putTime(place, stretch, from, to);
     return place;
   }
   PlaceOnWay at(double time) const { return around(time, time, time); }
@@ -49,13 +64,25 @@ class CurvedWay {
     if (place.value < best_.value) best_ = place;
   }
   double errorOf(const Span& span) const {
-    const adjoint_detail::ContactPath& path = *arc_.path();
-    const double from = path.elapsedAt(span.from), until = path.elapsedAt(span.to), time = until - from;
-    return 0.5 * share_ * adjoint_detail::pathBounds(path.form, path.inputs, from, until).variation * time * time;
+    const double time = span.to - span.from;
+    if (const adjoint_detail::ContactPath* path = arc_.closedForm()) {
+      const double from = path->elapsedAt(span.from), until = path->elapsedAt(span.to);
+      return 0.5 * share_ * adjoint_detail::pathBounds(path->form, path->inputs, from, until).variation * (until - from) * (until - from);
+    }
+    // how much the acceleration, or what of it goes along the normal, differs from that of the start
+    const Vec3 first = accelerationAt(arc_, span.from);
+    const auto change = [&](double t) {
+      const Vec3 by = accelerationAt(arc_, t) - first;
+      return normal_ ? std::abs(normal_->dot(by)) : by.norm();
+    };
+    return kSafety * 0.5 * std::max(change(span.from + 0.5 * time), change(span.to)) * time * time;
   }
 
   void search() {
-    std::vector<Span> spans{{from_, to_}};
+    std::vector<Span> spans;
+    const int count = arc_.closedForm() ? 1 : kSpans;
+    for (int i = count; i-- > 0;)
+      spans.push_back({from_ + (to_ - from_) * i / count, i + 1 == count ? to_ : from_ + (to_ - from_) * (i + 1) / count});
     while (!spans.empty()) {
       const Span span = spans.back();
       spans.pop_back();
@@ -86,19 +113,18 @@ class CurvedWay {
   const BoundRegion& bound_;
   int component_;
   double from_, to_, tolerance_ = 0, share_ = 1;
+  std::optional<Vec3> normal_;  // of the face
   PlaceOnWay best_;
 };
 
 }  // namespace
 
 PlaceOnWay leastOnArc(const Arc& arc, const BoundRegion& bound, int component, double from, double to) {
-  if (arc.path() && !arc.path()->bounds.straight && to > from)
+  if (!arc.isStraight() && to > from)
     return CurvedWay(arc, bound, component, from, to).find();
   const Stretch stretch = stretchAround(arc, bound.region, arc.start(), from, to);
   PlaceOnWay place = least(stretch, bound, component);
-  place.time = stretch.start + place.s;
-  place.first = place.s == stretch.lo;
-  place.last = place.s == stretch.hi;
+  putTime(place, stretch, from, to);
   return place;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adjoint/contact/contact_path.hpp"
 
 namespace carom::editing_detail {
 
@@ -98,9 +97,7 @@ PlaceOnWay leastToBox(const Stretch& stretch, const Vec3& half, double margin) {
 }  // namespace
 
 Vec3 accelerationAt(const Arc& arc, double t) {
-  const ContactPath* path = arc.path();
-  if (!path || path->bounds.straight) return arc.acceleration();
-  return pathRateAt(path->form, path->inputs, path->elapsedAt(t)).v;
+  return arc.isStraight() ? arc.acceleration() : arc.rateAt(t, arc.stateAt(t)).v;
 }
 
 PlaceOnWay least(const Stretch& stretch, const BoundRegion& bound, int component) {

@@ -30,7 +30,7 @@ struct Stretch {
   }
 };
 
-/// A clearance on the way, and its gradient by the place in the axes of the region.
+/// A clearance on the way, and its gradient with respect to the place in the axes of the region.
 struct PlaceOnWay {
   double value = std::numeric_limits<double>::infinity();
   double s = 0;  ///< after the start of the stretch

@@ -223,14 +223,14 @@ class InsideRow {
     const std::string name = "'" + motion_.scene->bodies[static_cast<std::size_t>(body_)].name + "'";
     const std::string when = " at t = " + number(out.time) + " s";
     if (!of.defined) {
-      reading.doubt = name + " is in the middle of the sphere that it stays inside" + when +
+      reading.doubt = name + " is at the centre of the sphere that it stays inside" + when +
                       ", where its clearance has no derivative";
       out.keeps = Clearance::Keeps::place;
       return;
     }
     const double size = kindOf(shape_).boundingRadius(shape_);
     if (!(of.farthest.margin > kReliableMargin * size))
-      reading.doubt = "several points of " + name + " are equally near to the border of a region" + when +
+      reading.doubt = "several points of " + name + " are equally near to the boundary of a region" + when +
                       ": the derivative of its clearance is one-sided, that of one of them";
     StateSeed seed = seedOfOutermost(of);
     seed.body = body_;

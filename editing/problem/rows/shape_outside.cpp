@@ -143,13 +143,13 @@ class OutsideRow {
     reading.second_order = true;
     const std::string when = " at t = " + number(out.time) + " s";
     if (!found.nearest.apart()) {
-      reading.doubt = name() + " is so deep in the middle of a region that it stays out of" + when +
+      reading.doubt = name() + " is so deep inside a region to avoid" + when +
                       " that no way out is the shortest, and its clearance has no derivative";
       out.keeps = Clearance::Keeps::place;
       return;
     }
     if (found.nearest.several)
-      reading.doubt = name() + " is as near to a region that it stays out of in several places" + when +
+      reading.doubt = name() + " is equally near to a region to avoid at several points" + when +
                       ", where the derivative of its clearance is one-sided";
     RegionSeparation separation{geometry_, shapePose(motion_, body_, readPlace(motion_, body_, at).state),
                           {region_.position, region_.orientation.toRotationMatrix()},

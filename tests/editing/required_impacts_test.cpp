@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Impacts that the start lacks: hits, wished sequences, rows at an impact that does not come yet.
+// Impacts that the start lacks: hits, required sequences, rows at an impact that does not come yet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ struct Table {
   Table() { edit.vary(velocity("cue").only({"x", "y"})); }
 };
 
-TEST(WishedImpacts, AHitFromAMiss) {
+TEST(RequiredImpacts, AHitFromAMiss) {
   Table t;
   t.edit.hit("cue", "yellow");
   const EditResult r = t.edit.solve();
@@ -88,7 +88,7 @@ TEST(WishedImpacts, AHitFromAMiss) {
 
 // Of all velocities v' that hit, the nearest to v sends the ball along a tangent: |v' - v| = |v| sin(a), with a the angle
 // between v and the line on which the balls just touch. On one side of it the ball misses.
-TEST(WishedImpacts, TheSmallestHitJustTouches) {
+TEST(RequiredImpacts, TheSmallestHitJustTouches) {
   for (const bool reversed : {false, true}) {
     Table t;
     Scene scene = t.scene;
@@ -111,7 +111,7 @@ TEST(WishedImpacts, TheSmallestHitJustTouches) {
 
 // A hit that may come no later than the end T: of all v' for which |v' T - way| is at most the sum of the radii, the nearest to v
 // has v' T where the line from v T to `way` enters that circle.
-TEST(WishedImpacts, TheSmallestHitInTimeComesAtTheEnd) {
+TEST(RequiredImpacts, TheSmallestHitInTimeComesAtTheEnd) {
   for (const bool reversed : {false, true}) {
     Scene scene = table();
     scene.bodies = {scene.bodies[4], scene.bodies[5]};  // cue and red, without rails
@@ -131,7 +131,7 @@ TEST(WishedImpacts, TheSmallestHitInTimeComesAtTheEnd) {
   }
 }
 
-TEST(WishedImpacts, AHitDuringASpan) {
+TEST(RequiredImpacts, AHitDuringASpan) {
   Table t;
   t.edit.hit("cue", {.with = "red", .during = {{0.9, 1.0}}});
   const EditResult r = t.edit.solve();
@@ -145,7 +145,7 @@ TEST(WishedImpacts, AHitDuringASpan) {
   EXPECT_EQ(r.residuals[0].component, "time");
 }
 
-TEST(WishedImpacts, AHitAfterAnother) {
+TEST(RequiredImpacts, AHitAfterAnother) {
   Table t;
   t.edit.hit("cue", {.with = "yellow", .after = ImpactOf{"cue", 1, "rail_east"}});
   const EditResult r = t.edit.solve();
@@ -160,7 +160,7 @@ TEST(WishedImpacts, AHitAfterAnother) {
   EXPECT_TRUE(hit_after);
 }
 
-TEST(WishedImpacts, ARowAtAnImpactThatDoesNotComeYet) {
+TEST(RequiredImpacts, ARowAtAnImpactThatDoesNotComeYet) {
   Table t;
   t.edit.nail("cue", nthImpact(1, "yellow")).time(0.8);
   const EditResult r = t.edit.solve();
@@ -170,7 +170,7 @@ TEST(WishedImpacts, ARowAtAnImpactThatDoesNotComeYet) {
   EXPECT_NEAR(r.motion.events[static_cast<std::size_t>(*event)].time, 0.8, 1e-9);
 }
 
-TEST(WishedImpacts, ThreeCushions) {
+TEST(RequiredImpacts, ThreeCushions) {
   Table t;
   t.edit.sequence({"cue red", "cue rail*", "cue rail*", "cue rail*", "cue yellow"});
   const EditResult r = t.edit.solve();
@@ -182,7 +182,7 @@ TEST(WishedImpacts, ThreeCushions) {
   EXPECT_EQ(met[4], "yellow");
 }
 
-TEST(WishedImpacts, WhateverLiesBetween) {
+TEST(RequiredImpacts, WhateverLiesBetween) {
   Table t;
   t.edit.sequence({"cue yellow", "...", "cue red"});
   const EditResult r = t.edit.solve();
@@ -194,7 +194,7 @@ TEST(WishedImpacts, WhateverLiesBetween) {
   EXPECT_NE(std::find(met.begin() + 1, met.end(), "red"), met.end());
 }
 
-TEST(WishedImpacts, TheAnswerDoesNotDependOnThreads) {
+TEST(RequiredImpacts, TheAnswerDoesNotDependOnThreads) {
   Table t;
   t.edit.hit("cue", "yellow");
   EditOptions one, many;
@@ -204,7 +204,7 @@ TEST(WishedImpacts, TheAnswerDoesNotDependOnThreads) {
   for (std::size_t i = 0; i < a.changed.size(); ++i) EXPECT_EQ(a.changed[i].after, b.changed[i].after);
 }
 
-TEST(WishedImpacts, WithBodiesInReverseOrder) {
+TEST(RequiredImpacts, WithBodiesInReverseOrder) {
   Scene scene = table();
   std::reverse(scene.bodies.begin(), scene.bodies.end());
   OdeContacts contacts(scene);
@@ -219,7 +219,7 @@ TEST(WishedImpacts, WithBodiesInReverseOrder) {
   EXPECT_EQ(met[1], "yellow");
 }
 
-TEST(WishedImpacts, WhatCannotBeHitIsToldWithHowNearItCame) {
+TEST(RequiredImpacts, WhatCannotBeHitIsToldWithHowNearItCame) {
   Table t;
   Edit edit(t.scene, t.contacts, 0.3);
   edit.vary(velocity("cue").only({"x"}).within(1, 2));
@@ -229,7 +229,7 @@ TEST(WishedImpacts, WhatCannotBeHitIsToldWithHowNearItCame) {
   EXPECT_NE(r.message.find("The nearest that 'cue' and 'yellow' came"), std::string::npos) << r.message;
 }
 
-TEST(WishedImpacts, AnImpactThatDoesNotComeIsLookedForUnlessTheSequenceStays) {
+TEST(RequiredImpacts, AnImpactThatDoesNotComeIsLookedForUnlessTheSequenceStays) {
   const Scene scene = testing_scenes::floorAndWall();
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 0.6);
@@ -269,7 +269,7 @@ std::string featuresOfFirst(const Motion& motion) {
   return text.substr(on + 4) + " on " + text.substr(0, on);
 }
 
-TEST(WishedImpacts, FeaturesThatMeet) {
+TEST(RequiredImpacts, FeaturesThatMeet) {
   for (const bool reversed : {false, true}) {
     Tumble start(reversed);
     const std::string was = featuresOfFirst(simulate(start.scene, start.contacts, 1));
@@ -299,7 +299,7 @@ void expectRefused(const Edit& edit, const std::string& place, const std::string
   }
 }
 
-TEST(WishedImpacts, BadOnesAreRefused) {
+TEST(RequiredImpacts, BadOnesAreRefused) {
   const auto with = [](const auto& ask, const std::string& place, const std::string& found) {
     Table t;
     ask(t.edit);

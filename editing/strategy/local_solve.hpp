@@ -3,23 +3,23 @@
 
 #include <string>
 
-#include "editing/solve/edit_search.hpp"
-#include "editing/strategy/landing_score.hpp"
+#include "editing/solve/edit_evaluator.hpp"
+#include "editing/strategy/local_solve_score.hpp"
 
-/// From a sample onto the constraints. Internal to editing/.
+/// The local solve: from a sample onto the constraints, then along them to the smallest change. Internal to editing/.
 namespace carom::editing_detail {
 
 /// The smallest changes that meet the rows as they are linear around a differentiated point, within the bounds; free
 /// times stay near those of the point. Where the rows are linear indeed, it is where the edit ends.
-Eigen::VectorXd smallestChange(const EditSearch& search, const EditPoint& point);
+Eigen::VectorXd smallestChange(const EditEvaluator& evaluator, const EditPoint& point);
 /// The length of the changes of controls alone.
 double lengthOf(const EditProblem& problem, const Eigen::VectorXd& changes);
 
 /// Of a differentiated point; `onto` is the step onto the constraints from there (smallestStep).
-Prospect prospectOf(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& onto);
+LocalSolveEstimate estimateOf(const EditEvaluator& evaluator, const EditPoint& point, const Eigen::VectorXd& onto);
 
-/// What a landing keeps to.
-struct Landing {
+/// How a local solve is made, and when it ends.
+struct LocalSolveOptions {
   int max_steps = 30;
   /// Given up where no smaller change than this is in sight: the edit knows one of this length. Steps are looked for
   /// less hard then.
@@ -32,9 +32,9 @@ struct Landing {
 /// accepted where it makes the merit |z|^2 / 2 + nu |r|_1 smaller, nu above the multipliers of the linear rows. The
 /// point with the smallest violation, of those within the tolerance that with the smallest change; null where it was
 /// given up.
-EditPointPtr land(EditSearch& search, const EditPointPtr& from, const Landing& landing);
-/// The same, where a smaller change than a known one is looked for. When the constraints are missed: onto them alone first, within the
-/// impact sequence of `from` and else across its borders, and from there along them.
-EditPointPtr landAnyWay(EditSearch& search, const EditPointPtr& from, const Landing& landing);
+EditPointPtr solveLocally(EditEvaluator& evaluator, const EditPointPtr& from, const LocalSolveOptions& options);
+/// The same, where a smaller change than a known one is looked for. If the constraints are missed, the fallbacks are a projection
+/// onto them alone, within the impact sequence of `from` and else across its boundaries, and from there along them.
+EditPointPtr solveWithFallbacks(EditEvaluator& evaluator, const EditPointPtr& from, const LocalSolveOptions& options);
 
 }  // namespace carom::editing_detail

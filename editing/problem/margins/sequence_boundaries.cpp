@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/margins/sequence_borders.hpp"
+#include "editing/problem/margins/sequence_boundaries.hpp"
 
 #include <algorithm>
 
-#include "editing/problem/rows/wished_impacts.hpp"
+#include "editing/problem/rows/required_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
 /// The instants at which targets are read, and the last one of all, up to which every impact counts. What a region
-/// keeps clear of is read where it is nearest, and does not jump. Impacts that are held or wished must not come after the
+/// keeps clear of is read where it is nearest, and does not jump. Impacts that are held or required must not come after the
 /// end, nor must a rest.
 std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues& rows, double last) {
   std::vector<ReadInstant> instants;
@@ -41,14 +41,14 @@ std::vector<ReadInstant> instantsOf(const EditProblem& problem, const RowValues&
     }
   }
   const std::vector<Constraint>& held = problem.constraints.constraints();
-  if (at_impact || std::any_of(held.begin(), held.end(), wishesImpacts)) instants.push_back({-1, problem.duration, true});
+  if (at_impact || std::any_of(held.begin(), held.end(), requiresImpacts)) instants.push_back({-1, problem.duration, true});
   return instants;
 }
 
 }  // namespace
 
-std::vector<EventMargin> sequenceBorders(const EditProblem& problem, const Eigen::VectorXd& unknowns,
-                                         DerivativeTape& tape, const RowValues& rows, std::size_t most_events) {
+std::vector<EventMargin> sequenceBoundaries(const EditProblem& problem, const Eigen::VectorXd& unknowns,
+                                            DerivativeTape& tape, const RowValues& rows, std::size_t most_events) {
   const auto byChanges = [&](const SceneGradient& gradient) { return problem.byChanges(gradient, unknowns); };
   const ConstraintSet::Extent extent = problem.constraints.extentIn(tape.motion(), rows.times);
   return eventMargins(tape, std::min(extent.events, most_events), instantsOf(problem, rows, extent.time), byChanges);

@@ -14,7 +14,7 @@
 namespace carom::editing_detail {
 
 /// Whether a constraint asks for impacts to come: a hit, or a sequence.
-inline bool wishesImpacts(const Constraint& constraint) { return constraint.hits || !constraint.sequence.empty(); }
+inline bool requiresImpacts(const Constraint& constraint) { return constraint.hits || !constraint.sequence.empty(); }
 
 /// What a motion lacks of an impact that shall come: bodies that shall meet, and when they may. Without pairs: of one
 /// with anybody, or of a body that shall come to rest.
@@ -22,7 +22,7 @@ struct LackingImpact {
   int constraint = -1;                     ///< index of the Constraint
   std::vector<std::pair<int, int>> pairs;  ///< bodies, one of these pairs
   double from = 0, to = 0;                 ///< s
-  double share = 0;                        ///< of what was wished that came, in [0, 1)
+  double share = 0;                        ///< of what was required that came, in [0, 1)
   std::string sentence;                    ///< for people
 };
 
@@ -55,7 +55,7 @@ class BoundHit {
   std::string words_;  // "'cue' hits 'yellow' between 1 s and 2 s"
 };
 
-/// A wished sequence of impacts whose patterns are sets of bodies.
+/// A required sequence of impacts whose patterns are sets of bodies.
 class BoundSequence {
  public:
   /// Throws InputError that begins with `where`: what matches no body, a text that is not two names and, in parentheses,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/solve/edit_search.hpp"
+#include "editing/solve/edit_evaluator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,13 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/adjoint.h"
+#include "editing/problem/jacobian.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
 constexpr std::size_t kRecentPoints = 4;
-/// No number is followed further than this, in natural scales: where constraints stand against each other steps may
+/// No number is followed further than this, in natural scales: where constraints are in conflict steps may
 /// lead to any speed and spin, and so to motions of any cost.
 constexpr double kFarthest = 1e3;
 /// Steps of the motion of a trial: so many, or so many times those of the start. Some trials bounce to and fro in a
@@ -26,7 +27,7 @@ constexpr std::size_t kStepsOfPoint = 17, kStepsOfPass = 6;
 
 }  // namespace
 
-EditSearch::EditSearch(const EditProblem& problem, const EditOptions& options)
+EditEvaluator::EditEvaluator(const EditProblem& problem, const EditOptions& options)
     : problem_(problem),
       options_(options),
       budget_(options.max_iterations, options.time_budget_seconds, options.stop),
@@ -34,7 +35,7 @@ EditSearch::EditSearch(const EditProblem& problem, const EditOptions& options)
       upper_(problem.upper()),
       until_(problem.horizon) {}
 
-bool EditSearch::step(double objective, double violation) {
+bool EditEvaluator::step(double objective, double violation) {
   budget_.count(1);
   if (budget_.expired()) return false;
   if (!silent_ && options_.progress && !options_.progress({iterations(), objective, violation}))
@@ -88,18 +89,18 @@ EditPointPtr trialAt(const EditProblem& problem, const Eigen::VectorXd& unknowns
 
 std::size_t mostStepsBeside(const EditPoint& start) { return std::max(kLeastSteps, kStepsOfStart * start.motion.steps); }
 
-EditPointPtr EditSearch::evaluateStart() {
+EditPointPtr EditEvaluator::evaluateStart() {
   EditPointPtr point = pointAt(problem_, Eigen::VectorXd::Zero(problem_.unknowns()), until_, true);
   consider(point);
   step_limit_ = mostStepsBeside(*point);
   if (!point->rows.available) return point;
-  if (!problem_.enough && !problem_.constraints.holdsAtRest())
+  if (!problem_.stop_when && !problem_.constraints.holdsAtRest())
     until_ = std::min(problem_.horizon, kMarginAfterLast * problem_.constraints.extentIn(point->motion).time);
   recent_.push_back(point);
   return point;
 }
 
-EditPointPtr EditSearch::make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const {
+EditPointPtr EditEvaluator::make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const {
   const Eigen::Index n = problem_.controls.size();
   if (n > 0 && changes.head(n).cwiseAbs().maxCoeff() > kFarthest) return nullptr;
   MotionMaker limited = maker;
@@ -109,16 +110,16 @@ EditPointPtr EditSearch::make(const Eigen::VectorXd& changes, bool nearest_times
   return point;
 }
 
-bool EditSearch::differentiate(EditPoint& point) const {
+bool EditEvaluator::differentiate(EditPoint& point) const {
   if (!point.row_jacobian) countPasses(static_cast<std::size_t>(problem_.constraints.size()));
   return editing_detail::differentiate(problem_, point);
 }
 
-void EditSearch::countPasses(std::size_t passes) const {
+void EditEvaluator::countPasses(std::size_t passes) const {
   work_->fetch_add(kStepsOfPass * passes, std::memory_order_relaxed);
 }
 
-EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_times) {
+EditPointPtr EditEvaluator::evaluate(const Eigen::VectorXd& changes, bool nearest_times) {
   for (const EditPointPtr& point : recent_) {
     if (!nearest_times && point->changes == changes) return point;
   }
@@ -131,13 +132,13 @@ EditPointPtr EditSearch::evaluate(const Eigen::VectorXd& changes, bool nearest_t
   return point;
 }
 
-void EditSearch::allowLongerMotions() {
+void EditEvaluator::allowLongerMotions() {
   constexpr std::size_t kMore = 2;
   step_limit_ *= step_limit_ < std::numeric_limits<std::size_t>::max() / kMore ? kMore : 1;
 }
 
-EditSearch EditSearch::branch(const MotionMaker& maker, bool silent) const {
-  EditSearch other(*this);
+EditEvaluator EditEvaluator::branch(const MotionMaker& maker, bool silent) const {
+  EditEvaluator other(*this);
   other.maker_ = maker;
   other.silent_ = silent;
   other.recent_.clear();
@@ -176,7 +177,7 @@ void differentiateObjective(const EditProblem& problem, EditPoint& point) {
   point.objective_gradient = gradient.cwiseProduct(problem.rates(point.changes));
 }
 
-void EditSearch::consider(const EditPointPtr& point) {
+void EditEvaluator::consider(const EditPointPtr& point) {
   if (best_) {
     if (options_.sequence == SequencePolicy::stay && point->signature != best_->signature) return;
     const bool both = reached(*point) && reached(*best_);

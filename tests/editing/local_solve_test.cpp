@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Steps onto the constraints and along them, where rows bend.
 
-#include "editing/strategy/landing.hpp"
+#include "editing/strategy/local_solve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "editing/solve/reduced_hessian.hpp"
-#include "editing/strategy/landing_score.hpp"
+#include "editing/strategy/local_solve_score.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 #include "editing/strategy/samples.hpp"
 #include "ode_bridge/ode_contacts.h"
@@ -79,28 +79,28 @@ struct Shot {
   OdeContacts contacts;
   EditOptions options;
   EditProblem problem;
-  EditSearch search;
+  EditEvaluator evaluator;
 
   Shot(const Vec3& velocity_of_cue, const Constraint& constraint, bool reversed)
       : scene(table(velocity_of_cue, reversed)),
         contacts(scene),
         problem(scene, contacts, 2, {velocity("cue")}, {constraint}),
-        search(problem, options) {}
+        evaluator(problem, options) {}
 
   int indexOf(const char* name) const { return bodyIndex(scene, name); }
 };
 
 // The time of a nearly central hit bends strongly with the direction of the throw, though its derivative by it is small:
 // steps as for straight rows go to and fro for thirty steps.
-TEST(Landing, ArrivesAlongABentRow) {
+TEST(LocalSolve, ArrivesAlongABentRow) {
   for (const bool reversed : {false, true}) {
     Shot t({-0.9285, -0.5132, 0}, {"cue", nthImpact(1, "red"), {{"time", {0.5968}}}}, reversed);
-    const EditPointPtr start = t.search.evaluateStart();
+    const EditPointPtr start = t.evaluator.evaluateStart();
     ASSERT_TRUE(start->rows.available);
-    EditSearch branch = t.search.branch({}, true);
-    Landing landing;
-    landing.max_steps = 15;
-    const EditPointPtr end = land(branch, start, landing);
+    EditEvaluator branch = t.evaluator.branch({}, true);
+    LocalSolveOptions options;
+    options.max_steps = 15;
+    const EditPointPtr end = solveLocally(branch, start, options);
     ASSERT_TRUE(branch.reached(*end)) << end->violation;
     ASSERT_TRUE(branch.differentiate(*end));
     const double left = (smallestChange(branch, *end) - end->changes).norm();
@@ -109,19 +109,19 @@ TEST(Landing, ArrivesAlongABentRow) {
   }
 }
 
-TEST(Landing, IsGivenUpWhereNothingSmallerIsInSight) {
+TEST(LocalSolve, IsGivenUpWhereNothingSmallerIsInSight) {
   Shot t({-0.9285, -0.5132, 0}, {"cue", nthImpact(1, "red"), {{"time", {0.5968}}}}, false);
-  const EditPointPtr start = t.search.evaluateStart();
-  Landing landing;
-  const double length = lengthOf(t.problem, land(t.search, start, landing)->changes);
-  landing.below = 0.5 * length;
-  EXPECT_EQ(land(t.search, start, landing), nullptr);
-  landing.below = 1.01 * length;
-  EXPECT_NE(land(t.search, start, landing), nullptr);
+  const EditPointPtr start = t.evaluator.evaluateStart();
+  LocalSolveOptions options;
+  const double length = lengthOf(t.problem, solveLocally(t.evaluator, start, options)->changes);
+  options.below = 0.5 * length;
+  EXPECT_EQ(solveLocally(t.evaluator, start, options), nullptr);
+  options.below = 1.01 * length;
+  EXPECT_NE(solveLocally(t.evaluator, start, options), nullptr);
 }
 
 // These are all of 3000 throws from which one of the other ways arrives. The unlikely ones have scores above 1: it is not tried.
-TEST(Landing, AnyWayArrivesWhereStepsTowardsTheSmallestChangeMiss) {
+TEST(LocalSolve, WithFallbacksArrivesWhereStepsTowardsTheSmallestChangeMiss) {
   const EvenPoints throws(2);
   const std::set<int> within = {625}, across = {440, 1222, 2582}, unlikely = {241, 283, 1431};
   std::set<int> tried;
@@ -131,20 +131,20 @@ TEST(Landing, AnyWayArrivesWhereStepsTowardsTheSmallestChangeMiss) {
     for (const int k : tried) {
       const Eigen::Vector2d to = throws.inCube(k);
       Shot t({-2.2 + 0.6 * to[0], -1.05 + 0.2 * to[1], 0}, {"red", 1.9, {{"position", {-0.3, 0.3, any}}}}, reversed);
-      const EditPointPtr start = t.search.evaluateStart();
+      const EditPointPtr start = t.evaluator.evaluateStart();
       ASSERT_TRUE(start->rows.available);
-      Landing landing;
-      landing.below = 4;
-      EditSearch one = t.search.branch({}, true), other = t.search.branch({}, true);
-      const EditPointPtr end = land(one, start, landing), any_way = landAnyWay(other, start, landing);
+      LocalSolveOptions options;
+      options.below = 4;
+      EditEvaluator one = t.evaluator.branch({}, true), other = t.evaluator.branch({}, true);
+      const EditPointPtr end = solveLocally(one, start, options), with_fallbacks = solveWithFallbacks(other, start, options);
       if (within.count(k) + across.count(k)) {
         ASSERT_TRUE(end && !one.reached(*end)) << k;
-        ASSERT_TRUE(any_way && other.reached(*any_way)) << k;
-        EXPECT_EQ(any_way->signature == start->signature, within.count(k) > 0) << k;
-        EXPECT_TRUE(lengthOf(t.problem, any_way->changes) <= landing.below) << k;
+        ASSERT_TRUE(with_fallbacks && other.reached(*with_fallbacks)) << k;
+        EXPECT_EQ(with_fallbacks->signature == start->signature, within.count(k) > 0) << k;
+        EXPECT_TRUE(lengthOf(t.problem, with_fallbacks->changes) <= options.below) << k;
       } else if (!end || one.reached(*end) || unlikely.count(k)) {
-        ASSERT_EQ(!any_way, !end) << k;
-        if (end) EXPECT_EQ(any_way->changes, end->changes) << k;
+        ASSERT_EQ(!with_fallbacks, !end) << k;
+        if (end) EXPECT_EQ(with_fallbacks->changes, end->changes) << k;
         if (unlikely.count(k)) EXPECT_TRUE(end && !one.reached(*end)) << k;
       }
     }
@@ -155,7 +155,7 @@ TEST(MissingImpacts, NameWhatHasToComeBefore) {
   for (const bool reversed : {false, true}) {
     // the cue ball goes to and fro between two rails, and red, which shall hit yellow, lies still
     Shot t({0, 0.2, 0}, {"red", nthImpact(1, "yellow"), {{"position", {any, 0.1, any}}}}, reversed);
-    const EditPointPtr start = t.search.evaluateStart();
+    const EditPointPtr start = t.evaluator.evaluateStart();
     ASSERT_FALSE(start->rows.available);
     const std::vector<LackingImpact> missing = missingImpacts(t.problem, *start);
     ASSERT_EQ(missing.size(), 2u);
@@ -169,15 +169,15 @@ TEST(MissingImpacts, NameWhatHasToComeBefore) {
   }
 }
 
-TEST(ExpectedImprovement, IsTheMeanOverLikelyLandings) {
+TEST(ExpectedImprovement, IsTheMeanOverLikelyLocalSolves) {
   ExpectedImprovement expected;
   EXPECT_EQ(expected.mean(), ExpectedImprovement::kUsual);
-  const Prospect good{0.1, 0.2, 0.5}, none{0.01, 0.01, 1.02}, unlikely{0.5, 3, 0.4}, undefined{NAN, 0.1, 0.5};
-  for (const Prospect& prospect : {good, none, unlikely, undefined}) expected.add(prospect, 1);
+  const LocalSolveEstimate good{0.1, 0.2, 0.5}, none{0.01, 0.01, 1.02}, unlikely{0.5, 3, 0.4}, undefined{NAN, 0.1, 0.5};
+  for (const LocalSolveEstimate& estimate : {good, none, unlikely, undefined}) expected.add(estimate, 1);
   const double score = std::pow(0.1 * 0.2, 0.25), sum = std::exp(-score) * std::log(2);
   EXPECT_NEAR(expected.mean(), (sum + 0.2) / 3, 1e-15);
   ExpectedImprovement twice_as_long;
-  for (const Prospect& p : {good, none}) twice_as_long.add({p.violation, 2 * p.step, 2 * p.change}, 2);
+  for (const LocalSolveEstimate& p : {good, none}) twice_as_long.add({p.violation, 2 * p.step, 2 * p.change}, 2);
   EXPECT_EQ(twice_as_long.mean(), expected.mean());
   expected.add({1e-9, 0, 0}, 1);  // as near and as small as counts
   EXPECT_NEAR(expected.mean(), (sum + std::exp(-std::sqrt(1e-3)) * std::log(1e3) + 0.2) / 4, 1e-14);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/strategy/border_minimum.hpp"
+#include "editing/strategy/boundary_minimum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,23 +7,23 @@
 #include <vector>
 
 #include "editing/certificate.h"
-#include "editing/problem/margins/sequence_borders.hpp"
+#include "editing/problem/margins/sequence_boundaries.hpp"
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/projection.hpp"
 #include "editing/solve/reduced_hessian.hpp"
 #include "editing/strategy/approach.hpp"
-#include "editing/strategy/landing.hpp"
+#include "editing/strategy/local_solve.hpp"
 #include "editing/strategy/missing_impacts.hpp"
 
 namespace carom::editing_detail {
 namespace {
 
-/// A change that could be smaller by more than this share of it, without borders.
+/// A change that could be smaller by more than this share of it, without boundaries.
 constexpr double kCouldBeSmaller = 2e-3;
 /// A step counts when it makes the change smaller by this share.
 constexpr double kWorthAStep = 1e-4;
-/// How near steps go to a border, as a share of the distance to it.
-constexpr double kShortOfBorder = 0.02;
+/// How near steps go to a boundary, as a share of the distance to it.
+constexpr double kShortOfBoundary = 0.02;
 /// Steps are shortened by this, down to that share of them; the next one begins a little longer than the last.
 constexpr double kShorter = 0.3, kShortest = 1e-3;
 /// Steps back to an impact that a step has lost.
@@ -55,24 +55,25 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> leastNorm(const HalfSpaces& spaces) 
   return {y, multipliers};
 }
 
-/// The borders of a point's sequence along the directions N that change no row, as they are linear around the point: the
+/// The boundaries of a point's sequence along the directions N that change no row, as they are linear around the point: the
 /// unknowns are z + N y, with z the smallest change that meets the linear rows.
-HalfSpaces bordersAlong(const EditSearch& search, const EditPoint& point, const Eigen::VectorXd& z, const Eigen::MatrixXd& N) {
-  const EditProblem& problem = search.problem();
+HalfSpaces boundariesAlong(const EditEvaluator& evaluator, const EditPoint& point, const Eigen::VectorXd& z,
+                           const Eigen::MatrixXd& N) {
+  const EditProblem& problem = evaluator.problem();
   const Eigen::Index n = problem.controls.size();
   DerivativeTape tape(point.motion);
   HalfSpaces spaces{Eigen::MatrixXd(N.cols(), 0), {}};
   std::vector<double> offsets;
-  for (const EventMargin& border : sequenceBorders(problem, point.changes, tape, point.rows, kBordersUpTo)) {
-    const double slope = border.gradient.norm();
-    if (border.value == 0 || !(slope > 0) || !std::isfinite(slope)) continue;
+  for (const EventMargin& boundary : sequenceBoundaries(problem, point.changes, tape, point.rows, kBoundariesUpTo)) {
+    const double slope = boundary.gradient.norm();
+    if (boundary.value == 0 || !(slope > 0) || !std::isfinite(slope)) continue;
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(point.changes.size());
-    gradient.head(n) = (border.value < 0 ? -1 : 1) * border.gradient;
+    gradient.head(n) = (boundary.value < 0 ? -1 : 1) * boundary.gradient;
     const Eigen::VectorXd normal = N.transpose() * gradient;
     const double length = normal.norm();
     if (!(length > 1e-9 * slope)) continue;
     // value + gradient . (z + N y - x) >= a little of the value
-    const double offset = (kShortOfBorder - 1) * std::abs(border.value) - gradient.dot(z - point.changes);
+    const double offset = (kShortOfBoundary - 1) * std::abs(boundary.value) - gradient.dot(z - point.changes);
     spaces.normals.conservativeResize(N.cols(), spaces.normals.cols() + 1);
     spaces.normals.rightCols<1>() = normal / length;
     offsets.push_back(offset / length);
@@ -81,21 +82,21 @@ HalfSpaces bordersAlong(const EditSearch& search, const EditPoint& point, const 
   return spaces;
 }
 
-/// The step to the smallest change within the rows and borders as they are linear around a point.
-struct BorderStep {
-  Eigen::VectorXd up_to;              ///< to the rows, and to the borders that hinder
+/// The step to the smallest change within the rows and boundaries as they are linear around a point.
+struct BoundaryStep {
+  Eigen::VectorXd up_to;              ///< to the rows, and to the boundaries that hinder
   Eigen::VectorXd along;              ///< along both
-  Eigen::MatrixXd held;               ///< rows and normals of these borders, a line each
-  std::vector<Eigen::Index> hinders;  ///< which borders these are, of those of the point
+  Eigen::MatrixXd held;               ///< rows and normals of these boundaries, a line each
+  std::vector<Eigen::Index> hinders;  ///< which boundaries these are, of those of the point
 };
 
-BorderStep stepWithinBorders(const EditSearch& search, const EditPoint& point) {
-  const Eigen::VectorXd smallest = smallestChange(search, point);
+BoundaryStep stepWithinBoundaries(const EditEvaluator& evaluator, const EditPoint& point) {
+  const Eigen::VectorXd smallest = smallestChange(evaluator, point);
   const Eigen::MatrixXd free = nullSpace(*point.row_jacobian);
-  const HalfSpaces spaces = bordersAlong(search, point, smallest, free);
+  const HalfSpaces spaces = boundariesAlong(evaluator, point, smallest, free);
   // |z + N y|^2 = |z|^2 + |y|^2
   const auto [y, multipliers] = leastNorm(spaces);
-  BorderStep step;
+  BoundaryStep step;
   for (Eigen::Index i = 0; i < multipliers.size(); ++i)
     if (multipliers[i] > 0) step.hinders.push_back(i);
   step.held.resize(point.row_jacobian->rows() + static_cast<Eigen::Index>(step.hinders.size()), point.changes.size());
@@ -109,56 +110,56 @@ BorderStep stepWithinBorders(const EditSearch& search, const EditPoint& point) {
   return step;
 }
 
-/// A smaller change at a place or near it, of the sequence of a point unless any will do; null where there is none. Borders are
-/// bent: where an impact is missed, the least distance at which its bodies pass leads back to it.
-EditPointPtr smallerNear(EditSearch& search, const EditPoint& point, const Eigen::VectorXd& place) {
-  if (!(lengthOf(search.problem(), place) < lengthOf(search.problem(), point.changes))) return nullptr;
+/// A smaller change at a place or near it, of the sequence of a point unless any will do; null where there is none. Boundaries
+/// are curved: where an impact is missed, the least distance at which its bodies pass leads back to it.
+EditPointPtr smallerNear(EditEvaluator& evaluator, const EditPoint& point, const Eigen::VectorXd& place) {
+  if (!(lengthOf(evaluator.problem(), place) < lengthOf(evaluator.problem(), point.changes))) return nullptr;
   const MotionMaker lacking{{}, nullptr, true};
-  EditPointPtr trial = search.make(place, false, lacking);
-  if (trial && lacksImpacts(search.problem(), *trial)) {
-    EditSearch back = search.branch(lacking, true);
+  EditPointPtr trial = evaluator.make(place, false, lacking);
+  if (trial && lacksImpacts(evaluator.problem(), *trial)) {
+    EditEvaluator back = evaluator.branch(lacking, true);
     trial = approach(back, trial, kBackSteps, Aim::just_into);
-    if (lacksImpacts(search.problem(), *trial)) return nullptr;
+    if (lacksImpacts(evaluator.problem(), *trial)) return nullptr;
   }
   if (!trial) return nullptr;
   const bool crosses = trial->signature != point.signature;
-  if (crosses && search.options().sequence != SequencePolicy::smallest) return nullptr;
-  if (!search.reached(*trial)) trial = projectOntoConstraints(search, trial, kOntoSteps, crosses ? nullptr : &point.signature);
-  if (!search.reached(*trial) || !(trial->objective < (1 - kWorthAStep) * point.objective)) return nullptr;
-  search.consider(trial);
+  if (crosses && evaluator.options().sequence != SequencePolicy::smallest) return nullptr;
+  if (!evaluator.reached(*trial)) trial = projectOntoConstraints(evaluator, trial, kOntoSteps, crosses ? nullptr : &point.signature);
+  if (!evaluator.reached(*trial) || !(trial->objective < (1 - kWorthAStep) * point.objective)) return nullptr;
+  evaluator.consider(trial);
   return trial;
 }
 
-/// Whether a point that meets the constraints could change clearly less if it were not for the border of its impact
+/// Whether a point that meets the constraints could change clearly less if it were not for the boundary of its impact
 /// sequence: as the rows are linear around it.
-bool isAtBorder(const EditSearch& search, EditPoint& point) {
-  const EditProblem& problem = search.problem();
+bool isAtBoundary(const EditEvaluator& evaluator, EditPoint& point) {
+  const EditProblem& problem = evaluator.problem();
   if (problem.constraints.objective() || point.motion.world_lines.size() > kMarginBodies) return false;
-  if (!search.differentiate(point)) return false;
+  if (!evaluator.differentiate(point)) return false;
   const double length = lengthOf(problem, point.changes);
-  return lengthOf(problem, smallestChange(search, point)) < (1 - kCouldBeSmaller) * length;
+  return lengthOf(problem, smallestChange(evaluator, point)) < (1 - kCouldBeSmaller) * length;
 }
 
 }  // namespace
 
-EditPointPtr minimiseAlongBorder(EditSearch& search, EditPointPtr point, int max_steps) {
-  ReducedHessian hessian;  // of the borders that hinder, as long as these are the same
+EditPointPtr minimiseAlongBoundary(EditEvaluator& evaluator, EditPointPtr point, int max_steps) {
+  ReducedHessian hessian;  // of the boundaries that hinder, as long as these are the same
   std::vector<Eigen::Index> hindered;
   double longest = 1;
-  for (int k = 0; k < max_steps && search.halt() == Halt::none && isAtBorder(search, *point); ++k) {
-    const BorderStep step = stepWithinBorders(search, *point);
+  for (int k = 0; k < max_steps && evaluator.halt() == Halt::none && isAtBoundary(evaluator, *point); ++k) {
+    const BoundaryStep step = stepWithinBoundaries(evaluator, *point);
     if (!step.up_to.allFinite() || !step.along.allFinite()) break;
     if (step.hinders != hindered) hessian = {};
     hindered = step.hinders;
     const Eigen::VectorXd whole = step.up_to + hessian.stepAlong(point->changes, step.held, step.along);
     EditPointPtr next;
     double share = longest;
-    for (; share > kShortest && search.halt() == Halt::none; share *= kShorter) {
+    for (; share > kShortest && evaluator.halt() == Halt::none; share *= kShorter) {
       const Eigen::VectorXd place = point->changes + share * whole;
-      next = smallerNear(search, *point, place.cwiseMax(search.lower()).cwiseMin(search.upper()));
+      next = smallerNear(evaluator, *point, place.cwiseMax(evaluator.lower()).cwiseMin(evaluator.upper()));
       if (next) break;
     }
-    if (!next || !search.step(next->objective, next->violation)) break;
+    if (!next || !evaluator.step(next->objective, next->violation)) break;
     if (next->signature != point->signature) hessian = {};
     point = std::move(next);
     longest = std::min(1.0, share / kShorter);

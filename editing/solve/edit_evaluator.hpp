@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "editing/edit_options.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 #include "editing/solve/budget.hpp"
 
-/// Points, and how one is improved. Internal to editing/.
+/// Points of an edit and their evaluation. Internal to editing/.
 namespace carom::editing_detail {
 
 /// An impact that is held may come later than at the start: so much of its time is simulated at first.
 inline constexpr double kMarginAfterLast = 1.25;
 
-/// One evaluated point of a search.
+/// One evaluated point of an edit.
 struct EditPoint {
   Eigen::VectorXd changes;  ///< all unknowns: of the controls, then of the free times
   Eigen::VectorXd values;   ///< of the controls
@@ -30,7 +30,7 @@ struct EditPoint {
   double violation = 0;      ///< largest scaled residual or lack of validity
   double objective = 0;      ///< what is minimised: EditProblem::objective
   std::optional<Eigen::VectorXd> objective_gradient;  ///< of an objective of one's own, without the change; on demand
-  std::optional<Eigen::MatrixXd> row_jacobian, validity_jacobian;  ///< by all unknowns, dimensionless; on demand
+  std::optional<Eigen::MatrixXd> row_jacobian, validity_jacobian;  ///< with respect to all unknowns, dimensionless; on demand
   std::string not_computable;  ///< why there are no derivatives of the rows; their Jacobian is not a number then
 };
 using EditPointPtr = std::shared_ptr<EditPoint>;
@@ -56,13 +56,13 @@ void readRows(const EditProblem& problem, EditPoint& point);
 std::size_t mostStepsBeside(const EditPoint& start);
 /// Fills in the point's derivatives. False where they cannot be computed: no step can be made from there.
 bool differentiate(const EditProblem& problem, EditPoint& point);
-/// Fills in that of an objective of one's own, by all unknowns.
+/// Fills in that of an objective of one's own, with respect to all unknowns.
 void differentiateObjective(const EditProblem& problem, EditPoint& point);
 
-/// Evaluates points, remembers the best, and watches the clock and the callback.
-class EditSearch {
+/// Evaluates points of one edit, caches the last few, remembers the best, and watches the clock and the callback.
+class EditEvaluator {
  public:
-  EditSearch(const EditProblem& problem, const EditOptions& options);
+  EditEvaluator(const EditProblem& problem, const EditOptions& options);
 
   const EditProblem& problem() const { return problem_; }
   const EditOptions& options() const { return options_; }
@@ -79,11 +79,11 @@ class EditSearch {
   EditPointPtr make(const Eigen::VectorXd& changes, bool nearest_times, const MotionMaker& maker) const;
   /// Motions of trials end after some multiple of the work that the start took: from now on after twice as much.
   void allowLongerMotions();
-  /// A search at the same problem that makes its motions in another way. It remembers its own points, counts on from
+  /// An evaluator of the same problem that makes its motions in another way. It remembers its own points, counts on from
   /// here and has the same deadline. In a thread of its own it must be `silent`: then it does not ask the callback.
-  EditSearch branch(const MotionMaker& maker, bool silent) const;
+  EditEvaluator branch(const MotionMaker& maker, bool silent) const;
   /// Counts on from where a branch ended.
-  void adopt(const EditSearch& branch) { budget_ = branch.budget_; }
+  void adopt(const EditEvaluator& branch) { budget_ = branch.budget_; }
   /// Remembers a point if it is the best so far. Its motion must be a simulated one.
   void consider(const EditPointPtr& point);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/problem/rows/wished_impacts.hpp"
+#include "editing/problem/rows/required_impacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +112,7 @@ LackingImpact BoundHit::lacking(const Motion& motion) const {
     lacking.pairs = {{after_->body, after_->with}};
   }
   lacking.share = after_ && after ? 0.5 : 0;
-  lacking.sentence = "It does not come that " + words_ + (after ? "." : ": the impact that it is to come after is not there.");
+  lacking.sentence = "It does not happen that " + words_ + (after ? "." : ": the impact that must happen before it does not happen.");
   return lacking;
 }
 
@@ -228,7 +228,7 @@ LackingImpact BoundSequence::lacking(const Motion& motion) const {
   lacking.from = match.last >= 0 ? timeOf(match.last) : 0;
   lacking.to = match.against >= 0 ? timeOf(match.against) : motion.end;
   lacking.share = static_cast<double>(match.entries) / static_cast<double>(entries_.size());
-  lacking.sentence = "Of the wished sequence the impact \"" + entry.text + "\" does not come" +
+  lacking.sentence = "Of the required sequence the impact \"" + entry.text + "\" does not come" +
                      (match.entries > 0 ? " after \"" + entries_[match.entries - 1].text + "\"" : " first") +
                      (match.against >= 0 ? ": " + motion.describeEvent(match.against) + " does." : ".");
   return lacking;

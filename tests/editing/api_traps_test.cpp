@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// What looks right and is not does not compile, or throws where it is written.
+#include <gtest/gtest.h>
+
+#include <concepts>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "adjoint/base/errors.h"
+#include "adjoint/derivative/derivative_tape.h"
+#include "adjoint/derivative/tangent.h"
+#include "editing/edit.h"
+#include "editing/session_journal.h"
+#include "ode_bridge/ode_contacts.h"
+#include "tests/editing/scenes.h"
+
+namespace carom {
+namespace {
+
+using namespace testing_scenes;
+
+// The second impact, or at 2 s? nthImpact(2) and 2.0 say which.
+template <class Moment>
+concept Nails = requires(Edit& edit, Moment moment) { edit.nail("ball", moment); };
+static_assert(Nails<double> && Nails<float> && Nails<When>);
+static_assert(!Nails<int> && !Nails<long> && !Nails<unsigned> && !Nails<bool> && !Nails<char> && !Nails<char8_t>);
+
+template <class From, class To>
+concept Between = requires(From from, To to) { between(from, to); };
+static_assert(Between<double, double> && Between<int, int> && Between<int, double> && Between<unsigned, float>);
+static_assert(!Between<bool, int> && !Between<double, bool> && !Between<char, double> && !Between<int, char16_t>);
+
+template <class Number>
+concept CountsImpacts = requires(Number n) { nthImpact(n); };
+static_assert(CountsImpacts<int> && CountsImpacts<long>);
+static_assert(!CountsImpacts<double> && !CountsImpacts<bool> && !CountsImpacts<char>);
+
+template <class Time>
+concept ReadsAt = requires(const Motion& motion, Time t) { motion.stateAt("ball", t); };
+static_assert(ReadsAt<double> && ReadsAt<int>);
+
+// A tape keeps its motion, a tangent its tape, a nail its edit, by reference.
+static_assert(std::is_constructible_v<DerivativeTape, const Motion&>);
+static_assert(!std::is_constructible_v<DerivativeTape, Motion> && !std::is_constructible_v<DerivativeTape, const Motion>);
+template <class Tape>
+concept HasTangent = requires(Tape&& tape, const SceneTangent& d) { tangent(std::forward<Tape>(tape), d); };
+static_assert(HasTangent<DerivativeTape&> && !HasTangent<DerivativeTape>);
+template <class Edited>
+concept TakesNails = requires(Edited&& edit) { std::forward<Edited>(edit).nail("ball", 1.0); };
+template <class Edited>
+concept TakesControls = requires(Edited&& edit, Control control) { std::forward<Edited>(edit).vary(control); };
+static_assert(TakesNails<Edit&> && !TakesNails<Edit> && TakesControls<Edit&> && !TakesControls<Edit>);
+static_assert(std::is_constructible_v<Edit, const Scene&, OdeContacts&, double>);
+static_assert(!std::is_constructible_v<Edit, const Scene&, OdeContacts, double>);
+
+// What is free has a type of its own.
+static_assert(std::is_constructible_v<Wanted, Free> && !std::is_convertible_v<Free, double>);
+static_assert(std::is_convertible_v<Vec3, WantedVector>);
+
+TEST(ApiTraps, ImpactsAreCountedFromOne) {
+  EXPECT_THROW(nthImpact(0), InputError);
+  EXPECT_THROW(nthImpact(-1, "floor"), InputError);
+  EXPECT_NO_THROW(nthImpact(1));
+}
+
+// A NaN that somebody computed frees nothing, whatever it is a target of.
+TEST(ApiTraps, NotANumberIsNoFreeComponent) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  const auto refuses = [&](const char* what, void (*add)(Edit&)) {
+    Edit edit(scene, contacts, 0.6);
+    edit.vary(velocity("box"));
+    add(edit);
+    try {
+      edit.solve();
+      ADD_FAILURE() << what;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("NaN"), std::string::npos) << what << ": " << error.what();
+    }
+  };
+  refuses("a component", [](Edit& e) { e.nail("box", 0.5).position(kNaN, 0.5, any); });
+  refuses("a vector", [](Edit& e) { e.nail("box", 0.5).velocity(Vec3(1, kNaN, 1)); });
+  refuses("one in braces", [](Edit& e) { e.nail("box", 0.5).angularVelocity({1, any, kNaN}); });
+  refuses("a point", [](Edit& e) { e.nail("box", 0.5).point(Vec3::Zero(), Vec3(0, 0, kNaN)); });
+  refuses("a number", [](Edit& e) { e.nail("box", 0.5).speed(kNaN); });
+  refuses("an orientation", [](Edit& e) { e.nail("box", 0.5).orientation(Quat(kNaN, 0, 0, 1)); });
+  refuses("a lower bound", [](Edit& e) { e.nail("box", 0.5).position(any, any, within(kNaN, 1)); });
+  refuses("an upper bound", [](Edit& e) { e.nail("box", 0.5).height(atMost(kNaN)); });
+  refuses("a distance", [](Edit& e) { e.nail("box", 0.5).distance("floor", kNaN); });
+  refuses("a closest approach", [](Edit& e) { e.nail("box", 0.5).closestApproach("floor", atLeast(kNaN)); });
+  const Constraint nail = nailConstraint("box", 0.5, {.position = WantedVector(any, kNaN, 0.3)});
+  Edit edit(scene, contacts, 0.6, {velocity("box")}, {nail});
+  EXPECT_THROW(edit.solve(), InputError);
+}
+
+TEST(ApiTraps, VectorsTakeNumbersRangesAndWhatIsFree) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 0.6);
+  edit.nail("box", 0.5).position({1, any, within(0.2, 0.4)});
+  const Target target = edit.constraints()[0].targets[0];
+  EXPECT_EQ(target.value[0], 1);
+  EXPECT_TRUE(target.value[1].isFree());
+  EXPECT_TRUE(target.value[2].isFree());
+  EXPECT_EQ(target.min[2], 0.2);
+  EXPECT_EQ(target.max[2], 0.4);
+  EXPECT_TRUE(target.min[1].isFree());
+}
+
+}  // namespace
+}  // namespace carom
