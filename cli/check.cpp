@@ -98,7 +98,7 @@ void printComparison(Output& out, const EditProblem& problem, const DerivativeCh
     }
   }
   out.text() << (differing == 0 ? "It is the same on both sides of every step.\n"
-                                : "Not compared, because the motions on both sides are not of that sequence:\n")
+                                : "Not compared, because a motion on one side has another sequence:\n")
              << lines.str();
   if (differing > kMostDifferences) out.text() << "  and " << differing - kMostDifferences << " more\n";
 }
@@ -107,7 +107,7 @@ void printEntry(Output& out, const EditProblem& problem, const DerivativeCheck& 
                 const DerivativeCheck::Entry& entry, const Eigen::MatrixXd& other) {
   if (entry.row < 0) return;
   out.text() << "Worst entry, adjoint against " << other_name << ": " << out.number(entry.disagreement)
-             << " of its column's scale\n  " << problem.constraints.describeRow(entry.row) << " by "
+             << " of its column's scale\n  " << problem.constraints.describeRow(entry.row) << " with respect to "
              << problem.controls.describeVariable(entry.column) << ": "
              << Output::full(check.by_adjoint(entry.row, entry.column)) << " against "
              << Output::full(other(entry.row, entry.column)) << '\n';
@@ -152,15 +152,15 @@ Action declareCheck(CLI::App& app) {
 }  // namespace
 
 const Command kCheckCommand{
-    "check", "Compare the derivatives of a scene with each other and with differences",
-    "Computes what `carom gradient` computes by adjoint, by tangent, and by central differences over a\n"
-    "sweep of steps. Differences are compared only where the motions on both sides have the impact\n"
-    "sequence of the scene. Ends with 4 where adjoint and tangent disagree by more than 1e-12, or\n"
-    "differences at the best step by more than 1e-6, of the scale of an entry's column, and by more\n"
-    "than the rounding of what cancels in the entry: 20 times what it changes by in scenes whose\n"
-    "numbers differ in their last digits. Where that excuses more than 5 % of the entries that are\n"
-    "not 0, all of a row, or more than 1 % of a column, nothing is judged, and it ends with 4, too.\n"
-    "Columns that no step can be compared for are listed, and fail nothing, as long as there are others.\n"
+    "check", "Compare adjoint, tangent and finite-difference derivatives of a scene",
+    "Computes the Jacobian of `carom gradient` by the adjoint pass, the tangent pass, and central\n"
+    "differences over a sweep of steps. Differences are compared only if the motions on both sides have\n"
+    "the impact sequence of the scene. Exits with 4 if adjoint and tangent disagree by more than 1e-12, or\n"
+    "differences at their best step by more than 1e-6, relative to the scale of the column, and by more\n"
+    "than the rounding of cancelling terms: 20 times the change of the entry in scenes whose numbers\n"
+    "differ in their last digits. If that excuses more than 5 % of the nonzero entries, a whole row, or\n"
+    "more than 1 % of a column, there is no verdict, and it exits with 4, too. Columns that cannot be\n"
+    "compared at any step are listed, and do not fail the check as long as others can.\n"
     "\n"
     "Examples:\n"
     "  carom check scene.json\n"

@@ -217,7 +217,7 @@ class Checker {
   }
 
   std::string whyNot(const Sample& sample) const {
-    if (!sample.possible) return "the scene is not possible there: " + sample.why;
+    if (!sample.possible) return "the scene is invalid there: " + sample.why;
     if (sample.signature != signature_) return "the impact sequence is another one";
     return sample.why;
   }
@@ -286,6 +286,12 @@ class Checker {
     return counts;
   }
 
+  std::vector<bool> compared() const {
+    std::vector<bool> columns;
+    for (const int best : check_.best_step) columns.push_back(best >= 0);
+    return columns;
+  }
+
   void conclude() {
     std::ostringstream text;
     text.precision(3);
@@ -299,14 +305,16 @@ class Checker {
     } else if (const std::string left_out = tooManyExcused(counting(), excused_); !left_out.empty()) {
       text << "Not compared: " << left_out;
     } else if (check_.not_compared > 0 && check_.differences.row < 0) {
-      text << "Not compared: in every column every step leads to another impact sequence, or to a scene that is not possible.";
+      text << "Not compared: in every column every step leads to another impact sequence, or to an invalid scene.";
+    } else if (const std::string uncompared = tooManyNotCompared(counting(), compared()); !uncompared.empty()) {
+      text << "Not compared: " << uncompared;
     } else {
       check_.passed = true;
       text << "Passed: adjoint and tangent agree to " << check_.adjoint_tangent.disagreement;
       if (check_.differences.row >= 0) text << ", differences to " << check_.differences.disagreement;
       text << ".";
       if (const int rounding = check_.adjoint_tangent.rounding + check_.differences.rounding)
-        text << " Entries that differ by more, by rounding of terms that cancel in them: " << rounding << ".";
+        text << " Entries that differ by more, by rounding of cancelling terms: " << rounding << ".";
       if (check_.not_compared > 0)
         text << " " << check_.not_compared << " of " << check_.best_step.size()
              << " columns were not compared with differences, because every step leads to another impact sequence.";

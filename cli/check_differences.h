@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "editing/problem/jacobian.hpp"
 #include "formats/answers/check_json.hpp"
 
 /// Differences, the only ones of the program: a test tool that the exact derivatives are held against.

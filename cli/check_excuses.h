@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -12,5 +13,7 @@ namespace carom::cli {
 /// column's scale, 0 of all others.
 std::string tooManyExcused(const Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& counts,
                            const Eigen::MatrixXd& excused);
+/// The same of columns that were not compared with differences.
+std::string tooManyNotCompared(const Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& counts, const std::vector<bool>& compared);
 
 }  // namespace carom::cli

@@ -14,7 +14,7 @@ class App;
 namespace carom::cli {
 
 /// How the process ends.
-enum class Exit : int { done = 0, input_error = 1, wrong_usage = 2, not_solved = 3, check_failed = 4, interrupted = 130, terminated = 143 };
+enum class Exit : int { done = 0, input_error = 1, wrong_usage = 2, not_solved = 3, check_failed = 4, ended_early = 5, interrupted = 130, terminated = 143 };
 
 /// Of work that a signal stopped.
 Exit exitOf(const Interruption& interruption);

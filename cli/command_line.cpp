@@ -10,6 +10,7 @@
 #include "carom/version.h"
 #include "cli/command.h"
 #include "cli/pages/declared.h"
+#include "cli/words.h"
 #include "formats/answers/status_json.hpp"
 #include "formats/base/format_error.h"
 
@@ -21,7 +22,7 @@ namespace {
 
 constexpr const char* kIntroduction =
     "Rigid motions with impacts, edited through their exact derivatives.\n"
-    "A scene document (JSON) says what there is, what may change and what the motion has to meet.";
+    "A scene document (JSON) has the bodies, the controls that may change and the constraints to meet.";
 
 constexpr const char* kFooter =
     "Start with:\n"
@@ -31,14 +32,15 @@ constexpr const char* kFooter =
     "  carom export edited.json -o edited.glb               the motion for Blender or any glTF viewer\n"
     "  carom export edited.json -o edited.py --camera       the same for blender --python edited.py\n"
     "\n"
-    "carom COMMAND --help explains a command, with examples. With --json every command prints one\n"
+    "carom help COMMAND explains a command, with examples. With --json every command prints one\n"
     "JSON document on standard output, for errors as well; warnings and progress go to standard error.\n"
-    "- stands for standard input where a document is read, and for standard output after -o; what is\n"
-    "printed for people then goes to standard error. Output is in colour on a terminal, unless NO_COLOR\n"
+    "- stands for standard input as an input file, and for standard output after -o; what is otherwise\n"
+    "printed as text then goes to standard error. Output is in colour on a terminal, unless NO_COLOR\n"
     "is set.\n"
     "\n"
-    "Exit codes: 0 done, 1 error in the input or the files, 2 wrong usage,\n"
+    "Exit codes: 0 done, 1 error in the input or in a file, 2 wrong usage,\n"
     "            3 the edit did not converge or is infeasible, 4 a check failed,\n"
+    "            5 simulate, export: the motion ended early,\n"
     "            130 stopped by Ctrl-C, 143 stopped by SIGTERM.";
 
 /// One error of a run, on the channel that was asked for.
@@ -97,24 +99,25 @@ class HelpFormatter : public CLI::Formatter {
 void addSettings(CLI::App& app, Settings& settings) {
   app.add_flag("--json", settings.json, "Print one JSON document, numbers to full precision")
       ->group(kCommonOptions);
-  app.add_option("--digits", settings.digits, "Significant digits of numbers in text, if not given 6, in answers of edit 3")
+  app.add_option("--digits", settings.digits, "Significant digits of numbers in text (default: 6, in answers of edit 3)")
       ->check(CLI::Range(1, 17))
       ->type_name("N")
       ->group(kCommonOptions);
-  app.add_flag("-q,--quiet", settings.quiet, "Print nothing for people but errors")->group(kCommonOptions);
+  app.add_flag("-q,--quiet", settings.quiet, "Print errors only; files and --json are still written")->group(kCommonOptions);
 }
 
-std::string noCommand(int argc, const char* const* argv) {
-  const std::string first = argc > 1 ? argv[1] : "";
-  std::vector<std::string> names;
-  for (const Command* command : commands()) names.emplace_back(command->name);
-  return "found " + (first.empty() ? "no command" : "'" + first + "'") + ", expected one of " + joined(names);
+/// Help or the version: what was printed may not have arrived, on a full disk.
+int printed(CLI::App& app, const CLI::ParseError& asked) {
+  app.exit(asked);
+  std::cout.flush();
+  if (std::cout) return static_cast<int>(Exit::done);
+  return static_cast<int>(report(false, Exit::input_error, "standard output: cannot be written", ""));
 }
 
 int runCommandLine(int argc, const char* const* argv) {
   CLI::App app(kIntroduction, "carom");
   app.footer(kFooter);
-  app.set_version_flag("--version", std::string("carom ") + kVersion, "Print the version and end");
+  app.set_version_flag("-V,--version", std::string("carom ") + kVersion, "Print the version and exit");
   app.formatter(std::make_shared<HelpFormatter>());
   app.get_formatter()->column_width(30);
   Settings settings;
@@ -126,16 +129,18 @@ int runCommandLine(int argc, const char* const* argv) {
     sub->final_callback([&action, run = command->declare(*sub)] { action = run; });
   }
   app.require_subcommand(1);
+  const std::vector<std::string> words = orderedWords(argc, argv);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as it takes them
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) return printed(app, error);
     const auto isJson = [](const char* word) { return std::string_view(word) == "--json"; };
     const bool json = std::any_of(argv, argv + argc, isJson);
     const auto chosen = app.get_subcommands();
     const std::string help = "carom " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help";
-    const std::string message = chosen.empty() ? noCommand(argc, argv) : error.what();
-    const std::string line = message + "\nRun " + help + " for what it takes.";
+    const std::string message =
+        chosen.empty() ? describeNoCommand(words) : error.what() + meantOption(*chosen.front(), words);
+    const std::string line = message + "\nRun " + help + " for its usage.";
     return static_cast<int>(report(json, Exit::wrong_usage, line, message));
   }
   return static_cast<int>(perform(action, settings));

@@ -5,7 +5,11 @@ namespace carom::cli {
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kTable[] = {&kSimulateCommand, &kGradientCommand, &kCheckCommand,
-                                              &kEditCommand,     &kStudioCommand,   &kReplayCommand,
+                                              &kEditCommand,
+#ifndef CAROM_NO_STUDIO  // built without it
+                                              &kStudioCommand,
+#endif
+                                              &kReplayCommand,
                                               &kExportCommand,   &kImportCommand,   &kValidateCommand,
                                               &kInfoCommand,     &kCompletionCommand, &kManCommand};
   return kTable;

@@ -16,7 +16,8 @@
 #include "cli/table.h"
 #include "cli/units.h"
 #include "editing/edit.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
+#include "editing/problem_of.hpp"
 #include "formats/answers/edit_json.hpp"
 
 namespace carom::cli {
@@ -53,15 +54,15 @@ void printNumbers(Output& out, const std::vector<ChangedNumber>& changed) {
 }
 
 /// A value on its target reads as the target does, which is as it was written.
-std::string valueBesideTarget(const Output& out, const HeldNumber& number) {
+std::string valueBesideTarget(const Output& out, const ConstrainedNumber& number) {
   const bool on_target =
       number.lower == number.upper && std::abs(number.error) <= 1e-6 * std::max(1e-3, std::abs(number.target));
   return on_target ? out.number(number.target) : out.roundedBeside(number.value, number.target);
 }
 
 void printResiduals(Output& out, const EditResult& result) {
-  Table table({"held", ">value", ">target", ">error", "unit"});
-  for (const HeldNumber& number : result.residuals)
+  Table table({"constraint", ">value", ">target", ">error", "unit"});
+  for (const ConstrainedNumber& number : result.residuals)
     table.row({number.name, valueBesideTarget(out, number),
                describeWanted(out, number.target, number.lower, number.upper), out.rounded(number.error),
                unitOf(number.name)});
@@ -77,19 +78,20 @@ void printCertificate(Output& out, const Certificate& certificate) {
     out.text() << ", bodies overlap by " << Output::brief(*certificate.deepest_penetration) << " m";
   out.text() << ", derivatives pass " << counted(certificate.reliability.events, "impact") << " with a margin of "
              << Output::brief(certificate.reliability.smallest_margin) << '\n';
-  if (!certificate.signature_event.empty()) out.text() << "  nearest change: " << certificate.signature_event << '\n';
+  if (!certificate.signature_event.empty()) out.text() << "  nearest boundary of the impact sequence: " << certificate.signature_event << '\n';
 }
 
 void printResult(Output& out, const EditResult& result, bool all_impacts) {
   printNumbers(out, result.changed);
   out.text() << '\n';
   printResiduals(out, result);
+  const bool in_seconds = result.milliseconds >= 1000;
   out.text() << '\n'
-             << counted(result.iterations, "iteration") << ", " << Output::brief(result.milliseconds)
-             << " ms\n";
+             << counted(result.iterations, "iteration") << ", "
+             << Output::brief(in_seconds ? result.milliseconds / 1000 : result.milliseconds) << (in_seconds ? " s\n" : " ms\n");
   printSequences(out, result.sequence_before, result.sequence_after, all_impacts);
   printCertificate(out, result.certificate);
-  if (!result.why_not.sentences.empty()) out.text() << "  why not:\n";
+  if (!result.why_not.sentences.empty()) out.text() << "  reasons:\n";
   for (const std::string& sentence : result.why_not.sentences)
     if (result.message.find(sentence) == std::string::npos) out.text() << "    " << sentence << '\n';
   if (result.solved()) out.text() << out.styled(Look::good, nameOf(result.status)) << ": " << result.message << '\n';
@@ -110,7 +112,7 @@ void printAlternatives(Output& out, const EditResult& result) {
     out.text() << "\nSolution " << i + 2 << ": change " << out.roundedBeside(other.objective, result.objective)
                << " (solution 1: " << out.roundedBeside(result.objective, other.objective) << "), largest error "
                << out.rounded(other.residual) << '\n';
-    if (other.much_dearer) out.text() << "  Much dearer: it costs more than " << kMuchDearer << " times as much.\n";
+    if (other.much_dearer) out.text() << "  It costs more than " << kMuchDearer << " times as much as solution 1.\n";
     printNumbers(out, other.changed);
     printChanges(out, other.sequence_changes);
   }
@@ -173,7 +175,7 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
     EditResult result = edit.solve(edit_options);
     // A target that the motion does not have is an error of the document, not an outcome of the search.
     if (result.status == EditStatus::bad_start) {
-      EditProblem problem = edit.problem();
+      EditProblem problem = problemOf(edit);
       problem.step_limit = options.motion.step_limit;
       const Motion motion = simulateAt(problem, problem.controls.startValues(), problem.horizon);
       requireRows(loaded.path, problem, motion);
@@ -186,7 +188,7 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
 std::string describeFailure(const EditResult& result, const std::string& output, bool written) {
   const std::string sentence = std::string(nameOf(result.status)) + ": " + result.message;
   if (output.empty()) return sentence;
-  if (written) return sentence + (isStandard(output) ? " The best so far was written." : " The best so far is in " + output + ".");
+  if (written) return sentence + (isStandard(output) ? " The best solution so far was written." : " The best solution so far is in " + output + ".");
   return sentence + " " + (isStandard(output) ? "Nothing" : output) + " was " + (isStandard(output) ? "" : "not ") +
          "written.";
 }
@@ -221,23 +223,23 @@ Action declareEdit(CLI::App& app) {
   addScene(app, options->scene);
   addMotion(app, options->motion);
   addOutput(app, options->output, "Write the scene with its new values here; - for standard output", "OUT.json");
-  app.add_option("--iterations", options->iterations, "Give up after so many, 10000 if not given")
+  app.add_option("--iterations", options->iterations, "Maximum number of iterations (default: 10000)")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
-  app.add_option("--seconds", options->seconds, "Give up after so long")->check(positiveNumber())->type_name("T");
-  app.add_flag("--same-sequence", options->same_sequence, "Stay within the scene's impact sequence");
-  app.add_flag("--impacts", options->impacts, "List all impacts, where more than 50 are summed up otherwise");
-  app.add_option("--alternatives", options->alternatives, "Look for so many different solutions, 1 if not given")
+  app.add_option("--seconds", options->seconds, "Time limit in seconds (default: none)")->check(positiveNumber())->type_name("T");
+  app.add_flag("--same-sequence", options->same_sequence, "Keep the impact sequence of the scene");
+  app.add_flag("--impacts", options->impacts, "List all impacts; more than 50 are summarised otherwise");
+  app.add_option("--alternatives", options->alternatives, "Number of distinct solutions to search for (default: 1)")
       ->check(CLI::Range(1, 100))
       ->type_name("K");
   app.add_option("--effort", options->effort,
-                 "How long to look for a smaller change: fast, normal or thorough; normal if not given")
+                 "Work limit of the search for a smaller change: fast, normal or thorough (default: normal)")
       ->check(CLI::IsMember({"fast", "normal", "thorough"}))
       ->type_name("E");
-  app.add_option("--seed", options->seed, "Begin the samples of the search elsewhere: another try; 0 if not given")
+  app.add_option("--seed", options->seed, "Seed of the sample sequence of the search (default: 0)")
       ->check(CLI::Range(0, 1000))
       ->type_name("N");
-  app.add_option("--threads", options->threads, "Cores to search on, all if not given; the answer is the same")
+  app.add_option("--threads", options->threads, "Threads of the search (default: all cores); does not affect the result")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   return [options](Output& out) { return edit(*options, out); };
@@ -247,16 +249,16 @@ Action declareEdit(CLI::App& app) {
 
 const Command kEditCommand{
     "edit", "Find the smallest change of the controls that meets the constraints",
-    "Prints every control before and after with its share of what the change costs, every constrained\n"
-    "number with its error, and the impacts before and after, of more than 50 only where they part, if not\n"
-    "--impacts. Numbers have three digits, or as many as it takes to tell before from after; --json has\n"
-    "all. The result is simulated afresh: its errors are those of the edited scene.\n"
-    "OUT.json is written only when all constraints are met, whole or not at all; the input stays as it\n"
-    "is unless -o names it. Ctrl-C ends the search: the best so far, verified, is printed and written,\n"
-    "its status is cancelled, and the command ends with 130; a second Ctrl-C ends it at once. With\n"
-    "--alternatives the others go to OUT-2.json, OUT-3.json, ...: each has other impacts, or else clearly\n"
-    "other numbers; the smallest change comes first, and what costs more than ten times as much comes\n"
-    "last and is marked. Ends with 3 and a sentence where the constraints cannot be met.\n"
+    "Prints every control before and after with its share of the cost, every constrained quantity with\n"
+    "its error, and the impacts before and after (of more than 50 only where they differ, unless\n"
+    "--impacts). Numbers have three digits, or as many as distinguish before from after; --json has all.\n"
+    "The edited scene is simulated again: the errors are those of its motion.\n"
+    "OUT.json is written atomically, only if all constraints are met; the input is unchanged unless -o\n"
+    "names it. Ctrl-C ends the search: the best solution so far is verified, printed and written, its\n"
+    "status is cancelled, and the exit code 130; a second Ctrl-C ends it at once. With --alternatives\n"
+    "further solutions go to OUT-2.json, OUT-3.json, ...: each has another impact sequence, or clearly\n"
+    "different numbers; the smallest change comes first; those that cost more than ten times as much\n"
+    "come last and are marked. Exits with 3 and a message if the constraints cannot be met.\n"
     "\n"
     "Examples:\n"
     "  carom edit scene.json\n"

@@ -15,6 +15,7 @@
 #include "formats/answers/status_json.hpp"
 #include "formats/base/write_file.hpp"
 #include "formats/export/export_motion.h"
+#include "studio/motion_page.h"
 
 namespace carom::cli {
 
@@ -29,9 +30,18 @@ struct ExportArguments {
   MotionArguments motion;
 };
 
+constexpr const char* kPage = "html";  // made of the page of the studio, which the library of formats does not have
+
+/// What files may end with.
+std::vector<std::string> extensions() {
+  std::vector<std::string> all = exportExtensions();
+  all.push_back(std::string(".") + kPage);
+  return all;
+}
+
 /// The words of --format: the extensions without their dots.
 std::vector<std::string> formats() {
-  std::vector<std::string> words = exportExtensions();
+  std::vector<std::string> words = extensions();
   for (std::string& word : words) word.erase(0, 1);
   return words;
 }
@@ -39,7 +49,7 @@ std::vector<std::string> formats() {
 /// The word that is given, or else the one that the name of the file ends with.
 std::string formatOf(const ExportArguments& options) {
   if (!options.format.empty()) return options.format;
-  const std::vector<std::string> known = exportExtensions();
+  const std::vector<std::string> known = extensions();
   const std::string list = joined(known), extension = extensionOf(options.output);
   if (isStandard(options.output)) throw UsageError("-o - needs --format, one of " + list);
   if (std::find(known.begin(), known.end(), extension) == known.end())
@@ -51,8 +61,9 @@ std::string formatOf(const ExportArguments& options) {
 void requireSense(const ExportArguments& options, const std::string& format) {
   if (isStandard(options.scene) && isStandard(options.before))
     throw UsageError("--before -: standard input is read once, for the scene");
-  if (!options.before.empty() && format != "svg") throw UsageError("--before is only for .svg");
-  if (options.frames_per_second && format == "svg") throw UsageError("--fps is only for .glb, .gltf, .py and .csv");
+  const bool shown = format == "svg" || format == kPage;
+  if (!options.before.empty() && !shown) throw UsageError("--before is only for .svg and .html");
+  if (options.frames_per_second && shown) throw UsageError("--fps is only for .glb, .gltf, .py and .csv");
   if (options.keys == "cubic" && format == "py")
     throw UsageError("--keys cubic is only for .glb and .gltf: Blender drops the tangents of cubic keys");
   if (options.keys == "cubic" && options.tolerance) throw UsageError("--tolerance needs --keys linear");
@@ -82,14 +93,31 @@ std::string titleOf(const ExportArguments& options, const Document& document) {
   return isStandard(options.scene) ? "motion" : std::filesystem::path(options.scene).stem().string();
 }
 
+/// The motion before, of a document of its own.
+struct Earlier {
+  Document document;
+  Motion motion;
+};
+
+std::string pageText(const ExportArguments& options, const Document& document, const Motion& motion,
+                     const std::optional<Earlier>& earlier) {
+  const studio::PageFiles files(studio::studioFolder());
+  std::optional<studio::ShownMotion> before;
+  if (earlier) before.emplace(studio::ShownMotion{earlier->document, earlier->motion});
+  const std::string title = document.name.empty() ? titleOf(options, document) : document.name;
+  return studio::motionPage(files, title, {document, motion}, before ? &*before : nullptr);
+}
+
 /// Writes the file; how many bytes it has.
 std::size_t writeExport(const ExportArguments& options, const std::string& format, const Loaded& loaded,
-                        const Motion& motion, const ExportOptions& export_options, Output& out) {
+                        const Motion& motion, const std::optional<Earlier>& earlier,
+                        const ExportOptions& export_options, Output& out) {
   const Progress progress(out, "writing " + format);
   const std::string name = isStandard(options.output) ? "<stdout>" : options.output;
   return inFile(name, [&] {
     std::string bytes =
-        motionText(format, titleOf(options, loaded.document), loaded.document, motion, export_options);
+        format == kPage ? pageText(options, loaded.document, motion, earlier)
+                        : motionText(format, titleOf(options, loaded.document), loaded.document, motion, export_options);
     const std::size_t size = bytes.size();
     if (isStandard(options.output))
       out.content(std::move(bytes));
@@ -115,14 +143,15 @@ Exit exportScene(const ExportArguments& options, Output& out) {
   gltf.frames_per_second = options.frames_per_second.value_or(gltf.frames_per_second);
   gltf.tolerance = options.tolerance.value_or(gltf.tolerance);
   export_options.csv_rate = options.frames_per_second.value_or(export_options.csv_rate);
-  std::optional<Motion> before;
+  std::optional<Earlier> earlier;
   if (!options.before.empty()) {
-    Loaded earlier(out, options.before, {false, options.motion.step_limit});
-    before = earlier.simulate(out);
-    requireNotStopped(*before);
-    export_options.before = &*before;
+    Loaded before(out, options.before, {.step_limit = options.motion.step_limit});
+    Motion its_motion = before.simulate(out);
+    requireNotStopped(its_motion);
+    earlier.emplace(Earlier{std::move(before.document), std::move(its_motion)});
+    export_options.before = &earlier->motion;
   }
-  const std::size_t bytes = writeExport(options, format, loaded, motion, export_options, out);
+  const std::size_t bytes = writeExport(options, format, loaded, motion, earlier, export_options, out);
   warnIfEnded(out, motion);
   if (out.json())
     out.document(exportJson(options.output, bytes, motion));
@@ -130,38 +159,38 @@ Exit exportScene(const ExportArguments& options, Output& out) {
     sayWritten(out, options.output,
                " (" + out.number(motion.end) + " s, " + counted(motion.impacts, "impact") + ", " +
                    std::to_string(bytes) + " bytes)");
-  return Exit::done;
+  return exitOf(motion);
 }
 
 Action declareExport(CLI::App& app) {
   const auto options = std::make_shared<ExportArguments>();
   addScene(app, options->scene);
-  addOutput(app, options->output, "The file to write: .glb, .gltf, .py, .csv or .svg; - for standard output", "FILE")
+  addOutput(app, options->output, "The file to write: .glb, .gltf, .py, .csv, .svg or .html; - for standard output", "FILE")
       ->required();
-  app.add_option("--format", options->format, "What to write, where the name of the file does not say it")
+  app.add_option("--format", options->format, "Format, if the name of the file does not determine it")
       ->check(CLI::IsMember(formats()))
       ->type_name("FORMAT");
-  app.add_option("--fps", options->frames_per_second, "Frames a second (24), or rows (.csv: 60)")
+  app.add_option("--fps", options->frames_per_second, "Frames per second (default: 24), or rows (.csv, default: 60)")
       ->check(positiveNumber())
       ->type_name("N");
-  app.add_option("--keys", options->keys, "How a .glb or .gltf is keyed: linear (the default) or cubic")
+  app.add_option("--keys", options->keys, "Interpolation of a .glb or .gltf: linear or cubic (default: linear)")
       ->check(CLI::IsMember({"linear", "cubic"}))
       ->type_name("KIND");
-  app.add_option("--tolerance", options->tolerance, "Metres that linear keys may be off between keys (0.0001)")
+  app.add_option("--tolerance", options->tolerance, "Largest error between linear keys in metres (default: 0.0001)")
       ->check(positiveNumber())
       ->type_name("M");
-  app.add_flag("--camera", options->gltf.camera, "A camera that sees the whole motion (.glb, .gltf, .py)");
-  app.add_option("--light", options->gltf.light, "A sun of so many lux, 2000 if none are given (.glb, .gltf, .py)")
+  app.add_flag("--camera", options->gltf.camera, "Add a camera that frames the whole motion (.glb, .gltf, .py)");
+  app.add_option("--light", options->gltf.light, "Add a directional light of LUX lux (.glb, .gltf, .py; default: 2000)")
       ->expected(0, 1)
       ->default_str("2000")
       ->check(positiveNumber())
       ->type_name("LUX");
   app.add_option("--ghosts", options->gltf.ghosts,
-                 "Translucent copies of moving bodies every S seconds (.glb, .gltf, .py)")
+                 "Add translucent copies of moving bodies every S seconds (.glb, .gltf, .py)")
       ->check(positiveNumber())
       ->type_name("S");
-  app.add_flag("--nails", options->gltf.nails, "Marks of nails and regions (.glb, .gltf, .py)");
-  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg); - for standard input")
+  app.add_flag("--nails", options->gltf.nails, "Add marks of nails and regions (.glb, .gltf, .py)");
+  app.add_option("--before", options->before, "Draw the motion of this scene behind it (.svg, .html); - for standard input")
       ->type_name("OLD.json");
   addMotion(app, options->motion);
   return [options](Output& out) { return exportScene(*options, out); };
@@ -170,20 +199,24 @@ Action declareExport(CLI::App& app) {
 }  // namespace
 
 const Command kExportCommand{
-    "export", "Write the motion as glTF, as a table or as a picture",
-    "  .glb, .gltf  scene and motion, for Blender, three.js and every other reader of glTF: linear keys\n"
-    "               at every frame, every impact and between, right to 0.1 mm. --keys cubic has one key\n"
-    "               an impact, which is exact and small, but not for Blender\n"
+    "export", "Write the motion as glTF, a table, a picture or a page",
+    "  .glb, .gltf  scene and motion, for Blender, three.js and any other glTF reader: linear keys\n"
+    "               at every frame, every impact and between, within 0.1 mm. --keys cubic has one key\n"
+    "               per impact: exact and small, but not for Blender\n"
     "  .py          a script that opens the same in Blender with frame rate, frame range and camera set:\n"
     "               blender --python motion.py\n"
     "  .csv         a row for every moving body 60 times a second, and before and after each impact\n"
     "  .svg         side and top view with paths, positions, impacts and nails, at most 500 kB: thousands\n"
-    "               of impacts become dots, crowds of bodies a shade\n"
+    "               of impacts become dots, crowds of bodies a density map\n"
+    "  .html        one file that plays the motion in any browser, without a network: view, time line,\n"
+    "               ghosts, impacts, nails and numbers, as in carom studio\n"
+    "A motion that ends early is written as far as it goes, with a warning and the exit code 5.\n"
     "\n"
     "Examples:\n"
     "  carom export scene.json -o motion.glb\n"
     "  carom export scene.json -o motion.py --camera --light --ghosts 0.1 --nails\n"
     "  carom export edited.json -o both.svg --before scene.json\n"
+    "  carom export edited.json -o motion.html --before scene.json\n"
     "  carom export scene.json --format csv -o - | head",
     declareExport};
 

@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/table.h"
 #include "cli/units.h"
+#include "editing/problem/jacobian.hpp"
 #include "formats/answers/gradient_json.hpp"
 
 namespace carom::cli {
@@ -38,8 +39,8 @@ Reliability judge(const EditProblem& problem, const std::vector<Reliability>& ro
 
 void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorXd& values,
                    const RowsAndJacobian& result, const Reliability& reliability) {
-  out.text() << "Derivative of every number that is held (rows) by every number that may vary (columns), "
-                "the row's unit by the column's\n";
+  out.text() << "Jacobian: derivative of each constrained quantity (rows) with respect to each control (columns), "
+                "in the row's unit per the column's\n";
   Table columns({"column", "control", ">value", "unit"});
   for (int j = 0; j < problem.controls.size(); ++j)
     columns.row({std::to_string(j + 1), problem.controls.describeVariable(j), out.number(values[j]),
@@ -47,8 +48,8 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
   out.text() << '\n';
   columns.print(out);
 
-  std::vector<std::string> headings{"held", ">value", ">target", "unit"};
-  for (int j = 0; j < problem.controls.size(); ++j) headings.push_back(">by " + std::to_string(j + 1));
+  std::vector<std::string> headings{"constraint", ">value", ">target", "unit"};
+  for (int j = 0; j < problem.controls.size(); ++j) headings.push_back(">d/d(" + std::to_string(j + 1) + ")");
   Table rows(headings);
   for (int i = 0; i < problem.constraints.size(); ++i) {
     const Row& row = problem.constraints.rows()[static_cast<std::size_t>(i)];
@@ -59,15 +60,15 @@ void printGradient(Output& out, const EditProblem& problem, const Eigen::VectorX
   }
   out.text() << '\n';
   rows.print(out);
-  for (const HeldTime& held : problem.constraints.heldTimes(result.motion, result.rows.times)) {
-    const bool rests = problem.constraints.constraints()[static_cast<std::size_t>(held.constraint)].at.rest;
-    out.text() << "  of " << problem.constraints.describeConstraint(held.constraint) << ": at "
-               << out.number(held.time) << (rests ? " s\n" : " s, where it is nearest\n");
+  for (const ConstrainedTime& time : problem.constraints.constrainedTimes(result.motion, result.rows.times)) {
+    const bool rests = problem.constraints.constraints()[static_cast<std::size_t>(time.constraint)].at.rest;
+    out.text() << "  of " << problem.constraints.describeConstraint(time.constraint) << ": at "
+               << out.number(time.time) << (rests ? " s\n" : " s, where its error is smallest\n");
   }
   out.text() << '\n'
-             << (reliability.reliable ? out.styled(Look::good, "Reliable") + ": no impact on the way is near a place "
-                                                                             "where derivatives stop.\n"
-                                      : out.styled(Look::warning, "Not reliable.") + '\n');
+             << (reliability.reliable ? out.styled(Look::good, "Reliable") + ": no impact is near a point where "
+                                                                             "derivatives do not exist.\n"
+                                      : out.styled(Look::warning, "Unreliable.") + '\n');
   if (!reliability.message.empty()) out.text() << reliability.message << '\n';
 }
 
@@ -88,7 +89,7 @@ Exit gradient(const GradientArguments& options, Output& out) {
   const Reliability reliability = judge(problem, result.reliability);
   if (out.json()) {
     out.document(gradientJson(problem, values, result, reliability.reliable, reliability.message));
-    if (!reliability.reliable) out.warn("the gradient is not reliable: " + reliability.message);
+    if (!reliability.reliable) out.warn("the gradient is unreliable: " + reliability.message);
   } else {
     printGradient(out, problem, values, result, reliability);
   }
@@ -99,7 +100,7 @@ Action declareGradient(CLI::App& app) {
   const auto options = std::make_shared<GradientArguments>();
   addScene(app, options->scene);
   addMotion(app, options->motion);
-  app.add_option("--method", options->method, "adjoint: one reverse pass a row; tangent: one forward pass a control")
+  app.add_option("--method", options->method, "adjoint: one reverse pass per row; tangent: one forward pass per control")
       ->check(CLI::IsMember({"adjoint", "tangent"}))
       ->type_name("NAME");
   return [options](Output& out) { return gradient(*options, out); };
@@ -108,11 +109,11 @@ Action declareGradient(CLI::App& app) {
 }  // namespace
 
 const Command kGradientCommand{
-    "gradient", "The exact derivative of every constrained number by every control",
+    "gradient", "Exact derivatives of all constrained quantities with respect to all controls",
     "Derivatives are exact (no differences), through flights, impact times and impact laws, of the scene\n"
-    "as written: bounds of the controls do not matter. An orientation row is a component of the world\n"
-    "rotation vector log(R R_target^T). The answer warns where an impact on the way is so near grazing,\n"
-    "or the boundary of stick and slide, that derivatives mean little.\n"
+    "as written: bounds of the controls are ignored. An orientation row is a component of the world\n"
+    "rotation vector log(R R_target^T). The answer warns if an impact is so near to grazing, or to the\n"
+    "boundary between sticking and sliding, that derivatives are unreliable.\n"
     "\n"
     "Examples:\n"
     "  carom gradient scene.json\n"

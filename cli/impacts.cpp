@@ -26,7 +26,7 @@ std::string pairName(const Motion& motion, const std::pair<int, int>& pair) {
   return nameOfBody(motion, pair.first) + "-" + nameOfBody(motion, pair.second);
 }
 
-/// Of every event: which impact it is, 1 = the motion's first; nothing where it is none to people.
+/// Of every event: which impact it is, 1 = the motion's first; nothing where it is not reported.
 std::vector<std::string> impactNumbers(const Motion& motion) {
   std::vector<std::string> numbers;
   std::size_t impacts = 0;
@@ -129,7 +129,7 @@ std::vector<std::size_t> countedEvents(const Motion& motion) {
   return impacts;
 }
 
-/// Pairs of bodies that have an impact to people in an event; those that touch in several places meet once.
+/// Pairs of bodies that have a reported impact in an event; those that touch in several places meet once.
 std::vector<std::pair<int, int>> pairsOf(const Event& event) {
   std::vector<std::pair<int, int>> met;
   for (const Contact& contact : event.contacts)
@@ -139,10 +139,15 @@ std::vector<std::pair<int, int>> pairsOf(const Event& event) {
   return met;
 }
 
-/// Lines from one on, so many at most.
+/// Impacts from one on, so many at most; those that are alike and come one after another on one line.
 void printPart(Output& out, const std::vector<std::string>& sequence, std::size_t from, std::size_t most) {
   const std::size_t to = std::min(sequence.size(), from + most);
-  for (std::size_t i = from; i < to; ++i) out.text() << "    " << sequence[i] << '\n';
+  for (std::size_t i = from, same = 0; i < to; i += same) {
+    for (same = 1; i + same < to && sequence[i + same] == sequence[i];) ++same;
+    out.text() << "    " << sequence[i];
+    if (same > 1) out.text() << ", " << same << " times";
+    out.text() << '\n';
+  }
   if (from == sequence.size()) out.text() << (from == 0 ? "    no impacts\n" : "    no more impacts\n");
 }
 
@@ -169,9 +174,9 @@ void printSequences(Output& out, const std::vector<std::string>& before, const s
     const auto parting = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
     const auto same = static_cast<std::size_t>(parting.first - before.begin());
     out.text() << "  impacts: " << before.size() << " before, " << after.size() << " after; --impacts lists all\n"
-               << "  the first " << same << " are the same, then came\n";
+               << "  the first " << same << " are the same, then before:\n";
     printPart(out, before, same, kMostShown);
-    out.text() << "  and now come\n";
+    out.text() << "  and now:\n";
     printPart(out, after, same, kMostShown);
   }
 }
@@ -201,12 +206,12 @@ void printImpactSummary(Output& out, const Motion& motion) {
     for (const auto& pair : pairsOf(event)) pairs[pair].add(event.time);
   }
   printTallies(out, "Impacts by mode", "mode", modes, [](ImpactMode mode) { return std::string(nameOf(mode)); });
-  printTallies(out, "Pairs that meet most often", "bodies", pairs,
+  printTallies(out, "Pairs with most impacts", "bodies", pairs,
                [&](const auto& pair) { return pairName(motion, pair); });
   printTallies(out, "Moving bodies with most impacts", "body", bodies,
                [&](int body) { return nameOfBody(motion, body); });
   if (!impacts.empty()) {
-    out.text() << "\nThe first impact, the one nearest to where derivatives stop, and the last:\n";
+    out.text() << "\nThe first impact, the one with the smallest margin, and the last:\n";
     std::vector<std::size_t> chosen{impacts.front(), nearestToTheEdge(motion, impacts), impacts.back()};
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     printRows(out, motion, chosen);

@@ -32,7 +32,7 @@ void addOverlap(Imported& imported) {
     for (const StartOverlap& overlap : contacts.overlaps())
       imported.report.warnings.push_back(describeOverlapAtStart(imported.document.scene, overlap));
   } catch (const InputError& error) {
-    imported.report.warnings.push_back(std::string("the scene cannot be simulated as it is: ") + error.what());
+    imported.report.warnings.push_back(std::string("the scene cannot be simulated: ") + error.what());
   }
 }
 
@@ -79,7 +79,7 @@ Action declareImport(CLI::App& app) {
       ->required()
       ->type_name("M.glb");
   addOutput(app, options->output, "The scene document to write; - for standard output", "S.json")->required();
-  app.add_option("--duration", options->duration, "Seconds to simulate, 1 if neither this nor the file says it")
+  app.add_option("--duration", options->duration, "Seconds to simulate (default: as in the file, else 1)")
       ->check(positiveNumber())
       ->type_name("T");
   return [options](Output& out) { return importScene(*options, out); };
@@ -89,11 +89,11 @@ Action declareImport(CLI::App& app) {
 
 const Command kImportCommand{
     "import", "Read a glTF file with rigid bodies as a scene document",
-    "Reads KHR_physics_rigid_bodies with KHR_implicit_shapes and OMI_physics_gravity, and turns y up to\n"
+    "Reads KHR_physics_rigid_bodies with KHR_implicit_shapes and OMI_physics_gravity, and converts y up to\n"
     "z up. Nodes with motion become moving bodies of all colliders below them, other colliders fixed\n"
-    "bodies. Convex hulls and meshes are written beside the document, in S-meshes/. What is not supported\n"
-    "(joints, triggers and more) is named on standard error and in the answer of --json. A file\n"
-    "that carom export wrote comes back as it was, with its edit.\n"
+    "bodies. Convex hulls and meshes are written beside the document, in S-meshes/. Unsupported content\n"
+    "(joints, triggers and more) is listed on standard error and in the answer of --json. A file\n"
+    "written by carom export is read without loss, with its edit.\n"
     "\n"
     "Examples:\n"
     "  carom import course.glb -o course.json\n"

@@ -50,7 +50,7 @@ ScenePlan::Pair pairOf(const Output& out, const Scene& scene, int a, int b) {
   pair.coefficients = combine(m, n);
   pair.law = lawOf(pair.coefficients);
   pair.why = pair.law == Law::friction ? "friction > 0: sticks or slides (equation 4.2)"
-                                       : "friction 0: an impulse along the normal alone (equation 4.1)";
+                                       : "friction 0: an impulse along the normal only (equation 4.1)";
   pair.elasticity_why = explain(out, pair.coefficients.elasticity, m.combine_elasticity, m.elasticity, m.name,
                                 n.combine_elasticity, n.elasticity, n.name);
   pair.friction_why = explain(out, pair.coefficients.friction, m.combine_friction, m.friction, m.name,
@@ -63,7 +63,7 @@ std::vector<ScenePlan::Lasting> lastingOf(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.immovable()) continue;
-    lasting[i] = {{ArcKind::rest, ArcKind::slide, ArcKind::roll, ArcKind::pivot}, "stays in contact with a body that moves"};
+    lasting[i] = {{ArcKind::rest, ArcKind::slide, ArcKind::roll, ArcKind::pivot}, "stays in contact with a moving body"};
   }
   return lasting;
 }
@@ -113,7 +113,7 @@ void sayMoreBodies(Output& out, const Scene& scene) {
 }
 
 void printBodies(Output& out, const Scene& scene, const ScenePlan& plan) {
-  out.text() << "\nBodies, with the flight model that is exact for what the " << plan.asked << " asks:\n";
+  out.text() << "\nBodies, with the flight model that is exact for what the " << plan.asked << " requires:\n";
   Table table({"body", "motion", "because", "derivatives", "because"});
   for (std::size_t i = 0; i < std::min(scene.bodies.size(), kMostBodies); ++i) {
     const BodyPlan& body = plan.plan.bodies[i];
@@ -172,7 +172,7 @@ void printPairs(Output& out, const Scene& scene, const ScenePlan& plan) {
                  "\n    tangential elasticity " + out.number(pair.coefficients.tangential_elasticity) + "\n");
   laws.print(out);
   if (laws.empty()) out.text() << "  none\n";
-  out.text() << "  Contacts of one instant are solved together (equation 4.4).\n";
+  out.text() << "  Contacts of one instant are solved simultaneously (equation 4.4).\n";
 }
 
 void printLasting(Output& out, const Scene& scene, const ScenePlan& plan) {
@@ -185,14 +185,14 @@ void printLasting(Output& out, const Scene& scene, const ScenePlan& plan) {
     all.add(scene.bodies[i].name, "    " + joined(kinds, ", ") + "; the motion ends where it " + lasting.ends + "\n");
   }
   if (all.empty()) return;
-  out.text() << "\nContact with fixed bodies lasts, and is known in closed form (section 11 of the equations):\n";
+  out.text() << "\nPersistent contact with fixed bodies (section 11 of the equations):\n";
   all.print(out);
-  out.text() << "  Lasting contact of bodies that all move ends the motion.\n";
+  out.text() << "  Persistent contact between moving bodies ends the motion.\n";
 }
 
 void printOverlaps(Output& out, const Scene& scene, const ScenePlan& plan) {
   if (plan.overlaps.empty()) return;
-  out.text() << "\nBodies that overlap at the start, and do not collide until they have parted:\n";
+  out.text() << "\nBodies that overlap at the start, and do not collide until they have separated:\n";
   for (const StartOverlap& o : plan.overlaps)
     out.text() << "  " << scene.bodies[static_cast<std::size_t>(o.a)].name << "-"
                << scene.bodies[static_cast<std::size_t>(o.b)].name << " by " << out.number(o.depth) << " m\n";
@@ -207,8 +207,8 @@ Exit describeScene(const std::string& path, Output& out) {
   }
   const Document& document = loaded.document;
   out.text() << loaded.path << ": " << (document.name.empty() ? "" : quotedText(document.name) + ", ")
-             << out.number(document.duration) << " s, " << counted(plan.controls, "number") << " may vary, "
-             << counted(plan.rows, "number") << " held\n";
+             << out.number(document.duration) << " s, " << counted(plan.controls, "control parameter") << ", "
+             << counted(plan.rows, "constrained quantity", "constrained quantities") << '\n';
   printNotes(out, document);
   printShapes(out, document.scene);
   printBodies(out, document.scene, plan);
@@ -257,11 +257,11 @@ Action declareInfo(CLI::App& app) {
 }  // namespace
 
 const Command kInfoCommand{
-    "info", "How a scene is computed, and why; or about this program",
+    "info", "How a scene is computed, and why; or version and build",
     "For a scene: the shape and mass properties of every body, its flight model, for motion and for\n"
     "derivatives, the impact law and the combined coefficients of every pair that can touch, each with its\n"
-    "reason, what each body can do in lasting contact, and how many numbers may vary and are held. Without\n"
-    "a scene: version, build, libraries and formats.\n"
+    "reason, the persistent contacts that each body supports, and the numbers of controls and constraints.\n"
+    "Without a scene: version, build, libraries and formats.\n"
     "\n"
     "Examples:\n"
     "  carom info scene.json\n"

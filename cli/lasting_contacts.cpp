@@ -32,7 +32,7 @@ void printLastingContacts(Output& out, const Motion& motion, bool all) {
   const std::vector<LastingContact> contacts = lastingContacts(motion);
   if (contacts.empty()) return;
   const std::size_t shown = all ? contacts.size() : std::min(contacts.size(), kMostListed);
-  out.text() << "\nContact that lasts:\n";
+  out.text() << "\nPersistent contacts:\n";
   const auto name = [&](int body) { return motion.scene->bodies[static_cast<std::size_t>(body)].name; };
   Table table({"body", "", "on", ">from [s]", ">until [s]"});
   for (std::size_t i = 0; i < shown; ++i) {

@@ -73,18 +73,24 @@ Loaded::Loaded(const Output& out, const std::string& file, const MotionArguments
     : path(nameOfInput(file)),
       document(readScene(out, file)),
       contacts(inFile(path, [&] {
-        const Progress progress(out, "looking at the bodies");
+        const Progress progress(out, "searching for overlaps");
         WorkCount work(arguments.step_limit, {}, nullptr);
         try {
           return OdeContacts(document.scene, &work);
         } catch (const WorkEnded&) {
-          throw InputError("/bodies", "found so many bodies near each other that it takes more than " +
+          throw InputError("/bodies", "found so many bodies near each other that finding their overlaps takes more than " +
                                           std::to_string(arguments.step_limit) +
-                                          " steps of work to see which overlap at the start, expected fewer, or a higher "
+                                          " steps, expected fewer, or a higher "
                                           "--step-limit");
         }
       })),
       step_limit(arguments.step_limit) {
+  if (arguments.strict && !document.repairs.empty()) {
+    const FileRepair& first = document.repairs.front();
+    throw FormatError(path, "/bodies", "found " + first.file + " in need of repair (" + first.what +
+                                           "), expected meshes to be taken as they are, or no --strict");
+  }
+  for (const FileRepair& repair : document.repairs) out.warn(repair.file + " was repaired: " + repair.what);
   const std::vector<StartOverlap> overlaps = contacts.overlaps();
   if (arguments.refuse_overlaps && !overlaps.empty()) inFile(path, [&] { refuseOverlap(document.scene, overlaps.front()); });
 }
@@ -113,6 +119,10 @@ void requireNotStopped(const Motion& motion) {
 
 void warnIfEnded(const Output& out, const Motion& motion) {
   if (motion.status != MotionStatus::complete) out.warn("the motion ended early: " + motion.message);
+}
+
+Exit exitOf(const Motion& motion) {
+  return motion.status == MotionStatus::complete ? Exit::done : Exit::ended_early;
 }
 
 EditProblem derivativeProblem(Loaded& loaded) {

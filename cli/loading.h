@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "cli/command.h"
 #include "cli/options.h"
 #include "cli/output.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 #include "formats/base/document.h"
 #include "formats/base/in_file.hpp"
 #include "ode_bridge/ode_contacts.h"
@@ -37,6 +38,9 @@ void requireNotStopped(const Motion& motion);
 
 /// A warning for people when the motion ended before its duration.
 void warnIfEnded(const Output& out, const Motion& motion);
+
+/// Of a command whose answer is a motion that no signal stopped.
+Exit exitOf(const Motion& motion);
 
 /// The rows and controls of a document at the scene as written: bounds are checked, then left out, so that derivatives
 /// are those of what is written. Throws FormatError: nothing varies, nothing is held, or either is not possible.

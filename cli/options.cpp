@@ -13,9 +13,10 @@ void addScene(CLI::App& app, std::string& path, bool required) {
 
 void addMotion(CLI::App& app, MotionArguments& arguments) {
   app.add_flag("--refuse-overlaps", arguments.refuse_overlaps,
-               "Refuse bodies that overlap at the start; else they collide once they have parted");
+               "Refuse bodies that overlap at the start (default: they collide once they have separated)");
+  app.add_flag("--strict", arguments.strict, "Refuse mesh files that must be repaired (default: repair them and say how)");
   app.add_option("--step-limit", arguments.step_limit,
-                 "End a motion that takes more steps of work, 3000000 (some seconds) if not given")
+                 "Work limit of a motion in counted steps (default: 3000000, a few seconds)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000'000}))
       ->type_name("N");
 }

@@ -19,10 +19,11 @@ void addScene(CLI::App& app, std::string& path, bool required = true);
 /// How motions are simulated.
 struct MotionArguments {
   bool refuse_overlaps = false;
+  bool strict = false;                 ///< mesh files that must be repaired are errors
   std::size_t step_limit = 3'000'000;  ///< some seconds of work
 };
 
-/// Adds --refuse-overlaps and --step-limit.
+/// Adds --refuse-overlaps, --strict and --step-limit.
 void addMotion(CLI::App& app, MotionArguments& arguments);
 
 /// Adds -o, the file to write: any name but an empty one.

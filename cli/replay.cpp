@@ -113,10 +113,10 @@ Action declareReplay(CLI::App& app) {
 }  // namespace
 
 const Command kReplayCommand{
-    "replay", "Play the journal of an edit session again",
-    "Plays every gesture with the work limits of the journal and without a clock, and prints how near each\n"
-    "came to its target. What comes of a gesture is compared with what the journal says, bit by bit; where\n"
-    "it differs, that is said, and the command ends with 4.\n"
+    "replay", "Replay the journal of an edit session",
+    "Replays every gesture with the work limits of the journal and without time limits, and prints its\n"
+    "distance from the target. The outcome of a gesture is compared with the recorded one, bit by bit; a\n"
+    "difference is reported, and the exit code is 4.\n"
     "\n"
     "Examples:\n"
     "  carom replay session.json\n"

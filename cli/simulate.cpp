@@ -85,10 +85,10 @@ std::vector<double> timesWithin(const Motion& motion, std::vector<double> times)
 Action declareSimulate(CLI::App& app) {
   const auto options = std::make_shared<SimulateArguments>();
   addScene(app, options->scene);
-  app.add_option("--at", options->at, "A time to print the state at [s]; may be given more than once")
+  app.add_option("--at", options->at, "Time at which to print the state [s]; may be repeated")
       ->allow_extra_args(false)
       ->type_name("T");
-  app.add_flag("--impacts", options->impacts, "List all impacts, where more than 50 are summed up otherwise");
+  app.add_flag("--impacts", options->impacts, "List all impacts; more than 50 are summarised otherwise");
   addMotion(app, options->motion);
   return [options](Output& out) {
     Loaded loaded(out, options->scene, options->motion);
@@ -103,7 +103,7 @@ Action declareSimulate(CLI::App& app) {
     } else {
       printMotion(out, motion, *options, times);
     }
-    return stopped ? exitOf(out.interruption()) : Exit::done;
+    return stopped ? exitOf(out.interruption()) : exitOf(motion);
   };
 }
 
@@ -111,13 +111,13 @@ Action declareSimulate(CLI::App& app) {
 
 const Command kSimulateCommand{
     "simulate", "Simulate a scene: every impact, and states at any time",
-    "Prints every impact (time, bodies, contact point and normal, mode, and the margin to where\n"
-    "derivatives stop), which bodies rest, slide, roll and pivot on what and how long, and the state at the\n"
-    "end of the motion, or at the times asked for. Bounces lower than a millionth of a body are no impacts; --json\n"
-    "has them. Of more than 50 impacts it prints how many there are by mode, pair and body instead, if not\n"
-    "--impacts.\n"
-    "A motion that cannot be continued ends early: the answer says where, when and why. So does one that\n"
-    "takes more steps of work than --step-limit, or that Ctrl-C stops (then the command ends with 130).\n"
+    "Prints every impact (time, bodies, contact point and normal, mode, and margin: the distance from\n"
+    "where derivatives do not exist), persistent contacts (which bodies rest, slide, roll and pivot on\n"
+    "what, from when to when), and the state at the end or at given times. Bounces lower than a millionth\n"
+    "of a body are not reported as impacts; --json has them. More than 50 impacts are summarised by mode,\n"
+    "pair and body, unless --impacts.\n"
+    "A motion that cannot be continued ends early: the answer says where, when and why, and the exit code\n"
+    "is 5. So does one that exceeds --step-limit, or that Ctrl-C stops (exit code 130).\n"
     "\n"
     "Examples:\n"
     "  carom simulate scene.json\n"

@@ -14,6 +14,7 @@
 
 #include "cli/command.h"
 #include "cli/interruption.h"
+#include "studio/recent_files.h"
 #include "studio/studio.h"
 
 extern char** environ;
@@ -65,6 +66,7 @@ Exit serve(const StudioArguments& arguments, Output& out) {
   const Interruption::Stoppable stoppable(out.interruption());
   studio::StudioOptions options = arguments.options;
   options.stop = stoppable.token();
+  options.recent = studio::recentFilesPath();
   options.ready = [&](const std::string& address) {
     std::cout << address << std::endl;
     if (arguments.open) openInBrowser(address);
@@ -75,12 +77,12 @@ Exit serve(const StudioArguments& arguments, Output& out) {
 Action declareStudio(CLI::App& app) {
   const auto arguments = std::make_shared<StudioArguments>();
   studio::StudioOptions& options = arguments->options;
-  app.add_option("scene", options.scene, "The scene document that is open at first")->type_name("S.json");
-  app.add_option("--folder", options.folder, "Folder to open and save in; that of the scene, or else the current one")
+  app.add_option("scene", options.scene, "The scene document to open")->type_name("S.json");
+  app.add_option("--folder", options.folder, "Folder in which to open and save (default: that of the scene, else the current one)")
       ->type_name("DIR");
-  app.add_option("--port", options.port, "Port of 127.0.0.1, any that is free if not given")->type_name("N");
-  app.add_flag("!--no-open", arguments->open, "Print the address, but do not open it in the browser");
-  app.add_option("--page", options.share, "Folder of the page, in place of the installed one")
+  app.add_option("--port", options.port, "Port of 127.0.0.1 (default: any free one)")->type_name("N");
+  app.add_flag("!--no-open", arguments->open, "Print the address without opening it in a browser");
+  app.add_option("--page", options.share, "Folder of the page, instead of the installed one")
       ->type_name("DIR")
       ->group("");
   return [arguments](Output& out) { return serve(*arguments, out); };
@@ -90,8 +92,8 @@ Action declareStudio(CLI::App& app) {
 
 const Command kStudioCommand{
     "studio", "Edit a motion in the browser, with the mouse",
-    "Serves a page for the browser of this machine, and of no other, until Ctrl-C. It prints the address,\n"
-    "which holds a secret: who has it may edit. On a desktop it is opened at once.\n"
+    "Serves a page to browsers on this machine only, until Ctrl-C. Prints the address, which contains a\n"
+    "secret token: whoever has it may edit. On a desktop the address is opened.\n"
     "\n"
     "Examples:\n"
     "  carom studio examples/scenes/hat-on-coatrack.json\n"

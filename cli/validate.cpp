@@ -67,10 +67,10 @@ Action declareValidate(CLI::App& app) {
 }  // namespace
 
 const Command kValidateCommand{
-    "validate", "Check a scene document, to the last constraint",
+    "validate", "Validate a scene document completely",
     "Checks the text, every member, the physics (masses, moments, sizes), and that the motion has every\n"
-    "impact and time that constraints name. An error says where it is (file and JSON pointer), what was\n"
-    "found and what was expected, and ends with 1. Bodies that overlap at the start are a warning, or an\n"
+    "impact and time used by constraints. An error gives the place (file and JSON pointer), what was\n"
+    "found and what was expected; the exit code is 1. Bodies that overlap at the start are a warning, or an\n"
     "error with --refuse-overlaps.\n"
     "\n"
     "Examples:\n"

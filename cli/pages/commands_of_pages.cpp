@@ -21,7 +21,7 @@ struct PageArguments {
 };
 
 void addPageOutput(CLI::App& app, PageArguments& arguments) {
-  addOutput(app, arguments.output, "The file to write; - for standard output, as without it", "FILE");
+  addOutput(app, arguments.output, "The file to write (default: standard output)", "FILE");
 }
 
 Exit writePage(const PageArguments& arguments, const std::string& page, Output& out) {
@@ -61,7 +61,7 @@ Action declareMan(CLI::App& app) {
 }  // namespace
 
 const Command kCompletionCommand{
-    "completion", "Print what completes this command in a shell",
+    "completion", "Print the completion script for a shell",
     "An installed carom has these scripts in its share/ folder, where shells find them. Otherwise:\n"
     "\n"
     "Examples:\n"
@@ -72,7 +72,7 @@ const Command kCompletionCommand{
 
 const Command kManCommand{
     "man", "Print the man page",
-    "It is made of what --help says. An installed carom has it in share/man.\n"
+    "Generated from --help. An installed carom has it in share/man.\n"
     "\n"
     "Examples:\n"
     "  carom man -o carom.1 && man ./carom.1",

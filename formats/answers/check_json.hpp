@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 
 namespace carom::formats_detail {
 

@@ -17,8 +17,8 @@ void writeChanged(JsonWriter& out, const std::vector<ChangedNumber>& changed) {
   });
 }
 
-void writeResiduals(JsonWriter& out, const std::vector<HeldNumber>& residuals) {
-  out.objects("residuals", residuals, Layout::line, [&](const HeldNumber& number) {
+void writeResiduals(JsonWriter& out, const std::vector<ConstrainedNumber>& residuals) {
+  out.objects("residuals", residuals, Layout::line, [&](const ConstrainedNumber& number) {
     out.members("constraint", number.constraint, "component", number.component, "name", number.name);
     out.members("value", number.value, "target", number.target);
     if (!(number.lower == number.upper)) out.members("min", number.lower, "max", number.upper);

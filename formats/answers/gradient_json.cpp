@@ -20,9 +20,9 @@ void writeRows(JsonWriter& out, const ConstraintSet& constraints, const RowValue
   });
 }
 
-void writeTimes(JsonWriter& out, const std::vector<HeldTime>& times) {
-  out.objects("times", times, Layout::line, [&](const HeldTime& held) {
-    out.members("constraint", held.constraint, "from", held.from, "to", held.to, "time", held.time);
+void writeTimes(JsonWriter& out, const std::vector<ConstrainedTime>& times) {
+  out.objects("times", times, Layout::line, [&](const ConstrainedTime& time) {
+    out.members("constraint", time.constraint, "from", time.from, "to", time.to, "time", time.time);
   });
 }
 
@@ -47,7 +47,7 @@ std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& valu
   JsonWriter out;
   out.beginObject();
   writeRows(out, problem.constraints, result.rows);
-  writeTimes(out, problem.constraints.heldTimes(result.motion, result.rows.times));
+  writeTimes(out, problem.constraints.constrainedTimes(result.motion, result.rows.times));
   writeColumns(out, problem.controls, values);
   out.key("jacobian").beginArray();
   for (Eigen::Index i = 0; i < result.jacobian.rows(); ++i) out.value(Eigen::VectorXd(result.jacobian.row(i)));

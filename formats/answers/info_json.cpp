@@ -2,6 +2,7 @@
 #include "formats/answers/info_json.hpp"
 
 #include "adjoint/scene/body_model.h"
+#include "formats/answers/status_json.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom::formats_detail {
@@ -41,7 +42,7 @@ void writeLasting(JsonWriter& out, const ScenePlan::Lasting& lasting) {
   out.members("lasting_contact", kinds, "lasting_contact_ends", lasting.ends);
 }
 
-void writeBody(JsonWriter& out, const Body& body, const BodyPlan& plan, const ScenePlan::Lasting& lasting) {
+void writeBodyPlan(JsonWriter& out, const Body& body, const BodyPlan& plan, const ScenePlan::Lasting& lasting) {
   out.members("name", body.name).unlessEmpty("notes", body.notes);
   writeShapeOf(out, body);
   writeMassProperties(out, body);
@@ -67,11 +68,12 @@ std::string infoJson(const Document& document, const ScenePlan& plan) {
   out.members("duration", document.duration, "asked", plan.asked);
   std::size_t i = 0;
   out.objects("bodies", scene.bodies, Layout::block, [&](const Body& body) {
-    writeBody(out, body, plan.plan.bodies[i], plan.lasting[i]);
+    writeBodyPlan(out, body, plan.plan.bodies[i], plan.lasting[i]);
     ++i;
   });
   out.objects("overlaps", plan.overlaps, Layout::line,
               [&](const StartOverlap& overlap) { out.members("bodies", names(overlap), "depth", overlap.depth); });
+  writeRepairs(out, document);
   out.objects("pairs", plan.pairs, Layout::block, [&](const ScenePlan::Pair& pair) {
     out.members("bodies", names(pair), "law", pair.law == Law::friction ? "friction" : "frictionless");
     out.members("why", pair.why, "elasticity", pair.coefficients.elasticity, "friction", pair.coefficients.friction);

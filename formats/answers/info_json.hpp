@@ -40,7 +40,7 @@ struct ScenePlan {
 /// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
 /// principal moments (kg m^2), of those that differ kinematic, gravity_factor and collision_filter, tier, why,
 /// derivative_tier, derivative_why, of those that impacts move lasting_contact (kinds, as of LastingContact) and
-/// lasting_contact_ends (where it ends the motion)}, overlaps {bodies, depth}, pairs {bodies, law, why, elasticity,
+/// lasting_contact_ends (where it ends the motion)}, overlaps {bodies, depth}, repairs {file, what}, pairs {bodies, law, why, elasticity,
 /// friction, tangential_elasticity}, controls, rows.
 std::string infoJson(const Document& document, const ScenePlan& plan);
 

@@ -17,6 +17,11 @@ std::string documentOf(const Members&... members) {
 
 }  // namespace
 
+void writeRepairs(JsonWriter& out, const Document& document) {
+  out.objects("repairs", document.repairs, JsonWriter::Layout::line,
+              [&](const FileRepair& repair) { out.members("file", repair.file, "what", repair.what); });
+}
+
 std::string errorJson(const std::string& message, const std::string& file, const std::string& pointer) {
   JsonWriter out;
   out.beginObject().key("error").beginObject();
@@ -25,8 +30,12 @@ std::string errorJson(const std::string& message, const std::string& file, const
 }
 
 std::string validateJson(const std::string& file, const Document& document, const std::string& message) {
-  return documentOf("valid", true, "file", file, "bodies", document.scene.bodies.size(), "controls",
-                    document.controls.size(), "constraints", document.constraints.size(), "message", message);
+  JsonWriter out;
+  out.beginObject().members("valid", true, "file", file, "bodies", document.scene.bodies.size(), "controls",
+                            document.controls.size(), "constraints", document.constraints.size());
+  writeRepairs(out, document);
+  out.members("message", message).endObject();
+  return out.take();
 }
 
 std::string exportJson(const std::string& file, std::size_t bytes, const Motion& motion) {

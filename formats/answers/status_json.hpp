@@ -11,12 +11,17 @@
 
 namespace carom::formats_detail {
 
+class JsonWriter;
+
+/// The member repairs {file, what}: of mesh files that the document names.
+void writeRepairs(JsonWriter& out, const Document& document);
+
 /// The answer of every command that could not do its work: {"error": {"message", "file", "pointer"}}. `file` and
 /// `pointer` (a JSON pointer into the file) are empty where the error has no such place.
 std::string errorJson(const std::string& message, const std::string& file, const std::string& pointer);
 
 /// The answer of `carom validate --json` for a document that is valid: valid, file, bodies, controls, constraints
-/// (how many there are), message.
+/// (how many there are), repairs {file, what}, message.
 std::string validateJson(const std::string& file, const Document& document, const std::string& message);
 
 /// The answer of `carom export --json`: file, bytes, and the status, message and end of the motion that was written.

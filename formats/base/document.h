@@ -10,16 +10,23 @@
 
 namespace carom {
 
-/// A scene document: the scene, how long it is simulated, and the edit asked for.
+/// What was changed of a mesh file as it was read, so that it bounds a solid or a sheet.
+struct FileRepair {
+  std::string file;  ///< as errors name it
+  std::string what;  ///< a phrase: "2 triangles with corners on one line dropped (the first at line 12)"
+};
+
+/// A scene document: the scene, its duration, and an edit.
 struct Document {
-  Scene scene;                           ///< as written
+  Scene scene;                           ///< as in the document
   double duration = 1;  ///< s
-  std::vector<Control> controls;         ///< what may change
-  std::vector<Constraint> constraints;   ///< what is held
-  std::string folder;                 ///< that file names in the scene are relative to; empty: the current folder
-  std::string name = {};              ///< for people; nothing is computed from it
-  std::string notes = {};             ///< for people, too
+  std::vector<Control> controls;         ///< parameters that may change
+  std::vector<Constraint> constraints;   ///< of the edit
+  std::string folder;                 ///< to which file names in the scene are relative; empty: the current folder
+  std::string name = {};              ///< for readers; affects no result
+  std::string notes = {};             ///< for readers
   std::string schema = {};            ///< member "$schema", where an editor finds the schema; never opened here
+  std::vector<FileRepair> repairs = {};  ///< of the mesh files that it names; not written
 };
 
 }  // namespace carom

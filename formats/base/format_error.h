@@ -8,7 +8,7 @@
 namespace carom {
 
 /// A file or text that cannot be read or written. `where()` is the JSON pointer of the place ("/bodies/1/mass"), or
-/// "line 3, column 12" where the text is not JSON at all, or empty for the file as a whole. `what()` is one line:
+/// "line 3, column 12" if the text is not JSON, or empty for the file as a whole. `what()` is one line:
 ///   scene.json: /bodies/1/mass: found -2, expected a number > 0
 class FormatError : public InputError {
  public:

@@ -100,20 +100,22 @@ void readGrab(SessionGesture& gesture, const std::string& where) {
     gesture.grip.orientation = true, gesture.grip.place = false;
     return;
   }
-  const bool place =
-      !held.targets.empty() && (held.targets[0].quantity == "position" || held.targets[0].quantity == "point");
+  const std::string quantity = held.targets.empty() ? "" : held.targets[0].quantity;
+  const bool place = quantity == "position" || quantity == "point" || quantity == "contact";
   const bool turn = held.targets.size() == 2 && held.targets[1].quantity == "orientation";
   if (!place || held.targets.size() > 2 || (held.targets.size() == 2 && !turn))
     fail(where, "other targets",
-         "\"position\" or \"point\", and \"orientation\" after it where that is held, or \"orientation\" alone");
+         "\"position\", \"point\" or \"contact\", and \"orientation\" after it where that is held, or \"orientation\" alone");
   const Target& target = held.targets[0];
-  if (!target.min.empty() || !target.max.empty()) fail(where, "a range", "numbers, or null for what is free");
+  const bool range = !target.min.empty() || !target.max.empty();
+  if (range && quantity != "contact") fail(where, "a range", "numbers, or null for what is free");
+  gesture.grip.contact = target.quantity == "contact";
   if (target.quantity == "point") gesture.grip.body_point = target.body_point;
   gesture.grip.orientation = turn;
   const char* const kNames[] = {"x", "y", "z"};
-  const bool all = std::none_of(target.value.begin(), target.value.end(), [](double v) { return std::isnan(v); });
+  const bool all = std::none_of(target.value.begin(), target.value.end(), [](const TargetNumber& v) { return v.isFree(); });
   for (std::size_t k = 0; k < 3 && !all; ++k)
-    if (!std::isnan(target.value[k])) gesture.grip.components.push_back(kNames[k]);
+    if (!target.value[k].isFree()) gesture.grip.components.push_back(kNames[k]);
 }
 
 DragTarget readDragTarget(const Json& value, const SessionGesture& gesture, const std::string& where) {
@@ -124,6 +126,10 @@ DragTarget readDragTarget(const Json& value, const SessionGesture& gesture, cons
     if (!gesture.grip.orientation)
       fail(where + "/orientation", describe(value["orientation"]), "none: the grab does not hold it");
     target.orientation = readQuaternion(value["orientation"], where + "/orientation");
+  }
+  if (value.contains("components")) {
+    if (!gesture.grip.contact) fail(where + "/components", describe(value["components"]), "none: the grab holds no contact");
+    target.components = value["components"].get<std::vector<std::string>>();
   }
   if (value.contains("cut_after")) target.cut_after = value["cut_after"].get<int>();
   target.dwell = value.value("dwell", false);

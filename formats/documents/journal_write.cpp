@@ -60,6 +60,11 @@ void writeDrag(JsonWriter& out, const SessionGesture& gesture, const std::string
   out.objects("targets", gesture.targets, Layout::line, [&](const DragTarget& target) {
     out.members("milliseconds", target.milliseconds, "place", target.place);
     if (target.orientation) out.members("orientation", *target.orientation);
+    if (!target.components.empty()) {
+      out.key("components").beginArray(Layout::line);
+      for (const std::string& component : target.components) out.value(component);
+      out.endArray();
+    }
     if (target.dwell) out.members("dwell", true);
     if (target.cut_after) out.members("cut_after", *target.cut_after);
   });

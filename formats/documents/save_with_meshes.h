@@ -8,9 +8,9 @@
 
 namespace carom {
 
-/// Saves a document as saveDocument does. Surfaces of hulls and meshes that have no file are written beside it, as
-/// NAME-meshes/BODY.obj with all their digits, one for each surface; hulls of few points are written in the
-/// document itself. Returns the mesh files, relative to the document. Throws FormatError.
+/// Saves a document as saveDocument does. Surfaces of hulls and meshes without a file are written beside it, as
+/// NAME-meshes/BODY.obj with all digits, one for each surface; hulls of few points are written in the document
+/// itself. Returns the mesh files, relative to the document. Throws FormatError.
 std::vector<std::string> saveWithMeshes(const std::string& path, const Document& document);
 
 }  // namespace carom

@@ -39,6 +39,7 @@ Document formats_detail::readDocument(const Json& json, const std::string& folde
   document.notes = textOr(json, "notes");
   SurfaceFiles files(folder);
   document.scene = readScene(json, files);
+  document.repairs = files.repairs();
   validate(document.scene);
   document.duration = json.value("duration", document.duration);
   document.controls = readControls(json, document.scene);

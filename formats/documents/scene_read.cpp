@@ -80,6 +80,8 @@ Body readBody(const Json& value, const std::string& where, SurfaceFiles& files) 
   body.gravity_factor = value.value("gravity_factor", body.gravity_factor);
   if (value.contains("collision_filter")) body.collision_filter = readFilter(value["collision_filter"]);
   body.material = textOr(value, "material");
+  const bool derived = !value.contains("mass") || !value.contains("inertia") || !value.contains("center_of_mass");
+  files.readSolids(!body.immovable() && derived);
   body.shape = readShape(value["shape"], where + "/shape", files);
   if (value.contains("mass")) body.mass = value["mass"].get<double>();
   if (value.contains("density")) body.density = value["density"].get<double>();

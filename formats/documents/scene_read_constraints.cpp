@@ -43,7 +43,7 @@ When readWhen(const Json& value, const Json& body, const Scene& scene, double du
 
 /// Component `i` of a target within a range.
 void readRange(const Json& range, std::size_t i, Target& target, const std::string& where) {
-  const auto read = [&](const char* member, std::vector<double>& limits) {
+  const auto read = [&](const char* member, std::vector<TargetNumber>& limits) {
     const auto limit = range.find(member);
     if (limit == range.end()) return;
     limits.resize(target.value.size(), any);
@@ -68,7 +68,7 @@ void readNumbers(const Json& value, Target& target, const std::string& where) {
 void readTime(const Json& value, const When& at, double duration, Target& target, const std::string& where) {
   if (at.impact == 0 && !at.rest)
     fail(where, "a target \"time\" at a given time", "\"at\": {\"impact\": n} or {\"rest\": true} beside it");
-  target.value = {value.is_number() ? value.get<double>() : any};
+  target.value = {value.is_number() ? TargetNumber(value.get<double>()) : any};
   if (value.is_number()) requireWithin(target.value[0], duration, where);
   if (!value.is_object()) return;
   readRange(value, 0, target, where);
@@ -80,7 +80,7 @@ void readTime(const Json& value, const When& at, double duration, Target& target
 void readDistance(const Json& value, Target& target, double duration, const std::string& where) {
   target.to = value["to"].get<std::string>();
   const bool exact = value.contains("value");
-  target.value = {exact ? value["value"].get<double>() : any};
+  target.value = {exact ? TargetNumber(value["value"].get<double>()) : any};
   if (exact && (value.contains("min") || value.contains("max")))
     fail(where + "/value", "a value beside a range", "one of the two");
   if (!exact && !value.contains("min") && !value.contains("max"))
@@ -106,7 +106,7 @@ Target readTarget(const std::string& quantity, const Json& value, const When& at
   } else if (value.is_array()) {
     readNumbers(value, target, where);
   } else {
-    target.value = {value.is_number() ? value.get<double>() : any};
+    target.value = {value.is_number() ? TargetNumber(value.get<double>()) : any};
     if (value.is_object()) readRange(value, 0, target, where);
   }
   return target;
@@ -144,8 +144,8 @@ void requireTargets(const Constraint& constraint, const Json& value, const std::
   if (!constraint.targets.empty()) return;
   if (constraint.regions.empty())
     fail(where, "a constraint without a target",
-         "one of position, orientation, velocity, angular_velocity, time, point, speed, kinetic_energy, impulse, height, "
-         "distance, closest_approach, avoid, inside");
+         "one of position, orientation, velocity, angular_velocity, time, point, speed, kinetic_energy, impulse, contact, "
+         "height, distance, closest_approach, avoid, inside");
   const std::string target = "a target beside it, such as position: a region ";
   if (value.contains("at")) fail(where + "/at", describe(value["at"]), target + "has its time in \"during\"");
   if (value.contains("relative_to"))
@@ -183,7 +183,7 @@ void requireAlone(const Json& value, const std::vector<std::string>& words, cons
 
 Constraint readSequence(const Json& value, const std::string& where) {
   requireAlone(value, {"sequence", "notes"}, where);
-  Constraint constraint{"", When(0), {}};
+  Constraint constraint{"", When(0.0), {}};
   for (const Json& impact : value["sequence"]) constraint.sequence.push_back(impact.get<std::string>());
   constraint.notes = textOr(value, "notes");
   return constraint;
@@ -196,7 +196,7 @@ Constraint readConstraint(const Json& value, const Scene& scene, double duration
   const auto& name = scene.bodies[static_cast<std::size_t>(body)].name;
   if (scene.bodies[static_cast<std::size_t>(body)].fixed)
     fail(where + "/body", "the fixed body " + quotedText(name), "a moving body");
-  Constraint constraint{name, When(0), {}};
+  Constraint constraint{name, When(0.0), {}};
   if (value.contains("hits")) {
     requireAlone(value, {"body", "hits", "during", "after", "before", "notes"}, where);
     constraint.hits = readHit(value, scene, duration, where);

@@ -38,7 +38,7 @@ ControlOwner readOwner(const Json& value, OwnerKind kind, const Scene& scene, co
     if (kind != OwnerKind::body && scene.bodies[static_cast<std::size_t>(owner.body)].fixed)
       fail(where + "/body", "the fixed body " + describe(value["body"]), "a moving body");
     if (kind == OwnerKind::free_body && scene.bodies[static_cast<std::size_t>(owner.body)].kinematic)
-      fail(where + "/body", "the kinematic body " + describe(value["body"]), "a body that impacts move");
+      fail(where + "/body", "the kinematic body " + describe(value["body"]), "a dynamic body");
   }
   if (value.contains("material")) {
     const auto name = value["material"].get<std::string>();

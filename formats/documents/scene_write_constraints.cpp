@@ -35,13 +35,13 @@ void writeWhen(JsonWriter& out, const When& at) {
 }
 
 /// NaN where there is none.
-double limitAt(const std::vector<double>& limits, std::size_t i) { return limits.empty() ? any : limits[i]; }
+double limitAt(const std::vector<TargetNumber>& limits, std::size_t i) { return limits.empty() ? any : limits[i]; }
 
 /// A number, a range, or null.
 void writeComponent(JsonWriter& out, const Target& target, std::size_t i) {
   const double min = limitAt(target.min, i), max = limitAt(target.max, i);
   if (std::isnan(min) && std::isnan(max)) {
-    out.value(target.value[i]);
+    out.value(double{target.value[i]});
     return;
   }
   out.beginObject();
@@ -64,7 +64,7 @@ bool isOneNumber(const Target& target) {
 void writeDistance(JsonWriter& out, const Target& target) {
   const double min = limitAt(target.min, 0), max = limitAt(target.max, 0);
   out.beginObject().members("to", target.to);
-  if (!std::isnan(target.value[0])) out.members("value", target.value[0]);
+  if (!std::isnan(target.value[0])) out.members("value", double{target.value[0]});
   if (!std::isnan(min)) out.members("min", min);
   if (!std::isnan(max)) out.members("max", max);
   if (target.during) writeSpan(out, "during", *target.during);
@@ -116,9 +116,9 @@ void writeBothSides(JsonWriter& out, const std::vector<Region>& regions) {
 void requireTarget(const Target& target, const std::string& where) {
   if (isOneNumber(target) && target.value.size() != 1)
     throw InputError(where, "found " + std::to_string(target.value.size()) + " numbers, expected 1");
-  for (const std::vector<double>* numbers : {&target.value, &target.min, &target.max}) {
-    for (const double value : *numbers)
-      if (std::isinf(value)) requireFinite(where, value);
+  for (const std::vector<TargetNumber>* numbers : {&target.value, &target.min, &target.max}) {
+    for (const TargetNumber& value : *numbers)
+      if (!value.isFree()) requireFinite(where, value);
     if (!numbers->empty() && numbers->size() != target.value.size())
       throw InputError(where, "found " + std::to_string(numbers->size()) + " limits, expected " +
                                   std::to_string(target.value.size()));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "formats/documents/surface_files.hpp"
 
-#include <charconv>
 #include <filesystem>
 #include <system_error>
 
 #include "formats/base/in_file.hpp"
 #include "formats/mesh/mesh_file.h"
+#include "formats/mesh/repair/mesh_repair.hpp"
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::formats_detail {
@@ -14,26 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// " (line 7)" for the place "triangle 3" of a file that has lines.
-std::string lineOf(const TriangleSoup& soup, const std::string& where) {
-  constexpr std::string_view kTriangle = "triangle ";
-  if (where.rfind(kTriangle, 0) != 0) return {};
-  std::size_t index = soup.lines.size();
-  std::from_chars(where.data() + kTriangle.size(), where.data() + where.size(), index);
-  return index < soup.lines.size() ? " (line " + std::to_string(soup.lines[index]) + ")" : "";
+RepairedSurface readMesh(const std::string& path, bool solid) {
+  return inFile(path, [&] {
+    const TriangleSoup soup = readMeshFile(path);
+    RepairedSurface found = surfaceOf(soup, solid);
+    found.repairs.insert(found.repairs.begin(), soup.repairs.begin(), soup.repairs.end());
+    return found;
+  });
 }
 
-std::shared_ptr<const Surface> readMesh(const std::string& path) {
-  const TriangleSoup soup = readMeshFile(path);
-  try {
-    return meshSurface(soup.vertices, soup.triangles);
-  } catch (const InputError& error) {
-    throw FormatError(path, error.where() + lineOf(soup, error.where()), error.message());
-  }
-}
-
-std::shared_ptr<const Surface> readHull(const std::string& path) {
-  return inFile(path, [&] { return convexHull(readPointsFile(path)); });
+RepairedSurface readHull(const std::string& path) {
+  return inFile(path, [&] { return RepairedSurface{convexHull(readPointsFile(path)), {}}; });
 }
 
 /// Without "..", "." and links as far as the path exists.
@@ -59,11 +50,13 @@ std::shared_ptr<const Surface> SurfaceFiles::find(const std::string& file, const
   // "a/.." is not always nothing: `a` may be a link.
   const fs::path normal = path.lexically_normal();
   const std::string shown = (shortest(normal) == key ? normal : path).string();
-  if (const auto found = known_.find({key, convex}); found != known_.end()) return found->second;
+  const Known known{key, convex, !convex && solid_};
+  if (const auto found = known_.find(known); found != known_.end()) return found->second;
   try {
-    return known_[{key, convex}] = convex ? readHull(shown) : readMesh(shown);
+    const RepairedSurface read = convex ? readHull(shown) : readMesh(shown, solid_);
+    for (const std::string& repair : read.repairs) repairs_.push_back({shown, repair});
+    return known_[known] = read.surface;
   } catch (const InputError& error) {
-    known_.erase({key, convex});
     throw InputError(where, error.what());
   }
 }

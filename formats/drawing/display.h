@@ -14,14 +14,14 @@ struct DisplayMesh {
   std::vector<float> positions;          ///< m, x y z of each vertex
   std::vector<float> normals;            ///< x y z of each vertex, unit
   std::vector<std::uint32_t> triangles;  ///< three vertices each
-  std::vector<std::uint32_t> accent;     ///< triangles of a second shade, which show how a round body turns
+  std::vector<std::uint32_t> accent;     ///< triangles of a second shade, which show the rotation of a round body
 
   bool operator==(const DisplayMesh&) const = default;  ///< the same numbers in the same order
 };
 
-/// The mesh that pictures and glTF files show of a body. An endless plane becomes a square of the given half width [m]
-/// about its point nearest to the origin of the body. Throws InputError for a body that is not there and a half width
-/// that is not above 0.
+/// The mesh that pictures and glTF files show of a body. An endless plane becomes a square of the given half width
+/// [m] about its point nearest to the origin of the body. Throws InputError for an invalid body and a half width that
+/// is not positive.
 DisplayMesh displayMesh(const Scene& scene, int body, double plane_half_width);
 
 /// The path of a body for drawing: enough to evaluate any time of the motion without a simulator.
@@ -31,15 +31,15 @@ DisplayMesh displayMesh(const Scene& scene, int body, double plane_half_width);
 /// Its orientation by the two `turns` about t and spherical interpolation (slerp), before the first and after the last
 /// that one itself. The origin of its shape is then x(t) - q(t) center.
 struct DisplayTrack {
-  /// Begins a polynomial, which goes on to the next key or the end of the motion. A flight, a rest, a roll and a slide
-  /// along a line is an exact parabola. A slide round a bend, where friction turns with the slip, is cut: between keys,
-  /// which have the motion's place, velocity and acceleration, the polynomial stays within 1e-9 m of it.
+  /// Start of a polynomial, valid up to the next key or the end of the motion. Flights, rest, rolling and straight
+  /// slides are exact parabolas. A curved slide, where friction rotates with the slip, is subdivided: between keys,
+  /// which have the motion's position, velocity and acceleration, the polynomial is within 1e-9 m of it.
   struct ArcKey {
     double time = 0;                   ///< s
     Vec3 position = Vec3::Zero();      ///< m, of the centre of mass; of a fixed body its shape's origin
     Vec3 velocity = Vec3::Zero();      ///< m/s
-    Vec3 acceleration = Vec3::Zero();  ///< m/s^2: the body's share of gravity, and what contacts do
-    Vec3 third = Vec3::Zero();         ///< m/s^3, and so on; 0 but round bends
+    Vec3 acceleration = Vec3::Zero();  ///< m/s^2, by gravity and contacts
+    Vec3 third = Vec3::Zero();         ///< m/s^3; this and the next are 0 except on curved slides
     Vec3 fourth = Vec3::Zero();        ///< m/s^4
     Vec3 fifth = Vec3::Zero();         ///< m/s^5
 
@@ -67,8 +67,8 @@ struct DisplayTrack {
   bool operator==(const DisplayTrack&) const = default;  ///< the same keys
 };
 
-/// The track of a body, whose orientation stays within `turn_tolerance` [rad] of the motion. Throws InputError for a
-/// body that is not there, a tolerance that is not above 0, and a body that would need more than 2 million keys.
+/// The track of a body, whose orientation is within `turn_tolerance` [rad] of the motion. Throws InputError for an
+/// invalid body, a tolerance that is not positive, and a body that would need more than 2 million keys.
 DisplayTrack displayTrack(const Motion& motion, int body, double turn_tolerance = 2e-3);
 
 }  // namespace carom

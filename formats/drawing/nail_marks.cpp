@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "editing/problem/rows/contact_place.hpp"
 #include "editing/problem/rows/instants.hpp"
 #include "editing/problem/rows/refined_times.hpp"
 #include "formats/base/short_text.hpp"
@@ -25,6 +26,11 @@ std::optional<Instant> momentOf(const Constraint& constraint, const Motion& moti
   return time <= motion.end ? std::optional(Instant::at(time)) : std::nullopt;
 }
 
+Vec3 placeOfContact(const Constraint& constraint, const Motion& motion, int body, const Instant& moment) {
+  const std::string& with = constraint.at.with;
+  return contactPlace(motion, moment.event, body, with.empty() ? -1 : bodyIndex(*motion.scene, with));
+}
+
 std::string nailLabel(const Constraint& constraint, const std::optional<Instant>& moment) {
   const When& at = constraint.at;
   std::string text = constraint.body + " at ";
@@ -36,12 +42,12 @@ std::string nailLabel(const Constraint& constraint, const std::optional<Instant>
     text += shortNumber(moment ? moment->time : at.time) + " s";
   }
   if (at.span) text += " (" + shortNumber(at.span->first) + " to " + shortNumber(at.span->second) + " s)";
-  if (!constraint.relative_to.empty()) text += ", seen from " + constraint.relative_to;
+  if (!constraint.relative_to.empty()) text += ", relative to " + constraint.relative_to;
   return text;
 }
 
-double limitOf(const std::vector<double>& limits, std::size_t i, double none) {
-  return limits.empty() || std::isnan(limits[i]) ? none : limits[i];
+double limitOf(const std::vector<TargetNumber>& limits, std::size_t i, double none) {
+  return limits.empty() || std::isnan(limits[i]) ? none : double{limits[i]};
 }
 
 /// What the targets of a nail are seen from, and the body in it; nothing when the nail's moment does not come.
@@ -106,10 +112,12 @@ std::optional<NailMark> nailOf(const Constraint& constraint, const Motion& motio
   bool on_origin = true;
   for (const Target& target : constraint.targets) {
     if (target.quantity == "orientation") readPose(target, frame, nail);
-    if ((target.quantity != "position" && target.quantity != "point") || target.value.size() != 3) continue;
-    if (target.quantity == "point") on_origin = false;
+    const bool contact = target.quantity == "contact";
+    if ((target.quantity != "position" && target.quantity != "point" && !contact) || target.value.size() != 3) continue;
+    if (target.quantity != "position") on_origin = false;
     if (state) {
-      const Vec3 place = state->position + state->orientation * target.body_point;  // its own for a position
+      const Vec3 place = contact ? placeOfContact(constraint, motion, nail.body, *moment)
+                                 : Vec3(state->position + state->orientation * target.body_point);  // its own for a position
       frame.seen = frame.axes.conjugate() * (place - frame.origin);
     }
     readPlace(target, frame, is_relative, nail);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "formats/export/export_blender.h"
 
-#include <cstdint>
 #include <string_view>
 
+#include "formats/base/base64.hpp"
 #include "formats/json/json_writer.hpp"
 
 namespace carom {
@@ -62,19 +62,6 @@ def show():
 
 
 )";
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return out;
-}
 
 std::string inLines(const std::string& text) {
   constexpr std::size_t kWidth = 116;

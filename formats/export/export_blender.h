@@ -8,8 +8,8 @@
 namespace carom {
 
 /// A Python script for Blender (`blender --python motion.py`, or its text editor) with the whole .glb file in it. It
-/// makes a scene of its own with the frame rate of the options, frames from 0 to the last one, and the file's camera as
-/// the active one: what an imported file cannot set. Throws InputError as gltfText does.
+/// creates a scene with the frame rate of the options, frames from 0 to the last one, and the file's camera as the
+/// active one, which an imported file cannot set. Throws InputError as gltfText does.
 std::string blenderText(const Document& document, const Motion& motion, const GltfOptions& options = {});
 
 }  // namespace carom

@@ -7,11 +7,11 @@
 
 namespace carom {
 
-/// The motion as a table, one row a (time, moving body): at k / rate seconds, at the end of the motion, and twice at
-/// each event of the body (`kind` before and after), of which `event` gives the number among all events of the motion, as
-/// `carom simulate --json` lists them, 1 = the first. The last column, `path`, is what the body does (see ArcKind), empty
-/// where the motion ends as that is not known. Columns and units stand in the header row; numbers have 17 significant
-/// digits; text is quoted as in RFC 4180. Throws InputError when the rate [1/s] is not positive.
+/// The motion as a table, one row per (time, moving body): at k / rate seconds, at the end of the motion, and twice
+/// at each event of the body (`kind` before and after), of which `event` gives the number among all events of the
+/// motion, as `carom simulate --json` lists them, 1 = the first. The last column, `path`, is the ArcKind of the body,
+/// empty where the motion ends. The header row has columns and units; numbers have 17 significant digits; text is
+/// quoted as in RFC 4180. Throws InputError when the rate [1/s] is not positive.
 std::string csvText(const Motion& motion, double rate = 60);
 
 }  // namespace carom

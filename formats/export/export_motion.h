@@ -11,12 +11,12 @@ namespace carom {
 /// Options of all formats.
 struct ExportOptions {
   GltfOptions gltf = {};           ///< .glb, .gltf and .py, a script for Blender
-  double csv_rate = 60;            ///< rows a second
+  double csv_rate = 60;            ///< rows per second
   const Motion* before = nullptr;  ///< drawn behind the motion in pictures
 };
 
-/// Writes a motion in the format that the extension of `path` names (.glb, .gltf, .py, .csv, .svg; capitals allowed). The
-/// file appears whole or not at all. Throws InputError naming the path.
+/// Writes a motion in the format that the extension of `path` names (.glb, .gltf, .py, .csv, .svg; capitals allowed).
+/// The file is written atomically. Throws InputError naming the path.
 void exportMotion(const std::string& path, const Document& document, const Motion& motion,
                   const ExportOptions& options = {});
 
@@ -25,7 +25,7 @@ void exportMotion(const std::string& path, const Document& document, const Motio
 std::string motionText(const std::string& format, const std::string& title, const Document& document,
                        const Motion& motion, const ExportOptions& options = {});
 
-/// The extensions there are, with their dots.
+/// The supported extensions, with their dots.
 std::vector<std::string> exportExtensions();
 
 }  // namespace carom

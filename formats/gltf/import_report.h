@@ -6,7 +6,7 @@
 
 namespace carom {
 
-/// What an import could not take over as it was: one sentence each, with the name of the node or material.
+/// What an import changed or ignored: one sentence each, with the name of the node or material.
 struct ImportReport {
   std::vector<std::string> warnings;  ///< a sentence each
   std::vector<std::string> joints;    ///< names of the nodes that have one; joints are not simulated

@@ -8,6 +8,7 @@
 #include "formats/base/short_text.hpp"
 #include "formats/mesh/gltf_reader.hpp"
 #include "formats/mesh/obj_reader.hpp"
+#include "formats/mesh/obj_text.hpp"
 
 namespace carom {
 
@@ -19,15 +20,21 @@ struct Reader {
   const char* ending;
   const char* what;
   TriangleSoup (*parse)(std::string_view bytes, const std::string& folder);
+  std::vector<Vec3> (*points)(std::string_view bytes, const std::string& folder);
 };
-TriangleSoup parseObjIn(std::string_view text, const std::string&) { return parseObj(text); }
-constexpr Reader kReaders[] = {{".obj", "an OBJ file", parseObjIn},
-                               {".gltf", "a glTF file", parseGltfMesh},
-                               {".glb", "a glTF file", parseGltfMesh}};
 
-}  // namespace
+TriangleSoup parseObjIn(std::string_view text, const std::string&) { return parseObj(plainText(text)); }
+std::vector<Vec3> objPointsIn(std::string_view text, const std::string&) { return parseObjPoints(plainText(text)); }
+std::vector<Vec3> gltfPoints(std::string_view bytes, const std::string& folder) {
+  return parseGltfMesh(bytes, folder).vertices;  // those that no triangle uses are left out
+}
+constexpr Reader kReaders[] = {{".obj", "an OBJ file", parseObjIn, objPointsIn},
+                               {".gltf", "a glTF file", parseGltfMesh, gltfPoints},
+                               {".glb", "a glTF file", parseGltfMesh, gltfPoints}};
 
-TriangleSoup readMeshFile(const std::string& path) {
+/// Calls f(reader, bytes, folder) for the reader of a file, whose name its errors get.
+template <class Function>
+auto readWith(const std::string& path, const Function& f) {
   const std::string ending = extensionOf(path);
   // A pipe or a device has no end, or waits for one.
   if (std::error_code error; std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
@@ -35,23 +42,24 @@ TriangleSoup readMeshFile(const std::string& path) {
   for (const Reader& reader : kReaders)
     if (ending == reader.ending)
       return inFile(path, [&] {
-        return reader.parse(readFile(path, reader.what, kLargestMeshFile),
-                            std::filesystem::path(path).parent_path().string());
+        return f(reader, readFile(path, reader.what, kLargestMeshFile), std::filesystem::path(path).parent_path().string());
       });
   throw FormatError(path, "",
                     "found a name that ends in \"" + ending + "\", expected a mesh file: .obj, .gltf or .glb");
 }
 
+}  // namespace
+
+TriangleSoup readMeshFile(const std::string& path) {
+  return readWith(path, [](const Reader& reader, const std::string& bytes, const std::string& folder) {
+    return reader.parse(bytes, folder);
+  });
+}
+
 std::vector<Vec3> readPointsFile(const std::string& path) {
-  TriangleSoup soup = readMeshFile(path);
-  if (soup.triangles.empty()) return std::move(soup.vertices);
-  std::vector<char> used(soup.vertices.size(), 0);
-  for (const auto& triangle : soup.triangles)
-    for (const int vertex : triangle) used[static_cast<std::size_t>(vertex)] = 1;
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) points.push_back(soup.vertices[i]);
-  return points;
+  return readWith(path, [](const Reader& reader, const std::string& bytes, const std::string& folder) {
+    return reader.points(bytes, folder);
+  });
 }
 
 }  // namespace carom

@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <system_error>
 
 #include "adjoint/base/errors.h"
 #include "formats/json/json_writer.hpp"
+#include "formats/mesh/repair/triangulate.hpp"
 
 namespace carom::formats_detail {
 namespace {
@@ -47,7 +49,24 @@ class ObjParser {
   TriangleSoup parse() {
     while (at_ < text_.size()) readStatement();
     for (const Polygon& polygon : polygons_) addTriangles(polygon);
+    if (few_ > 0)
+      soup_.repairs.push_back(std::to_string(few_) + (few_ == 1 ? " face" : " faces") +
+                              " of fewer than three corners left out (the first at line " + std::to_string(first_few_) + ")");
     return std::move(soup_);
+  }
+
+  std::vector<Vec3> parsePoints() {
+    while (at_ < text_.size()) readStatement();
+    if (polygons_.empty()) return std::move(soup_.vertices);
+    std::vector<char> used(soup_.vertices.size(), 0);
+    for (const Polygon& polygon : polygons_) {
+      checkCorners(polygon);
+      for (std::size_t i = 0; i < polygon.count; ++i) used[static_cast<std::size_t>(corners_[polygon.first + i])] = 1;
+    }
+    std::vector<Vec3> points;
+    for (std::size_t v = 0; v < used.size(); ++v)
+      if (used[v]) points.push_back(soup_.vertices[v]);
+    return points;
   }
 
  private:
@@ -179,9 +198,11 @@ class ObjParser {
       if (++polygon.count > kMostCorners) fail("a polygon of more corners", "at most " + std::to_string(kMostCorners));
       corners_.push_back(readCorner(token));
     }
-    if (polygon.count < 3)
-      fail("a face of " + std::to_string(polygon.count) + (polygon.count == 1 ? " corner" : " corners"),
-           "three or more");
+    if (polygon.count < 3) {
+      if (few_++ == 0) first_few_ = line_;
+      corners_.resize(polygon.first);
+      return;
+    }
     if (corners_.size() - 2 * (polygons_.size() + 1) > kMostTriangles)
       fail("one more triangle", "at most " + std::to_string(kMostTriangles) + " triangles");
     polygons_.push_back(polygon);
@@ -202,29 +223,65 @@ class ObjParser {
     return true;
   }
 
-  void addTriangles(const Polygon& p) {
+  void checkCorners(const Polygon& p) {
     line_ = p.line;
     const auto count = static_cast<long long>(soup_.vertices.size());
     for (std::size_t i = 0; i < p.count; ++i)
       if (corners_[p.first + i] >= count)
         fail("vertex " + std::to_string(corners_[p.first + i] + 1),
              count == 0 ? "no faces, as there are no vertices" : "one of 1 to " + std::to_string(count));
-    const std::size_t base = p.count == 3 ? 0 : fanBase(p);
-    for (std::size_t i = 1; i + 1 < p.count; ++i) {
-      const auto corner = [&](std::size_t k) { return static_cast<int>(corners_[p.first + (base + k) % p.count]); };
-      soup_.triangles.push_back({corner(0), corner(i), corner(i + 1)});
-      soup_.lines.push_back(p.line);
-    }
   }
 
-  std::size_t fanBase(const Polygon& p) const {
+  void addTriangles(const Polygon& p) {
+    checkCorners(p);
+    const std::vector<int> corners = cornersOnce(p);
+    const Polygon once{p.first, corners.size(), p.line};  // its corners stand first
+    std::copy(corners.begin(), corners.end(), corners_.begin() + static_cast<std::ptrdiff_t>(p.first));
+    if (const auto base = once.count < 3 ? std::nullopt : fanBase(once)) {
+      for (std::size_t i = 1; i + 1 < once.count; ++i)
+        addTriangle(corners[*base], corners[(*base + i) % once.count], corners[(*base + i + 1) % once.count], p.line);
+      return;
+    }
+    std::vector<Vec3> places;
+    for (const int v : corners) places.push_back(soup_.vertices[static_cast<std::size_t>(v)]);
+    if (corners.size() > mesh_repair::kMostTriangulated)
+      fail("a polygon of " + std::to_string(corners.size()) + " corners that is not convex",
+           "at most " + std::to_string(mesh_repair::kMostTriangulated) + " corners of such (export it as triangles)");
+    const auto triangles = mesh_repair::triangulate(places);
+    for (const auto& t : triangles)
+      addTriangle(corners[static_cast<std::size_t>(t[0])], corners[static_cast<std::size_t>(t[1])],
+                  corners[static_cast<std::size_t>(t[2])], p.line);
+    if (triangles.empty() && p.count >= 3)  // as it is: without an area, which is said where a surface is made of it
+      addTriangle(static_cast<int>(corners_[p.first]), static_cast<int>(corners_[p.first + 1]),
+                  static_cast<int>(corners_[p.first + 2]), p.line);
+  }
+
+  void addTriangle(int a, int b, int c, int line) {
+    soup_.triangles.push_back({a, b, c});
+    soup_.lines.push_back(line);
+  }
+
+  /// Once round, without corners that stand at the place of the one before.
+  std::vector<int> cornersOnce(const Polygon& p) const {
+    std::vector<int> corners;
+    for (std::size_t i = 0; i < p.count; ++i)
+      if (p.count == 3 || place(p, i) != place(p, i + 1)) corners.push_back(static_cast<int>(corners_[p.first + i]));
+    for (std::size_t period = 3; 2 * period <= corners.size(); ++period)
+      if (corners.size() % period == 0 && std::equal(corners.begin() + static_cast<std::ptrdiff_t>(period), corners.end(), corners.begin())) {
+        corners.resize(period);
+        break;
+      }
+    return corners;
+  }
+
+  std::optional<std::size_t> fanBase(const Polygon& p) const {
+    if (p.count == 3) return 0;
     Vec3 area = Vec3::Zero();
     for (std::size_t i = 1; i + 1 < p.count; ++i)
       area += (place(p, i) - place(p, 0)).cross(place(p, i + 1) - place(p, 0));
     for (std::size_t base = 0; base < std::min(p.count, kMostFans); ++base)
       if (fanCovers(p, base, area)) return base;
-    fail("a polygon of " + std::to_string(p.count) + " corners that is not convex, or has corners in one place",
-         "a convex one (export it as triangles)");
+    return std::nullopt;
   }
 
   std::string_view text_;
@@ -233,10 +290,13 @@ class ObjParser {
   TriangleSoup soup_;
   std::vector<long long> corners_;  // vertices counted from 0
   std::vector<Polygon> polygons_;
+  int few_ = 0, first_few_ = 0;  // faces of fewer than three corners, and the line of the first
 };
 
 }  // namespace
 
 TriangleSoup parseObj(std::string_view text) { return ObjParser(text).parse(); }
+
+std::vector<Vec3> parseObjPoints(std::string_view text) { return ObjParser(text).parsePoints(); }
 
 }  // namespace carom::formats_detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contact that lasts: a broad, pale stroke where a body rolls, the same dashed where it slides and dotted where it
+// Persistent contact: a broad, pale stroke where a body rolls, the same dashed where it slides and dotted where it
 // pivots, and a square where it comes to rest.
 #include <string>
 #include <vector>

@@ -17,7 +17,7 @@ struct ImpactMark {
   std::string words() const;
 };
 
-/// How the impacts that are such to people (Event::counts) are drawn: one by one with numbers, one by one, or summed in
+/// How reported impacts (Event::counts) are drawn: one by one with numbers, one by one, or summed in
 /// cells when they could not be told apart.
 struct ImpactPlan {
   enum class As { none, numbered, marks, cells };

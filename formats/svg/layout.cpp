@@ -24,7 +24,7 @@ Extent fixedExtent(const Body& body, const Vec3& centre) {
 }
 
 /// Regions and the ends of ranges, those that are not much larger than all the rest.
-void extendByHeldPlaces(const Picture& picture, Extent& shown) {
+void extendByConstrainedPlaces(const Picture& picture, Extent& shown) {
   const Vec3 reach = Vec3::Constant(shown.sizes().maxCoeff());
   const Extent near(shown.min() - reach, shown.max() + reach);
   for (const RegionMark& region : picture.regions) {
@@ -58,7 +58,7 @@ Extent shownExtent(const Picture& picture) {
       shown.extend(Extent(*nail.pose_origin - radius, *nail.pose_origin + radius));
     }
   }
-  extendByHeldPlaces(picture, shown);
+  extendByConstrainedPlaces(picture, shown);
   const Vec3 reach = Vec3::Constant(0.35 * shown.sizes().maxCoeff()), centre = shown.center();
   const Extent near(shown.min() - reach, shown.max() + reach);
   for (const Body& body : picture.motion.scene->bodies) {

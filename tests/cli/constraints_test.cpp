@@ -94,7 +94,7 @@ TEST(EveryConstraint, AreDrawnAndExported) {
   const std::string path = written(sceneOfEveryConstraint()), svg = temporaryPath("constraints.svg");
   runJson({"export", path, "-o", svg});
   const std::string picture = readText(svg);
-  for (const char* part : {"class=\"nail-range\"", "class=\"avoid\"", "seen from ball", "(0.2 to 0.8 s)"})
+  for (const char* part : {"class=\"nail-range\"", "class=\"avoid\"", "relative to ball", "(0.2 to 0.8 s)"})
     EXPECT_NE(picture.find(part), std::string::npos) << part;
   const std::string glb = temporaryPath("constraints.glb"), again = temporaryPath("constraints-again.json");
   runJson({"export", path, "-o", glb});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the directed scenes of the README's gallery show: the command solves each, exactly and as it should look.
+// What the directed scenes of docs/gallery.md show: the command solves each, exactly and as it should look.
 #include <gtest/gtest.h>
 
 #include <algorithm>

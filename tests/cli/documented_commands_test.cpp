@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <regex>
 
 #include "examples/support/project_file.h"
@@ -67,6 +68,14 @@ Lines commandsOf(const std::string& page) {
   return found;
 }
 
+/// Pages are made with three.js, which not every machine has.
+bool canRun(const std::string& line) {
+  static const bool three = fs::exists(projectFile("studio/page/node_modules/three/build/three.module.js"));
+  if (three || line.find(".html") == std::string::npos) return true;
+  std::cout << "left out: " << line << " (scripts/setup studio)\n";
+  return false;
+}
+
 TEST(DocumentedCommands, Run) {
   const fs::path folder = temporaryPath("documented");
   fs::create_directories(folder / "bin");
@@ -79,6 +88,7 @@ TEST(DocumentedCommands, Run) {
   std::size_t count = 0;
   for (const std::string& name : pages()) {
     for (const std::string& line : commandsOf(readText(projectFile(name)))) {
+      if (!canRun(line)) continue;
       const std::string log = (folder / "log").string();
       const std::string shell = "cd '" + folder.string() + "' && PATH=\"$PWD/bin:$PATH\" && export PATH && ( " + line +
                                 " ) > '" + log + "' 2>&1 < /dev/null";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the scenes of the README's gallery show: each motion is known to its end, and what it is there for comes about.
+// What the scenes of docs/gallery.md show: each motion is known to its end, and what it is there for comes about.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -33,7 +33,7 @@ TEST(Import, WritesTheDocumentAndTheMeshesBesideIt) {
   const CommandRun run = runCommand({"import", sample("shapes.gltf"), "-o", output});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.out, "Written: " + output + " (13 bodies, 1 material, 6 mesh files)\n");
-  EXPECT_NE(run.err.find("carom: warning: node 'Lamp' (/nodes/14): its trigger is left out"), std::string::npos)
+  EXPECT_NE(run.err.find("carom: warning: node 'Lamp' (/nodes/14): its trigger is ignored"), std::string::npos)
       << run.err;
   const Document document = readDocument(output);
   EXPECT_EQ(document.scene.bodies.size(), 13u);

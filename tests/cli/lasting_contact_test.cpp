@@ -112,7 +112,7 @@ TEST(LastingContact, PeopleAreNotToldOfDust) {
 
 TEST(LastingContact, PeopleAreToldHowLong) {
   const CommandRun run = runCommand({"simulate", everyPath(), "--digits", "3"});
-  const std::string below = run.out.substr(run.out.find("Contact that lasts:"));
+  const std::string below = run.out.substr(run.out.find("Persistent contacts:"));
   std::vector<std::string> rows;
   for (const std::string& line : linesWith(below, " floor ")) rows.push_back(wordsOf(line));
   EXPECT_EQ(rows, (std::vector<std::string>{"bowl slides floor 0 0.0777", "block slides floor 0 0.34",
@@ -160,7 +160,7 @@ TEST(LastingContact, WhatTurnsAboutAnEdgePivots) {
   EXPECT_EQ(causes, std::vector<std::string>{"slips"});
   const CommandRun run = runCommand({"simulate", fallingBoxes()});
   std::vector<std::string> rows;
-  for (const std::string& line : linesWith(run.out.substr(run.out.find("Contact that lasts:")), " floor "))
+  for (const std::string& line : linesWith(run.out.substr(run.out.find("Persistent contacts:")), " floor "))
     rows.push_back(wordsOf(line));
   ASSERT_EQ(rows.size(), kinds.size()) << run.out;
   EXPECT_TRUE(rows[0].starts_with("rough pivots floor 0 ")) << run.out;
@@ -181,7 +181,7 @@ TEST(LastingContact, InfoSaysWhatABodyCanDo) {
   const auto kinds = [&](int body) { return answer["bodies"][static_cast<std::size_t>(body)]["lasting_contact"]; };
   for (int body : {0, 2}) EXPECT_EQ(kinds(body), (json{"rest", "slide", "roll", "pivot"}));
   EXPECT_FALSE(answer["bodies"][4].contains("lasting_contact"));
-  EXPECT_EQ(answer["bodies"][2]["lasting_contact_ends"], "stays in contact with a body that moves");
+  EXPECT_EQ(answer["bodies"][2]["lasting_contact_ends"], "stays in contact with a moving body");
   const CommandRun run = runCommand({"info", everyPath()});
   EXPECT_NE(run.out.find("  drop, bowl, block, still\n    rest, slide, roll, pivot; the motion ends where it stays in "),
             std::string::npos)

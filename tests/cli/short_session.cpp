@@ -45,7 +45,7 @@ SessionJournal studioSession() {
   OdeContacts contacts(scene);
   SessionOptions options = withoutClock();
   options.unmet_nails_off = true;
-  const Constraint goal = heldConstraint("ball", 0.2, {.position = Vec3(0.7, any, any)});
+  const Constraint goal = nailConstraint("ball", 0.2, {.position = WantedVector(0.7, any, any)});
   EditSession session(scene, contacts, 1, {}, {goal}, options);
   session.meetNails();
   session.grab("ball", 0.3, {}, {velocity("ball")});
@@ -59,7 +59,7 @@ SessionJournal studioSession() {
   SessionContent content = session.content();
   content.scene.bodies[1].mass = 0.1;
   session.setContent(content, "a heavier ball");
-  session.setNail({0}, heldConstraint("ball", 0.1, {.velocity = Vec3(any, any, 1)}));
+  session.setNail({0}, nailConstraint("ball", 0.1, {.velocity = WantedVector(any, any, 1)}));
   session.undo();
   return session.journal();
 }

@@ -80,7 +80,7 @@ TEST(ExportCsv, NamesWithCommasAndQuotesAreQuoted) {
 }
 
 TEST(ExportCsv, RefusesARateThatIsNoRate) {
-  for (const double rate : {0.0, -1.0, any, 1e300})
+  for (const double rate : {0.0, -1.0, std::nan(""), 1e300})
     EXPECT_THROW(exportMotion(temporaryPath("m.csv"), handDocument(), handMotion(), {.csv_rate = rate}), InputError)
         << rate;
   EXPECT_FALSE(std::filesystem::exists(temporaryPath("m.csv")));

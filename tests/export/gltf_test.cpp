@@ -345,7 +345,7 @@ TEST(ExportGltf, NumbersThatDoNotFitAreRefused) {
   const auto refuses = [](const GltfOptions& options) {
     EXPECT_THROW(exportMotion(temporaryPath("m.glb"), handDocument(), handMotion(), {options}), InputError);
   };
-  for (const double bad : {0.0, -24.0, any, 1e300}) {
+  for (const double bad : {0.0, -24.0, std::nan(""), 1e300}) {
     GltfOptions frames, tolerance, light, ghosts;
     frames.frames_per_second = bad, tolerance.tolerance = bad, light.light = bad, ghosts.ghosts = bad;
     for (const GltfOptions& options : {frames, tolerance, light, ghosts}) refuses(options);

@@ -122,7 +122,7 @@ TEST(ExportSvg, ANailSeenFromAnotherBodyIsDrawnInTheWorld) {
   ASSERT_EQ(b.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) EXPECT_TRUE((a[k] - b[k]).norm() <= 0.02) << a[k] << b[k];
   EXPECT_EQ(count(seen, "class=\"target-pose\""), 2);
-  EXPECT_NE(seen.find("seen from top"), std::string::npos);
+  EXPECT_NE(seen.find("relative to top"), std::string::npos);
 
   // A free component is the motion's own, along the axes of the other body.
   document.constraints = {{"book", 0.6, {{"position", {any, -0.2, 0.3}}}, "top"}};
@@ -134,7 +134,7 @@ TEST(ExportSvg, ANailSeenFromAnotherBodyIsDrawnInTheWorld) {
 
 TEST(ExportSvg, RegionsAreOutlinesWithinTheFrame) {
   Document document = handDocument();
-  Constraint kept{"ball <1>", 0, {}};
+  Constraint kept{"ball <1>", 0.0, {}};
   kept.regions = {{.side = Region::Side::avoid, .shape = Sphere{0.2}, .position = {1.5, 0.6, 1.4}},
                   {.side = Region::Side::inside,
                    .shape = Box{{3, 2, 2.5}},

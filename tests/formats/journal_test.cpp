@@ -38,7 +38,7 @@ SessionJournal recorded() {
   for (int k = 1; k <= 4; ++k) session.dragTo(start + k * Vec3(0.013, 0, 0.007));
   session.releaseNailed();
   session.vary(orientation("box"));
-  session.nail("box", nthImpact(1, "floor"), {.position = Vec3(0.7, any, any)});
+  session.nail("box", nthImpact(1, "floor"), {.position = WantedVector(0.7, any, any)});
   session.grab("box", 0.3, {.orientation = true});
   session.dragTo(session.grabbedPlace(), session.grabbedOrientation());
   session.cancel();
@@ -73,7 +73,7 @@ TEST(Journal, ReadsBackAsItWasAndPlaysTheSame) {
   parseDocument(writeDocument(end), "end");
 }
 
-TEST(Journal, KeepsWhatIsHeldAtRest) {
+TEST(Journal, KeepsWhatIsConstrainedAtRest) {
   const Document document = parseDocument(R"({
   "carom": 1, "duration": 3,
   "bodies": [
@@ -99,6 +99,37 @@ TEST(Journal, KeepsWhatIsHeldAtRest) {
   EXPECT_TRUE(replay.session().constraints().at(0).at.rest);
 }
 
+TEST(Journal, KeepsWhatSlidesOverASurface) {
+  const Document document = throwOfABox();
+  OdeContacts contacts(document.scene);
+  SessionOptions options;
+  options.drag_seconds = options.release_seconds = std::numeric_limits<double>::infinity();
+  EditSession session(document.scene, contacts, document.duration, document.controls, {}, options);
+  session.grab("box", nthImpact(1, "floor"), {.contact = true, .components = {"y", "z"}});
+  const Vec3 start = session.grabbedPlace();
+  session.slideTo(start + Vec3(0.02, 0.01, 0), {"x", "y"});
+  session.dragTo(start + Vec3(0.04, 0.02, 0));
+  session.slideTo(start + Vec3(0.04, 0.02, 0), {"y", "z"});
+  session.slideTo(start + Vec3(0.05, 0.02, 0), {"x", "y"});
+  session.releaseNailed();
+  session.grabNail(session.nails().back());
+  session.dragTo(start + Vec3(0.03, 0.01, 0));
+  session.release();
+  const std::string text = writeJournal({session.journal(), ""});
+  const JournalDocument read = parseJournal(text, "journal");
+  EXPECT_EQ(writeJournal(read), text);
+  EXPECT_TRUE(read.journal.gestures.at(0).grip.contact);
+  EXPECT_EQ(read.journal.gestures[0].grip.components, (std::vector<std::string>{"y", "z"}));
+  EXPECT_EQ(read.journal.gestures[0].targets.at(2).components, (std::vector<std::string>{"y", "z"}));
+  OdeContacts again(read.journal.scene);
+  SessionReplay replay(read.journal, again);
+  while (!replay.done()) {
+    const ReplayedGesture gesture = replay.next();
+    EXPECT_TRUE(gesture.differences.empty()) << gesture.differences[0];
+  }
+  EXPECT_EQ(replay.session().constraints().at(0).targets.at(0).quantity, "contact");
+}
+
 /// A session with every kind of gesture that studios make.
 SessionJournal recordedInAStudio() {
   const Document document = throwOfABox();
@@ -109,11 +140,11 @@ SessionJournal recordedInAStudio() {
   options.drag_steps = 1234567.5, options.release_steps = 7e8;
   options.unmet_nails_off = true;
   std::vector<Constraint> goals = document.constraints;
-  goals.push_back(heldConstraint("box", 0.2, {.position = Vec3(0.4, any, any)}));
+  goals.push_back(nailConstraint("box", 0.2, {.position = WantedVector(0.4, any, any)}));
   EditSession session(document.scene, contacts, document.duration, document.controls, goals, options);
   session.meetNails();
   session.setNailOn({0}, false);
-  session.setNail({1}, heldConstraint("box", 0.25, {.position = Vec3(0.4, any, any)}));
+  session.setNail({1}, nailConstraint("box", 0.25, {.position = WantedVector(0.4, any, any)}));
   session.grab("box", 0.1, {}, {position("box")});
   session.dragTo(session.grabbedPlace() + Vec3(0, 0.5, 0));
   session.dwell();
@@ -127,14 +158,14 @@ SessionJournal recordedInAStudio() {
   pebble.name = "pebble", pebble.position.x() = 4;
   content.scene.bodies.push_back(pebble);
   content.duration = 2.5;
-  content.nails.push_back({NailId(), heldConstraint("pebble", 0.4, {.velocity = Vec3(1, any, any)})});
+  content.nails.push_back({NailId(), nailConstraint("pebble", 0.4, {.velocity = WantedVector(1, any, any)})});
   session.setContent(content, "velocity.y of 'box'");
   session.grab("pebble", 0.3, {}, {velocity("pebble")});
   session.dragTo(session.grabbedPlace() + Vec3(0.1, 0, 0));
   session.release();
   session.undo();
   session.undo();
-  session.nail("box", 0.3, {.velocity = Vec3(any, 0.3, any)});
+  session.nail("box", 0.3, {.velocity = WantedVector(any, 0.3, any)});
   return session.journal();
 }
 

@@ -82,7 +82,7 @@ void expectSameBody(const Body& a, const Body& b) {
   expectSameNumbers(a.angular_velocity, b.angular_velocity, a.name + " angular_velocity");
 }
 
-void expectSameLimits(const std::vector<double>& a, const std::vector<double>& b, const std::string& where) {
+void expectSameLimits(const std::vector<TargetNumber>& a, const std::vector<TargetNumber>& b, const std::string& where) {
   ASSERT_EQ(a.size(), b.size()) << where;
   for (std::size_t i = 0; i < a.size(); ++i)
     EXPECT_TRUE(a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]))) << where << " " << a[i] << " " << b[i];

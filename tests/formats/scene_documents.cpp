@@ -108,7 +108,7 @@ const std::string& documentWithEverything() {
         { "box": { "size": [20.5, 21, 22] }, "orientation": [0.96, 0.28, 0, 0], "keep": "shape", "margin": 0 } ],
       "avoid": { "sphere": { "radius": 0.26 }, "position": [-9, 3, -0.1], "during": [0.2, 1.7], "margin": 0.05 } },
     { "body": "die", "at": { "impact": 4 }, "speed": 3.25, "kinetic_energy": { "max": 41.5 },
-      "impulse": { "min": 1.125, "max": 2.625 }, "height": -0.375 },
+      "impulse": { "min": 1.125, "max": 2.625 }, "contact": [{ "min": 0.7 }, null, 4.75], "height": -0.375 },
     { "body": "can", "at": 0.35, "distance": { "to": "pill", "min": 0.15, "max": 8.5 } },
     { "body": "pill", "closest_approach": { "to": "can", "value": 0.065, "during": [0.45, 1.95] } },
     { "body": "can", "hits": "pill", "during": [0.55, 1.85], "after": { "body": "die", "impact": 8, "with": "crate" },

@@ -94,19 +94,19 @@ TEST(SceneRoundTrip, membersAreRead) {
   EXPECT_EQ(d.controls[0].max, std::vector<double>{3});
   EXPECT_EQ(d.controls[11].impact, 2);
   EXPECT_TRUE(std::isnan(d.constraints[0].targets[0].value[1]));
-  EXPECT_EQ(d.constraints[0].targets[1].value, (std::vector<double>{0.8, 0, 0.6, 0}));
+  EXPECT_EQ(d.constraints[0].targets[1].value, (std::vector<TargetNumber>{0.8, 0, 0.6, 0}));
   EXPECT_EQ(d.constraints[1].at.impact, 3);
   EXPECT_EQ(d.constraints[1].at.with, "floor");
-  EXPECT_EQ(d.constraints[1].targets[1].value, std::vector<double>{1.25});
+  EXPECT_EQ(d.constraints[1].targets[1].value, (std::vector<TargetNumber>{1.25}));
   EXPECT_EQ(d.constraints[3].targets[0].body_point, Vec3(0.5, 0, 0));
 }
 
-using Numbers = std::vector<double>;
+using Numbers = std::vector<TargetNumber>;
 
 /// Numbers with the free ones as 99.
 Numbers shown(Numbers numbers) {
-  for (double& x : numbers)
-    if (std::isnan(x)) x = 99;
+  for (TargetNumber& x : numbers)
+    if (x.isFree()) x = 99;
   return numbers;
 }
 
@@ -152,12 +152,15 @@ TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   EXPECT_FALSE(pill.regions[0].during);
   EXPECT_FALSE(pill.regions[0].margin);
   const Constraint& die = d.constraints[7];
-  ASSERT_EQ(die.targets.size(), 4u);
-  EXPECT_EQ(die.targets[0].value, std::vector<double>{3.25});
-  EXPECT_EQ(die.targets[1].max, std::vector<double>{41.5});
+  ASSERT_EQ(die.targets.size(), 5u);
+  EXPECT_EQ(die.targets[0].value, (std::vector<TargetNumber>{3.25}));
+  EXPECT_EQ(die.targets[1].max, (std::vector<TargetNumber>{41.5}));
   EXPECT_TRUE(die.targets[1].min.empty());
-  EXPECT_EQ(die.targets[2].min, std::vector<double>{1.125});
-  EXPECT_EQ(die.targets[3].value, std::vector<double>{-0.375});
+  EXPECT_EQ(die.targets[2].min, (std::vector<TargetNumber>{1.125}));
+  EXPECT_EQ(die.targets[3].quantity, "contact");
+  EXPECT_EQ(shown(die.targets[3].value), (Numbers{99, 99, 4.75}));
+  EXPECT_EQ(shown(die.targets[3].min), (Numbers{0.7, 99, 99}));
+  EXPECT_EQ(die.targets[4].value, (std::vector<TargetNumber>{-0.375}));
   const Constraint& can = d.constraints[6];
   EXPECT_TRUE(can.targets.empty());
   ASSERT_EQ(can.regions.size(), 3u);
@@ -182,7 +185,7 @@ TEST(SceneRoundTrip, randomConstraintsAreExact) {
   const auto chance = [&] { return unit(random) < 0.5; };
   Document d = parseDocument(documentWithEverything(), "everything");
   for (int round = 0; round < 300; ++round) {
-    Constraint c{"ball", When(0), {}};
+    Constraint c{"ball", When(0.0), {}};
     const double from = unit(random), to = from + 1e-3 + unit(random);
     c.at = chance()   ? between(from, to)
            : chance() ? nthImpact(3, chance() ? "floor" : "")
@@ -190,7 +193,7 @@ TEST(SceneRoundTrip, randomConstraintsAreExact) {
                       : When(to);
     if (chance()) c.relative_to = "book";
     for (const char* quantity : {"position", "velocity", "angular_velocity", "point"}) {
-      Target target{quantity, {number(), any, chance() ? number() : any}};
+      Target target{quantity, {number(), any, chance() ? TargetNumber(number()) : any}};
       if (chance()) target.min = {any, number(), any};
       if (chance()) target.max = {any, target.min.empty() ? number() : target.min[1] + unit(random) + 1e-6, any};
       if (target.quantity == std::string("point")) target.body_point = {number(), number(), number()};
@@ -282,7 +285,7 @@ TEST(NumberText, readsBackExactly) {
 TEST(SceneWrite, twoTargetsOfOneKindBecomeTwoConstraints) {
   Document d = parseDocument(documentWithEverything(), "everything");
   const Target point = d.constraints[3].targets[0];
-  d.constraints = {{"crate", When(1), {point, {"position", {1, 2, 3}, {}}, point}}};
+  d.constraints = {{"crate", When(1.0), {point, {"position", {1, 2, 3}, Vec3::Zero()}, point}}};
   const Document again = parseDocument(writeDocument(d), "two points");
   ASSERT_EQ(again.constraints.size(), 2u);
   EXPECT_EQ(again.constraints[0].targets.size(), 2u);
@@ -300,7 +303,7 @@ TEST(SceneWrite, twoTargetsOfOneKindAtOneTimeOfASpanAreRefused) {
 TEST(SceneWrite, refusesWhatCannotBeRead) {
   const Document good = parseDocument(documentWithEverything(), "everything");
   Document d = good;
-  d.scene.bodies[3].velocity.x() = any;
+  d.scene.bodies[3].velocity.x() = std::nan("");
   EXPECT_THROW(writeDocument(d), InputError);
   d = good;
   d.controls[0].weight = 1 / 0.0;
@@ -309,16 +312,19 @@ TEST(SceneWrite, refusesWhatCannotBeRead) {
   d.constraints[0].targets[0].value[0] = 1 / 0.0;
   EXPECT_THROW(writeDocument(d), InputError);
   d = good;
+  d.constraints[0].targets[0].value[0] = std::nan("");  // null would leave it free
+  EXPECT_THROW(writeDocument(d), InputError);
+  d = good;
   d.constraints[4].targets[0].min[0] = -1 / 0.0;
   EXPECT_THROW(writeDocument(d), InputError);
   d = good;
-  d.constraints[4].at.span->second = any;
+  d.constraints[4].at.span->second = std::nan("");
   EXPECT_THROW(writeDocument(d), InputError);
   d = good;
-  d.constraints[6].regions[2].margin = any;
+  d.constraints[6].regions[2].margin = std::nan("");
   EXPECT_THROW(writeDocument(d), InputError);
   d = good;
-  d.constraints[6].regions[0].shape = Sphere{any};
+  d.constraints[6].regions[0].shape = Sphere{std::nan("")};
   EXPECT_THROW(writeDocument(d), InputError);
 }
 

@@ -112,9 +112,8 @@ TEST_F(ShapeFiles, anOpenMeshNeedsMassAndInertia) {
 }
 
 TEST_F(ShapeFiles, badFilesAreNamedWithTheirPlace) {
-  write("meshes/inside-out.obj", formats_test::replaced(formats_test::cubeObj(), "f 5 6 7 8", "f 8 7 6 5"));
   write("meshes/letters.obj", "v 0 0 0\nv 1 0 zero\n");
-  write("meshes/flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n");
+  write("meshes/flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   write("meshes/line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\n");
   write("meshes/empty.obj", "");
   write("meshes/picture.png", "PNG");
@@ -129,14 +128,22 @@ TEST_F(ShapeFiles, badFilesAreNamedWithTheirPlace) {
   expectRefused(R"("mesh": { "file": "a\nb.obj" })", "/mesh/file", {"a control character"});
   expectRefused(mesh("picture.png"), "/mesh/file", {"ends in \".png\"", ".obj, .gltf or .glb"});
   expectRefused(mesh("letters.obj"), "/mesh/file", {"letters.obj: line 2: found \"zero\", expected a number"});
-  expectRefused(mesh("inside-out.obj"), "/mesh/file", {"inside-out.obj: edge from vertex"});
-  expectRefused(mesh("flat.obj"), "/mesh/file", {"flat.obj: triangle 1 (line 6): found"});
+  expectRefused(mesh("flat.obj"), "/mesh/file", {"flat.obj: triangle 0 (line 4): found"});
   expectRefused(mesh("empty.obj"), "/mesh/file", {"empty.obj: found a mesh of 0 vertices"});
   expectRefused(mesh("broken.glb"), "/mesh/file", {"broken.glb: found a binary file of 4 bytes"});
   expectRefused(mesh("broken.gltf"), "/mesh/file", {"broken.gltf: /nodes/0/mesh: found 4"});
   expectRefused(R"("hull": { "file": "meshes/line.obj" })", "/hull/file", {"line.obj: "});
   expectRefused(R"("compound": [ { "sphere": { "radius": 1 } }, { "mesh": { "file": "no.obj" } } ])",
                 "/compound/1/mesh/file", {"no such file"});
+}
+
+TEST_F(ShapeFiles, repairsAreKept) {
+  write("meshes/turned.obj", formats_test::replaced(formats_test::cubeObj(), "f 5 6 7 8", "f 8 7 6 5"));
+  const Document d = documentWith({R"("mesh": { "file": "meshes/turned.obj" })", R"("mesh": { "file": "meshes/turned.obj", "scale": 2 })"});
+  ASSERT_EQ(d.repairs.size(), 1u) << "a file is read once";
+  EXPECT_EQ(d.repairs[0].file, path("meshes/turned.obj"));
+  EXPECT_NE(d.repairs[0].what.find("2 triangles turned over"), std::string::npos) << d.repairs[0].what;
+  formats_test::expectRoundTrip(d, "turned");
 }
 
 TEST_F(ShapeFiles, aLargeFileIsRefusedUnread) {

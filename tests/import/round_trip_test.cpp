@@ -114,7 +114,7 @@ TEST(RoundTrip, WithoutExtrasBodiesAreTheSameInTheWorld) {
   stripExtras(file);
   const Imported again = importJson(file);
   for (const std::string& warning : again.report.warnings)
-    EXPECT_NE(warning.find("its animation is left out"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("its animation is ignored"), std::string::npos) << warning;
   int moving = 0;
   for (const Body& body : document.scene.bodies) {
     if (body.fixed) continue;
@@ -163,7 +163,7 @@ TEST(RoundTrip, AChangedBodyIsReadFromItsNodeAndTheOthersAreKept) {
   const Imported again = importJson(file);
   ASSERT_EQ(again.report.warnings.size(), 2u) << listOf(again.report);
   EXPECT_TRUE(hasWarning(again.report, {"node 'box'", "has changed since carom wrote the file"}));
-  EXPECT_TRUE(hasWarning(again.report, {"node 'box'", "its animation is left out"}));
+  EXPECT_TRUE(hasWarning(again.report, {"node 'box'", "its animation is ignored"}));
   Body expected = document.scene.bodies[static_cast<std::size_t>(bodyIndex(document.scene, "box"))];
   expected.position = {0.5, 1, 1.25};
   expectSameBody(bodyIn(again, "box"), expected);
@@ -258,11 +258,11 @@ TEST(RoundTrip, WhatConcernsABodyThatIsGoneIsLeftOutByName) {
       break;
     }
   const Imported again = importJson(file);
-  EXPECT_TRUE(hasWarning(again.report, {"control 1", "left out", "sphere"})) << listOf(again.report);
-  EXPECT_TRUE(hasWarning(again.report, {"constraint 1", "left out", "sphere"})) << listOf(again.report);
+  EXPECT_TRUE(hasWarning(again.report, {"control 1", "ignored", "sphere"})) << listOf(again.report);
+  EXPECT_TRUE(hasWarning(again.report, {"constraint 1", "ignored", "sphere"})) << listOf(again.report);
   EXPECT_TRUE(hasWarning(again.report, {"node 'sphere'", "not in the scene"})) << listOf(again.report);
   EXPECT_EQ(again.document.controls.size(), 2u);
-  EXPECT_TRUE(hasWarning(again.report, {"constraint 4", "left out", "sphere"})) << listOf(again.report);
+  EXPECT_TRUE(hasWarning(again.report, {"constraint 4", "ignored", "sphere"})) << listOf(again.report);
   EXPECT_EQ(again.document.constraints.size(), 2u);
 }
 

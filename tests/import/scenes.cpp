@@ -76,7 +76,7 @@ void addMaterialsAndEdit(Document& document) {
                           {"capsule", nthImpact(1, "floor"), {{"velocity", {any, 0.1, any}, Vec3::Zero()}}}};
   Constraint near{"box", between(1.0 / 7, 1.0 / 3), {{"position", {any, any, any}}}, "capsule"};
   near.targets[0].min = {-1.0 / 3, any, any}, near.targets[0].max = {0.1 + 0.2, 1.0 / 7, any};
-  Constraint regions{"sphere", 0, {}};
+  Constraint regions{"sphere", 0.0, {}};
   regions.regions = {{Region::Side::inside, Box{{9, 9, 9.0 / 7}}, {0, 0, 1.0 / 3}, Quat::Identity(), {}, 0.1 / 3},
                      {Region::Side::avoid, Sphere{0.1 / 7}, {3, 0, 0}, Quat(0, 0.6, 0, 0.8), {{0.1, 0.7}}, {}},
                      {Region::Side::avoid, Box{{0.1, 0.2, 0.3}}, {4, 0, 0}, Quat(0.28, 0.96, 0, 0), {}, {}}};

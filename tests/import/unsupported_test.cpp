@@ -81,14 +81,14 @@ INSTANTIATE_TEST_SUITE_P(
                 {"node 'ball'", "moments of inertia (0.4, 0.1, 0.1", "nearest possible ones (0.33333333333333"}},
         LeftOut{"NoGeometry",
                 [](json& f) { physicsOf(f, 1).erase("collider"); },
-                {"node 'ball'", "motion is left out", "no collider"},
+                {"node 'ball'", "motion is ignored", "no collider"},
                 1},
         LeftOut{"StaticFriction",
                 [](json& f) { materialOf(f)["staticFriction"] = 0.9; },
                 {"physicsMaterials/0", "static friction 0.9", "0.4"}},
         LeftOut{"Restitution",
                 [](json& f) { materialOf(f)["restitution"] = 1.5; },
-                {"physicsMaterials/0", "restitution 1.5", "cut to 1"}},
+                {"physicsMaterials/0", "restitution 1.5", "clamped to 1"}},
         LeftOut{"SeveralMaterials",
                 [](json& f) {
                   f["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"].push_back({{"name", "n"}});
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
                   addNode(f, {{"name", "lid"}}, 1);
                   physicsOf(f, 2)["collider"] = {{"geometry", {{"shape", 0}}}};
                 },
-                {"node 'lid'", "its plane is left out"}},
+                {"node 'lid'", "its plane is ignored"}},
         LeftOut{"ZeroScale",
                 [](json& f) {
                   addNode(f, {{"name", "off"}, {"scale", {0, 0, 0}}});

@@ -51,7 +51,7 @@ class Builder {
       return;
     }
     if (node.animated && (node.motion || node.collider))
-      report(node, "its animation is left out: " + std::string(node.motion && !node.motion->kinematic
+      report(node, "its animation is ignored: " + std::string(node.motion && !node.motion->kinematic
                                                                    ? "it moves as it is simulated"
                                                                    : "bodies do not follow animations"));
     if (node.motion && !stands(node)) {
@@ -84,7 +84,7 @@ class Builder {
     if (motion.kinematic) return !moves;
     if (motion.mass != 0.0) return false;
     report(node, std::string("bodies of infinite mass (mass 0) are not supported: it is a fixed body here") +
-                     (moves ? ", and its velocity is left out" : ""));
+                     (moves ? ", and its velocity is ignored" : ""));
     return true;
   }
 
@@ -92,7 +92,7 @@ class Builder {
     auto shape = shapes_.make(node, in_owner.stretch);
     if (!shape) return;
     if (kindOf(*shape).endless) {
-      report(node, "its plane is left out: a moving body cannot be an infinite plane");
+      report(node, "its plane is ignored: a moving body cannot be an infinite plane");
       return;
     }
     draft.parts.push_back({{std::move(*shape), in_owner.translation, orientation}, node.collider->material, node.collider->filter});
@@ -114,7 +114,7 @@ class Builder {
   /// A lone shape at the node's origin gives the body its axes; others become parts.
   std::optional<Entry> finish(Draft& draft) {
     if (draft.parts.empty()) {
-      report(draft.node, "its motion is left out: it has no collider");
+      report(draft.node, "its motion is ignored: it has no collider");
       return std::nullopt;
     }
     Body body;

@@ -11,7 +11,7 @@
 
 namespace carom {
 
-/// What a file holds, and what could not be taken over.
+/// Content of a file, and what was changed or ignored.
 struct Imported {
   Document document;    ///< the scene, and the edit if carom wrote the file
   ImportReport report;  ///< what differs
@@ -20,15 +20,14 @@ struct Imported {
 /// Reads the default scene of a .gltf or .glb file with KHR_physics_rigid_bodies and KHR_implicit_shapes (drafts; the
 /// older form `collider.shape` with KHR_collision_shapes too) and OMI_physics_gravity, y up turned to z up.
 ///
-/// A node with `motion` is a moving body of all colliders at it and below it, down to nodes with motions of their own;
-/// every other collider is a fixed body. Scale goes into the shapes. Mass and inertia that the file leaves out are
-/// derived from the shape (1000 kg/m^3 without a mass). What is not supported is in the report.
+/// A node with `motion` is a moving body of all colliders at it and below it, down to nodes with motions of their
+/// own; every other collider is a fixed body. Scale goes into the shapes. Missing mass and inertia are derived from
+/// the shape (1000 kg/m^3 without a mass). Unsupported content is in the report.
 ///
-/// A file that carom wrote holds its scene document too. Bodies whose nodes still say the same number by number are
-/// taken from there, with the edit; they come back exactly. Bodies that another program has changed are read from the
-/// extensions.
+/// A file written by carom also contains the scene document. Bodies whose nodes still have the same numbers are read
+/// from there, with the edit, without loss. Bodies changed by another program are read from the extensions.
 ///
-/// Throws FormatError with the JSON pointer or the node: no glTF, no physics in it, values that are not possible.
+/// Throws FormatError with the JSON pointer or the node: not glTF, no physics, invalid values.
 Imported importGltf(const std::string& path);
 
 /// The same for the bytes of a file; buffers in other files are searched in `folder`. Throws InputError.

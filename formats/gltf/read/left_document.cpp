@@ -241,7 +241,7 @@ void LeftDocument::addEdit(Document& document) {
         read(one);
       } catch (const InputError& error) {
         report_.warnings.push_back(what + " " + std::to_string(i + 1) +
-                                   " that carom left in the file is left out: " + error.message());
+                                   " that carom left in the file is ignored: " + error.message());
       }
   };
   each("controls", "control", [&](const Json& one) {

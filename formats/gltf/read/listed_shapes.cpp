@@ -118,7 +118,7 @@ std::optional<ColliderShape> ShapeList::readListed(const JsonPlace& shape, bool 
     surface.convex = convex || name == "convex" || (flags && flags->booleanOr("convexHull", false));
     return surface;
   }
-  report.warnings.push_back(node.label() + ": its collider is left out: shapes of the type " + quotedText(name) + " (" +
+  report.warnings.push_back(node.label() + ": its collider is ignored: shapes of the type " + quotedText(name) + " (" +
                             shape.pointer + ") are not supported");
   return std::nullopt;
 }

@@ -55,11 +55,11 @@ FileMaterial readMaterial(const JsonPlace& value, ImportReport& report) {
   const std::string where = "physics material " + value.pointer;
   if (at_rest != material.friction)
     report.warnings.push_back(where + ": its static friction " + numberText(at_rest) +
-                              " is left out: there is one friction here, and the dynamic " +
+                              " is ignored: there is one friction here, and the dynamic " +
                               numberText(material.friction) + " is used");
   if (material.elasticity > 1) {
     report.warnings.push_back(where + ": its restitution " + numberText(material.elasticity) +
-                              " is cut to 1: impacts do not add energy");
+                              " is clamped to 1: impacts do not add energy");
     material.elasticity = 1;
   }
   return out;

@@ -65,7 +65,7 @@ std::optional<Inertia> writtenInertia(const PhysicsNode& node, const Quat& shape
   if (!motion.inertia_diagonal) return std::nullopt;
   if (!(motion.inertia_diagonal->minCoeff() > 0)) {
     report.warnings.push_back(node.label() +
-                              ": its inertia is left out, and derived from its shape: infinite moments (0) are not "
+                              ": its inertia is ignored, and derived from its shape: infinite moments (0) are not "
                               "supported");
     return std::nullopt;
   }

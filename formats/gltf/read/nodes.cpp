@@ -114,7 +114,7 @@ class NodeReader {
       const JsonPlace place = document_.require("nodes").at(i);
       if (reached_.count(static_cast<int>(i)) > 0 || !extensionOf(place, kRigidBodies)) continue;
       report_.warnings.push_back(nodeAt(static_cast<int>(i)) +
-                                 ": its physics is left out: it is not in the scene that is read");
+                                 ": its physics is ignored: it is not in the scene that is read");
     }
   }
 
@@ -155,7 +155,7 @@ class NodeReader {
   }
 
   void leaveOut(const PhysicsNode& node, const std::string& what, const std::string& kind) {
-    report_.warnings.push_back(node.label() + ": " + what + " is left out: " + kind + " are not supported");
+    report_.warnings.push_back(node.label() + ": " + what + " is ignored: " + kind + " are not supported");
   }
 
   std::string nodeAt(int index) const {

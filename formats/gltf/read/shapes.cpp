@@ -137,7 +137,7 @@ struct Maker {
     if (sheet.size_x && sheet.size_y) return sheetMesh(*sheet.size_x * scale.x(), *sheet.size_y * scale.y());
     if (sheet.size_x || sheet.size_y) {
       report.warnings.push_back(node.label() +
-                                ": its collider is left out: planes infinite in one direction are not supported");
+                                ": its collider is ignored: planes infinite in one direction are not supported");
       return std::nullopt;
     }
     if (sheet.double_sided)
@@ -160,7 +160,7 @@ Quat axesOf(const ColliderShape& shape, const Mat3& stretch) {
 std::optional<Shape> ShapeMaker::make(const PhysicsNode& node, const Mat3& stretch) try {
   const ColliderShape& shape = node.collider->shape;
   if (stretch.isZero(0)) {
-    report_.warnings.push_back(node.label() + ": its collider is left out: a scale of 0 turns it off");
+    report_.warnings.push_back(node.label() + ": its collider is ignored: a scale of 0 turns it off");
     return std::nullopt;
   }
   const auto* mesh = std::get_if<MeshShape>(&shape);

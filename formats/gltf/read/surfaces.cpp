@@ -10,6 +10,7 @@
 #include "formats/gltf/read/shapes.hpp"
 #include "formats/json/json_place.hpp"
 #include "formats/mesh/gltf_geometry.hpp"
+#include "formats/mesh/repair/mesh_repair.hpp"
 #include "ode_bridge/convex_hull.h"
 
 namespace carom::gltf {
@@ -22,7 +23,11 @@ std::shared_ptr<const Surface> ShapeMaker::surfaceOf(const MeshShape& shape, con
   auto& surface = made_[key];
   if (!surface) {
     const Triangles soup = trianglesOf(shape, baked);
-    surface = shape.convex ? convexHull(soup.vertices) : meshSurface(soup.vertices, soup.triangles);
+    if (shape.convex) return surface = convexHull(soup.vertices);
+    RepairedSurface made = formats_detail::surfaceOf({soup.vertices, soup.triangles, {}, {}}, false);
+    const std::string place = shape.mesh >= 0 ? "/meshes/" + std::to_string(shape.mesh) : "/nodes/" + std::to_string(shape.node);
+    for (const std::string& repair : made.repairs) report_.warnings.push_back("mesh " + place + " was repaired: " + repair);
+    surface = std::move(made.surface);
   }
   return surface;
 }
@@ -52,7 +57,7 @@ void ShapeMaker::appendBelow(int index, const Eigen::Affine3d& transform, Triang
   const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
   const auto leave_out = [&](const char* what) {
     report_.warnings.push_back("node '" + node.name + "' (" + where + "): its " + what +
-                               " left out: the mesh collides as it is at rest");
+                               " ignored: the mesh collides in its rest pose");
   };
   if (std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; }))
     leave_out("morph weights are");

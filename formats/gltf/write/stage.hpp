@@ -15,7 +15,7 @@ namespace carom::formats_detail {
 /// A perspective camera, 16 to 9, that sees all of the extent: from the side of its longer horizontal edge, a little
 /// turned and raised.
 int addCamera(tinygltf::Model& model, const Extent& extent);
-/// A sun of so many lux, from above and from the left of that camera.
+/// A directional light of so many lux, from above and from the left of that camera.
 int addSun(tinygltf::Model& model, const Extent& extent, double lux);
 
 /// Translucent copies of every moving body at multiples of the interval, below one node. Throws InputError for more than
