@@ -10,6 +10,7 @@
 #include "formats/documents/scene_writer.hpp"
 #include "formats/json/json.hpp"
 #include "formats/json/json_writer.hpp"
+#include "studio/body_edits.h"
 #include "studio/open_scene.h"
 #include "studio/protocol.h"
 
@@ -48,20 +49,20 @@ Json atBound(const SessionNumber& now) {
   return Json();
 }
 
-Json numbersOf(const OpenScene& scene) {
-  const EditSession& session = scene.session();
-  const std::vector<SessionNumber> numbers = session.numbers();
+/// Of the scene as it is, beside one as it was.
+Json numbersOf(const Scene& scene, const std::vector<Control>& controls, const Scene& before) {
+  const std::vector<SessionNumber> numbers = sessionNumbers(scene, controls);
   std::vector<SessionNumber> opened;
   try {
-    opened = sessionNumbers(scene.opened().scene, session.controls());
+    opened = sessionNumbers(before, controls);
   } catch (const InputError&) {  // controls of bodies that came later
   }
   Json list = Json::array();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const SessionNumber& n = numbers[i];
-    const Control& control = session.controls()[static_cast<std::size_t>(n.control)];
+    const Control& control = controls[static_cast<std::size_t>(n.control)];
     const bool known = opened.size() == numbers.size() && opened[i].name == n.name;
-    const std::optional<std::string> pointer = pointerOf(control, n.component, session.scene());
+    const std::optional<std::string> pointer = pointerOf(control, n.component, scene);
     list.push_back({{"control", n.control},
                     {"name", n.name},
                     {"component", n.component},
@@ -77,31 +78,50 @@ Json numbersOf(const OpenScene& scene) {
   return list;
 }
 
+Json nailOf(const NailState& nail, const Constraint& constraint) {
+  return {{"id", nail.id.value},
+          {"constraint", written([&](JsonWriter& out) { writeConstraint(out, constraint); })[0]},
+          {"on", nail.on},
+          {"available", nail.available},
+          {"met", nail.met},
+          {"time", number(nail.time)},
+          {"error", number(nail.error)},
+          {"message", nail.message}};
+}
+
 Json nailsOf(const EditSession& session) {
   Json list = Json::array();
-  for (const NailState& nail : session.nailStates()) {
-    const Json constraint = written([&](JsonWriter& out) { writeConstraint(out, session.constraintOf(nail.id)); });
-    list.push_back({{"id", nail.id.value},
-                    {"constraint", constraint[0]},
-                    {"on", nail.on},
-                    {"available", nail.available},
-                    {"met", nail.met},
-                    {"time", number(nail.time)},
-                    {"error", number(nail.error)},
-                    {"message", nail.message}});
-  }
+  for (const NailState& nail : session.nailStates()) list.push_back(nailOf(nail, session.constraintOf(nail.id)));
   return list;
+}
+
+Json vectorJson(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+/// A shape with a few numbers, as documents have it; of others nothing.
+Json simpleShape(const Shape& shape) {
+  const bool simple = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Box>(shape) || std::holds_alternative<Capsule>(shape) ||
+                      std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape) || std::holds_alternative<Plane>(shape);
+  return simple ? written([&](JsonWriter& out) { writeShape(out, shape); })[0] : Json();
 }
 
 Json bodiesOf(const Motion& motion) {
   Json list = Json::array();
   for (std::size_t i = 0; i < motion.scene->bodies.size(); ++i) {
     const Body& body = motion.scene->bodies[i];
-    list.push_back({{"name", body.name},
-                    {"fixed", body.fixed},
-                    {"kinematic", body.kinematic},
-                    {"mass", body.immovable() ? Json() : number((*motion.models)[i].mass)},
-                    {"material", textOrNull(body.material)}});
+    const Quat& q = body.orientation;
+    Json row = {{"name", body.name},
+                {"fixed", body.fixed},
+                {"kinematic", body.kinematic},
+                {"mass", body.immovable() ? Json() : number((*motion.models)[i].mass)},
+                {"material", textOrNull(body.material)},
+                {"position", vectorJson(body.position)},
+                {"orientation", {q.w(), q.x(), q.y(), q.z()}},
+                {"velocity", vectorJson(body.velocity)},
+                {"angular_velocity", vectorJson(body.angular_velocity)}};
+    if (body.density) row["density"] = *body.density;
+    if (body.mass) row["written_mass"] = *body.mass;
+    if (Json shape = simpleShape(body.shape); !shape.is_null()) row["shape"] = std::move(shape);
+    list.push_back(std::move(row));
   }
   return list;
 }
@@ -164,7 +184,7 @@ std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::st
   state["recovered"] = recovered;
   state["duration"] = session.duration();
   state["controls"] = controlsOf(session.controls());
-  state["numbers"] = numbersOf(*scene);
+  state["numbers"] = numbersOf(session.scene(), session.controls(), scene->opened().scene);
   state["nails"] = nailsOf(session);
   state["undo"] = textOrNull(session.undoName());
   state["redo"] = textOrNull(session.redoName());
@@ -174,16 +194,44 @@ std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::st
   return textOf(state);
 }
 
+std::string stateOfMotion(const Document& document, const Motion& motion, const Scene& before) {
+  Json nails = Json::array();
+  for (const Constraint& constraint : document.constraints) {
+    NailState nail = nailStateIn(motion, constraint, document.duration, SessionOptions().tolerance);
+    nail.id = NailId{static_cast<int>(nails.size())};
+    nails.push_back(nailOf(nail, constraint));
+  }
+  return textOf({{"type", "state"},
+                 {"rev", 0},
+                 {"open", true},
+                 {"path", Json()},
+                 {"name", document.name},
+                 {"saved", true},
+                 {"duration", document.duration},
+                 {"controls", controlsOf(document.controls)},
+                 {"numbers", numbersOf(*motion.scene, document.controls, before)},
+                 {"nails", nails},
+                 {"undo", Json()},
+                 {"redo", Json()},
+                 {"held_by", Json()},
+                 {"bodies", bodiesOf(motion)},
+                 {"materials", materialsOf(*motion.scene)}});
+}
+
 std::string errorMessage(const Problem& problem) {
   Json error = {{"type", "error"}, {"code", problem.code}, {"message", problem.message}};
   if (!problem.pointer.empty()) error["pointer"] = problem.pointer;
   if (!problem.file.empty()) error["file"] = problem.file;
+  if (!problem.body.empty()) error["body"] = problem.body;
+  if (problem.place) error["place"] = vectorJson(*problem.place);
   return textOf(error);
 }
 
 Problem problemOf(const std::exception& error) {
   if (dynamic_cast<const FileConflict*>(&error) != nullptr) return {"conflict", error.what(), "", ""};
   if (const auto* file = dynamic_cast<const FileFailure*>(&error)) return {file->code, error.what(), "", ""};
+  if (const auto* overlap = dynamic_cast<const Overlap*>(&error))
+    return {"overlap", overlap->what(), "", "", overlap->body(), overlap->place()};
   if (const auto* input = dynamic_cast<const InputError*>(&error)) {
     const auto* format = dynamic_cast<const FormatError*>(input);
     const std::string file = format != nullptr ? format->file() : "";
@@ -198,7 +246,10 @@ std::string savedMessage(const std::string& path, std::int64_t rev) {
   return textOf({{"type", "saved"}, {"path", path}, {"rev", rev}});
 }
 
-std::string filesMessage(const std::string& path, const std::vector<ListedFile>& files) {
+std::string proofMessage(const std::string& proof) { return textOf({{"type", "proof"}, {"proof", proof}}); }
+
+std::string filesMessage(const std::string& path, const std::vector<ListedFile>& files,
+                         const std::vector<std::string>& recent) {
   Json list = Json::array();
   for (const ListedFile& file : files)
     list.push_back({{"path", file.path},
@@ -206,7 +257,7 @@ std::string filesMessage(const std::string& path, const std::vector<ListedFile>&
                     {"kind", file.folder ? "folder" : "scene"},
                     {"bytes", file.bytes},
                     {"modified", file.modified}});
-  return textOf({{"type", "files"}, {"path", path}, {"files", list}});
+  return textOf({{"type", "files"}, {"path", path}, {"files", list}, {"recent", recent}});
 }
 
 std::string progressMessage(const std::string& sentence) {

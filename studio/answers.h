@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editing/session.h"
+#include "formats/base/document.h"
 #include "studio/limits.h"
 #include "studio/workspace.h"
 
@@ -23,8 +24,11 @@ std::string answering(std::int64_t id, std::string message);
 std::string welcomeMessage(const std::string& session, const std::string& folder, std::size_t recovered,
                            const Limits& limits);
 
-/// What the session is at. `scene` null: none is open. `recovered`: steps that came back with it.
+/// The state of the session. `scene` null: none is open. `recovered`: number of restored steps.
 std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::string& held_by, std::size_t recovered);
+
+/// The same of a motion that nobody edits: each constraint is a nail that is on. `before`: where numbers come from.
+std::string stateOfMotion(const Document& document, const Motion& motion, const Scene& before);
 
 /// What is wrong with a command.
 struct Problem {
@@ -32,30 +36,36 @@ struct Problem {
   std::string message;  ///< a sentence
   std::string pointer;  ///< place in the message or the document; empty: none
   std::string file;     ///< that it is about; empty: none
+  std::string body = {};                ///< that has no room; empty: none
+  std::optional<Vec3> place = {};       ///< m, where it has
 };
 std::string errorMessage(const Problem& problem);
 /// Of an exception that a command ended with.
 Problem problemOf(const std::exception& error);
 
 std::string savedMessage(const std::string& path, std::int64_t rev);
-std::string filesMessage(const std::string& path, const std::vector<ListedFile>& files);
+/// `recent`: the scenes of the workspace that were opened last.
+std::string filesMessage(const std::string& path, const std::vector<ListedFile>& files,
+                         const std::vector<std::string>& recent);
+/// That the token is known here: HMAC-SHA256 of a nonce, in hex.
+std::string proofMessage(const std::string& proof);
 std::string progressMessage(const std::string& sentence);
-/// Something that a person has to know, and that no command asked for.
+/// An unsolicited notice for the user.
 std::string noticeMessage(const std::string& sentence);
 
 /// A scene of the gallery.
 struct GalleryScene {
-  std::string path, name, notes;  ///< in the folder of the gallery; for people
+  std::string path, name, notes;  ///< in the folder of the gallery; texts of the document
   std::string picture;            ///< its address; empty: none
 };
 std::string galleryMessage(const std::vector<GalleryScene>& scenes);
 
-/// What is told of a motion besides itself: members for motionFrame.
+/// Members for motionFrame in addition to the motion.
 struct MotionNews {
   std::int64_t rev = 0;
   std::int64_t gesture = 0, seq = -1;  ///< that it came of; 0: none, below 0: none
   bool more = false;                   ///< it goes on towards the same target
-  bool freed = false;                  ///< the throw of what is held may vary since it was taken hold of
+  bool freed = false;                  ///< the throw of the held body may vary since it was grabbed
   const SessionUpdate* update = nullptr;
   const Motion* before = nullptr;  ///< that its changes are counted from; null: unknown
 };

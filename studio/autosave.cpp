@@ -86,7 +86,7 @@ std::optional<formats_detail::StepLines> Autosave::find() {
   } catch (const std::exception&) {
     if (text.find('\n') == std::string::npos) return std::nullopt;  // not even its first line came whole
     const std::string aside = setAside();
-    say("The steps of '" + name_ + "' that were kept cannot be read; they are in '" + aside + "'", 0);
+    say("The steps of '" + name_ + "' cannot be read; they are in '" + aside + "'", 0);
     return std::nullopt;
   }
 }
@@ -106,7 +106,7 @@ std::string Autosave::setAside() {
   std::string aside;
   for (int n = 1; n < kMostAside && (aside.empty() || std::filesystem::exists(aside)); ++n)
     aside = path_ + "." + std::to_string(n);
-  if (::rename(path_.c_str(), aside.c_str()) != 0) say("The steps that were kept could not be set aside", errno);
+  if (::rename(path_.c_str(), aside.c_str()) != 0) say("The old steps could not be set aside", errno);
   if (file_ >= 0) ::close(file_);
   file_ = -1;
   syncFolder(path_);

@@ -9,9 +9,9 @@
 
 namespace carom::studio {
 
-/// The steps of a scene on the disk, in a file beside it: ".hat.json.steps". Each is on the disk before anybody hears of
-/// it, or waits for the next one where that cannot be. What goes wrong is a sentence, and nothing ends by it. The file
-/// begins with the first step, and belongs to one program at a time.
+/// The steps of a scene on the disk, in a file beside it: ".hat.json.steps". Each is on disk before it is reported,
+/// or waits for the next one if writing fails. Failures are reported as sentences and end nothing. The file is
+/// created with the first step, and belongs to one program at a time.
 class Autosave {
  public:
   /// Of the scene that is saved in this folder under this name.

@@ -5,6 +5,7 @@
 
 #include "studio/answers.h"
 #include "studio/gate.h"
+#include "studio/proof.h"
 
 namespace carom::studio {
 
@@ -20,7 +21,8 @@ bool Dispatcher::message(SocketId socket, const std::string& text) {
     return true;
   }
   const auto known = known_.find(socket);
-  if (known == known_.end()) return greet(socket, std::move(command));
+  const Prove* asks = std::get_if<Prove>(&command.what);
+  if (known == known_.end()) return asks ? prove(socket, command.id, asks->nonce) : greet(socket, std::move(command));
   const auto refuse = [&](const std::string& sentence, const char* pointer) {
     line_.tell(socket, answering(command.id, errorMessage({"bad_message", sentence, pointer, ""})));
     return true;
@@ -31,6 +33,7 @@ bool Dispatcher::message(SocketId socket, const std::string& text) {
                   "/id");
   known->second = command.id;
   if (std::holds_alternative<Hello>(command.what)) return refuse("found a second hello, expected one", "");
+  if (asks) return refuse("found prove after hello, expected it before", "");
   return mailbox_.put({socket, std::move(command)});
 }
 
@@ -53,6 +56,16 @@ bool Dispatcher::greet(SocketId socket, Command command) {
   known_[socket] = command.id;
   line_.welcome(socket);
   return mailbox_.put({socket, std::move(command)});
+}
+
+bool Dispatcher::prove(SocketId socket, std::int64_t id, const std::string& nonce) {
+  if (std::chrono::steady_clock::now() < proves_from_) {
+    refused_.insert(socket);
+    line_.close(socket, {1013, "no proof yet"}, std::chrono::milliseconds(0));
+    return true;
+  }
+  line_.tell(socket, answering(id, proofMessage(hmacSha256(token_, nonce))));
+  return true;
 }
 
 void Dispatcher::gone(SocketId socket) {

@@ -28,6 +28,8 @@ class Dispatcher {
   Dispatcher(Mailbox& mailbox, std::string token, const Limits& limits, Line line)
       : mailbox_(mailbox), token_(std::move(token)), limits_(limits), line_(std::move(line)) {}
 
+  /// No proof that the token is known here is given before that.
+  void provesFrom(std::chrono::steady_clock::time_point time) { proves_from_ = time; }
   /// A message. False: the socket should not be read until there is room.
   bool message(SocketId socket, const std::string& text);
   /// A socket that is no more.
@@ -35,11 +37,13 @@ class Dispatcher {
 
  private:
   bool greet(SocketId socket, Command command);
+  bool prove(SocketId socket, std::int64_t id, const std::string& nonce);
 
   Mailbox& mailbox_;
   const std::string token_;
   const Limits limits_;
   const Line line_;
+  std::chrono::steady_clock::time_point proves_from_{};
   std::map<SocketId, std::int64_t> known_;  // and the number of its last message
   std::set<SocketId> refused_;
 };

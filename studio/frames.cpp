@@ -145,6 +145,7 @@ std::string motionFrame(const MotionView& view, std::string_view members, const 
   add(header, "message", view.message);
   add(header, "gravity", listOf(view.gravity));
   add(header, "impacts", impactsOf(view));
+  add(header, "count", view.tracks.size());
   add(header, "tracks", std::move(tracks));
   return frameOf(header, blocks);
 }
@@ -163,6 +164,13 @@ std::string sceneFrame(const SceneView& view, std::string_view members, const Sc
   add(header, "extent", {{"min", listOf(view.low)}, {"max", listOf(view.high)}});
   add(header, "bodies", std::move(bodies));
   return frameOf(header, blocks);
+}
+
+std::string fileFrame(const std::string& name, std::string_view bytes, std::string_view members) {
+  Json header = headerOf("exported", members);
+  add(header, "name", name);
+  add(header, "size", bytes.size());
+  return frameOf(header, Blocks()).append(bytes);
 }
 
 }  // namespace carom::studio

@@ -14,7 +14,7 @@
 /// functions throw InputError for one that is none or has members of theirs.
 namespace carom::studio {
 
-/// Type "motion": scene, end, status, message, gravity, impacts [{t, point, bodies, nth, pairs, mode}] and tracks
+/// Type "motion": scene, end, status, message, gravity, count (of bodies), impacts [{t, point, bodies, nth, pairs, mode}] and tracks
 /// [{body, arcs, stride, turns, center}]. Rows of `arcs` are float64 [t, position, velocity, acceleration], 10 numbers;
 /// where the track has a `stride` of 19, followed by [third, fourth, fifth]. Rows of `turns` are float32
 /// [t, w, x, y, z]. See DisplayTrack. Tracks that equal those of `sent`, which the reader has, are left out where that
@@ -28,5 +28,8 @@ std::string motionFrame(const MotionView& view, std::string_view members = "{}",
 /// vertices each. Equal meshes share their blocks. Bodies that look like those of `sent` are left out where that was the
 /// same scene.
 std::string sceneFrame(const SceneView& view, std::string_view members = "{}", const SceneView* sent = nullptr);
+
+/// Type "exported": name, size and, right behind the header, the bytes of a file.
+std::string fileFrame(const std::string& name, std::string_view bytes, std::string_view members = "{}");
 
 }  // namespace carom::studio

@@ -28,21 +28,26 @@ Verdict judge(const Request& request, unsigned short port) {
 
 std::string_view pathOf(std::string_view target) { return target.substr(0, target.find('?')); }
 
+std::string hexOf(std::string_view bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const char byte : bytes) {
+    const auto value = static_cast<unsigned char>(byte);
+    text += kDigits[value >> 4u];
+    text += kDigits[value & 15u];
+  }
+  return text;
+}
+
 std::string randomHex(std::size_t bytes) {
-  std::string random(bytes, '\0'), text;
+  std::string random(bytes, '\0');
   for (std::size_t done = 0; done < bytes;) {
     const ssize_t got = ::getrandom(random.data() + done, bytes - done, 0);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw std::system_error(errno, std::generic_category(), "getrandom");
     done += static_cast<std::size_t>(got);
   }
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  for (const char byte : random) {
-    const auto value = static_cast<unsigned char>(byte);
-    text += kDigits[value >> 4u];
-    text += kDigits[value & 15u];
-  }
-  return text;
+  return hexOf(random);
 }
 
 std::string newToken() { return randomHex(kTokenBytes); }

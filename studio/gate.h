@@ -34,6 +34,8 @@ std::string_view pathOf(std::string_view target);
 
 /// 32 bytes from the kernel, in hex. Throws std::system_error.
 std::string newToken();
+/// Bytes in hex.
+std::string hexOf(std::string_view bytes);
 /// So many bytes from the kernel, in hex.
 std::string randomHex(std::size_t bytes);
 /// Takes as long for every text of the same length.

@@ -6,7 +6,7 @@
 
 namespace carom::studio {
 
-/// What a client may take of the server. Tests make the times small.
+/// Limits of clients. Tests make the times small.
 struct Limits {
   std::size_t header = 8 * 1024;               ///< bytes of a request
   std::size_t connections = 64;                ///< open at a time
@@ -18,6 +18,9 @@ struct Limits {
   std::size_t outbox_bytes = 64u << 20;        ///< likewise
   std::chrono::milliseconds handshake{5000};   ///< for a request, for the hello of a socket, and for closing one
   std::chrono::milliseconds idle{30000};       ///< without a sign of life a socket is dead; half of it: a ping is sent
+  /// A server at the port of one before gives no proof for so long (messages `prove`): a page takes none that is older
+  /// than a second, so that whoever had the port meanwhile cannot pass on a question to this server.
+  std::chrono::milliseconds no_proof{1500};
   std::chrono::milliseconds wrong_token{200};  ///< before a socket with a wrong token is closed
 };
 

@@ -223,7 +223,7 @@ void Visitor::onHeader(Error error) {
   if (error == http::error::header_limit || error == http::error::buffer_overflow)
     return refuse(431, "found a header of more than " + std::to_string(net_.limits.header) + " bytes");
   if (error && error != http::error::end_of_stream && error.category() == Error(http::error::bad_method).category())
-    return refuse(400, "found what is no HTTP request");
+    return refuse(400, "found something that is not an HTTP request");
   if (error) return;  // gone, or too slow
   const HttpRequest& request = parser_->get();
   const bool body = parser_->chunked() || parser_->content_length().value_or(0) > 0;

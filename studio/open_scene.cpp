@@ -7,6 +7,7 @@
 #include <map>
 
 #include "adjoint/scene/scene.h"
+#include "adjoint/simulate/simulate.h"
 #include "formats/base/in_file.hpp"
 #include "formats/documents/scene_json.h"
 #include "formats/json/json.hpp"
@@ -122,7 +123,7 @@ Document OpenScene::document() const {
 
 std::string OpenScene::suggestedName() const {
   const std::filesystem::path file = name_;
-  return file.stem().string() + "-copy.json";
+  return first_.file.text == kEmptyScene ? name_ : file.stem().string() + "-copy.json";
 }
 
 bool OpenScene::isChanged() const { return writeDocument(document()) != last_.document; }
@@ -156,6 +157,13 @@ SessionContent OpenScene::edited(const Edits& edits) const {
   SessionContent content{changed.scene, changed.duration, now.controls, {}};
   for (const NailId id : session_->nails()) content.nails.emplace_back(id, session_->constraintOf(id));
   return content;
+}
+
+std::shared_ptr<const Motion> OpenScene::simulated(const SessionContent& content) {
+  const auto scene = std::make_shared<const Scene>(content.scene);
+  auto motion = std::make_shared<Motion>(simulate(*scene, *contacts_, content.duration));
+  motion->scene = scene;
+  return motion;
 }
 
 std::string nameOfEdits(const Edits& edits, const Scene& scene) {

@@ -29,7 +29,7 @@ class OpenScene {
   const EditSession& session() const { return *session_; }
   const Document& opened() const { return opened_; }  ///< as it was read
   const std::optional<std::string>& path() const { return path_; }
-  /// A name for it where it has no file: "hat-copy.json" of "hat.json".
+  /// A name for it where it has no file: "hat-copy.json" of "hat.json"; of a scene that began empty its own.
   std::string suggestedName() const;
 
   /// As it is now; with what is grabbed left out.
@@ -50,6 +50,8 @@ class OpenScene {
   /// The document after edits (pointer, JSON value each). Bodies whose text stays are taken over to the bit, and so are
   /// controls and nails. Throws InputError that names the place in the document.
   SessionContent edited(const std::vector<std::pair<std::string, std::string>>& edits) const;
+  /// The motion of a content, which is not taken over.
+  std::shared_ptr<const Motion> simulated(const SessionContent& content);
 
  private:
   /// A file and the document that it holds, as we write it: people may have written the same in another way.
@@ -66,6 +68,17 @@ class OpenScene {
   std::unique_ptr<OdeContacts> contacts_;
   std::unique_ptr<EditSession> session_;
 };
+
+/// Of a scene that begins empty.
+inline constexpr const char* kEmptyScene = R"({
+  "carom": 1,
+  "duration": 2,
+  "materials": { "wood": { "elasticity": 0.5, "friction": 0.4 } },
+  "bodies": [
+    { "name": "floor", "fixed": true, "material": "wood", "shape": { "plane": { "normal": [0, 0, 1] } } }
+  ]
+}
+)";
 
 /// What undo calls such edits: "velocity of 'hat'".
 std::string nameOfEdits(const std::vector<std::pair<std::string, std::string>>& edits, const Scene& scene);

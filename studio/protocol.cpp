@@ -34,6 +34,7 @@ When readAt(const Json& at) {
 
 Grip readGrip(const Json& value) {
   Grip grip;
+  grip.contact = value.value("contact", false);
   if (value.contains("point")) grip.body_point = readVector(value["point"]);
   grip.orientation = value.value("orientation", false);
   grip.place = value.value("place", true);
@@ -60,21 +61,22 @@ What readGrab(const Json& m) {
   grab.body = m["body"].get<std::string>();
   grab.at = readAt(m["at"]);
   if (m.contains("grip")) grab.grip = readGrip(m["grip"]);
-  if (m.contains("grip")) grab.contact = m["grip"].value("contact", false);
-  if (grab.contact && (grab.at.impact == 0 || grab.grip.body_point))
-    fail("/grip/contact", "true", "false: there is no impact, or another point is held");
+  if (grab.grip.contact && (grab.at.impact == 0 || grab.grip.body_point || !grab.grip.place))
+    fail("/grip/contact", "true", "false: there is no impact, or something else is held");
   if (m.contains("also_vary")) grab.also_vary = compactText(m["also_vary"]);
   grab.free = m.value("free", false);
   if (grab.free && !grab.also_vary.empty()) fail("/free", "true", "false: also_vary says what varies");
   return grab;
 }
 
+std::vector<std::string> readComponents(const Json& m) { return m.value("components", std::vector<std::string>()); }
+
 What readDrag(const Json& m) {
-  return Drag{integer(m, "gesture"), integer(m, "seq"), readVector(m["place"]), readTurn(m)};
+  return Drag{integer(m, "gesture"), integer(m, "seq"), readVector(m["place"]), readTurn(m), readComponents(m)};
 }
 
 What readRelease(const Json& m) {
-  Release release{integer(m, "gesture"), integer(m, "seq"), std::nullopt, readTurn(m), m.value("nail", false)};
+  Release release{integer(m, "gesture"), integer(m, "seq"), std::nullopt, readTurn(m), m.value("nail", false), readComponents(m)};
   if (m.contains("place")) release.place = readVector(m["place"]);
   return release;
 }
@@ -84,7 +86,7 @@ What readNail(const Json& m) {
   return MakeNail{"", m["body"].get<std::string>(), readAt(m["at"])};
 }
 
-What readSet(const Json& m) {
+SetNumbers readSet(const Json& m) {
   SetNumbers set{integer(m, "rev"), {}};
   std::size_t i = 0;
   for (const Json& edit : m["edits"]) {
@@ -97,6 +99,15 @@ What readSet(const Json& m) {
   return set;
 }
 
+What readAddBody(const Json& m) {
+  AddBody add{integer(m, "rev"), compactText(m["body"]), std::nullopt};
+  if (!m.contains("on")) return add;
+  add.on = {readVector(m["on"]["point"]), readVector(m["on"]["normal"])};
+  if (!(add.on->normal.norm() > 0)) fail("/on/normal", describe(m["on"]["normal"]), "a direction");
+  add.on->normal.normalize();
+  return add;
+}
+
 What readSave(const Json& m) {
   Save save{std::nullopt, m.value("replace", false)};
   if (m.contains("path")) save.path = m["path"].get<std::string>();
@@ -106,6 +117,7 @@ What readSave(const Json& m) {
 const std::map<std::string, What (*)(const Json&)>& readers() {
   static const std::map<std::string, What (*)(const Json&)> all = {
       {"hello", readHello},
+      {"prove", [](const Json& m) -> What { return Prove{m["nonce"].get<std::string>()}; }},
       {"grab", readGrab},
       {"grab_nail",
        [](const Json& m) -> What {
@@ -132,12 +144,22 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
        [](const Json& m) -> What {
          return SetControls{integer(m, "rev"), compactText(m["controls"])};
        }},
-      {"set", readSet},
+      {"set", [](const Json& m) -> What { return readSet(m); }},
+      {"try", [](const Json& m) -> What { return Try{integer(m, "gesture"), integer(m, "seq"), readSet(m)}; }},
+      {"add_body", readAddBody},
+      {"remove_body", [](const Json& m) -> What { return RemoveBody{integer(m, "rev"), m["body"].get<std::string>()}; }},
+      {"copy_body", [](const Json& m) -> What { return CopyBody{integer(m, "rev"), m["body"].get<std::string>()}; }},
+      {"rename_body",
+       [](const Json& m) -> What {
+         return RenameBody{integer(m, "rev"), m["body"].get<std::string>(), m["name"].get<std::string>()};
+       }},
+      {"new", [](const Json& m) -> What { return NewScene{m.value("replace", false)}; }},
       {"open",
        [](const Json& m) -> What {
          return Open{m["path"].get<std::string>(), m.value("gallery", false), m.value("replace", false)};
        }},
       {"save", readSave},
+      {"export", [](const Json& m) -> What { return Export{m["format"].get<std::string>(), m.value("before", false)}; }},
       {"list", [](const Json& m) -> What { return List{m.value("path", std::string())}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;
@@ -175,13 +197,15 @@ bool isOneOf(const Command& command) {
 
 }  // namespace
 
-bool interrupts(const Command& command) { return !isOneOf<Hello, Drag, Release, Save, List, Gallery, Gone>(command); }
+bool interrupts(const Command& command) { return !isOneOf<Hello, Prove, Drag, Release, Save, Export, List, Gallery, Gone>(command); }
 
 bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
 
 bool makesNeedless(const Command& later, const Drag& waiting) {
   // an orientation that is not said anew stays the one that was said last
-  const auto says_all = [&](const auto& hand) { return hand.orientation || !waiting.orientation; };
+  const auto says_all = [&](const auto& hand) {
+    return (hand.orientation || !waiting.orientation) && (!hand.components.empty() || waiting.components.empty());
+  };
   if (const Drag* drag = std::get_if<Drag>(&later.what)) return drag->gesture == waiting.gesture && says_all(*drag);
   if (const Release* release = std::get_if<Release>(&later.what))
     return release->gesture == waiting.gesture && release->place && release->seq > waiting.seq && says_all(*release);

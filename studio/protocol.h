@@ -26,26 +26,30 @@ struct Hello {
   std::string token;  ///< of the address that was printed
   std::string tab;    ///< the page's name for itself, kept when it is loaded again
 };
-/// Takes hold of a body.
+/// Asks the server to show that it knows the token, before hello.
+struct Prove {
+  std::string nonce;
+};
+/// Grabs a body.
 struct Grab {
   std::int64_t gesture = 0;  ///< the page's number for it
   std::string body;          ///< its name
   When at = 0.0;             ///< when, of the motion
   Grip grip;                 ///< how
-  bool contact = false;      ///< by the middle of its contacts there, at an impact, in place of Grip::body_point
   std::string also_vary;     ///< controls, a JSON array; empty: none
-  bool free = false;         ///< where nothing that varies moves it, its throw varies from here on
+  bool free = false;         ///< if no control moves it, its throw varies from here on
 };
-/// Takes hold of the target of a nail.
+/// Grabs the target of a nail.
 struct GrabNail {
   std::int64_t gesture = 0;
   int nail = 0;
 };
-/// Where the hand is.
+/// The current target of a drag.
 struct Drag {
   std::int64_t gesture = 0, seq = 0;
   Vec3 place = Vec3::Zero();        ///< m
   std::optional<Quat> orientation;  ///< shape to world
+  std::vector<std::string> components = {};  ///< of a contact that slides: those held from here on
 };
 /// Lets go.
 struct Release {
@@ -53,6 +57,7 @@ struct Release {
   std::optional<Vec3> place;        ///< m, where the hand was last
   std::optional<Quat> orientation;  ///< shape to world
   bool nail = false;                ///< where it got to
+  std::vector<std::string> components = {};  ///< as of a drag
 };
 /// Lets go, and back to what was before.
 struct Cancel {
@@ -90,6 +95,39 @@ struct SetNumbers {
   std::int64_t rev = 0;
   std::vector<std::pair<std::string, std::string>> edits;  ///< pointer into the document, value as JSON
 };
+/// The same numbers, to be shown and not kept.
+struct Try {
+  std::int64_t gesture = 0, seq = 0;
+  SetNumbers set;
+};
+/// A place on a surface.
+struct OnSurface {
+  Vec3 point = Vec3::Zero();   ///< m
+  Vec3 normal = Vec3::Zero();  ///< out of what is below it
+};
+/// Another body.
+struct AddBody {
+  std::int64_t rev = 0;
+  std::string body;             ///< JSON, as in documents; where its name is taken it gets another
+  std::optional<OnSurface> on;  ///< where it touches; none: where it says
+};
+struct RemoveBody {
+  std::int64_t rev = 0;
+  std::string body;  ///< its name
+};
+/// The same body again, beside it.
+struct CopyBody {
+  std::int64_t rev = 0;
+  std::string body;
+};
+struct RenameBody {
+  std::int64_t rev = 0;
+  std::string body, name;  ///< now, and from here on
+};
+/// A scene with a floor and nothing else.
+struct NewScene {
+  bool replace = false;  ///< even where what is there has not been saved
+};
 struct Open {
   std::string path;      ///< relative to the folder, or to that of the gallery
   bool gallery = false;  ///< one of its scenes
@@ -98,6 +136,11 @@ struct Open {
 struct Save {
   std::optional<std::string> path;  ///< relative; none: where it was opened
   bool replace = false;             ///< even where another wrote there
+};
+/// The motion as a file, for the page to keep.
+struct Export {
+  std::string format;   ///< "glb", "py", "csv", "svg" or "html"
+  bool before = false;  ///< beside the motion as it was opened, where the format has that
 };
 struct List {
   std::string path;  ///< a folder
@@ -109,8 +152,9 @@ struct Gone {};
 /// A command with the number that its answers carry.
 struct Command {
   std::int64_t id = 0;  ///< 0: nobody waits for an answer
-  std::variant<Hello, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
-               Unnail, SetControls, SetNumbers, Open, Save, List, Gallery, Gone>
+  std::variant<Hello, Prove, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
+               Unnail, SetControls, SetNumbers, Try, AddBody, RemoveBody, CopyBody, RenameBody, NewScene, Open, Save, Export,
+               List, Gallery, Gone>
       what;  ///< what it asks for
 };
 

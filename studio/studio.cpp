@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kSessionName = 8;  // random bytes
-constexpr std::size_t kNonce = 16;
+constexpr std::size_t kNonceBytes = 16;
 /// Steps of simulations: about a quarter of a second's worth for an update, and two seconds' for a release.
 constexpr double kDragSteps = 1e5, kReleaseSteps = 7e5;
 
@@ -75,12 +75,12 @@ HttpAnswer pageAnswer(const PageFiles& files, const Request& request) {
   const PageFile* file = files.find(pathOf(request.target));
   if (file == nullptr) return {404, "text/plain; charset=utf-8", "found no such file\n", {}};
   if (!file->asksForNonce()) return {200, file->type, file->content, {}};
-  const std::string nonce = randomHex(kNonce);
+  const std::string nonce = randomHex(kNonceBytes);
   return {200, file->type, file->withNonce(nonce), securityHeaders(nonce)};
 }
 
-WorkerOptions workerOptions(const StudioOptions& options, const fs::path& share) {
-  WorkerOptions worker{options.limits, randomHex(kSessionName), "", {}, options.solving};
+WorkerOptions workerOptions(const StudioOptions& options, const fs::path& share, const PageFiles& files) {
+  WorkerOptions worker{options.limits, randomHex(kSessionName), "", {}, options.solving, options.recent, &files};
   if (fs::is_directory(share / "scenes")) worker.gallery = (share / "scenes").string();
   if (fs::is_directory(share / "gallery"))
     for (const auto& entry : fs::directory_iterator(share / "gallery"))
@@ -105,23 +105,27 @@ int studio(const StudioOptions& options) {
   Mailbox mailbox(options.limits.commands);
   Net* net = nullptr;  // made last, as it needs the others
   Worker worker(mailbox, workspace, {[&](SocketId to, Outgoing message) { net->send(to, std::move(message)); }},
-                workerOptions(options, share));
+                workerOptions(options, share, files));
   if (!start.scene.empty()) worker.openFirst(start.scene);
   const Address before = addressOf(worker.addressBefore());
-  const std::string token = before.token.empty() ? newToken() : before.token;
-  Dispatcher dispatcher(mailbox, token, options.limits,
-                        {[&](SocketId to, const std::string& text) {
-                           net->send(to, {[text] { return text; }, text.size(), false, false, false});
-                         },
-                         [&](SocketId socket) { net->welcome(socket); },
-                         [&](SocketId socket, CloseReason reason, std::chrono::milliseconds after) {
-                           net->close(socket, std::move(reason), after);
-                         }});
+  std::unique_ptr<Dispatcher> dispatcher;  // its token depends on the port
   const NetHandlers handlers{[&](const Request& request) { return pageAnswer(files, request); },
-                             [&](SocketId from, const std::string& text) { return dispatcher.message(from, text); },
-                             [&](SocketId socket) { dispatcher.gone(socket); }};
+                             [&](SocketId from, const std::string& text) { return dispatcher->message(from, text); },
+                             [&](SocketId socket) { dispatcher->gone(socket); }};
   const std::unique_ptr<Net> server = listen(options, before.port, handlers);
   net = server.get();
+  // who has the port of before now may have heard the token of before from a page that looked for this server
+  const std::string token = server->port() == before.port ? before.token : newToken();
+  dispatcher = std::make_unique<Dispatcher>(
+      mailbox, token, options.limits,
+      Dispatcher::Line{[&](SocketId to, const std::string& text) {
+                         net->send(to, {[text] { return text; }, text.size(), false, false, false});
+                       },
+                       [&](SocketId socket) { net->welcome(socket); },
+                       [&](SocketId socket, CloseReason reason, std::chrono::milliseconds after) {
+                         net->close(socket, std::move(reason), after);
+                       }});
+  if (token == before.token) dispatcher->provesFrom(std::chrono::steady_clock::now() + options.limits.no_proof);
   const std::string address = "http://127.0.0.1:" + std::to_string(server->port()) + "/#" + token;
   worker.setAddress(address);
   mailbox.onRoom([&](SocketId socket) { server->resume(socket); });

@@ -10,7 +10,7 @@
 
 namespace carom::studio {
 
-/// Work is counted and never timed, so that a hand comes to the same on every machine.
+/// Work is limited in counted units, not in time, so that a drag gives the same result on every machine.
 SessionOptions countedWork();
 
 /// How the studio is started.
@@ -21,6 +21,7 @@ struct StudioOptions {
   std::string share;        ///< folder of the page, three.js and the example scenes; empty: as installed
   Limits limits;            ///< what clients may take
   SessionOptions solving = countedWork();  ///< how sessions solve
+  std::string recent = {};  ///< file of the scenes that were opened last; empty: they are not kept
   std::function<void(const std::string& address)> ready;  ///< it serves; called once, with the address of the page
   std::stop_token stop;                                   ///< ends it
 };

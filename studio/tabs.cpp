@@ -31,6 +31,11 @@ void Tabs::tell(SocketId socket, std::string text) const {
   post_.send(socket, {[text = std::move(text)] { return text; }, bytes, false, false, false});
 }
 
+void Tabs::send(SocketId socket, std::int64_t id, const std::string& name, std::string bytes) const {
+  const std::size_t size = bytes.size();
+  post_.send(socket, {[name, id, bytes = std::move(bytes)] { return fileFrame(name, bytes, answering(id, "{}")); }, size, true, false, false});
+}
+
 void Tabs::tellAll(SocketId asker, std::int64_t id, const std::string& text) const {
   for (const auto& [socket, tab] : tabs_) tell(socket, answering(socket == asker ? id : 0, text));
 }

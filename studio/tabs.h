@@ -31,6 +31,8 @@ class Tabs {
 
   /// A text to one page.
   void tell(SocketId socket, std::string text) const;
+  /// A file to one page, as the answer to command `id`.
+  void send(SocketId socket, std::int64_t id, const std::string& name, std::string bytes) const;
   /// A text to all pages; to `asker` as the answer to command `id`.
   void tellAll(SocketId asker, std::int64_t id, const std::string& text) const;
   /// A motion to all pages. `gives_way`: a newer one makes it needless.

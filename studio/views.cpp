@@ -53,30 +53,6 @@ MotionView viewOf(const Motion& motion) {
   return view;
 }
 
-namespace {
-
-/// Throws InputError where it does not come.
-int impactAt(const Motion& motion, int index, const std::string& body, const When& at) {
-  const auto event = motion.findImpact(index, at.impact, at.with.empty() ? -1 : bodyIndex(*motion.scene, at.with));
-  if (!event)
-    throw InputError("/at", "found an impact " + std::to_string(at.impact) + " of '" + body + "' that does not come, " +
-                                "expected one of the motion");
-  return *event;
-}
-
-}  // namespace
-
-Vec3 contactPlace(const Motion& motion, const std::string& body, const When& at) {
-  const int event = impactAt(motion, bodyIndex(*motion.scene, body), body, at);
-  return impactOf(motion.events[static_cast<std::size_t>(event)]).point;
-}
-
-Vec3 contactPoint(const Motion& motion, const std::string& body, const When& at) {
-  const int index = bodyIndex(*motion.scene, body);
-  const BodyState state = motion.stateBefore(impactAt(motion, index, body, at), index);
-  return state.orientation.conjugate() * (contactPlace(motion, body, at) - state.position);
-}
-
 bool BodyView::looksLike(const BodyView& other) const {
   const bool as_placed = position == other.position && orientation.coeffs() == other.orientation.coeffs();
   return name == other.name && fixed == other.fixed && colour == other.colour && radius == other.radius &&

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "adjoint/motion/motion.h"
-#include "editing/constraint.h"
 #include "formats/drawing/display.h"
 
 /// What a page shows of scenes and motions: by value, so that any thread may keep, compare and send it.
 namespace carom::studio {
 
-/// An impact to people (Event::counts).
+/// A reported impact (Event::counts).
 struct ImpactView {
   double time = 0;                        ///< s
   Vec3 point = Vec3::Zero();              ///< m, the middle of its contacts
@@ -39,11 +38,6 @@ struct MotionView {
 /// Throws InputError as displayTrack does.
 MotionView viewOf(const Motion& motion);
 
-/// The middle of the contacts of a body's impact, in the axes of its shape, m. Throws InputError where it does not come.
-Vec3 contactPoint(const Motion& motion, const std::string& body, const When& at);
-/// The same in the world.
-Vec3 contactPlace(const Motion& motion, const std::string& body, const When& at);
-
 /// An endless plane: its points x, in the axes of the shape, have normal . x = offset.
 struct PlaneView {
   Vec3 normal = Vec3::UnitZ();  ///< unit
@@ -57,7 +51,7 @@ struct BodyView {
   std::string name;                     ///< in the scene
   bool fixed = false;                   ///< never moves
   std::string colour;                   ///< "#rrggbb"
-  std::optional<double> radius;         ///< m, of a ball about the centre of mass that holds it; none of a plane
+  std::optional<double> radius;         ///< m, bounding radius about the centre of mass; none for a plane
   Vec3 center = Vec3::Zero();           ///< of mass, in the axes of the shape, m
   Vec3 position = Vec3::Zero();         ///< m, of the shape's origin at the start
   Quat orientation = Quat::Identity();  ///< shape to world at the start

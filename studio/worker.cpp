@@ -17,7 +17,7 @@ std::vector<Control> throwOf(const std::string& body) {
 }  // namespace
 
 Worker::Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions options)
-    : mailbox_(mailbox), workspace_(workspace), options_(std::move(options)), tabs_(std::move(post)) {
+    : mailbox_(mailbox), workspace_(workspace), options_(std::move(options)), tabs_(std::move(post)), recent_(options_.recent) {
   if (!options_.gallery.empty()) gallery_ = std::make_unique<Workspace>(options_.gallery);
 }
 
@@ -75,7 +75,7 @@ EditSession& Worker::session() {
 EditSession& Worker::sessionFor(const Asker& asker) {
   EditSession& session = this->session();
   if (hold_ && hold_->socket != asker.socket)
-    throw Refusal("busy", "another window of this studio holds a body; let go there first");
+    throw Refusal("busy", "another window of this studio holds a body; release it there first");
   return session;
 }
 
@@ -85,10 +85,10 @@ void Worker::requireHold(const Asker& asker, std::int64_t gesture) const {
 }
 
 void Worker::requireRev(std::int64_t rev) const {
-  if (rev != rev_) throw Refusal("stale", "the scene has changed since; look at it again");
+  if (rev != rev_) throw Refusal("stale", "the scene has changed meanwhile");
 }
 
-std::string Worker::heldBy() const { return hold_ ? tabs_.nameOf(hold_->socket) : ""; }
+std::string Worker::constrainedBy() const { return hold_ ? tabs_.nameOf(hold_->socket) : ""; }
 
 template <class Take>
 void Worker::beginGesture(const Asker& asker, std::int64_t gesture, const Take& take) {
@@ -108,20 +108,23 @@ void Worker::beginGesture(const Asker& asker, std::int64_t gesture, const Take& 
 
 void Worker::sayMotion(const Asker& asker, const SessionUpdate& update, bool more, bool gives_way) {
   if (sizes_vary_ && viewed_ != update.motion) sayScene({}, *update.motion);
-  if (viewed_ != update.motion) {
-    auto view = std::make_shared<MotionView>(viewOf(*update.motion));
-    view->scene = opened_;
-    view_ = std::move(view);
-  }
-  viewed_ = update.motion;
+  view(update.motion);
   const std::int64_t gesture = hold_ ? hold_->gesture : 0, seq = hold_ ? hold_->seq : -1;
   const bool freed = hold_ && hold_->freed;
   const MotionNews news{rev_, gesture, seq, more, freed, &update, hold_ ? hold_->before.get() : nullptr};
   tabs_.showMotion(asker.socket, asker.id, view_, motionMembers(news), gives_way);
 }
 
+void Worker::view(const std::shared_ptr<const Motion>& motion) {
+  if (viewed_ == motion) return;
+  auto view = std::make_shared<MotionView>(viewOf(*motion));
+  view->scene = opened_;
+  view_ = std::move(view);
+  viewed_ = motion;
+}
+
 void Worker::sayState(const Asker& asker) {
-  tabs_.tellAll(asker.socket, asker.id, stateMessage(rev_, scene_.get(), heldBy(), recovered_));
+  tabs_.tellAll(asker.socket, asker.id, stateMessage(rev_, scene_.get(), constrainedBy(), recovered_));
 }
 
 void Worker::sayScene(const Asker& asker, const Motion& motion) {
@@ -141,26 +144,13 @@ void Worker::sayAll(const Asker& asker) {
 
 // --------------------------------------------------------------------------------------------------------------- drags
 
-/// A contact that is held may be another point of the body at its new place: what is held goes there with it.
-void Worker::dragThere(const Vec3& place, const std::optional<Quat>& orientation) {
-  constexpr int kRounds = 4;
-  constexpr double kNear = 1e-5;  // m
+void Worker::dragThere(const Vec3& place, const std::optional<Quat>& orientation, const std::vector<std::string>& components) {
   const std::stop_token stop = mailbox_.beginDrag();
   EditSession& session = this->session();
-  const auto beside = [&]() -> Vec3 {  // from the contact to the held point
-    if (!hold_->contact) return Vec3::Zero();
-    return session.grabbedPlace() - contactPlace(session.motion(), hold_->body, *hold_->contact);
-  };
-  hold_->asked = place;
-  Vec3 off = beside();
-  for (int round = 0;; ++round) {
-    const Vec3 held = place + off;
-    const SessionUpdate update = orientation ? session.dragTo(held, *orientation, stop) : session.dragTo(held, stop);
-    hold_->resting = !update.reached;
-    const Vec3 now = beside();
-    if (!update.reached || (now - off).norm() <= kNear || round == kRounds || stop.stop_requested()) return;
-    off = now;
-  }
+  const SessionUpdate update = orientation         ? session.dragTo(place, *orientation, stop)
+                               : components.empty() ? session.dragTo(place, stop)
+                                                    : session.slideTo(place, components, stop);
+  hold_->resting = !update.reached;
 }
 
 void Worker::perform(const Asker& asker, const Grab& grab) {
@@ -169,12 +159,8 @@ void Worker::perform(const Asker& asker, const Grab& grab) {
   if (!grab.also_vary.empty()) also_vary = readControlsText(grab.also_vary, session.scene(), "/also_vary");
   if (grab.free) also_vary = throwOf(grab.body);
   const AlsoVary wanted = grab.free ? AlsoVary::where_nothing_moves_it : AlsoVary::always;
-  Grip grip = grab.grip;
-  beginGesture(asker, grab.gesture, [&] {
-    if (grab.contact) grip.body_point = contactPoint(session.motion(), grab.body, grab.at);
-    return session.grab(grab.body, grab.at, grip, also_vary, wanted);
-  });
-  if (grab.contact) hold_->contact = grab.at, hold_->body = grab.body;
+  beginGesture(asker, grab.gesture,
+               [&] { return session.grab(grab.body, grab.at, grab.grip, also_vary, wanted); });
 }
 
 void Worker::perform(const Asker& asker, const GrabNail& grab) {
@@ -184,7 +170,7 @@ void Worker::perform(const Asker& asker, const GrabNail& grab) {
 
 void Worker::perform(const Asker& asker, const Drag& drag) {
   requireHold(asker, drag.gesture);
-  dragThere(drag.place, drag.orientation);
+  dragThere(drag.place, drag.orientation, drag.components);
   hold_->seq = drag.seq;
   sayMotion({}, session().last(), hold_->resting && mailbox_.isEmpty(), true);
 }
@@ -195,7 +181,6 @@ void Worker::rest() {
   const SessionUpdate update =
       session.dwell(stop, [this](const SessionUpdate& better) { sayMotion({}, better, true, true); });
   hold_->resting = update.stopped || (!update.reached && update.moved);
-  if (hold_->contact && update.reached) dragThere(*hold_->asked, std::nullopt);
   if (!update.stopped || update.moved) sayMotion({}, session.last(), hold_->resting, true);
 }
 
@@ -203,7 +188,7 @@ void Worker::perform(const Asker& asker, const Release& release) {
   requireHold(asker, release.gesture);
   EditSession& session = this->session();
   if (release.place && release.seq > hold_->seq) {
-    dragThere(*release.place, release.orientation);
+    dragThere(*release.place, release.orientation, release.components);
     hold_->seq = release.seq;
   }
   hold_->resting = false;
@@ -224,6 +209,7 @@ void Worker::perform(const Asker& asker, const Cancel& cancel) {
 void Worker::perform(const Asker& asker, const Gone&) {
   tabs_.remove(asker.socket);
   if (hold_ && hold_->socket == asker.socket) cancelHold({});
+  if (tried_ == asker.socket) endTry(), sayMotion({}, session().last(), false, false);
 }
 
 void Worker::cancelHold(const Asker& asker) {

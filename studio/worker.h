@@ -13,7 +13,9 @@
 #include "studio/limits.h"
 #include "studio/mailbox.h"
 #include "studio/open_scene.h"
+#include "studio/page_files.h"
 #include "studio/protocol.h"
+#include "studio/recent_files.h"
 #include "studio/tabs.h"
 #include "studio/workspace.h"
 
@@ -26,6 +28,8 @@ struct WorkerOptions {
   std::string gallery;                ///< folder of the example scenes; empty: none
   std::vector<std::string> pictures;  ///< names of the scenes that have one, without ending
   SessionOptions solving;             ///< how sessions solve
+  std::string recent = {};            ///< file of the scenes that were opened last; empty: they are not kept
+  const PageFiles* page = nullptr;    ///< of which exported pages are made; outlives the worker
 };
 
 /// The thread of the session: does what pages ask, in order, and answers. While a body is held and has not reached its
@@ -61,13 +65,11 @@ class Worker {
     std::int64_t gesture = 0, seq = -1;
     std::shared_ptr<const Motion> before;
     bool freed = false;    // its throw varies since
-    std::optional<When> contact = std::nullopt;  // the impact whose contact is held
-    std::string body = {};
-    std::optional<Vec3> asked = std::nullopt;  // where the hand was last
     bool resting = false;  // the hand rests before its target was reached
   };
 
   void perform(const Asker& asker, const Hello& hello);
+  void perform(const Asker&, const Prove&) {}  // answered before there is a session
   void perform(const Asker& asker, const Grab& grab);
   void perform(const Asker& asker, const GrabNail& grab);
   void perform(const Asker& asker, const Drag& drag);
@@ -83,8 +85,15 @@ class Worker {
   void perform(const Asker& asker, const Unnail& nail);
   void perform(const Asker& asker, const SetControls& set);
   void perform(const Asker& asker, const SetNumbers& set);
+  void perform(const Asker& asker, const Try& what);
+  void perform(const Asker& asker, const AddBody& add);
+  void perform(const Asker& asker, const RemoveBody& remove);
+  void perform(const Asker& asker, const CopyBody& copy);
+  void perform(const Asker& asker, const RenameBody& rename);
+  void perform(const Asker& asker, const NewScene& make);
   void perform(const Asker& asker, const Open& open);
   void perform(const Asker& asker, const Save& save);
+  void perform(const Asker& asker, const Export& what);
   void perform(const Asker& asker, const List& list);
   void perform(const Asker& asker, const Gallery& gallery);
   void perform(const Asker& asker, const Gone& gone);
@@ -101,25 +110,32 @@ class Worker {
   void requireRev(std::int64_t rev) const;
   void requireNoHold() const;
   void sayChange(const Asker& asker, const SessionUpdate& update);
+  template <class Make>
+  void changeBodies(const Asker& asker, std::int64_t rev, const std::string& name, const Make& make);
+  void endTry();
+  std::string newName() const;
   template <class Take>
   void beginGesture(const Asker& asker, std::int64_t gesture, const Take& take);
-  void dragThere(const Vec3& place, const std::optional<Quat>& orientation);
+  void dragThere(const Vec3& place, const std::optional<Quat>& orientation, const std::vector<std::string>& components);
   bool isExample(const std::string& path) const;
+  void sayKeptProblem();
   void keepStep();
   void sayProblem();
   void takeSteps(const OpenedFile& file, const std::string& name, const std::optional<std::string>& path);
   void show(const OpenedFile& file, const std::string& name, std::optional<std::string> path);
   void sayMotion(const Asker& asker, const SessionUpdate& update, bool more, bool gives_way);
+  void view(const std::shared_ptr<const Motion>& motion);
   void sayState(const Asker& asker);
   void sayScene(const Asker& asker, const Motion& motion);
   void sayAll(const Asker& asker);
-  std::string heldBy() const;
+  std::string constrainedBy() const;
 
   Mailbox& mailbox_;
   Workspace& workspace_;
   const WorkerOptions options_;
   Tabs tabs_;
   std::unique_ptr<Workspace> gallery_;
+  RecentFiles recent_;
   std::vector<GalleryScene> shown_in_gallery_;  // once asked for
   std::unique_ptr<OpenScene> scene_;
   std::unique_ptr<Autosave> autosave_;  // of scene_
@@ -128,6 +144,7 @@ class Worker {
   std::string problem_;                 // of the disk, that no page has heard
   std::string address_, address_before_;
   std::optional<Hold> hold_;
+  std::optional<SocketId> tried_;  // by whom, what is shown and not kept
   std::vector<Letter> saves_;  // asked for in a gesture: they wait for its end
   std::int64_t rev_ = 0;
   std::int64_t opened_ = 0;  // scenes so far

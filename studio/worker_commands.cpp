@@ -4,14 +4,17 @@
 #include <filesystem>
 #include <utility>
 
+#include "formats/export/export_motion.h"
 #include "formats/json/json.hpp"
+#include "studio/body_edits.h"
+#include "studio/motion_page.h"
 #include "studio/refusal.h"
 #include "studio/worker.h"
 
 namespace carom::studio {
 
 void Worker::requireNoHold() const {
-  if (hold_) throw Refusal("busy", "a body is held; let go of it first");
+  if (hold_) throw Refusal("busy", "a body is held; release it first");
 }
 
 EditSession& Worker::sessionAtRest(const Asker& asker) {
@@ -57,7 +60,7 @@ void Worker::takeSteps(const OpenedFile& file, const std::string& name, const st
       if (!address_.empty()) autosave_->append(formats_detail::addressLine(address_));
       return;
     } catch (const InputError&) {
-      problem_ = "The steps of '" + file_name + "' that were kept make no sense in it; they are in '" +
+      problem_ = "The steps of '" + file_name + "' are not valid for it; they are in '" +
                  autosave_->setAside() + "'.";
     }
   } else if (steps && !steps->history.past.empty()) {
@@ -85,7 +88,7 @@ void Worker::perform(const Asker& asker, const Hello& hello) {
     const MotionNews news{rev_, 0, -1, false, false, &scene_->session().last(), nullptr};
     tabs_.showMotionTo(asker.socket, asker.id, view_, motionMembers(news), false);
   }
-  tabs_.tell(asker.socket, answering(asker.id, stateMessage(rev_, scene_.get(), heldBy(), recovered_)));
+  tabs_.tell(asker.socket, answering(asker.id, stateMessage(rev_, scene_.get(), constrainedBy(), recovered_)));
   if (!problem_.empty()) tabs_.tell(asker.socket, noticeMessage(std::exchange(problem_, "")));
 }
 
@@ -106,6 +109,7 @@ void Worker::perform(const Asker& asker, const Redo&) {
 
 // What it stopped has ended when it is read.
 void Worker::perform(const Asker& asker, const Stop&) {
+  endTry();
   if (scene_) sayMotion(asker, scene_->session().last(), false, false);
   sayState(asker);
 }
@@ -155,7 +159,10 @@ void Worker::perform(const Asker& asker, const SetControls& set) {
 void Worker::perform(const Asker& asker, const SetNumbers& set) {
   EditSession& session = sessionAtRest(asker);
   requireRev(set.rev);
-  session.setContent(scene_->edited(set.edits), nameOfEdits(set.edits, session.scene()));
+  const SessionContent content = scene_->edited(set.edits);
+  requireRoom(content.scene, session.scene());
+  session.setContent(content, nameOfEdits(set.edits, session.scene()));
+  tried_.reset();
   sayScene({}, session.motion());
   sayChange(asker, session.last());
 }
@@ -165,9 +172,10 @@ void Worker::show(const OpenedFile& file, const std::string& name, std::optional
   if (autosave_) autosave_->forget();
   scene_ = std::move(opened);
   takeSteps(file, name, path);
+  if (path) recent_.add(workspace_.folder() + "/" + *path);
   ++opened_;
   scene_view_.reset();
-  hold_.reset();
+  hold_.reset(), tried_.reset();
   sizes_vary_ = false;
   ++rev_;
 }
@@ -185,13 +193,17 @@ void Worker::openFirst(const std::string& path) {
 void Worker::perform(const Asker& asker, const Open& open) {
   if (scene_) sessionFor(asker);
   requireNoHold();
-  if (scene_ && scene_->isChanged() && !open.replace) throw FileConflict("what is open has changes that are not saved");
+  if (scene_ && scene_->isChanged() && !open.replace) throw FileConflict("the open scene has unsaved changes");
   if (open.gallery && !gallery_) throw InputError("found no gallery, expected one beside the page");
   tabs_.tell(asker.socket, answering(asker.id, progressMessage("opening " + open.path)));
   const OpenedFile file = (open.gallery ? *gallery_ : workspace_).open(open.path);
   const bool example = open.gallery || isExample(open.path);
   show(file, open.path, example ? std::nullopt : std::optional(open.path));
   sayAll(asker);
+  sayKeptProblem();
+}
+
+void Worker::sayKeptProblem() {
   if (!problem_.empty()) tabs_.tellAll(0, 0, noticeMessage(std::exchange(problem_, "")));
 }
 
@@ -205,6 +217,7 @@ void Worker::perform(const Asker& asker, const Save& save) {
   const std::string text = scene_->textIn(folder);
   const FileStamp stamp = workspace_.save(*path, text, known, save.replace);
   scene_->wasSaved(*path, {text, stamp, folder});
+  recent_.add(workspace_.folder() + "/" + *path);
   if (folder == autosave_->folder()) autosave_->rename(std::filesystem::path(*path).filename().string());
   autosave_->append(formats_detail::savedLine(text));
   sayProblem();
@@ -212,8 +225,28 @@ void Worker::perform(const Asker& asker, const Save& save) {
   sayState(asker);
 }
 
+void Worker::perform(const Asker& asker, const Export& what) {
+  EditSession& session = sessionAtRest(asker);
+  const Document document = scene_->document();
+  const std::string stem = std::filesystem::path(scene_->path().value_or(scene_->suggestedName())).stem().string();
+  std::shared_ptr<const Motion> before;
+  if (what.before) before = scene_->simulated({scene_->opened().scene, scene_->opened().duration, {}, {}});
+  std::string bytes;
+  if (what.format == "html") {
+    if (options_.page == nullptr) throw InputError("found no page of the studio, expected it");
+    const ShownMotion now{document, session.motion()};
+    const auto opened = before ? std::optional<ShownMotion>({scene_->opened(), *before}) : std::nullopt;
+    bytes = motionPage(*options_.page, document.name.empty() ? stem : document.name, now, opened ? &*opened : nullptr);
+  } else {
+    ExportOptions options;
+    options.before = before.get();
+    bytes = motionText(what.format, stem, document, session.motion(), options);
+  }
+  tabs_.send(asker.socket, asker.id, stem + "." + what.format, std::move(bytes));
+}
+
 void Worker::perform(const Asker& asker, const List& list) {
-  tabs_.tell(asker.socket, answering(asker.id, filesMessage(list.path, workspace_.list(list.path))));
+  tabs_.tell(asker.socket, answering(asker.id, filesMessage(list.path, workspace_.list(list.path), recent_.below(workspace_.folder()))));
 }
 
 void Worker::perform(const Asker& asker, const Gallery&) {

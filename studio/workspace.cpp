@@ -110,7 +110,7 @@ std::string readWhole(const std::string& path, int descriptor, std::uint64_t siz
     if (got == 0) break;
     have += static_cast<std::size_t>(got);
   }
-  if (have > size) failAt(path, "found a file that grew while it was read, expected one at rest");
+  if (have > size) failAt(path, "found a file that grew while it was read, expected an unchanged one");
   text.resize(have);
   return text;
 }
@@ -128,7 +128,7 @@ std::optional<ReadFile> readIn(int folder, const std::string& path, const std::s
   if (!file.isOpen()) failBy(path, errno);
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) failBy(path, errno);
-  if (!S_ISREG(status.st_mode)) failAt(path, "found what is no file, expected one");
+  if (!S_ISREG(status.st_mode)) failAt(path, "found something that is not a file, expected a file");
   ReadFile read{readWhole(path, file.get(), static_cast<std::uint64_t>(status.st_size)), {}};
   read.stamp = {status.st_mtim.tv_sec, status.st_mtim.tv_nsec, read.text.size(), hashOf(read.text)};
   return read;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // What a person can do besides dragging: called by keys, buttons and menus alike.
 
+import { PlayHead } from './play_head.js';
 import { hitAt } from './take.js';
-import { moves } from './motion.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {import('./types.js').Constraint} Constraint */
 
-export class Commands {
+export class Commands extends PlayHead {
   /** @param {{store: import('./store.js').Store<State>, connection: import('./connection.js').Connection,
    *    gesture: import('./gesture.js').Gesture, view: {frame: (body: number) => void},
    *    ask: (question: string, yes: string) => Promise<boolean>,
    *    choose: (question: string, choices: [string, string][]) => Promise<string>, askName: (suggested: string) => Promise<string | null>}} parts */
   constructor({ store, connection, gesture, view, ask, choose, askName }) {
-    this.store = store;
+    super(store);
     this.connection = connection;
     this.gesture = gesture;
     this.view = view;
@@ -29,8 +29,10 @@ export class Commands {
     try {
       return await this.connection.request(type, members);
     } catch (error) {
-      if (/** @type {any} */ (error).code === 'conflict') throw error;
-      this.store.set({ notice: { message: /** @type {any} */ (error).message, kind: 'red' } });
+      const { code, message } = /** @type {import('./connection.js').ServerError} */ (error);
+      if (code === 'conflict') throw error;
+      // that the server is gone has been said, with what that means
+      if (code !== 'lost' || this.store.state.notice?.key !== 'lost') this.store.set({ notice: { message, kind: 'red' } });
       return null;
     }
   }
@@ -157,7 +159,67 @@ export class Commands {
 
   /** @param {string} pointer @param {unknown} value */
   async setValue(pointer, value) {
-    await this.tell('set', { rev: this.store.state.document?.rev ?? 0, edits: [{ pointer, value }] });
+    await this.build('set', { edits: [{ pointer, value }] });
+  }
+
+  /** Asks for a change of the scene; where bodies would overlap, offers the nearest free place. @param {string} type @param {object} members
+   * @returns {Promise<any>} null where it went wrong */
+  async build(type, members = {}) {
+    try {
+      return await this.connection.request(type, { rev: this.store.state.document?.rev ?? 0, ...members });
+    } catch (error) {
+      this.tellOverlap(/** @type {any} */ (error));
+      return null;
+    }
+  }
+
+  /** @param {import('./connection.js').ServerError & {body?: string, place?: import('./types.js').Vec3}} error */
+  tellOverlap({ code, message, body, place }) {
+    if (code === 'lost' && this.store.state.notice?.key === 'lost') return;
+    const { bodies } = this.store.state.document ?? { bodies: [] }, i = bodies.findIndex((one) => one.name === body);
+    const there = { name: 'Put it where there is room', act: () => {
+      this.store.set({ notice: null });
+      void this.setValue(`/bodies/${i}/position`, place);
+    } };
+    this.store.set({ notice: { message, kind: 'red', actions: place && i >= 0 ? [there] : [] } });
+  }
+
+  /** The arrow of the selected body's velocity, where that is: at the start. */
+  aimThrow() {
+    this.store.set({ tool: 'throw' });
+    this.seek(0);
+    if (this.store.state.selected < 0) this.store.set({ notice: { message: 'Select a body: the arrow at its start is its velocity.' } });
+  }
+
+  /** A scene with a floor and nothing else. @param {boolean} [replace] @returns {Promise<void>} */
+  async newScene(replace = false) {
+    try {
+      await this.connection.request('new', replace ? { replace } : {});
+    } catch (error) {
+      if (/** @type {any} */ (error).code !== 'conflict') return this.tellOverlap(/** @type {any} */ (error));
+      const how = await this.choose(/** @type {any} */ (error).message, [['lose', 'New scene, and lose the steps'], ['save', 'Save, then a new scene']]);
+      if (how === 'lose' || (how === 'save' && await this.save())) return this.newScene(how === 'lose');
+    }
+  }
+
+  /** @param {object} body as in documents @param {import('./build.js').Surface | null} on */
+  async addBody(body, on) {
+    const material = this.store.state.document?.materials?.[0]?.name;
+    await this.build('add_body', { body: { ...body, ...(material ? { material } : {}) }, ...(on ? { on } : {}) });
+  }
+
+  /** @param {string} name */
+  removeBody = (name) => this.build('remove_body', { body: name });
+  /** @param {string} name */
+  copyBody = (name) => this.build('copy_body', { body: name });
+  /** @param {string} body @param {string} name */
+  renameBody = (body, name) => this.build('rename_body', { body, name });
+
+  /** A fixed body has no throw. @param {number} i @param {boolean} fixed */
+  fixBody(i, fixed) {
+    const at = `/bodies/${i}`, still = [0, 0, 0], { mass } = this.store.state.document?.bodies[i] ?? {};
+    return this.build('set', { edits: [{ pointer: `${at}/fixed`, value: fixed },
+      ...(fixed ? [{ pointer: `${at}/velocity`, value: still }, { pointer: `${at}/angular_velocity`, value: still }] : mass ? [] : [{ pointer: `${at}/density`, value: 600 }])] });
   }
 
   /** @param {'move' | 'turn'} tool takes the selected body, or shows its handles */
@@ -166,40 +228,5 @@ export class Commands {
     this.store.set({ tool });
     if (selected < 0 || !motion || gesture.state !== 'idle') return;
     this.gesture.beginByKey(hitAt(motion, selected, Math.min(time, motion.end)), tool);
-  }
-
-  /** @param {number} step */
-  selectNext(step) {
-    const { motion, scene, selected } = this.store.state;
-    const moving = motion?.tracks.filter((t) => !scene?.shapes[t.body]?.fixed && moves(t)).map((t) => t.body) ?? [];
-    if (!moving.length) return;
-    const i = moving.indexOf(selected);
-    this.store.set({ selected: i < 0 ? moving[0] : moving[(i + step + moving.length) % moving.length], selectedNail: -1 });
-  }
-
-  /** @param {number} time s */
-  seek(time) {
-    const end = this.store.state.motion?.end ?? 0;
-    this.store.set({ time: Math.max(0, Math.min(end, time)), playing: false });
-  }
-
-  /** @param {number} step in frames */
-  stepFrame(step) {
-    const { time, dots } = this.store.state, rate = dots || 24;
-    this.seek((step > 0 ? Math.floor(time * rate + 1e-6) + step : Math.ceil(time * rate - 1e-6) + step) / rate);
-  }
-
-  /** @param {1 | -1} step */
-  stepImpact(step) {
-    const { motion, time, selected } = this.store.state;
-    const times = motion?.impacts.filter((one) => selected < 0 || one.bodies.includes(selected)).map((one) => one.t) ?? [];
-    const next = step > 0 ? times.find((t) => t > time + 1e-6) : times.findLast((t) => t < time - 1e-6);
-    if (next !== undefined) this.seek(next);
-  }
-
-  togglePlay() {
-    const { playing, motion, time } = this.store.state;
-    if (!motion) return;
-    this.store.set({ playing: !playing, ...(!playing && time >= motion.end - 1e-9 ? { time: 0 } : {}) });
   }
 }

@@ -48,7 +48,7 @@ export function tracksOf(frame) {
  * @param {Frame} frame @param {Motion | null} before @returns {Motion} */
 export function motionOf(frame, before) {
   const header = frame.header;
-  const tracks = before ? [...before.tracks] : [];
+  const tracks = before ? before.tracks.slice(0, header.count) : [];
   for (const track of tracksOf(frame)) tracks[track.body] = track;
   for (let i = 0; i < tracks.length; ++i) if (!tracks[i]) throw new Error(`a motion lacks the track of body ${i}`);
   return {
@@ -60,7 +60,7 @@ export function motionOf(frame, before) {
   };
 }
 
-/** @param {any} obstacle @returns {import('./types.js').Obstacle | null} none where nothing stands in the way */
+/** @param {any} obstacle @returns {import('./types.js').Obstacle | null} null without an obstacle */
 function obstacleOf(obstacle) {
   return obstacle && obstacle.kind && obstacle.kind !== 'none' ? obstacle : null;
 }

@@ -2,6 +2,7 @@
 // The one state machine of the hand: idle, pressed, dragging, typing, settling. Escape leaves every state. It sees the
 // screen through `space` and the server through `connection`, so that tests can stand in for both.
 
+import { PlaceSender, placing } from './build.js';
 import { DragSender } from './connection.js';
 import { evaluate } from './number_field_text.js';
 import { idleGesture } from './store.js';
@@ -16,21 +17,22 @@ import { Turn } from './tools/turn.js';
 /** @typedef {{store: import('./store.js').Store<import('./types.js').State>, space: Space,
  *    connection: Pick<import('./connection.js').Connection, 'send' | 'request'>,
  *    select: (hit: Hit | null) => void, ended: (how: 'released' | 'cancelled', answer: any, nailed: boolean) => void,
- *    later?: (act: () => void, ms: number) => unknown}} Parts */
+ *    refused?: (error: any) => void, later?: (act: () => void, ms: number) => unknown}} Parts  refused: what a gesture was to come to cannot be */
 
 const clickPixels = 4, settlingShownAfter = 150;
 
 export class Gesture {
   /** @param {Parts} parts */
-  constructor({ store, space, connection, select, ended, later = (act, ms) => setTimeout(act, ms) }) {
+  constructor({ store, space, connection, select, ended, refused = (error) => store.set({ notice: { message: error.message, kind: 'red' } }), later = (act, ms) => setTimeout(act, ms) }) {
     this.store = store;
     this.space = space;
     this.connection = connection;
     this.select = select;
     this.ended = ended;
+    this.refused = refused;
     this.later = later;
     this.number = 0;
-    /** @type {DragSender | null} */
+    /** @type {DragSender | PlaceSender | null} */
     this.sender = null;
     this.dragId = 0;
     /** @type {Move | Turn | null} */
@@ -120,7 +122,13 @@ export class Gesture {
   grab() {
     const { hit } = this.now, { document, motion } = this.store.state;
     if (!hit || !document || !motion || !this.tool) return;
-    const gesture = ++this.number;
+    const gesture = ++this.number, edits = placing(this.store.state, hit, this.tool instanceof Turn);
+    if (edits) {
+      this.put({ number: gesture, seq: 0, answered: -1 });
+      this.sender = new PlaceSender({ request: (type, members) => this.connection.request(type, members), rev: document.rev, gesture, edits,
+        failed: (error) => this.now.number === gesture && this.store.set({ card: { message: error.message, kind: 'amber' } }) });
+      return;
+    }
     this.sender = new DragSender((members) => void (this.dragId = this.connection.send('drag', members)), gesture);
     this.put({ number: gesture, seq: 0, answered: -1 });
     let asked;
@@ -176,7 +184,7 @@ export class Gesture {
     change(tool);
     this.put({ axis: tool.axis });
     if (String(tool.held(free)) !== before && this.now.hit?.kind !== 'nail') {
-      this.connection.send('cancel', { gesture: this.now.number });
+      if (!(this.sender instanceof PlaceSender)) this.connection.send('cancel', { gesture: this.now.number });
       this.grab();
     }
     this.follow();
@@ -217,15 +225,23 @@ export class Gesture {
     this.later(() => {
       if (this.now.state === 'settling' && this.now.number === gesture) this.put({ settlingShown: true });
     }, settlingShownAfter);
-    this.connection.request('release', { ...sender.last(), ...(nail ? { nail } : {}) }).then(
+    this.end(sender, nail).then(
       (answer) => this.settled(gesture, 'released', answer, nail),
       (error) => {
         if (this.now.number !== gesture) return;
-        this.store.set({ gesture: idleGesture });
-        if (error.code !== 'lost') this.store.set({ notice: { message: error.message, kind: 'red' } });
+        this.store.set({ gesture: idleGesture, card: null });
+        if (sender instanceof PlaceSender) this.connection.send('stop');  // what was tried goes
+        if (error.code !== 'lost') this.refused(error);
       },
     );
     this.sender = null;
+  }
+
+  /** @param {DragSender | PlaceSender} sender @param {boolean | undefined} nail @returns {Promise<any>} */
+  end(sender, nail) {
+    if (!(sender instanceof PlaceSender)) return this.connection.request('release', { ...sender.last(), ...(nail ? { nail } : {}) });
+    const last = sender.last();
+    return last ? this.connection.request('set', last) : this.connection.request('stop');
   }
 
   /** @param {number} gesture @param {'released' | 'cancelled'} how @param {any} answer @param {boolean} nailed */
@@ -242,9 +258,10 @@ export class Gesture {
     } else if (state === 'pressed') {
       this.store.set({ gesture: idleGesture });
     } else if (state === 'dragging') {
+      const asked = this.sender instanceof PlaceSender ? this.connection.request('stop') : this.connection.request('cancel', { gesture: number });
       this.sender = null;
-      this.store.set({ gesture: idleGesture, before: null });
-      this.connection.request('cancel', { gesture: number }).then((answer) => this.ended('cancelled', answer, false), () => {});
+      this.store.set({ gesture: idleGesture, before: null, card: null });
+      asked.then((answer) => this.ended('cancelled', answer, false), () => {});
     } else if (state === 'settling') {
       this.connection.send('stop');
     } else {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The bar on top: file menu, what is open, undo and redo by name, save; and the tools beside the view.
 
+import { additions } from './build.js';
 import { byId, el } from './dom.js';
+import { exportDialog } from './dialogs/export.js';
 import { openDialog } from './dialogs/open.js';
 import { keysDialog } from './dialogs/keys.js';
 import { moveDialog, tableDialog } from './dialogs/table.js';
@@ -9,19 +11,20 @@ import { moveDialog, tableDialog } from './dialogs/table.js';
 /** @typedef {import('./types.js').State} State */
 
 /** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands
- * @param {import('./gesture.js').Gesture} gesture */
-export function showHeader(store, commands, gesture) {
+ * @param {import('./gesture.js').Gesture} gesture @param {() => Promise<Blob | null>} picture of what is seen */
+export function showHeader(store, commands, gesture, picture) {
   const undo = button('undo', () => void commands.undo()), redo = button('redo', () => void commands.redo());
   const save = button('save', () => void commands.save());
   button('help', () => void keysDialog(store));
   button('file', () => undefined);
-  showMenu(store, commands, gesture);
+  showMenu(store, commands, gesture, picture);
+  showAdding(store);
   store.on(['document', 'connected'], ({ document, connected }) => {
     const usable = connected === 'open' && !!document?.open;
     names(undo, 'Undo', document?.undo ?? null, usable);
     names(redo, 'Redo', document?.redo ?? null, usable);
     save.disabled = !usable;
-    const name = document?.open ? (document.path ?? document.name ?? 'not saved yet') : '';
+    const name = document?.open ? (document.path ?? (document.name || document.suggested || 'not saved yet')) : '';
     byId('document').textContent = name.slice(name.lastIndexOf('/') + 1);
     byId('document').title = name;
     byId('unsaved').hidden = !document?.open || document.saved;
@@ -46,12 +49,12 @@ function names(element, word, what, usable) {
 }
 
 /** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands
- * @param {import('./gesture.js').Gesture} gesture */
-function showMenu(store, commands, gesture) {
+ * @param {import('./gesture.js').Gesture} gesture @param {() => Promise<Blob | null>} picture */
+function showMenu(store, commands, gesture, picture) {
   const menu = byId('menu');
   /** @type {[string, () => void][]} */
   const rows = [
-    ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()],
+    ['New scene', () => void commands.newScene()], ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()], ['Export…', () => void exportDialog(store, commands, picture)],
     ['Move to…', () => void moveDialog(store, gesture)], ['Motion as a table', () => void tableDialog(store)], ['Keys', () => void keysDialog(store)],
   ];
   for (const [name, act] of rows) {
@@ -75,15 +78,31 @@ function choice(store, name, key, options) {
   return el('label', { class: 'choice' }, name, select);
 }
 
+/** What can be added, by a press on a surface. @param {import('./store.js').Store<State>} store */
+function showAdding(store) {
+  const menu = byId('add-menu'), add = byId('add');
+  menu.append(...additions.map(([name], i) => el('button', { type: 'button', class: 'row', onclick: () => {
+    menu.hidePopover();
+    store.set({ adding: i, selected: -1, notice: { message: `Press where the ${name.toLowerCase()} is to stand; Enter: in the middle; Esc: nowhere.`, key: 'adding' } });
+    byId('overlay').focus();
+  } }, name)));
+  store.on(['document', 'connected'], ({ document, connected }) => (add.hidden = connected !== 'open' || !document?.open));
+  store.on(['adding'], ({ adding, notice }) => {
+    byId('overlay').classList.toggle('adding', adding >= 0);
+    if (adding < 0 && notice?.key === 'adding') store.set({ notice: null });
+  });
+}
+
 /** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
 function showTools(store, commands) {
-  const move = button('tool-move', () => store.set({ tool: 'move' })), turn = button('tool-turn', () => store.set({ tool: 'turn' }));
+  const move = button('tool-move', () => store.set({ tool: 'move' })), throwing = button('tool-throw', () => commands.aimThrow()), turn = button('tool-turn', () => store.set({ tool: 'turn' }));
   button('tool-nail', () => void commands.nailHere());
   const nailing = button('nail-on-release', () => store.set({ nailOnRelease: !store.state.nailOnRelease }));
   const free = button('leave-rest-free', () => store.set(store.state.tool === 'turn' ? { turnLeavesPlace: !store.state.turnLeavesPlace } : { leaveRestFree: !store.state.leaveRestFree }));
   store.on(['tool', 'nailOnRelease', 'leaveRestFree', 'turnLeavesPlace'], ({ tool, nailOnRelease, leaveRestFree, turnLeavesPlace }) => {
     move.setAttribute('aria-pressed', String(tool === 'move'));
     turn.setAttribute('aria-pressed', String(tool === 'turn'));
+    throwing.setAttribute('aria-pressed', String(tool === 'throw'));
     nailing.setAttribute('aria-pressed', String(nailOnRelease));
     free.setAttribute('aria-pressed', String(tool === 'turn' ? turnLeavesPlace : leaveRestFree));
     free.title = tool === 'turn' ? 'Turns leave the place free' : 'Drags along an axis leave the rest free';

@@ -2,6 +2,7 @@
 // Mouse and keys, taken to the gesture and the commands.
 
 import { actionOf, chordOf, takesKeys } from './keys.js';
+import { additions, surfaceUnder } from './build.js';
 import { byId } from './dom.js';
 import { keysDialog } from './dialogs/keys.js';
 import { openDialog } from './dialogs/open.js';
@@ -13,13 +14,23 @@ import { openDialog } from './dialogs/open.js';
 /** ms, between targets that are sent before the frame of their move: 1000 moves a second come from some mice. */
 const earlySpacing = 7;
 
+/** What is added stands on the surface below a place of the view. @param {Pick<Parts, 'store' | 'commands' | 'view'>} parts
+ * @param {number} x @param {number} y px */
+function putDown({ store, commands, view }, x, y) {
+  const on = surfaceUnder(view, store.state, x, y), [, body] = additions[store.state.adding];
+  if (!on) return store.set({ notice: { message: 'There is no surface: press a body, or the floor.', key: 'adding' } });
+  store.set({ adding: -1 });
+  void commands.addBody(body, on);
+}
+
 /** @param {Parts} parts */
-export function listenToPointer({ store, gesture, overlay, view }) {
+export function listenToPointer({ store, gesture, commands, overlay, view }) {
   const { canvas } = overlay, typing = /** @type {HTMLInputElement} */ (byId('typing'));
   let orbiting = false;
   /** Before the camera's own listener, so that a press on a thing does not turn it. @param {PointerEvent} event */
   const press = (event) => {
     canvas.focus();
+    if (store.state.adding >= 0 && event.button === 0) return view.camera.enable(false), putDown({ store, commands, view }, event.offsetX, event.offsetY);
     const hit = event.button === 0 && !event.shiftKey && !event.ctrlKey && !event.metaKey ? overlay.under(event.offsetX, event.offsetY) : null;
     const taken = ['dragging', 'typing'].includes(store.state.gesture.state) && event.button !== 0
       || event.button === 0 && store.state.connected === 'open' && gesture.press(hit, event.offsetX, event.offsetY);
@@ -95,7 +106,7 @@ export function listenToPointer({ store, gesture, overlay, view }) {
 }
 
 /** @param {Parts} parts */
-export function listenToKeys({ store, gesture, commands, frame, overlay }) {
+export function listenToKeys({ store, gesture, commands, frame, overlay, view }) {
   const typing = /** @type {HTMLInputElement} */ (byId('typing'));
   window.addEventListener('keydown', (event) => {
     if (takesKeys(document.activeElement) || document.querySelector('dialog[open]') || event.altKey) return;
@@ -111,6 +122,10 @@ export function listenToKeys({ store, gesture, commands, frame, overlay }) {
       gesture.nudge(dx * far, dy * far);
       event.preventDefault();
       return;
+    }
+    if (event.key === 'Enter' && store.state.adding >= 0) {
+      event.preventDefault();
+      return putDown({ store, commands, view }, overlay.canvas.clientWidth / 2, overlay.canvas.clientHeight / 2);
     }
     // what has the focus is pressed by these keys
     const pressed_by_keys = document.activeElement?.matches('button, summary, input');
@@ -132,7 +147,7 @@ export function listenToKeys({ store, gesture, commands, frame, overlay }) {
     /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
     const acts = {
       'axis x': () => gesture.setAxis('x', shift), 'axis y': () => gesture.setAxis('y', shift), 'axis z': () => gesture.setAxis('z', shift),
-      lift: () => gesture.lift(), confirm: () => gesture.release(), cancel: () => void (gesture.cancel() || store.set({ selected: -1, selectedNail: -1 })),
+      lift: () => gesture.lift(), confirm: () => gesture.release(), cancel: () => void (gesture.cancel() || store.set(store.state.adding >= 0 ? { adding: -1 } : { selected: -1, selectedNail: -1 })),
       earlier: () => commands.stepFrame(-1), later: () => commands.stepFrame(1), 'impact before': () => commands.stepImpact(-1),
       'impact after': () => commands.stepImpact(1), 'body before': () => commands.selectNext(-1), 'body after': () => commands.selectNext(1),
       start: () => commands.seek(0), end: () => commands.seek(Infinity),
@@ -140,7 +155,7 @@ export function listenToKeys({ store, gesture, commands, frame, overlay }) {
     };
     /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
     const once = {
-      move: () => commands.hold('move'), turn: () => commands.hold('turn'),
+      move: () => commands.hold('move'), turn: () => commands.hold('turn'), throw: () => commands.aimThrow(),
       nail: () => (now.state === 'dragging' ? gesture.put({ nailing: true }) : void commands.nailHere()),
       remove: () => void (selectedNail >= 0 && commands.removeNail()), play: () => commands.togglePlay(),
       undo: () => void commands.undo(), redo: () => void commands.redo(), save: () => void commands.save(), open: () => void openDialog(commands),

@@ -2,7 +2,7 @@
 // What the hand and the play head do, in words: the readout below the view, and for screen readers.
 
 import { byId, el } from './dom.js';
-import { centreAt } from './motion.js';
+import { centreAt, velocityAt } from './motion.js';
 import { lengthText } from './number_field_text.js';
 
 /** @typedef {import('./types.js').State} State */
@@ -39,9 +39,17 @@ function standing({ gesture, motion, card }) {
   if (gesture.state === 'settling') return [gesture.settlingShown ? 'settling…' : '', 'dim'];
   if ((gesture.state === 'dragging' || gesture.state === 'typing') && motion && gesture.target) {
     if (gesture.answered < 0) return ['', 'dim'];
+    if (gesture.hit?.handle === 'throw') return [`thrown at ${Math.hypot(...velocityAt(motion.tracks[gesture.hit.body], 0)).toFixed(2)} m/s`, 'good'];
     if (motion.reached) return ['at its target', 'good'];
-    const turn = motion.turn > 1e-6 ? `, ${((motion.turn * 180) / Math.PI).toFixed(1)}°` : '';
-    return [`${lengthText(motion.distance)}${turn} from its target`, 'amber'];
+    return [offText(motion), 'amber'];
   }
-  return card && motion && !motion.reached ? [`${lengthText(motion.distance)} from its target`, 'amber'] : ['', 'dim'];
+  return card && motion && !motion.reached ? [offText(motion), 'amber'] : ['', 'dim'];
+}
+
+/** How far a body is from what was asked for: a turn asks for the orientation alone.
+ * @param {Pick<import('./types.js').Motion, 'distance' | 'turn'>} motion */
+export function offText({ distance, turn }) {
+  const angle = `${((turn * 180) / Math.PI).toFixed(turn < 0.02 ? 2 : 1)}°`;
+  const parts = [...(distance > 1e-7 || turn <= 1e-6 ? [lengthText(distance)] : []), ...(turn > 1e-6 ? [angle] : [])];
+  return `${parts.join(', ')} from its target`;
 }

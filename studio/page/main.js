@@ -14,19 +14,18 @@ import { listenToKeys, listenToPointer } from './input.js';
 import { showReadout } from './live.js';
 import { listener, tellEnding } from './messages.js';
 import { showNotices } from './notice.js';
-import { Overlay } from './overlay/overlay.js';
 import { showBodies } from './panels/bodies.js';
+import { showBody } from './panels/body.js';
 import { showNails } from './panels/nails.js';
 import { forPeople } from './number_field_text.js';
 import { showNumbers } from './panels/numbers.js';
 import { showPlayer } from './player.js';
+import { makeStage } from './stage.js';
 import { initialState, Store } from './store.js';
 import { addTestHooks } from './test_hooks.js';
 import { TimeLine } from './timeline.js';
-import { frameView } from './view/framing.js';
 import { isHardware, qualityFor, rendererName } from './view/quality.js';
 import { touchedAt } from './view/touched.js';
-import { View } from './view/view.js';
 
 const query = new URLSearchParams(location.search);
 
@@ -56,16 +55,7 @@ function start() {
   }
   const store = new Store({ ...initialState(), tab: tabName(), quality: qualityFor(renderer, query.get('quality')) });
   remember(store);
-  const canvas = /** @type {HTMLCanvasElement} */ (byId('overlay'));
-  /** @type {Overlay | null} */
-  let overlay = null;
-  const view = new View({
-    host: byId('view'), input: canvas, store, shadowMap: isHardware(renderer) || query.get('shadows') === 'map', drawn: () => overlay?.draw(), resized: (width, height) => overlay?.resize(width, height),
-  });
-  overlay = new Overlay(canvas, store, view);
-  overlay.resize(view.camera.width, view.camera.height);
-
-  const frame = (/** @type {number} */ body, anew = false) => frameView(view, store.state, body, anew);
+  const { view, overlay, frame, picture } = makeStage(store, isHardware(renderer) || query.get('shadows') === 'map');
   /** @type {Gesture | null} */
   let gesture = null;
   const connection = new Connection({
@@ -73,7 +63,7 @@ function start() {
     listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps) => commands.tellRecovered(steps) }),
   });
   gesture = new Gesture({
-    store, connection, space: { touched: (hit) => touchedAt(store.state, view.bodies.meshes, hit), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
+    store, connection, space: { touched: (hit) => touchedAt(store.state, hit), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
     select: (hit) => {
       if (!hit) return;
       store.set({ selected: hit.body, selectedNail: hit.kind === 'nail' ? (hit.nail ?? -1) : -1, ...(hit.kind === 'handle' || hit.kind === 'body' ? {} : { time: hit.time }) });
@@ -82,24 +72,25 @@ function start() {
       if (how === 'released') tellEnding(store, { undo: () => void commands.undo() }, answer);
       commands.saveIfWaiting();
     },
+    refused: (error) => commands.tellOverlap(error),
   });
   const commands = new Commands({ store, connection, gesture, view: { frame }, ask, choose, askName });
-  showHeader(store, commands, gesture);
+  showHeader(store, commands, gesture, picture);
   showNotices(store);
   showReadout(store);
   showBodies(store);
+  showBody(store, commands);
   showNumbers(store, commands);
   showNails(store, commands);
   showPlayer(store, commands);
   showEmpty(store, commands);
   showHint(store);
   showLayout(store);
-  new TimeLine(/** @type {HTMLCanvasElement} */ (byId('timeline')), store, commands);
+  const timeline = new TimeLine(/** @type {HTMLCanvasElement} */ (byId('timeline')), store, commands);
   const parts = { store, gesture, commands, overlay, view, frame };
   listenToPointer(parts);
   listenToKeys(parts);
-  store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
-  if (query.has('test')) addTestHooks({ store, view, overlay, connection, gesture });
+  if (query.has('test')) addTestHooks({ store, view, overlay, timeline, connection, gesture });
   connection.connect();
 }
 

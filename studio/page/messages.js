@@ -28,13 +28,13 @@ export function listener({ store, gesture, opened, recovered }) {
 
   /** Without a scene it has few members. @param {Partial<import('./types.js').DocumentState>} message */
   const state = (message) => {
-    const was_saved = store.state.document?.saved, document = { ...closedDocument, ...message };
+    const was = store.state.document, was_saved = was?.saved, document = { ...closedDocument, ...message };
     if (!document.open) {
       scene = NaN;
       store.set({ ...nothingOfAScene(), document, connected: 'open', progress: '' });
       return;
     }
-    store.set({ document, connected: 'open', progress: '' });
+    store.set({ document, connected: 'open', progress: '', ...(was?.open && !sameBodies(was, document) ? ofOtherBodies(store.state, was, document) : {}) });
     if (document.saved && (!was_saved || !store.state.savedMotion)) store.set({ savedMotion: store.state.motion });
     if (document.recovered && told !== `${session} ${scene}`) recovered(document.recovered);
     told = `${session} ${scene}`;
@@ -56,7 +56,7 @@ export function listener({ store, gesture, opened, recovered }) {
       store.set({ connected: 'lost', playing: false });
       const saying = `The server is gone${held ? '; the drag was cancelled' : ''}. Every step that was shown as done is kept beside the scene: where the server was ended, ` +
         'start carom studio with the scene again. This page finds it by itself…';
-      store.set({ notice: { message: saying, kind: 'amber', key: 'lost' } });
+      store.set({ notice: { message: why || saying, kind: 'amber', key: 'lost' } });
     },
     message(message) {
       if (message.type === 'welcome') welcome(message);
@@ -84,6 +84,17 @@ export function listener({ store, gesture, opened, recovered }) {
       if (is_first) opened();
     },
   };
+}
+
+/** @param {import('./types.js').DocumentState} a @param {import('./types.js').DocumentState} b */
+const sameBodies = (a, b) => a.bodies.length === b.bodies.length && a.bodies.every((body, i) => body.name === b.bodies[i].name);
+
+/** Bodies came, went or have other names: motions of before have other bodies, and the selected one is found by its name, or it
+ * is the one that came. @param {State} state @param {import('./types.js').DocumentState} was @param {import('./types.js').DocumentState} now */
+function ofOtherBodies({ motion, selected }, was, now) {
+  const name = was.bodies[selected]?.name, came = now.bodies.findIndex((body) => !was.bodies.some((other) => other.name === body.name));
+  const stayed = now.bodies.findIndex((body) => body.name === name);
+  return { before: null, opened: motion, savedMotion: null, changesShown: false, hover: null, selected: came >= 0 ? came : stayed };
 }
 
 /** The play head stays, but goes with an impact or a rest that is held, whose time changes. @param {State} state
@@ -116,6 +127,7 @@ export function tellEnding(store, commands, answer) {
 
 /** One sentence. @param {import('./types.js').Motion} motion */
 function whyNot({ obstacle, stopped }) {
+  if (obstacle?.kind === 'nails') return `${obstacle.sentence} Switch one off, or one of its x, y, z.`;
   if (obstacle?.sentence) return obstacle.sentence;
-  return stopped ? 'It was stopped before it came to its target.' : 'It did not come to its target.';
+  return stopped ? 'It was stopped before it reached its target.' : 'It did not reach its target.';
 }

@@ -4,7 +4,7 @@
 import { byId } from './dom.js';
 import { icon } from './icons.js';
 
-/** @param {import('./store.js').Store<import('./types.js').State>} store @param {import('./commands.js').Commands} commands */
+/** @param {import('./store.js').Store<import('./types.js').State>} store @param {import('./play_head.js').PlayHead} commands */
 export function showPlayer(store, commands) {
   const play = byId('play'), loop = byId('loop'), speed = /** @type {HTMLSelectElement} */ (byId('speed')), shown = byId('time');
   play.addEventListener('click', () => commands.togglePlay());

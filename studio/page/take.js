@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a body is taken hold of: whether it can be, by what tool, and what of it is held.
 
+import { placing } from './build.js';
 import { pointAt, turnAt } from './motion.js';
 import { Move } from './tools/move.js';
 import { Slide } from './tools/slide.js';
@@ -17,15 +18,15 @@ import { Turn } from './tools/turn.js';
 export function refusal({ document, locked }, hit) {
   const body = document?.bodies[hit.body];
   if (!document || !body) return 'Nothing is open.';
-  if (body.fixed) return `'${body.name}' is fixed: it does not move.`;
-  if (body.kinematic) return `'${body.name}' moves as it is written: nothing moves it.`;
+  if (body.fixed && hit.kind !== 'handle') return `'${body.name}' is fixed: it does not move. Select it, and place it by its handles.`;
+  if (body.kinematic) return `'${body.name}' is kinematic: its motion is prescribed.`;
   if (locked.has(body.name)) return `'${body.name}' is locked; the switch is in the list of bodies.`;
   return '';
 }
 
 /** @param {State} state @param {Space} space @param {Hit} hit @param {[number, number]} from the pointer, px @returns {Move | Turn} */
-export function toolFor({ motion, tool }, space, hit, from) {
-  const track = motion?.tracks[hit.body];
+export function toolFor(state, space, hit, from) {
+  const { motion, tool } = state, track = motion?.tracks[hit.body];
   if (!track) throw new Error('a body without a track is held');
   const { view, right, up } = space.camera(), handle = hit.handle ?? '';
   const turn = turnAt(track, hit.time);
@@ -33,10 +34,10 @@ export function toolFor({ motion, tool }, space, hit, from) {
     const centre = space.project(hit.place);
     return new Turn({ start: hit.place, turn, view, right, up, pointer: from, centre, axis: handle.replace('ring ', '') });
   }
-  const ray = space.ray(...from), touched = handle ? null : space.touched(hit);
+  const ray = space.ray(...from), touched = handle || placing(state, hit, false) ? null : space.touched(hit);
   if (touched) return new Slide({ turn, ray, view, touched });
   const move = new Move({ start: contactOf(hit) ?? hit.place, turn, ray, view });
-  if (handle) move.setAxis(handle);
+  if (handle && handle !== 'throw') move.setAxis(handle);
   return move;
 }
 

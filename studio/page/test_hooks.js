@@ -18,9 +18,9 @@ function whenDone(gl, act) {
 }
 
 /** @param {{store: import('./store.js').Store<import('./types.js').State>, view: import('./view/view.js').View,
- *    overlay: import('./overlay/overlay.js').Overlay, connection: import('./connection.js').Connection,
+ *    overlay: import('./overlay/overlay.js').Overlay, timeline: import('./timeline.js').TimeLine, connection: import('./connection.js').Connection,
  *    gesture: import('./gesture.js').Gesture}} parts */
-export function addTestHooks({ store, view, overlay, connection, gesture }) {
+export function addTestHooks({ store, view, overlay, timeline, connection, gesture }) {
   /** @type {{decoded: number[], drawn: number[]}} ms from a move of the mouse in a drag to its motion and its frame */
   const latency = { decoded: [], drawn: [] };
   /** @type {{frames: number[], motions: {time: number, seq: number, reached: boolean}[]}} when drawn and when heard, ms */
@@ -72,6 +72,10 @@ export function addTestHooks({ store, view, overlay, connection, gesture }) {
       const box = overlay.canvas.getBoundingClientRect(), [x, y] = view.camera.project(point);
       return [box.left + x, box.top + y];
     },
+    /** Whether something that stands still is before it. @param {import('./types.js').Vec3} point */
+    hidden: (point) => view.hidden.hides(store.state.scene, point),
+    lanes: () => timeline.seen.map(({ body }) => body),
+    shownBodies: () => view.paths.shownBodies(store.state),
     /** m a pixel has there. @param {import('./types.js').Vec3} point */
     perPixel: (point) => view.camera.axes().perPixel(point),
     /** @param {string} name @param {number} time s */

@@ -3,20 +3,23 @@
 
 import { colours, impactColours, inkOf } from './colours.js';
 import { impactsThatChanged } from './changes.js';
+import { byId } from './dom.js';
 import { nailColour, nailPlaces } from './overlay/hoops.js';
 import { centreAt, moves } from './motion.js';
 import { forPeople } from './number_field_text.js';
 import { lanes, ticks, tOf, xOf, zoomed } from './timeline_layout.js';
+import { diamond, drawEnd, drawName } from './timeline_marks.js';
 import { beforeOf } from './view/paths.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {import('./timeline_layout.js').Axis} Axis */
 
-const ruler = 26, left = 16, right = 20, diamond = 5;
+const ruler = 26, left = 16, right = 20, diamondSize = 5;
 
 export class TimeLine {
   /** @param {HTMLCanvasElement} canvas @param {import('./store.js').Store<State>} store
-   * @param {import('./commands.js').Commands} commands */
+   * @param {import('./play_head.js').PlayHead & Partial<Pick<import('./commands.js').Commands, 'setNail'>>} commands nails stay
+   *    where they are without setNail */
   constructor(canvas, store, commands) {
     this.canvas = canvas;
     this.store = store;
@@ -26,6 +29,9 @@ export class TimeLine {
     this.axis = { from: 0, to: 1, left, width: 1 };
     this.zoom = /** @type {{from: number, to: number} | null} */ (null);
     this.scroll = 0;
+    this.folded = false;  // to the lane of the selected body
+    this.foldButton = byId('fold-lanes');
+    this.foldButton.addEventListener('click', () => this.fold());
     /** @type {{body: number, y: number, height: number}[]} */
     this.seen = [];
     this.wanted = 0;
@@ -33,6 +39,7 @@ export class TimeLine {
     new ResizeObserver(() => this.draw()).observe(canvas);
     store.on(['motion', 'time', 'document', 'selected', 'hover', 'before', 'changesShown', 'gesture', 'selectedNail', 'scene', 'showBefore', 'loop', 'loopRange'], () => this.invalidate());
     store.on(['scene'], () => (this.zoom = null));
+    store.on(['selected'], ({ selected }) => this.scrollTo(selected));
     canvas.addEventListener('pointerdown', (event) => this.press(event));
     canvas.addEventListener('pointermove', (event) => this.point(event));
     canvas.addEventListener('pointerup', () => this.lift());
@@ -66,16 +73,46 @@ export class TimeLine {
     this.drawRuler(width);
     this.seen = this.lanes(height);
     for (const lane of this.seen) this.drawLane(lane, state, width);
-    this.drawEnd(motion, duration, height);
+    this.drawScroll(width, height);
+    if (motion.end < duration - 1e-9) drawEnd(pen, Math.max(left, xOf(this.axis, motion.end)), left + this.axis.width, ruler + 2, height, forPeople(motion.message));
     this.drawHead(state, height);
   }
 
-  /** @param {number} height */
-  lanes(height) {
+  /** Bodies that have a lane. */
+  lanesOf() {
     const { motion, scene } = this.store.state;
-    const bodies = motion?.tracks.filter((t) => !scene?.shapes[t.body]?.fixed && moves(t)).map((t) => t.body) ?? [];
-    this.scroll = Math.max(0, Math.min(this.scroll, bodies.length - 1));
-    return lanes(bodies, ruler + 2, height - ruler - 6, this.scroll);
+    return motion?.tracks.filter((t) => !scene?.shapes[t.body]?.fixed && moves(t)).map((t) => t.body) ?? [];
+  }
+
+  /** Those that are seen: from the first that is scrolled to, or folded to the selected one. @param {number} height */
+  lanes(height) {
+    const bodies = this.lanesOf(), { selected } = this.store.state, room = height - ruler - 6;
+    this.foldButton.hidden = bodies.length < 2;
+    if (this.folded && bodies.length > 1) return lanes([bodies.includes(selected) ? selected : bodies[0]], ruler + 2, room, 0);
+    const fit = lanes(bodies, ruler + 2, room, 0).length;
+    this.scroll = Math.max(0, Math.min(this.scroll, bodies.length - fit));
+    return lanes(bodies, ruler + 2, room, this.scroll);
+  }
+
+  /** Whose lane is out of sight comes into it. @param {number} body */
+  scrollTo(body) {
+    const at = this.lanesOf().indexOf(body), fit = this.seen.length;
+    if (at >= 0 && !this.folded) this.scroll = Math.max(Math.min(this.scroll, at), at - fit + 1);
+    this.invalidate();
+  }
+
+  fold() {
+    this.folded = !this.folded;
+    this.foldButton.setAttribute('aria-pressed', String(this.folded));
+    this.scrollTo(this.store.state.selected);
+  }
+
+  /** Where among all lanes those are that are seen. @param {number} width @param {number} height */
+  drawScroll(width, height) {
+    const all = this.lanesOf().length, room = height - ruler - 6;
+    if (this.folded || this.seen.length >= all) return;
+    this.pen.fillStyle = '#4a5058';
+    this.pen.fillRect(width - 9, ruler + 2 + (this.scroll / all) * room, 4, (this.seen.length / all) * room);
   }
 
   /** @param {State} state */
@@ -115,11 +152,11 @@ export class TimeLine {
     pen.fillRect(left, y, axis.width, Math.max(2, height - 2));
     pen.fillStyle = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);
     pen.fillRect(xOf(axis, 0), middle - 1, xOf(axis, motion.end) - xOf(axis, 0), body === selected ? 2 : 1);
-    if (this.seen.length > 1) this.drawName(state.document?.bodies[body]?.name ?? '', y, height, body === selected);
-    const before = beforeOf(state), size = Math.min(diamond, height / 2 - 1);
-    for (const impact of before?.impacts ?? []) if (impact.bodies.includes(body)) this.diamond(impact.t, middle, size, colours.before, false);
+    if (this.seen.length > 1 || !this.foldButton.hidden) drawName(pen, state.document?.bodies[body]?.name ?? '', left, y, height, body === selected);
+    const before = beforeOf(state), size = Math.min(diamondSize, height / 2 - 1);
+    for (const impact of before?.impacts ?? []) if (impact.bodies.includes(body)) diamond(pen, xOf(axis, impact.t), middle, size, colours.before, false);
     for (const impact of motion.impacts) {
-      if (impact.bodies.includes(body)) this.diamond(impact.t, middle, size, impactColours[impact.mode] ?? impactColours.stick, true);
+      if (impact.bodies.includes(body)) diamond(pen, xOf(axis, impact.t), middle, size, impactColours[impact.mode] ?? impactColours.stick, true);
     }
     if (state.changesShown && state.before && height >= 10) this.drawChanges(state.before, motion, body, middle);
     for (const place of nailPlaces(state)) {
@@ -136,20 +173,6 @@ export class TimeLine {
     pen.restore();
   }
 
-  /** Whose lane it is, in the colour of the body. @param {string} name @param {number} y @param {number} height
-   * @param {boolean} strong */
-  drawName(name, y, height, strong) {
-    if (height < 9) return;
-    const { pen } = this, font = pen.font;
-    pen.font = `${strong ? '600 ' : ''}${Math.min(11, height - 2)}px system-ui, sans-serif`;
-    const ink = pen.fillStyle, wide = Math.min(160, pen.measureText(name).width);
-    pen.fillStyle = strong ? '#39404a' : colours.lane;
-    pen.fillRect(left + 2, y, wide + 5, height - 2);
-    pen.fillStyle = ink;
-    pen.fillText(name, left + 4, y + height / 2 + 3, 160);
-    pen.font = font;
-  }
-
   /** Words at impacts that came and went. @param {import('./types.js').Motion} before
    * @param {import('./types.js').Motion} now @param {number} body @param {number} y */
   drawChanges(before, now, body, y) {
@@ -160,52 +183,6 @@ export class TimeLine {
       const text = `${names[pair[0] === body ? pair[1] : pair[0]]} ${came ? 'came' : 'went'}`, x = xOf(this.axis, t), wide = this.pen.measureText(text).width;
       this.pen.fillText(text, x + 9 + wide > left + this.axis.width ? x - 9 - wide : x + 9, y + 4);
     }
-  }
-
-  /** @param {number} t @param {number} y @param {number} size @param {string} colour @param {boolean} full */
-  diamond(t, y, size, colour, full) {
-    const { pen } = this, x = xOf(this.axis, t);
-    pen.beginPath();
-    pen.moveTo(x - size, y);
-    pen.lineTo(x, y - size);
-    pen.lineTo(x + size, y);
-    pen.lineTo(x, y + size);
-    pen.closePath();
-    pen.fillStyle = pen.strokeStyle = colour;
-    pen.lineWidth = 1.2;
-    if (full) pen.fill();
-    else pen.stroke();
-  }
-
-  /** What the motion lacks is hatched. @param {import('./types.js').Motion} motion @param {number} duration
-   * @param {number} height */
-  drawEnd(motion, duration, height) {
-    if (motion.end >= duration - 1e-9) return;
-    const { pen, axis } = this, from = Math.max(left, xOf(axis, motion.end)), to = left + axis.width;
-    if (from >= to) return;
-    pen.save();
-    pen.beginPath();
-    pen.rect(from, ruler + 2, to - from, height - ruler - 8);
-    pen.clip();
-    pen.strokeStyle = '#5a6068';
-    pen.lineWidth = 1;
-    for (let x = from - height; x < to; x += 8) {
-      pen.beginPath();
-      pen.moveTo(x, height);
-      pen.lineTo(x + height, 0);
-      pen.stroke();
-    }
-    const why = forPeople(motion.message), wide = Math.min(pen.measureText(why).width, to - from - 16);
-    if (why && wide > 60) {
-      pen.fillStyle = colours.panel;
-      pen.fillRect(from + 4, ruler + 4, wide + 8, 16);
-      pen.beginPath();
-      pen.rect(from + 4, ruler + 4, wide + 8, 16);
-      pen.clip();
-      pen.fillStyle = colours.text;
-      pen.fillText(why, from + 8, ruler + 16);
-    }
-    pen.restore();
   }
 
   /** @param {State} state @param {number} height */
@@ -238,7 +215,7 @@ export class TimeLine {
     const nail = lane && nailPlaces(this.store.state).find((place) => place.body === lane.body && Math.abs(xOf(this.axis, place.time) - event.offsetX) < 8);
     if (nail) {
       this.store.set({ selectedNail: nail.id, selected: nail.body });
-      this.dragged = typeof nail.nail.constraint.at === 'number' ? { nail: nail.id, time: nail.time } : '';
+      this.dragged = typeof nail.nail.constraint.at === 'number' && this.commands.setNail ? { nail: nail.id, time: nail.time } : '';
       return;
     }
     this.dragged = 'head';
@@ -272,7 +249,7 @@ export class TimeLine {
     this.dragged = '';
     if (typeof dragged !== 'object' || 'loop' in dragged) return;
     const nail = this.store.state.document?.nails.find((one) => one.id === dragged.nail);
-    if (nail && nail.constraint.at !== dragged.time) void this.commands.setNail(nail.id, { ...nail.constraint, at: dragged.time });
+    if (nail && nail.constraint.at !== dragged.time) void this.commands.setNail?.(nail.id, { ...nail.constraint, at: dragged.time });
   }
 
   /** @param {WheelEvent} event */

@@ -7,7 +7,7 @@
 /** @typedef {{vary: string, body?: string, material?: string, impact?: number, components?: string[],
  *    min?: number | number[], max?: number | number[], weight?: number, notes?: string}} Control */
 /** @typedef {null | number | {min?: number, max?: number}} Target */
-/** @typedef {{body: string, at?: When, position?: Target[], orientation?: Quat, velocity?: Target[],
+/** @typedef {{body: string, at?: When, position?: Target[], contact?: Target[], orientation?: Quat, velocity?: Target[],
  *    angular_velocity?: Target[], speed?: Target, kinetic_energy?: Target, impulse?: Target, height?: Target,
  *    time?: Target, point?: {body_point: Vec3, world: Target[]}, relative_to?: string,
  *    avoid?: unknown, inside?: unknown, notes?: string}} Constraint */
@@ -16,7 +16,10 @@
  *    max: number | null, scale: number, at_bound: 'min' | 'max' | null, pointer: string | null}} NumberState */
 /** @typedef {{id: number, constraint: Constraint, on: boolean, available: boolean, met: boolean, time: number | null,
  *    error: number, message: string}} NailState */
-/** @typedef {{name: string, fixed: boolean, kinematic?: boolean, mass: number | null, material?: string}} BodyState */
+/** Members after material: as the document has them, of bodies whose numbers can be typed; shape: of simple ones.
+ * @typedef {{name: string, fixed: boolean, kinematic?: boolean, mass: number | null, material?: string, position?: Vec3,
+ *    orientation?: Quat, velocity?: Vec3, angular_velocity?: Vec3, density?: number, written_mass?: number,
+ *    shape?: Record<string, Record<string, number | number[]>>}} BodyState */
 /** @typedef {{type: 'state', re?: number, rev: number, open: boolean, path: string | null, name?: string,
  *    suggested?: string, saved: boolean, recovered?: number, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
  *    undo: string | null, redo: string | null, held_by: string | null, bodies: BodyState[],
@@ -54,9 +57,10 @@
  *    scene: SceneShapes | null, motion: Motion | null, opened: Motion | null, savedMotion: Motion | null,
  *    before: Motion | null, showBefore: 'none' | 'opened' | 'saved' | 'changes', changesShown: boolean,
  *    time: number, playing: boolean,
- *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn',
+ *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw', adding: number,
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
- *    noticesStay: boolean, selectedNail: number, tab: string}} State  noticesStay: for tests, which take their time */
+ *    noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  noticesStay: for tests, which take their time;
+ *    looking: nothing can be changed; adding: which of `additions` the next press puts down, -1: none */
 
 export {};

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "studio/gate.h"
+#include "studio/proof.h"
 #include "tests/studio/pages.h"
 
 namespace carom::studio {
@@ -20,7 +22,7 @@ struct Dispatchers : testing::Test {
                         {[this](SocketId to, const std::string& text) { told[to].push_back(Json::parse(text)); },
                          [this](SocketId socket) { welcomed.push_back(socket); },
                          [this](SocketId socket, const CloseReason& reason, std::chrono::milliseconds after) {
-                           EXPECT_EQ(after, Limits().wrong_token);
+                           EXPECT_EQ(after, reason.code == 1013 ? std::chrono::milliseconds(0) : Limits().wrong_token);
                            closed[socket] = reason.code;
                          }}};
 
@@ -44,6 +46,47 @@ TEST_F(Dispatchers, HelloComesFirst) {
   EXPECT_TRUE(std::holds_alternative<Undo>(mailbox.take({})->command.what));
   hello(2);
   EXPECT_EQ(told[2].at(0)["code"], "bad_message");
+}
+
+TEST_F(Dispatchers, ProvesThatItKnowsTheToken) {
+  const std::string nonce(64, 'a');
+  EXPECT_TRUE(say(1, {{"type", "prove"}, {"id", 1}, {"nonce", nonce}}));
+  EXPECT_EQ(told[1].at(0), (Json{{"type", "proof"}, {"re", 1}, {"proof", hmacSha256("secret", nonce)}}));
+  EXPECT_TRUE(mailbox.isEmpty() && welcomed.empty() && closed.empty()) << "nobody was let in by that";
+  EXPECT_TRUE(say(1, {{"type", "hello"}, {"id", 2}, {"protocol", 1}, {"token", "secret"}, {"tab", "t"}}));
+  EXPECT_EQ(welcomed, (std::vector<SocketId>{1}));
+  say(1, {{"type", "prove"}, {"id", 3}, {"nonce", nonce}});
+  EXPECT_EQ(told[1].at(1)["code"], "bad_message");
+  say(2, {{"type", "prove"}, {"id", 1}, {"nonce", "short"}});
+  EXPECT_EQ(told[2].at(0)["pointer"], "/nonce");
+}
+
+TEST_F(Dispatchers, GivesNoProofTooSoon) {
+  dispatcher.provesFrom(std::chrono::steady_clock::now() + std::chrono::hours(1));
+  say(1, {{"type", "prove"}, {"id", 1}, {"nonce", std::string(64, 'a')}});
+  EXPECT_TRUE(told[1].empty());
+  EXPECT_EQ(closed[1], 1013);
+  hello(2);
+  EXPECT_EQ(welcomed, (std::vector<SocketId>{2})) << "a page that was loaded from this server needs none";
+}
+
+// FIPS 180-4 and RFC 4231.
+TEST(Proof, IsHmacSha256) {
+  const auto hash = [](const std::string& text) {
+    const auto bytes = sha256(text);
+    return hexOf(std::string(bytes.begin(), bytes.end()));
+  };
+  EXPECT_EQ(hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(hash(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(hash("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(hash(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  EXPECT_EQ(hmacSha256(std::string(20, '\x0b'), "Hi There"),
+            "b0344c61d8db38535ca8afceaf0bf12b881dc200c9833da726e9376c2e32cff7");
+  EXPECT_EQ(hmacSha256("Jefe", "what do ya want for nothing?"),
+            "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+  EXPECT_EQ(hmacSha256(std::string(131, '\xaa'), "Test Using Larger Than Block-Size Key - Hash Key First"),
+            "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
 }
 
 TEST_F(Dispatchers, TokenAndProtocolAreChecked) {

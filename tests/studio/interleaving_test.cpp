@@ -87,7 +87,7 @@ std::vector<Letter> randomLetters(std::mt19937_64& random) {
       case 0:
       case 1:
         ++g, seq[page] = 0;
-        add(Grab{g, "ball", 0.3, {}, false, "", false});
+        add(Grab{g, "ball", 0.3, {}, "", false});
         break;
       case 2: {
         const std::optional<Vec3> last = pick(2) == 0 ? std::optional(place) : std::nullopt;

@@ -23,6 +23,7 @@ const std::map<std::string, Json>& examples() {
     const Json control = {{"vary", "velocity"}, {"body", "hat"}, {"weight", 0.2}};
     const Json list = {
         {{"type", "hello"}, {"protocol", 1}, {"token", "abc"}, {"tab", "t1"}},
+        {{"type", "prove"}, {"nonce", std::string(64, 'a')}},
         {{"type", "grab"},
          {"gesture", 4},
          {"body", "hat"},
@@ -30,12 +31,13 @@ const std::map<std::string, Json>& examples() {
          {"grip", {{"orientation", true}, {"point", {0, 0, 0.1}}, {"components", {"x", "z"}}}},
          {"also_vary", {control}}},
         {{"type", "grab_nail"}, {"gesture", 4}, {"nail", 2}},
-        {{"type", "drag"}, {"gesture", 4}, {"seq", 9}, {"place", {0.8, 0, 1.7}}, {"orientation", {1, 0, 0, 0}}},
+        {{"type", "drag"}, {"gesture", 4}, {"seq", 9}, {"place", {0.8, 0, 1.7}}, {"orientation", {1, 0, 0, 0}}, {"components", {"x", "y"}}},
         {{"type", "release"},
          {"gesture", 4},
          {"seq", 31},
          {"place", {0.81, 0, 1.71}},
          {"orientation", {0, 1, 0, 0}},
+         {"components", {"y", "z"}},
          {"nail", true}},
         {{"type", "cancel"}, {"gesture", 4}},
         {{"type", "undo"}},
@@ -48,8 +50,15 @@ const std::map<std::string, Json>& examples() {
         {{"type", "unnail"}, {"nail", 1}},
         {{"type", "controls"}, {"rev", 3}, {"controls", {control}}},
         {{"type", "set"}, {"rev", 12}, {"edits", {{{"pointer", "/bodies/2/velocity/0"}, {"value", 2.4}}}}},
+        {{"type", "try"}, {"gesture", 4}, {"seq", 2}, {"rev", 12}, {"edits", {{{"pointer", "/bodies/2/velocity/0"}, {"value", 2.4}}}}},
+        {{"type", "add_body"}, {"rev", 12}, {"body", {{"name", "ball"}, {"mass", 1}, {"shape", {{"sphere", {{"radius", 0.1}}}}}}}, {"on", {{"point", {0, 0, 1}}, {"normal", {0, 0, 2}}}}},
+        {{"type", "remove_body"}, {"rev", 12}, {"body", "hat"}},
+        {{"type", "copy_body"}, {"rev", 12}, {"body", "hat"}},
+        {{"type", "rename_body"}, {"rev", 12}, {"body", "hat"}, {"name", "cap"}},
+        {{"type", "new"}, {"replace", true}},
         {{"type", "open"}, {"path", "a/b.json"}, {"gallery", true}, {"replace", true}},
         {{"type", "save"}, {"path", "b.json"}, {"replace", true}},
+        {{"type", "export"}, {"format", "html"}, {"before", true}},
         {{"type", "list"}, {"path", "a"}},
         {{"type", "gallery"}},
     };
@@ -87,6 +96,7 @@ TEST(Protocol, ReadsEveryMessage) {
   const auto hello = example<Hello>("hello");
   EXPECT_EQ(hello.protocol, 1);
   EXPECT_EQ(hello.token + hello.tab, "abct1");
+  EXPECT_EQ(example<Prove>("prove").nonce.size(), 64u);
   const auto grab = example<Grab>("grab");
   EXPECT_EQ(grab.gesture, 4);
   EXPECT_EQ(grab.body, "hat");
@@ -103,11 +113,13 @@ TEST(Protocol, ReadsEveryMessage) {
   EXPECT_EQ(drag.seq, 9);
   EXPECT_EQ(drag.place, Vec3(0.8, 0, 1.7));
   EXPECT_EQ(drag.orientation.value().w(), 1);
+  EXPECT_EQ(drag.components, (std::vector<std::string>{"x", "y"}));
   const auto release = example<Release>("release");
   EXPECT_EQ(release.seq, 31);
   EXPECT_EQ(release.place.value(), Vec3(0.81, 0, 1.71));
   EXPECT_EQ(release.orientation.value().x(), 1);
   EXPECT_TRUE(release.nail);
+  EXPECT_EQ(release.components, (std::vector<std::string>{"y", "z"}));
   EXPECT_EQ(example<Cancel>("cancel").gesture, 4);
   example<Undo>("undo"), example<Redo>("redo"), example<Stop>("stop"), example<MeetNails>("meet_nails");
   EXPECT_FALSE(example<MakeNail>("nail").constraint.empty());
@@ -133,7 +145,7 @@ TEST(Protocol, MembersThatMayBeMissing) {
   };
   EXPECT_TRUE(read<Grab>(without("grab", {"grip", "also_vary"})).also_vary.empty());
   EXPECT_FALSE(read<Drag>(without("drag", {"orientation"})).orientation.has_value());
-  const auto release = read<Release>(without("release", {"place", "orientation", "nail"}));
+  const auto release = read<Release>(without("release", {"place", "orientation", "components", "nail"}));
   EXPECT_FALSE(release.place || release.orientation || release.nail);
   EXPECT_FALSE(read<Open>(without("open", {"gallery", "replace"})).gallery);
   EXPECT_FALSE(read<Save>(without("save", {"path", "replace"})).path.has_value());
@@ -179,9 +191,9 @@ TEST(Protocol, AGrabMayHoldATurnAloneOrAContact) {
   message["free"] = true;
   message["grip"] = {{"orientation", true}, {"place", false}};
   const Grab turn = std::get<Grab>(readCommand(message.dump()).what);
-  EXPECT_TRUE(turn.free && turn.grip.orientation && !turn.grip.place && !turn.contact);
+  EXPECT_TRUE(turn.free && turn.grip.orientation && !turn.grip.place && !turn.grip.contact);
   message["grip"] = {{"contact", true}};
-  EXPECT_TRUE(std::get<Grab>(readCommand(message.dump()).what).contact);
+  EXPECT_TRUE(std::get<Grab>(readCommand(message.dump()).what).grip.contact);
   const auto refused = [&](const Json& grip, const Json& at, const std::string& where) {
     Json bad = message;
     bad["grip"] = grip, bad["at"] = at;
@@ -194,8 +206,8 @@ TEST(Protocol, AGrabMayHoldATurnAloneOrAContact) {
 
 TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
   const std::map<std::string, std::vector<const char*>> optional = {
-      {"grab", {"grip", "also_vary"}},  {"drag", {"orientation"}},     {"release", {"orientation", "nail"}},
-      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path"}}};
+      {"grab", {"grip", "also_vary"}},  {"drag", {"orientation", "components"}},     {"release", {"orientation", "components", "nail"}},
+      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before"}}};
   for (const auto& [type, good] : examples()) {
     const auto known = optional.find(type);
     for (const auto& member : good.items()) {

@@ -19,10 +19,13 @@ export function dialog(title, content, buttons, kind = '') {
   });
 }
 
+/** What the server says of a file, as the title of a question. @param {string} words */
+const asSentence = (words) => words.slice(0, 1).toUpperCase() + words.slice(1);
+
 /** @param {string} question @param {[string, string][]} choices value and words of each; the last one is what the person most likely
  * wants @returns {Promise<string>} '' for none of them */
 export async function choose(question, choices) {
-  return dialog('carom', [el('p', {}, question)], (close) => [
+  return dialog(asSentence(question), [], (close) => [
     el('button', { type: 'button', onclick: () => close('') }, 'Cancel'),
     ...choices.map(([value, words], i) => el('button', { type: 'button', class: i === choices.length - 1 && 'primary', onclick: () => close(value) }, words)),
   ], 'small');
@@ -30,7 +33,7 @@ export async function choose(question, choices) {
 
 /** @param {string} question @param {string} yes what the button says @returns {Promise<boolean>} */
 export async function ask(question, yes) {
-  const answer = await dialog('carom', [el('p', {}, question)], (close) => [
+  const answer = await dialog(asSentence(question), [], (close) => [
     el('button', { type: 'button', onclick: () => close('') }, 'Cancel'),
     el('button', { type: 'button', class: 'primary', onclick: () => close('yes') }, yes),
   ], 'small');

@@ -7,10 +7,11 @@ import { dialog } from './ask.js';
 /** @typedef {import('../commands.js').Commands} Commands */
 /** @typedef {{path: string, name: string, title?: string, notes?: string, picture?: string | null}} GalleryScene */
 
-/** @param {Commands} commands @param {() => void} opened @returns {Promise<HTMLElement>} */
+/** @param {Commands} commands @param {() => void} opened @returns {Promise<HTMLElement | null>} null: nothing came */
 async function galleryCards(commands, opened) {
   const answer = await commands.tell('gallery'), grid = el('div', { class: 'gallery' });
-  for (const scene of /** @type {GalleryScene[]} */ (answer?.scenes ?? [])) {
+  if (!answer) return null;
+  for (const scene of /** @type {GalleryScene[]} */ (answer.scenes)) {
     const picture = scene.picture ? el('img', { src: scene.picture, alt: '', loading: 'lazy' }) : el('span', { class: 'no-picture' });
     grid.append(el('button', { type: 'button', class: 'scene', title: scene.notes ?? scene.name, onclick: () => {
       opened();
@@ -37,13 +38,12 @@ async function folderList(commands, path, enter, opened) {
   return list;
 }
 
-/** The scenes of the folder that were written last; none where there are none. @param {Commands} commands */
+/** The scenes of the folder that were opened last; none where there are none. @param {Commands} commands */
 async function lastFiles(commands) {
   const answer = await commands.tell('list'), most = 6;
-  const scenes = /** @type {{path: string, kind: string, modified: number}[]} */ (answer?.files ?? []).filter(({ kind }) => kind === 'scene');
-  if (!scenes.length) return null;
-  const row = (/** @type {string} */ path) => el('li', {}, el('button', { type: 'button', class: 'row', onclick: () => void commands.open({ path }) }, path));
-  return el('ul', { class: 'files' }, ...scenes.sort((a, b) => b.modified - a.modified).slice(0, most).map(({ path }) => row(path)));
+  const names = /** @type {string[]} */ (answer?.recent ?? []).slice(0, most);
+  if (!names.length) return null;
+  return el('ul', { class: 'files' }, ...names.map((path) => el('li', {}, el('button', { type: 'button', class: 'row', onclick: () => void commands.open({ path }) }, path))));
 }
 
 /** @param {Commands} commands */
@@ -53,24 +53,32 @@ export async function openDialog(commands) {
     files.replaceChildren(el('h3', {}, path || 'This folder'), await folderList(commands, path, (next) => void enter(next), () => close()));
   };
   const [gallery] = await Promise.all([galleryCards(commands, () => close()), enter('')]);
-  await dialog('Open', [files, el('h3', {}, 'Examples'), gallery], (end) => {
+  await dialog('Open', [files, ...(gallery ? [el('h3', {}, 'Examples'), gallery] : [])], (end) => {
     close = () => end('');
     return [el('button', { type: 'button', onclick: close }, 'Cancel')];
   }, 'wide');
 }
 
-/** What is shown where nothing is open. @param {import('../store.js').Store<import('../types.js').State>} store @param {Commands} commands */
+/** What is shown where nothing is open: its heading at once, what the server tells of when it comes. What did not come is
+ * asked for again when the page is empty the next time, as after a connection that broke.
+ * @param {import('../store.js').Store<import('../types.js').State>} store @param {Commands} commands */
 export function showEmpty(store, commands) {
-  const place = byId('empty');
-  let filled = false;
-  store.on(['document', 'connected', 'progress'], async ({ document, connected, progress }) => {
+  const place = byId('empty'), last = el('section', { hidden: true }), examples = el('section', {});
+  const open = el('button', { type: 'button', class: 'primary', onclick: () => void openDialog(commands) }, 'Open a scene…'), make = el('button', { type: 'button', onclick: () => void commands.newScene() }, 'New scene');
+  place.replaceChildren(el('h1', {}, 'Open a scene, or start from one of these'), el('div', { class: 'switches' }, open, make), last, examples);
+  const fill = async () => {
+    const files = await lastFiles(commands);
+    last.hidden = !files;
+    if (files) last.replaceChildren(el('h2', {}, 'Opened last'), files);
+    if (examples.childElementCount) return;
+    const gallery = await galleryCards(commands, () => {});
+    if (gallery && !examples.childElementCount) examples.replaceChildren(el('h2', {}, 'Examples'), gallery);
+  };
+  let was_empty = false;
+  store.on(['document', 'connected', 'progress'], ({ document, connected, progress }) => {
     const empty = connected === 'open' && document?.open === false && !progress;
     place.hidden = !empty;
-    if (!empty || filled) return;
-    filled = true;
-    const [gallery, files] = await Promise.all([galleryCards(commands, () => {}), lastFiles(commands)]);
-    const open = el('button', { type: 'button', class: 'primary', onclick: () => void openDialog(commands) }, 'Open a scene…');
-    place.replaceChildren(el('h1', {}, 'Open a scene, or start from one of these'), open,
-      ...(files ? [el('h2', {}, 'Changed last in this folder'), files] : []), el('h2', {}, 'Examples'), gallery);
+    if (empty && !was_empty) void fill();
+    was_empty = empty;
   });
 }

@@ -2,6 +2,7 @@
 // Handles of the selected body where the play head is: arrows and squares to move it, rings to turn it.
 
 import { colours } from '../colours.js';
+import { arrowSeconds } from '../build.js';
 import { along, cross } from '../tools/move.js';
 import { reach, toSegment } from './pick.js';
 
@@ -17,6 +18,13 @@ const arrowPixels = 72, ringPixels = 64, ringSegments = 48;
  * @returns {HandleShape[]} */
 export function handleShapes(tool, place, per_pixel, project) {
   return tool === 'move' ? [...squares(place, per_pixel, project), ...arrows(place, per_pixel, project)] : rings(place, per_pixel, project);
+}
+
+/** The velocity at the start, as an arrow from the centre; a body at rest has a short one upwards. @param {Vec3} place @param {Vec3} velocity m/s
+ * @param {Project} project @returns {HandleShape} */
+export function throwArrow(place, velocity, project) {
+  const still = Math.hypot(...velocity) < 1e-9;
+  return { name: 'throw', colour: colours.accent, points: [project(place), project(along(place, still ? [0, 0, 0.3] : velocity, arrowSeconds))], fill: false };
 }
 
 /** @param {Vec3} place @param {number} per_pixel @param {Project} project @returns {HandleShape[]} */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Nails as hoops: green where met, amber with the error where not, grey and dashed where the motion lacks them.
+// Nails as hoops: green where met, amber with the error where not, grey and dashed where they cannot be evaluated.
 
 import { colours } from '../colours.js';
-import { centreAt, pointAt, timeOf } from '../motion.js';
+import { centreAt, impactAt, pointAt, timeOf } from '../motion.js';
 import { lengthText } from '../number_field_text.js';
 
 /** @typedef {import('../types.js').Vec3} Vec3 */
@@ -13,9 +13,11 @@ import { lengthText } from '../number_field_text.js';
 /** The number of a held component; none where it is free or a range. @param {import('../types.js').Target | undefined} t */
 const held = (t) => (typeof t === 'number' ? t : null);
 
-/** What a nail holds of a place: which point, and three targets. @param {import('../types.js').Constraint} constraint
+/** What a nail holds of a place: which point, or its contact (no point), and three targets.
+ * @param {import('../types.js').Constraint} constraint
  * @returns {{point: Vec3 | null, targets: import('../types.js').Target[]} | null} none where it holds no place */
-export function placeHeld({ point, position }) {
+export function placeHeld({ point, position, contact }) {
+  if (contact) return { point: null, targets: contact };
   if (point) return { point: point.body_point, targets: point.world };
   return position ? { point: [0, 0, 0], targets: position } : null;
 }
@@ -29,7 +31,8 @@ export function nailPlaces({ document, motion }) {
     if (!track || constraint.at === undefined || constraint.relative_to !== undefined) return [];
     const time = nail.time ?? timeOf(constraint.at, body, motion, names) ?? Math.min(motion.end, typeof constraint.at === 'number' ? constraint.at : motion.end);
     const place = placeHeld(constraint);
-    const now = place?.point ? pointAt(track, place.point, time) : centreAt(track, time);
+    const touches = constraint.contact && constraint.at !== undefined && impactAt(constraint.at, body, motion, names)?.point;
+    const now = touches || (place?.point ? pointAt(track, place.point, time) : centreAt(track, time));
     /** @type {Vec3} */
     const target = [held(place?.targets[0]) ?? now[0], held(place?.targets[1]) ?? now[1], held(place?.targets[2]) ?? now[2]];
     return [{ nail, id: nail.id, body, place: target, now, time }];
@@ -42,9 +45,12 @@ export function nailColour({ on, available, met }) {
   return met ? colours.nail : colours.amber;
 }
 
+/** A hoop behind a wall is fainter, and still green or amber. */
+const behindHoop = 0.5;
+
 /** @param {CanvasRenderingContext2D} pen @param {NailPlace[]} places @param {import('./pick.js').Project} project
- * @param {number} scale @param {number} chosen id, -1: none */
-export function drawHoops(pen, places, project, scale, chosen) {
+ * @param {number} scale @param {number} chosen id, -1: none @param {(point: import('../types.js').Vec3) => boolean} hidden */
+export function drawHoops(pen, places, project, scale, chosen, hidden) {
   for (const { nail, place, now } of places) {
     const [x, y, depth] = project(place);
     if (depth <= 0) continue;
@@ -52,7 +58,7 @@ export function drawHoops(pen, places, project, scale, chosen) {
     pen.strokeStyle = colour;
     pen.lineWidth = nail.id === chosen ? 4 : nail.on && nail.available ? 3 : 1.5;
     pen.setLineDash(nail.available ? [] : [4, 4]);
-    pen.globalAlpha = nail.on ? 1 : 0.7;
+    pen.globalAlpha = (nail.on ? 1 : 0.7) * (nail.id !== chosen && hidden(place) ? behindHoop : 1);
     pen.beginPath();
     pen.ellipse(x, y, radius, radius, 0, 0, 2 * Math.PI);
     pen.stroke();
@@ -91,10 +97,12 @@ export function atText(at) {
 export function label(pen, text, x, y, colour) {
   const { clientWidth } = pen.canvas, wide = pen.measureText(text).width;
   if (x + wide > clientWidth - 4) x = Math.max(4, Math.min(x - wide - 30, clientWidth - 4 - wide));
+  pen.save();  // or marks drawn later have round corners, too
   pen.lineJoin = 'round';
   pen.lineWidth = 3;
   pen.strokeStyle = colours.view;
   pen.strokeText(text, x, y);
   pen.fillStyle = colour;
   pen.fillText(text, x, y);
+  pen.restore();
 }

@@ -4,7 +4,7 @@
 import { impactsThatChanged } from '../changes.js';
 import { colours, impactColours, inkOf } from '../colours.js';
 import { centreAt } from '../motion.js';
-import { lengthText } from '../number_field_text.js';
+import { offText } from '../live.js';
 import { atText, label } from './hoops.js';
 import { restPlaces } from './pick.js';
 
@@ -47,8 +47,12 @@ export function impactMark(pen, mode, x, y, radius) {
   pen.setLineDash([]);
 }
 
-/** @param {Pen} pen @param {State} state @param {number[]} bodies @param {Project} project @param {number} scale */
-export function drawImpacts(pen, { motion, hover, selected }, bodies, project, scale) {
+/** What lies behind a wall is fainter. */
+export const behind = 0.35;
+
+/** @param {Pen} pen @param {State} state @param {number[]} bodies @param {Project} project @param {number} scale
+ * @param {(point: import('../types.js').Vec3) => boolean} hidden */
+export function drawImpacts(pen, { motion, hover, selected }, bodies, project, scale, hidden) {
   const many = (motion?.impacts.length ?? 0) > 40;
   for (const impact of motion?.impacts ?? []) {
     if (!impact.bodies.some((body) => bodies.includes(body))) continue;
@@ -59,20 +63,23 @@ export function drawImpacts(pen, { motion, hover, selected }, bodies, project, s
     const crowd = many && selected < 0, hovered = hover?.impact === impact;
     pen.lineWidth = hovered ? 3 : crowd ? 1.2 : 1.8;
     pen.globalAlpha = hovered ? 1 : crowd ? 0.75 : selected >= 0 && !impact.bodies.includes(selected) && bodies.includes(selected) ? 0.5 : 1;
+    if (!hovered && hidden(impact.point)) pen.globalAlpha *= behind;
     impactMark(pen, impact.mode, x, y, (crowd ? 3.5 : 6) * scale);
   }
   pen.globalAlpha = 1;
 }
 
 /** A bar under each place of rest. @param {Pen} pen @param {State} state @param {number[]} bodies @param {Project} project
- * @param {number} scale */
-export function drawRests(pen, { motion, scene, hover }, bodies, project, scale) {
+ * @param {number} scale @param {(point: import('../types.js').Vec3) => boolean} hidden */
+export function drawRests(pen, { motion, scene, hover }, bodies, project, scale, hidden) {
   for (const { body, place } of motion ? restPlaces(motion, bodies) : []) {
     const [x, y, depth] = project(place);
     if (depth <= 0) continue;
     const hovered = hover?.kind === 'rest' && hover.body === body, half = (hovered ? 8 : 6) * scale;
     pen.fillStyle = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);
+    pen.globalAlpha = !hovered && hidden(place) ? behind : 1;
     pen.fillRect(x - half, y + 4 * scale, 2 * half, (hovered ? 4 : 3) * scale);
+    pen.globalAlpha = 1;
   }
 }
 
@@ -127,7 +134,7 @@ export function drawHeld(pen, { gesture, motion }, held, project, scale) {
   pen.stroke();
   pen.setLineDash([]);
   if (motion && gesture.answered === gesture.seq && !motion.reached) {
-    label(pen, `${lengthText(motion.distance)} from its target`, x + 12 * scale, y - 8 * scale, colours.amber);
+    label(pen, offText(motion), x + 12 * scale, y - 8 * scale, colours.amber);
   }
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The canvas above the view: all marks that are no thing in the scene, and what can be pressed.
 
-import { impactAt, moves, pathTimes, pointAt } from '../motion.js';
+import { impactAt, moves, pathTimes, pointAt, velocityAt } from '../motion.js';
 import { sagOf } from '../view/paths.js';
-import { drawHandles, handleShapes, handleUnder } from './handles.js';
+import { drawHandles, handleShapes, handleUnder, throwArrow } from './handles.js';
 import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
 import { drawChangedImpacts, drawDots, drawHeld, drawHover, drawImpacts, drawRests } from './marks.js';
+import { drawNames } from './names.js';
 import { onScreen, pick } from './pick.js';
 
 /** @typedef {import('../types.js').State} State */
@@ -46,10 +47,12 @@ export class Overlay {
     pen.font = `${Math.round(12 * scale)}px system-ui, sans-serif`;
     const bodies = this.view.paths.shownBodies(state), dragging = gesture.state === 'dragging' || gesture.state === 'typing';
     drawDots(pen, state, bodies, project, scale);
-    drawImpacts(pen, state, bodies, project, scale);
-    drawRests(pen, state, bodies, project, scale);
+    const hidden = (/** @type {import('../types.js').Vec3} */ point) => this.view.hidden.hides(state.scene, point);
+    drawImpacts(pen, state, bodies, project, scale, hidden);
+    drawRests(pen, state, bodies, project, scale, hidden);
+    drawNames(pen, state, bodies, project);
     drawChangedImpacts(pen, state, project, scale);
-    drawHoops(pen, nailPlaces(state), project, scale, state.selectedNail);
+    drawHoops(pen, nailPlaces(state), project, scale, state.selectedNail, hidden);
     if (!dragging) drawHandles(pen, this.handles(), hover?.handle ?? '');
     if (hover && gesture.state === 'idle') drawHover(pen, hover, bodies.length > 1 ? (state.document?.bodies[hover.body]?.name ?? '') : '', project, scale);
     if (gesture.hit && gesture.state !== 'idle') {
@@ -61,11 +64,14 @@ export class Overlay {
 
   /** Handles that there are now. */
   handles() {
-    const { motion, selected, time, tool, scene, gesture } = this.store.state;
-    if (!motion || selected < 0 || scene?.shapes[selected]?.fixed || gesture.state === 'settling' || this.store.state.playing) return [];
-    const track = motion.tracks[selected];
-    if (!track || !moves(track)) return [];
+    const { motion, selected, time, tool, scene, gesture, looking } = this.store.state;
+    const track = motion?.tracks[selected], fixed = scene?.shapes[selected]?.fixed;
+    if (looking || !motion || !track || gesture.state === 'settling' || this.store.state.playing) return [];
+    // at the start bodies are placed, and fixed ones at any time
+    const placed = (time === 0 || fixed) && !!this.store.state.document?.bodies[selected]?.position && !scene?.shapes[selected]?.plane;
+    if (fixed ? !placed : !placed && !moves(track)) return [];
     const place = pointAt(track, track.center, Math.min(time, motion.end));
+    if (tool === 'throw') return fixed || time !== 0 ? [] : [throwArrow(place, velocityAt(track, 0), this.project)];
     return handleShapes(tool, place, this.scale * this.view.camera.axes().perPixel(place), this.project);
   }
 

@@ -7,8 +7,8 @@ import { colours } from '../colours.js';
 /** More than are seen at a glance are searched. */
 const many = 12;
 
-/** @param {import('../store.js').Store<import('../types.js').State>} store */
-export function showBodies(store) {
+/** @param {import('../store.js').Store<import('../types.js').State>} store @param {{locks?: boolean}} options whether bodies can be locked */
+export function showBodies(store, { locks = true } = {}) {
   const list = byId('bodies'), search = /** @type {HTMLInputElement} */ (byId('body-search'));
   search.addEventListener('input', () => show(store.state));
   const show = (/** @type {import('../types.js').State} */ { document, scene, selected, locked }) => {
@@ -26,7 +26,7 @@ export function showBodies(store) {
         onclick: () => store.set({ selected: i === selected ? -1 : i, selectedNail: -1 }),
       }, swatch, el('span', { class: 'cut' }, name), fixed && el('span', { class: 'dim' }, 'fixed'));
       const is_locked = locked.has(name);
-      const lock = fixed ? null : iconButton(is_locked ? 'locked' : 'unlocked', is_locked ? `Unlock ${name}` : `Lock ${name}`, () => {
+      const lock = fixed || !locks ? null : iconButton(is_locked ? 'locked' : 'unlocked', is_locked ? `Unlock ${name}` : `Lock ${name}`, () => {
         const next = new Set(locked);
         if (!next.delete(name)) next.add(name);
         store.set({ locked: next });

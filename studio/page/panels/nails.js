@@ -5,7 +5,7 @@ import { byId, el, iconButton } from '../dom.js';
 import { icon } from '../icons.js';
 import { pointAt, turnAt } from '../motion.js';
 import { forPeople, lengthText } from '../number_field_text.js';
-import { atText, placeHeld } from '../overlay/hoops.js';
+import { atText, nailPlaces, placeHeld } from '../overlay/hoops.js';
 
 /** @typedef {import('../types.js').Constraint} Constraint */
 /** @typedef {import('../types.js').NailState} NailState */
@@ -26,8 +26,7 @@ export function showNails(store, commands) {
 
   /** @param {NailState} nail @param {State} state */
   function row(nail, state) {
-    const { constraint, id } = nail, title = `${constraint.body}, ${atText(constraint.at)}`;
-    const standing = !nail.available ? ['missing', forPeople(nail.message) || 'does not come'] : !nail.on ? ['off', 'off'] : nail.met ? ['met', 'met'] : ['unmet', errorText(nail)];
+    const { constraint, id } = nail, title = `${constraint.body}, ${atText(constraint.at)}`, standing = standingOf(nail);
     const choose = el('button', { type: 'button', class: 'row name', title, 'aria-pressed': id === state.selectedNail, 'data-key': `nail ${id}`, onclick: () => {
       const selected = state.document?.bodies.findIndex((body) => body.name === constraint.body) ?? -1;
       store.set({ selectedNail: id, selected });
@@ -57,14 +56,15 @@ export function showNails(store, commands) {
   }
 
   /** The nail with one component of its place held, or free. @param {NailState} nail @param {number} i */
-  function withComponent({ constraint, time }, i) {
+  function withComponent({ id, constraint, time }, i) {
     const { motion, document } = store.state, body = document?.bodies.findIndex((b) => b.name === constraint.body) ?? -1;
     const track = motion?.tracks[body], place = placeHeld(constraint);
     if (!track || time === null) return null;
-    const targets = [...(place?.targets ?? [null, null, null])];
-    targets[i] = targets[i] == null ? pointAt(track, place?.point ?? [0, 0, 0], time)[i] : null;
-    const { position, point, ...rest } = constraint;
-    if (targets.some((t) => t != null)) return point ? { ...rest, point: { ...point, world: targets } } : { ...rest, position: targets };
+    const targets = [...(place?.targets ?? [null, null, null])], { position, point, contact, ...rest } = constraint;
+    const now = contact ? nailPlaces(store.state).find((one) => one.id === id)?.now : pointAt(track, place?.point ?? [0, 0, 0], time);
+    if (!now) return null;
+    targets[i] = targets[i] == null ? now[i] : null;
+    if (targets.some((t) => t != null)) return contact ? { ...rest, contact: targets } : point ? { ...rest, point: { ...point, world: targets } } : { ...rest, position: targets };
     return Object.keys(rest).some((word) => !['body', 'at', 'notes'].includes(word)) ? rest : null;
   }
 
@@ -76,6 +76,13 @@ export function showNails(store, commands) {
     if (!orientation) return { ...constraint, orientation: turnAt(track, time) };
     return Object.keys(rest).some((word) => !['body', 'at', 'notes'].includes(word)) ? rest : null;
   }
+}
+
+/** How a nail stands: a class, and words. @param {NailState} nail @returns {[string, string]} */
+export function standingOf(nail) {
+  if (!nail.available) return ['missing', forPeople(nail.message) || 'does not come'];
+  if (!nail.on) return ['off', 'off'];
+  return nail.met ? ['met', 'met'] : ['unmet', errorText(nail)];
 }
 
 /** @param {NailState} nail */

@@ -6,11 +6,11 @@ import { along, dot, inPlane, Move } from './move.js';
 
 /** @typedef {import('../types.js').Vec3} Vec3 */
 /** @typedef {import('./move.js').Ray} Ray */
-/** Where, the normal there, and where rays meet that body; null: only the plane there counts.
- * @typedef {{point: Vec3, normal: Vec3, cut: ((ray: Ray) => {point: Vec3, normal: Vec3} | null) | null}} Touched */
+/** Where, the normal there, whether the place of a contact is held, and where rays meet that body or pass it nearest; null: only the plane there counts.
+ * @typedef {{point: Vec3, normal: Vec3, contact?: boolean, cut: ((ray: Ray) => {point: Vec3, normal: Vec3} | null) | null}} Touched */
 
-/** A face that is turned away from the one that is touched by more than this (cosine) is another side of the body. */
-const sameSide = 0.3;
+/** The axis that is least in a surface: where a point is along it, the surface says. @param {Vec3} normal */
+const leastIn = (normal) => 'xyz'[normal.reduce((best, c, i, all) => (Math.abs(c) > Math.abs(all[best]) ? i : best), 0)];
 
 export class Slide extends Move {
   /** @param {{turn: import('../types.js').Quat, ray: Ray, view: Vec3, touched: Touched}} options */
@@ -18,8 +18,7 @@ export class Slide extends Move {
     super({ ...options, start: touched.point });
     this.touched = touched;
     this.lifted = false;
-    /** The axis that is least in the surface: where the point is along it, the surface says. */
-    this.across = 'xyz'[touched.normal.reduce((best, c, i, all) => (Math.abs(c) > Math.abs(all[best]) ? i : best), 0)];
+    this.across = leastIn(touched.normal);
   }
 
   /** Off the surface, or back onto it. @returns {boolean} whether that makes a difference */
@@ -37,8 +36,17 @@ export class Slide extends Move {
   /** @param {Ray} ray */
   pointOn(ray) {
     if (this.axis || this.lifted) return super.pointOn(ray);
-    const { cut, normal, point } = this.touched, seen = cut && cut(ray);
-    return seen && dot(seen.normal, normal) > sameSide ? seen.point : inPlane(ray, point, normal);
+    const { cut, normal, point } = this.touched;
+    if (!cut) return inPlane(ray, point, normal);
+    const on = cut(ray);
+    if (on) this.across = leastIn(on.normal);
+    return on?.point ?? null;
+  }
+
+  /** Of a contact with what is held of it there: on another side of a body that is something else. @param {Ray} ray */
+  target(ray) {
+    const target = super.target(ray);
+    return this.axis || this.lifted || !this.touched.contact ? target : { ...target, components: [...'xyz'].filter((c) => c !== this.across) };
   }
 
   /** @param {Vec3} right @param {Vec3} up @param {number} dx @param {number} dy */

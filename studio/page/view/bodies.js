@@ -75,6 +75,22 @@ export class Bodies {
     }
   }
 
+  /** Where a body is. @param {import('../types.js').Track} track @param {number} time */
+  poseOf(track, time) {
+    return poseAt(track, time);
+  }
+
+  /** The first place along a ray on a body, and the normal of the side that is seen. @param {THREE.Raycaster} caster
+   * @returns {{point: import('../types.js').Vec3, normal: import('../types.js').Vec3} | null} */
+  surface(caster) {
+    this.group.updateMatrixWorld(true);
+    const hit = caster.intersectObjects(this.group.children, false)[0];
+    if (!hit?.face) return null;
+    const normal = hit.face.normal.clone().transformDirection(hit.object.matrixWorld);
+    if (normal.dot(caster.ray.direction) > 0) normal.negate();
+    return { point: [hit.point.x, hit.point.y, hit.point.z], normal: [normal.x, normal.y, normal.z] };
+  }
+
   /** The first body along a ray. @param {THREE.Raycaster} caster @returns {{body: number, point: THREE.Vector3} | null} */
   pick(caster) {
     this.group.updateMatrixWorld(true);

@@ -43,7 +43,7 @@ export class Ghosts {
       for (const body of this.bodiesWithGhosts(state)) {
         const times = [];
         for (let k = 0; k <= most && k * spacing <= motion.end + 1e-9; ++k) times.push(k * spacing);
-        this.show(wanted, `ghosts ${body}`, bodies[body], inkOf(state.scene?.shapes[body]?.colour ?? colours.fixed), 0.3, 2,
+        this.show(wanted, `ghosts ${body}`, bodies[body], inkOf(state.scene?.shapes[body]?.colour ?? colours.fixed), 0.24, 2,
           times, (time) => place(this.dummy, motion.tracks[body], time));
       }
       if (hover && !dragging && hover.kind !== 'handle' && bodies[hover.body]) {
@@ -66,8 +66,12 @@ export class Ghosts {
 
   /** The pose that a nail wants; what it leaves free is as it is now. @param {import('../overlay/hoops.js').NailPlace} held
    * @param {NonNullable<State['motion']>} motion */
-  nailed({ nail, body, place: [x, y, z], time }, motion) {
+  nailed({ nail, body, place: [x, y, z], now, time }, motion) {
     place(this.dummy, motion.tracks[body], time);
+    if (nail.constraint.contact) {  // as it is, moved to where it is to touch
+      this.dummy.position.add(this.arm.set(x - now[0], y - now[1], z - now[2]));
+      return;
+    }
     const { orientation } = nail.constraint, point = placeHeld(nail.constraint)?.point ?? motion.tracks[body].center;
     if (orientation) this.dummy.quaternion.set(orientation[1], orientation[2], orientation[3], orientation[0]).normalize();
     const arm = this.arm.set(point[0], point[1], point[2]).applyQuaternion(this.dummy.quaternion);

@@ -45,9 +45,10 @@ function seamless(geometry) {
   const normals = new Float32Array(3 * position.count);
   keys.forEach((key, i) => (sums.get(key) ?? a.set(0, 0, 0)).clone().normalize().toArray(normals, 3 * i));
   const result = new THREE.BufferGeometry();
-  result.setAttribute('position', position);
+  // its own: with buffers that are shared and go, what is drawn from them by others at that moment goes too
+  result.setAttribute('position', /** @type {THREE.BufferAttribute} */ (position.clone()));
   result.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
-  result.setIndex(index);
+  result.setIndex(index?.clone() ?? null);
   return result;
 }
 

@@ -3,11 +3,9 @@
 // surface, and dashed ones of a motion before.
 
 import * as THREE from 'three';
-import { Line2 } from 'three/addons/lines/Line2.js';
-import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
-import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { colours, inkOf } from '../colours.js';
 import { centreAt, moves, pathTimes, pointAt } from '../motion.js';
+import { dashedLine, faintLine, fatLine, thinLine } from './lines.js';
 
 /** @typedef {import('../types.js').State} State */
 /** @typedef {import('../types.js').Track} Track */
@@ -59,9 +57,9 @@ export class Paths {
         this.put(wanted, `fat ${body}`, [track, end], () => fatLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink));
         const point = this.surfacePoint(scene, body);
         this.put(wanted, `surface ${body}`, [track, end], () =>
-          thinLine(lineOf((t) => pointAt(track, point, t), turningTimes(track, end, sag)), ink, 0.55));
+          faintLine(lineOf((t) => pointAt(track, point, t), turningTimes(track, end, sag)), ink, 0.55));
       } else {
-        this.put(wanted, `path ${body}`, [track, end], () => thinLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink, 0.85));
+        this.put(wanted, `path ${body}`, [track, end], () => thinLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink));
       }
     }
     const before = beforeOf(state);
@@ -74,7 +72,7 @@ export class Paths {
     for (const track of gone?.tracks ?? []) {
       if (!shown.includes(track.body) || track === motion?.tracks[track.body]) continue;
       const ink = inkOf(scene?.shapes[track.body]?.colour ?? colours.fixed), end = gone?.end ?? 0;
-      this.put(wanted, `gone ${track.body}`, [track, end], () => thinLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink, 0.85));
+      this.put(wanted, `gone ${track.body}`, [track, end], () => thinLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), ink));
     }
     for (const [key, { object, opacity }] of this.lines) {
       const kind = key.split(' ')[0];
@@ -136,31 +134,4 @@ export function beforeOf({ gesture, before, opened, savedMotion, showBefore, cha
   if (showBefore === 'opened') return opened;
   if (showBefore === 'saved') return savedMotion;
   return changesShown ? before : null;
-}
-
-/** @param {Float32Array} positions @param {string} colour @param {number} opacity */
-function thinLine(positions, colour, opacity) {
-  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
-  const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false }));
-  line.renderOrder = 1;
-  return line;
-}
-
-/** @param {Float32Array} positions @param {string} colour */
-function fatLine(positions, colour) {
-  const geometry = new LineGeometry();
-  geometry.setPositions(positions);
-  const line = new Line2(geometry, new LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: 2.5, transparent: true, depthWrite: false }));
-  line.renderOrder = 1;
-  return line;
-}
-
-/** @param {Float32Array} positions @param {number} scale m, of the scene */
-function dashedLine(positions, scale) {
-  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
-  const material = new THREE.LineDashedMaterial({ color: colours.before, dashSize: 0.016 * scale, gapSize: 0.011 * scale, transparent: true, depthWrite: false });
-  const line = new THREE.Line(geometry, material);
-  line.computeLineDistances();
-  line.renderOrder = 1;
-  return line;
 }

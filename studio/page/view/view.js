@@ -8,6 +8,8 @@ import { Camera } from './camera.js';
 import { Ghosts } from './ghosts.js';
 import { Glide } from '../glide.js';
 import { Ground } from './ground.js';
+import { Hidden } from './hidden.js';
+import { linesOn } from './lines.js';
 import { Outline } from './outline.js';
 import { Paths } from './paths.js';
 import { FrameWatch } from './quality.js';
@@ -36,6 +38,7 @@ export class View {
     this.scene.background = new THREE.Color(colours.view);
     this.camera = new Camera(input, () => this.invalidate());
     this.bodies = new Bodies();
+    this.hidden = new Hidden(this.bodies, this.camera.camera);
     this.ghosts = new Ghosts();
     this.paths = new Paths();
     this.ground = new Ground();
@@ -67,8 +70,14 @@ export class View {
     if (!clientWidth || !clientHeight) return;
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.resize(clientWidth, clientHeight);
+    this.sizeLines();
     resized(clientWidth, clientHeight);
     this.draw();
+  }
+
+  sizeLines() {
+    const { x, y } = this.renderer.getDrawingBufferSize(new THREE.Vector2());
+    linesOn(x, y);
   }
 
   invalidate() {
@@ -119,5 +128,6 @@ export class View {
     this.renderer.dispose();
     this.renderer = this.makeRenderer(quality);
     this.renderer.setSize(this.host.clientWidth, this.host.clientHeight);
+    this.sizeLines();
   }
 }

@@ -25,10 +25,35 @@ export async function launch() {
 
 export const axeSource = () => require.resolve('axe-core/axe.min.js');
 
+/** ms: how long tests wait for what has to come. Machines that are shared stand still for seconds. */
+export const patience = 30000;
+
+/** Runs `act` with `keep`, which takes what has to be closed: that is done, the last first, whatever fails. What stays open
+ * would keep node from ending.
+ * @template T @param {(keep: <C extends {close: () => unknown}>(one: C) => C) => Promise<T>} act @returns {Promise<T>} */
+export async function closing(act) {
+  const kept = [], problems = [];
+  let result;
+  try {
+    result = await act((one) => (kept.push(one), one));
+  } catch (problem) {
+    problems.push(problem);
+  }
+  for (const one of kept.reverse()) {
+    try {
+      await one.close();
+    } catch (problem) {
+      problems.push(problem);
+    }
+  }
+  if (problems.length) throw problems[0];
+  return result;
+}
+
 /** A tab at the studio's page, whose complaints are kept in `complaints`. */
 export async function openPage(browser, url, { width = 1440, height = 900, quality = 'low', ...more } = {}) {
   const page = await browser.newPage({ viewport: { width, height }, ...(more.reducedMotion ? { reducedMotion: more.reducedMotion } : {}), ...(more.forcedColors ? { forcedColors: more.forcedColors } : {}) });
-  page.setDefaultTimeout(15000);
+  page.setDefaultTimeout(patience);
   page.complaints = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && page.complaints.push(message.text()));
   page.on('pageerror', (error) => page.complaints.push(String(error.stack ?? error)));
@@ -37,22 +62,36 @@ export async function openPage(browser, url, { width = 1440, height = 900, quali
   page.on('websocket', (socket) => stays(socket.url()));
   if (more.before) await page.addInitScript(more.before);
   const [address, token] = url.split('#');
-  await page.goto(`${address}?test&quality=${quality}#${token ?? 'x'}`);
+  try {
+    await page.goto(`${address}?test&quality=${quality}#${token ?? 'x'}`);
+  } catch (problem) {
+    await page.close();
+    throw problem;
+  }
   return page;
 }
 
-/** Until a state of the store holds; `test` is the text of a function of it. Playwright's own waiting evaluates text in
- * the page, which the page's policy refuses. */
-export async function until(page, test, patience = 30000) {
+/** Until a state of the store holds; `test` is the text of a function of it, which may fail where the state lacks what it
+ * looks at, as between one scene and the next. Playwright's own waiting evaluates text in the page, which the page's
+ * policy refuses. */
+export async function until(page, test, within = patience) {
   let timer;
-  const late = new Promise((_, reject) => (timer = setTimeout(() => reject(new Error(`${test} did not come true`)), patience)));
+  const silent = new Promise((_, reject) => (timer = setTimeout(() => reject(new Error(`the page hung while ${test} was waited for`)), within + 10000)));
   const held = page.evaluate(`(async () => {
-    const test = ${test};
-    while (!(globalThis.carom && test(globalThis.carom.store.state))) await new Promise((next) => setTimeout(next, 10));
+    const test = ${test}, end = performance.now() + ${within};
+    for (let problem = ''; ; problem = '') {
+      try {
+        if (globalThis.carom && test(globalThis.carom.store.state)) return;
+      } catch (error) {
+        problem = ': ' + error;
+      }
+      if (performance.now() > end) throw new Error(${JSON.stringify(`${test} did not come true`)} + problem);
+      await new Promise((next) => setTimeout(next, 10));
+    }
   })()`);
   held.catch(() => {});
   try {
-    await Promise.race([held, late]);
+    await Promise.race([held, silent]);
   } finally {
     clearTimeout(timer);
   }
@@ -75,14 +114,9 @@ export function countMessages(page) {
 }
 
 /** Runs `act` with a stand-in for the server and a page; nothing may have been complained of. */
-export async function openFake(browser, options, act) {
-  const studio = new FakeStudio(options.studio), page = await openPage(browser, await studio.listen(), options);
-  try {
-    await until(page, '(s) => s.connected === "open"');
-    await act(page, studio);
-    assert.deepEqual(page.complaints.filter((text) => !text.includes('ReadPixels') && !(options.complaints && options.complaints.test(text))), []);
-  } finally {
-    await page.close();
-    await studio.close();
-  }
-}
+export const openFake = (browser, options, act) => closing(async (keep) => {
+  const studio = keep(new FakeStudio(options.studio)), page = keep(await openPage(browser, await studio.listen(), options));
+  await until(page, '(s) => s.connected === "open"');
+  await act(page, studio, keep);
+  assert.deepEqual(page.complaints.filter((text) => !text.includes('ReadPixels') && !(options.complaints && options.complaints.test(text))), []);
+});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A stand-in for the studio's server: a ball that is thrown onto a floor and bounces, and a post. Enough physics for the
 // page to be dragged, and states that are hard to bring about with the real one.
+import { createHmac } from 'node:crypto';
 import { createServer } from 'node:http';
 import { existsSync, readFileSync } from 'node:fs';
 import { extname, join, normalize } from 'node:path';
@@ -34,8 +35,9 @@ const cube = (x, y, z) => {
 };
 
 export class FakeStudio {
-  constructor({ open = true, locked = false, changedOnDisk = false } = {}) {
-    Object.assign(this, { open, locked, changedOnDisk, controls: [{ vary: 'velocity', body: 'ball <b>' }], velocity: [2, 0, 3], history: [], future: [], nails: [], rev: 1, scene: 1, heard: [], clients: new Set(), saved: true, session: `s${Math.random()}`, mute: false });
+  /** `deaf`: types of messages that it does not answer. */
+  constructor({ open = true, locked = false, changedOnDisk = false, deaf = [] } = {}) {
+    Object.assign(this, { open, locked, changedOnDisk, deaf, controls: [{ vary: 'velocity', body: 'ball <b>' }], velocity: [2, 0, 3], history: [], future: [], nails: [], rev: 1, scene: 1, heard: [], clients: new Set(), saved: true, session: `s${Math.random()}`, mute: false });
     this.server = createServer((request, response) => this.file(request, response));
     this.server.on('upgrade', (request, socket) => {
       const client = accept(request, socket, { message: (text) => this.hear(client, JSON.parse(text)), closed: () => this.clients.delete(client) });
@@ -122,12 +124,15 @@ export class FakeStudio {
 
   hear(client, message) {
     this.heard.push(message);
-    if (this.mute) return;
+    if (this.mute || this.deaf.includes(message.type)) return;
     const { type, id, gesture, seq } = message, done = (members = {}) => {
       client.send(this.motionFrame({ re: id, ...members }));
       client.send(this.state(id));
     };
-    if (type === 'hello') {
+    if (type === 'prove') {
+      client.send(JSON.stringify({ type: 'proof', re: id, proof: createHmac('sha256', this.token ?? '').update(message.nonce).digest('hex') }));
+    } else if (type === 'hello') {
+      this.token = message.token;
       client.send(JSON.stringify({ type: 'welcome', re: id, protocol: 1, version: 'test', session: this.session, folder: '/scenes', recovered: 0, limits: {} }));
       this.everything(client, id);
     } else if (type === 'grab' || type === 'grab_nail') {

@@ -35,6 +35,47 @@ test('many bodies are searched, and their lanes have names', { skip }, () =>
     await picture(page, 'many');
   }, { complaints: /willReadFrequently/ }));
 
+test('lanes fold to the one that is selected, and scroll to it', { skip }, () =>
+  withStudio('rack-of-fifteen.json', async (page) => {
+    const seen = () => page.evaluate(() => globalThis.carom.lanes());
+    const all = await page.evaluate(() => globalThis.carom.shownBodies()), first = await seen();
+    assert.ok(first.length < all.length && first[0] === all[0]);
+    await page.locator('#bodies .name').filter({ hasText: /^ball 13$/ }).click();
+    const chosen = await state(page, '(s) => s.selected');
+    await until(page, `() => globalThis.carom.lanes().includes(${chosen})`);
+    assert.equal((await seen()).length, first.length);
+    await page.click('#fold-lanes');
+    await until(page, `() => globalThis.carom.lanes().join() === "${chosen}"`);
+    await picture(page, 'folded-lanes');
+    await page.click('#fold-lanes');
+    await page.keyboard.press('Escape');
+    await page.mouse.move(500, 600);
+    await page.keyboard.down('Shift');
+    for (let k = 0; k < 20; ++k) await page.mouse.wheel(0, -100);
+    await page.keyboard.up('Shift');
+    await until(page, `() => globalThis.carom.lanes()[0] === ${all[0]}`);
+  }));
+
+test('five hundred bodies fold and are searched, and neither takes long', { skip }, () =>
+  withStudio('pen_500.json', async (page) => {
+    const count = await state(page, '(s) => s.document.bodies.length');
+    assert.ok(count > 500);
+    const list = () => page.evaluate(() => document.getElementById('bodies').getBoundingClientRect().height);
+    assert.ok((await list()) < 300, 'it scrolls in itself, and what may change is seen below');
+    assert.ok(await page.isVisible('summary:has-text("May change")'));
+    const name = await state(page, '(s) => s.document.bodies.at(-1).name'), began = Date.now();
+    await page.fill('#body-search', name);
+    assert.ok((await page.locator('#bodies li').count()) < count / 10);
+    assert.ok(Date.now() - began < 5000);
+    await page.click('summary:has-text("Bodies")');
+    const visible = () => page.evaluate(() => ['bodies', 'body-search'].some((id) => document.getElementById(id).checkVisibility({ contentVisibilityAuto: true })));
+    assert.equal(await visible(), false);
+    await page.click('summary:has-text("Bodies")');
+    await page.click('#bodies .name >> nth=-1');
+    assert.equal(await state(page, '(s) => s.document.bodies[s.selected].name'), name);
+    await picture(page, 'five-hundred');
+  }, { complaints: /willReadFrequently/ }));
+
 test('the hint says the one gesture until that has been made', { skip }, () =>
   withStudio('hat-on-coatrack.json', async (page) => {
     assert.match(await page.textContent('#hint'), /Press a path and pull/);

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before } from 'node:test';
-import { canRun, launch, leftOut, openPage, until } from './browser.mjs';
+import { canRun, closing, launch, leftOut, openPage, until } from './browser.mjs';
 
 export { place, state } from './browser.mjs';
 import { hasCommand, RealStudio } from './real_studio.mjs';
@@ -18,17 +18,12 @@ after(() => launched?.close());
 export const browser = () => launched;
 
 /** A page at a server with a copy of a scene; nothing may have been complained of. */
-export async function withStudio(scene, act, { change, ...options } = {}) {
-  const studio = await RealStudio.start(scene, change), page = await openPage(launched, studio.url, { width: 1024, height: 640, ...options });
-  try {
-    await until(page, '(s) => s.connected === "open" && s.motion');
-    await act(page, studio);
-    assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text) && !(options.complaints?.test(text))), []);
-  } finally {
-    await page.close();
-    await studio.close();
-  }
-}
+export const withStudio = (scene, act, { change, ...options } = {}) => closing(async (keep) => {
+  const studio = keep(await RealStudio.start(scene, change)), page = keep(await openPage(launched, studio.url, { width: 1024, height: 640, ...options }));
+  await until(page, '(s) => s.connected === "open" && s.motion');
+  await act(page, studio, keep);
+  assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text) && !(options.complaints?.test(text))), []);
+});
 
 export const screenOf = (page, point) => page.evaluate((p) => globalThis.carom.screenOf(p), point);
 export const answered = (page) => until(page, '(s) => s.gesture.state === "dragging" && s.gesture.seq > 0 && s.gesture.answered === s.gesture.seq');
@@ -57,4 +52,11 @@ export async function pull(page, [x, y], [to_x, to_y], steps = 6) {
 export async function letGo(page) {
   await page.mouse.up();
   await idle(page);
+}
+
+/** Takes a step back, and waits for it: what is idle already says nothing. */
+export async function undo(page) {
+  const rev = await page.evaluate(() => globalThis.carom.store.state.document.rev);
+  await page.keyboard.press('Control+z');
+  await until(page, `(s) => s.document.rev > ${rev} && s.motion.rev === s.document.rev && s.document.held_by === null`, 90000);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { offText } from '../../../studio/page/live.js';
 import { evaluate, forPeople, lengthText, shortNumber, stepOf } from '../../../studio/page/number_field_text.js';
 
 test('fields take arithmetic', () => {
@@ -31,4 +32,11 @@ test('a step is a hundredth to a tenth of the natural scale', () => {
 test('sentences for people have three digits, names have all of theirs', () => {
   assert.equal(forPeople("The motion of 'run 1.23456789' ends at 0.4312345678 s, 1.5 m away: 123456.7891."), "The motion of 'run 1.23456789' ends at 0.431 s, 1.5 m away: 123000.");
   assert.equal(forPeople('off by 0.00001234 or 3.2109876e-9 of 12 and 2.0004'), 'off by 0.0000123 or 3.21e-9 of 12 and 2');
+});
+
+test('how far off: a length, an angle, or both, whatever was asked for', () => {
+  assert.equal(offText({ distance: 0.0049, turn: 0 }), '4.9 mm from its target');
+  assert.equal(offText({ distance: 1e-17, turn: 0.31 }), '17.8° from its target');
+  assert.equal(offText({ distance: 0.0049, turn: 0.31 }), '4.9 mm, 17.8° from its target');
+  assert.equal(offText({ distance: 0, turn: 0.001 }), '0.06° from its target');
 });

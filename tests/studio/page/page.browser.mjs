@@ -152,7 +152,7 @@ test('at rest nothing is drawn and nothing is said', { skip }, () => withPage({}
   assert.equal(studio.heard.length, heard);
 }));
 
-test('a server that goes is said, cancels the drag, and is found again', { skip }, () => withPage({ complaints: /WebSocket|ERR_CONNECTION/ }, async (page, studio) => {
+test('a server that goes is said, cancels the drag, and is found again', { skip }, () => withPage({ complaints: /WebSocket|ERR_CONNECTION/ }, async (page, studio, keep) => {
   await drag(page, 0.4, 40, -40, { up: false });
   const { port } = studio;
   await studio.close();
@@ -161,13 +161,12 @@ test('a server that goes is said, cancels the drag, and is found again', { skip 
   assert.match(await page.textContent('#notice'), /server is gone; the drag was cancelled/);
   await page.mouse.up();
   await picture(page, 'lost-server');
-  const again = new FakeStudio();
+  const again = keep(new FakeStudio());
+  again.token = studio.token;  // as a server that starts again keeps it
   await again.listen(port);
   await until(page, '(s) => s.connected === "open"');
   assert.match(await page.textContent('#notice'), /started again/);
   await drag(page, 0.4, 30, -30);
-  await page.close();
-  await again.close();
 }));
 
 test('another tab that holds a body is an error that is told', { skip }, () => withPage({ studio: { locked: true } }, async (page) => {
@@ -187,6 +186,21 @@ test('where nothing is open there are scenes to start from', { skip }, () => wit
   await page.click('#empty .scene >> nth=0');
   await until(page, '(s) => s.motion !== null');
   assert.ok(await page.isHidden('#empty'));
+}));
+
+test('the empty page greets before the scenes are told of; those that a connection that broke did not bring come with the next', { skip }, () => withPage({ studio: { open: false, deaf: ['gallery', 'list'] }, complaints: /WebSocket|ERR_CONNECTION/ }, async (page, studio, keep) => {
+  assert.ok(await page.isVisible('#empty h1') && await page.isVisible('#empty button.primary') && await page.isHidden('#loading'));
+  assert.equal(await page.locator('#empty .scene').count(), 0);
+  const { port } = studio;
+  await studio.close();
+  await until(page, '(s) => s.connected === "lost"');
+  await frame(page);
+  assert.match(await page.textContent('#notice'), /server is gone/, 'what was asked for says nothing beside it');
+  const again = keep(new FakeStudio({ open: false }));
+  again.token = studio.token;
+  await again.listen(port);
+  await page.waitForSelector('#empty .scene');
+  assert.match(await page.textContent('#notice'), /started again/);
 }));
 
 test('nothing that keeps people out: axe-core on menus and dialogs', { skip }, async () => {

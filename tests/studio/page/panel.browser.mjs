@@ -2,7 +2,7 @@
 // Nails, numbers, the time line, dialogs and what the machine asks for (less motion, fewer colours), with the real mouse.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { canRun, launch, leftOut, openFake, openPage, place as placeOf, state, until } from './browser.mjs';
+import { canRun, closing, launch, leftOut, openFake, openPage, place as placeOf, state, until } from './browser.mjs';
 import { FakeStudio } from './fake_studio.mjs';
 
 const skip = canRun() ? false : leftOut, ball = 'ball <b>';
@@ -133,7 +133,7 @@ test('a file that changed on disk: every choice does what it says', { skip }, ()
     await page.waitForSelector('dialog');
   };
   await save();
-  assert.match(await page.textContent('dialog p'), /has changed on disk/);
+  assert.match(await page.textContent('dialog h2'), /has changed on disk/);
   await page.click('dialog >> text=Cancel');
   await page.waitForSelector('dialog', { state: 'detached' });
   await page.keyboard.press('Control+s');
@@ -180,10 +180,10 @@ test('colours that the system forces; a browser without WebGL says what to switc
     const outline = await page.locator('#tool-move').evaluate((one) => getComputedStyle(one).outlineStyle);
     assert.equal(outline, 'solid', 'what is pressed is told by more than its colour');
   });
-  const studio = new FakeStudio(), page = await openPage(browser, await studio.listen(), { before: () => (HTMLCanvasElement.prototype.getContext = () => null) });
-  await page.waitForSelector('#blocked');
-  assert.match(await page.textContent('#blocked'), /WebGL/);
-  assert.ok(await page.isHidden('#loading'), 'one sentence');
-  await page.close();
-  await studio.close();
+  await closing(async (keep) => {
+    const studio = keep(new FakeStudio()), page = keep(await openPage(browser, await studio.listen(), { before: () => (HTMLCanvasElement.prototype.getContext = () => null) }));
+    await page.waitForSelector('#blocked');
+    assert.match(await page.textContent('#blocked'), /WebGL/);
+    assert.ok(await page.isHidden('#loading'), 'one sentence');
+  });
 });

@@ -2,8 +2,10 @@
 // The pictures of docs/studio.md, from the command itself by the real mouse: node pictures.mjs FOLDER [PICTURE]. scripts/studio_pictures
 // calls it.
 import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { launch, openPage, place, state, until } from './browser.mjs';
+import { closing, frame, launch, openPage, place, state, until } from './browser.mjs';
+import { exported, openExported, ownFolder, scenes } from './exported_page.mjs';
 import { RealStudio } from './real_studio.mjs';
 
 const [folder, only] = process.argv.slice(2);
@@ -42,17 +44,12 @@ async function keep(page, name) {
   await page.screenshot({ path: join(folder, `${name}.png`) });
 }
 
-async function withStudio(browser, scene, act, change) {
-  const studio = await RealStudio.start(scene, change), page = await openPage(browser, studio.url, size);
-  try {
-    await until(page, '(s) => s.connected === "open" && (s.motion || !s.document.open)', patience);
-    await act(page);
-    assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text)), []);
-  } finally {
-    await page.close();
-    await studio.close();
-  }
-}
+const withStudio = (browser, scene, act, change) => closing(async (keep) => {
+  const studio = keep(await RealStudio.start(scene, change)), page = keep(await openPage(browser, studio.url, size));
+  await until(page, '(s) => s.connected === "open" && (s.motion || !s.document.open)', patience);
+  await act(page);
+  assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text)), []);
+});
 
 /** A hat is dragged from one peg of a coatrack down to another. */
 async function drag(page) {
@@ -112,11 +109,23 @@ async function meet(page) {
 
 const oneGoal = (document) => ({ ...document, constraints: document.constraints.slice(0, 1) });
 const narrow = (document) => ({ ...document, controls: [{ vary: 'velocity', body: 'hat', min: -4.5, max: 4.5 }], constraints: [] });
-const browser = await launch();
-try {
+/** A motion that is handed on, with the one before. */
+async function handedOn(keep_open, browser) {
+  const old = join(scenes, 'hat-on-coatrack.json'), document = JSON.parse(readFileSync(old, 'utf8')), hat = document.bodies.find((body) => body.name === 'hat');
+  const scene = join(ownFolder(keep_open), 'scene.json');
+  document.constraints = [];
+  hat.velocity = [hat.velocity[0] - 0.1, hat.velocity[1], hat.velocity[2] + 0.1];
+  writeFileSync(scene, JSON.stringify(document));
+  const page = await openExported(keep_open, browser, exported(keep_open, scene, '--before', old).path, size);
+  await page.evaluate(() => globalThis.carom.store.set({ selected: 2, time: 0.4 }));
+  await frame(page);
+  await page.screenshot({ path: join(folder, 'exported.png') });
+}
+
+await closing(async (keep) => {
+  const browser = keep(await launch());
   const acts = [['hat-on-coatrack.json', drag], ['hat-on-coatrack.json', nails, oneGoal], ['mug-on-mark.json', impact], ['hat-on-coatrack.json', cannot, narrow],
     ['hat-on-coatrack.json', meet]];
   for (const [scene, act, change] of acts) if (!only || act.name === only) await withStudio(browser, scene, act, change);
-} finally {
-  await browser.close();
-}
+  if (!only || only === 'exported') await handedOn(keep, browser);
+});

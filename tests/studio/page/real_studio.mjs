@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
+import { patience } from './browser.mjs';
 
 const examples = fileURLToPath(new URL('../../../examples/', import.meta.url));
 export const command = process.env.CAROM_COMMAND ?? '';
@@ -16,26 +17,36 @@ export class RealStudio {
   static async start(scene, change = (document) => document) {
     const studio = new RealStudio();
     studio.folder = mkdtempSync(join(tmpdir(), 'carom-studio-'));
-    cpSync(join(examples, 'scenes'), join(studio.folder, 'scenes'), { recursive: true });
-    cpSync(join(examples, 'assets'), join(studio.folder, 'assets'), { recursive: true });
-    studio.path = scene === null ? null : join(studio.folder, 'scenes', scene);
-    if (scene === null) {
+    try {
+      cpSync(join(examples, 'scenes'), join(studio.folder, 'scenes'), { recursive: true });
+      cpSync(join(examples, 'assets'), join(studio.folder, 'assets'), { recursive: true });
+      studio.path = scene === null ? null : join(studio.folder, 'scenes', scene);
+      if (studio.path) studio.alter(change);
       await studio.run();
-      return studio;
+    } catch (problem) {
+      rmSync(studio.folder, { recursive: true, force: true });
+      throw problem;
     }
-    const text = readFileSync(studio.path, 'utf8'), document = change(JSON.parse(text));
-    if (JSON.stringify(document) !== JSON.stringify(JSON.parse(text))) writeFileSync(studio.path, JSON.stringify(document, null, 2));
-    await studio.run();
     return studio;
+  }
+
+  alter(change) {
+    const text = this.bytes(), document = change(JSON.parse(text));
+    if (JSON.stringify(document) !== JSON.stringify(JSON.parse(text))) writeFileSync(this.path, JSON.stringify(document, null, 2));
   }
 
   async run(port = 0) {
     const page = process.env.CAROM_STUDIO_PAGE ? ['--page', process.env.CAROM_STUDIO_PAGE] : [];
-    this.process = spawn(command, ['studio', ...(this.path ? [this.path] : ['--folder', join(this.folder, 'scenes')]), '--no-open', ...(port ? ['--port', String(port)] : []), ...page], { stdio: ['ignore', 'pipe', 'inherit'] });
+    this.process = spawn(command, ['studio', ...(this.path ? [this.path] : ['--folder', join(this.folder, 'scenes')]), '--no-open', ...(port ? ['--port', String(port)] : []), ...page], { stdio: ['ignore', 'pipe', 'inherit'], env: { ...process.env, XDG_STATE_HOME: join(this.folder, 'state') } });
     this.ended = new Promise((done) => this.process.once('exit', (code, signal) => done(code ?? signal)));
-    const lines = createInterface({ input: this.process.stdout });
-    this.url = await Promise.race([new Promise((done) => lines.once('line', done)), this.ended.then((how) => Promise.reject(new Error(`carom studio ended with ${how}`)))]);
-    this.port = Number(new URL(this.url).port);
+    const lines = createInterface({ input: this.process.stdout }), ended = this.ended.then((how) => ({ problem: `carom studio ended with ${how}` }));
+    const { problem, url } = await inTime(Promise.race([new Promise((done) => lines.once('line', (line) => done({ url: line }))), ended]), { problem: 'carom studio printed no address' });
+    if (problem) {
+      this.process.kill('SIGKILL');
+      throw new Error(problem);
+    }
+    this.url = url;
+    this.port = Number(new URL(url).port);
   }
 
   /** The saved document. */
@@ -49,15 +60,29 @@ export class RealStudio {
     return JSON.parse(answer);
   }
 
+  /** How it ended; if it does not end by the signal, it is killed, which is an error. */
   async kill(signal = 'SIGKILL') {
     this.process.kill(signal);
-    return this.ended;
+    const how = await inTime(this.ended, null);
+    if (how !== null) return how;
+    this.process.kill('SIGKILL');
+    throw new Error(`carom studio goes on after ${signal}`);
   }
 
   async close() {
-    this.process.kill('SIGINT');
-    const how = await this.ended;
-    rmSync(this.folder, { recursive: true, force: true });
-    return how;
+    try {
+      return await this.kill('SIGINT');
+    } finally {
+      await this.ended;
+      rmSync(this.folder, { recursive: true, force: true });
+    }
   }
+}
+
+/** What comes of a promise, or else `late`. */
+async function inTime(promise, late) {
+  let timer;
+  const first = await Promise.race([promise, new Promise((done) => (timer = setTimeout(done, patience, late)))]);
+  clearTimeout(timer);
+  return first;
 }

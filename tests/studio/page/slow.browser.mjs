@@ -4,19 +4,26 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { countMessages, frame, until } from './browser.mjs';
-import { answered, idle, letGo, place, pull, skip, state, withStudio } from './hand.mjs';
+import { answered, idle, letGo, place, pull, skip, state, undo, withStudio } from './hand.mjs';
 
 test('Escape stops a release that searches on; what it got to is one step, and can be undone', { skip }, () =>
   withStudio('mug.json', async (page) => {
     const opened = await state(page, '(s) => [...s.motion.tracks[2].arcs]');
-    const [x, y] = await place(page, 'mug', 0.3);
-    await pull(page, [x, y], [x + 200, y - 200]);
-    await page.mouse.up();
-    await until(page, '(s) => s.gesture.state === "settling" && s.gesture.settlingShown');
-    await page.keyboard.press('Escape');
-    await idle(page);
-    await until(page, '(s) => s.document.held_by === null && s.document.undo !== null', 120000);
-    assert.equal(await state(page, '(s) => s.motion.stopped'), true);
+    // Whether a release has to search on depends on what the drag before it found, and so on how busy the machine is.
+    let stopped = false;
+    for (const [dx, dy] of [[200, -200], [-150, -200], [120, -200], [220, -160]]) {
+      const [x, y] = await place(page, 'mug', 0.3);
+      await pull(page, [x, y], [x + dx, y + dy]);
+      await page.mouse.up();
+      await until(page, '(s) => (s.gesture.state === "settling" && s.gesture.settlingShown) || (s.gesture.state === "idle" && s.document.held_by === null && s.document.undo !== null)', 120000);
+      await page.keyboard.press('Escape');
+      await idle(page);
+      await until(page, '(s) => s.document.held_by === null && s.document.undo !== null', 120000);
+      stopped = await state(page, '(s) => s.motion.stopped');
+      if (stopped) break;
+      await undo(page);
+    }
+    assert.equal(stopped, true);
     await page.keyboard.press('Control+z');
     await until(page, '(s) => s.document.undo === null', 120000);
     assert.deepEqual(await state(page, '(s) => [...s.motion.tracks[2].arcs]'), opened);

@@ -7,7 +7,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { colours, impactColours, inkOf } from '../../../studio/page/colours.js';
-import { axeSource, canRun, frame, launch, leftOut, openPage, place as placeOf, until } from './browser.mjs';
+import { axeSource, canRun, closing, frame, launch, leftOut, openPage, place as placeOf, until } from './browser.mjs';
 import { FakeStudio } from './fake_studio.mjs';
 import { decodePng, nearestInk } from './png.mjs';
 
@@ -67,31 +67,26 @@ const states = {
 };
 
 /** Goes through the states in a browser of its own; `look` sees the page in each. */
-async function walk(width, height, look) {
-  const browser = await launch(), pictures = {}, studio = new FakeStudio(), bare = new FakeStudio({ open: false });
-  try {
-    const page = await openPage(browser, await studio.listen(), { width, height, reducedMotion: 'reduce' });
-    await until(page, '(s) => s.connected === "open"');
-    await page.evaluate(() => globalThis.carom.store.set({ noticesStay: true }));
-    for (const [name, bring] of Object.entries(states)) {
-      await bring(page, studio);
-      await frame(page);
-      pictures[name] = await page.screenshot();
-      await look(page, name, pictures[name]);
-    }
-    const empty = await openPage(browser, await bare.listen(), { width, height, reducedMotion: 'reduce' });
-    await empty.waitForSelector('#empty .scene');
-    await frame(empty);
-    pictures.empty = await empty.screenshot();
-    await look(empty, 'empty', pictures.empty);
-    const complaints = [...page.complaints, ...empty.complaints].filter((text) => !/ReadPixels|WebSocket|ERR_CONNECTION/.test(text));
-    assert.deepEqual(complaints, []);
-  } finally {
-    await browser.close();
-    for (const server of [studio, bare]) if (server.server.listening) await server.close();
+const walk = (width, height, look) => closing(async (keep) => {
+  const studio = keep(new FakeStudio()), bare = keep(new FakeStudio({ open: false })), browser = keep(await launch()), pictures = {};
+  const page = await openPage(browser, await studio.listen(), { width, height, reducedMotion: 'reduce' });
+  await until(page, '(s) => s.connected === "open"');
+  await page.evaluate(() => globalThis.carom.store.set({ noticesStay: true }));
+  for (const [name, bring] of Object.entries(states)) {
+    await bring(page, studio);
+    await frame(page);
+    pictures[name] = await page.screenshot();
+    await look(page, name, pictures[name]);
   }
+  const empty = await openPage(browser, await bare.listen(), { width, height, reducedMotion: 'reduce' });
+  await empty.waitForSelector('#empty .scene');
+  await frame(empty);
+  pictures.empty = await empty.screenshot();
+  await look(empty, 'empty', pictures.empty);
+  const complaints = [...page.complaints, ...empty.complaints].filter((text) => !/ReadPixels|WebSocket|ERR_CONNECTION/.test(text));
+  assert.deepEqual(complaints, []);
   return pictures;
-}
+});
 
 /** What is cut, lies over something else, or scrolls. */
 function faults() {

@@ -3,13 +3,13 @@
 // scripts/studio_pictures calls it.
 import { readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { frame, launch, openPage, until } from './browser.mjs';
+import { closing, frame, launch, openPage, until } from './browser.mjs';
 import { RealStudio } from './real_studio.mjs';
 
 const folder = process.argv[2], size = { width: 846, height: 480, quality: 'high' };
 
-const studio = await RealStudio.start(null), browser = await launch();
-try {
+await closing(async (keep) => {
+  const studio = keep(await RealStudio.start(null)), browser = keep(await launch());
   const page = await openPage(browser, studio.url, size);
   await until(page, '(s) => s.connected === "open" && s.document');
   await page.evaluate(() => globalThis.carom.store.set({ panel: false }));
@@ -34,7 +34,4 @@ try {
     });
     writeFileSync(join(folder, file.replace(/json$/, 'png')), Buffer.from(picture, 'base64'));
   }
-} finally {
-  await browser.close();
-  await studio.close();
-}
+});

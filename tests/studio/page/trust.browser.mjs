@@ -6,8 +6,8 @@ import { writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { centreAt } from '../../../studio/page/motion.js';
-import { frame, openPage, until } from './browser.mjs';
-import { browser, idle, letGo, picture, place, pull, pullSlowly, screenOf, skip, state, withStudio } from './hand.mjs';
+import { closing, frame, openPage, until } from './browser.mjs';
+import { browser, idle, letGo, picture, place, pull, pullSlowly, screenOf, skip, state, undo, withStudio } from './hand.mjs';
 import { RealStudio } from './real_studio.mjs';
 
 /** Where the centre of a body is, m. */
@@ -75,30 +75,37 @@ test('a scene that is opened after another one looks as it does at a fresh start
   assert.equal(tried.size, scenes.length * (scenes.length - 1));
 });
 
-test('without a scene it greets with examples, and one of them opens', { skip }, async () => {
-  const studio = await RealStudio.start(null), page = await openPage(browser(), studio.url, { width: 1024, height: 640 });
-  try {
-    await until(page, '(s) => s.connected === "open" && s.document?.open === false');
-    assert.ok(await page.isVisible('#empty h1') && await page.isHidden('#loading'));
-    const drawn = '(s) => [...document.querySelectorAll("#empty .scene img")].filter((one) => one.complete && one.naturalWidth > 100).length >= 25';
-    await page.evaluate(() => document.querySelectorAll('#empty .scene img').forEach((one) => (one.loading = 'eager')));
-    await until(page, drawn);
-    await picture(page, 'empty');
-    assert.equal(await page.locator('#empty .files button').count(), 6);
-    const heights = await page.evaluate(() => [...document.querySelectorAll('#empty .files, #empty > button')].map((one) => one.clientHeight));
-    assert.ok(heights.every((height) => height >= 24) && Math.max(...heights) > 120, `what there is to press is ${heights} px high`);
-    await page.click('#empty .scene:has-text("coatrack")');
-    await until(page, '(s) => s.document.open && s.motion');
-    assert.ok(await page.isHidden('#empty'));
-    const [x, y] = await place(page, 'hat', 0.4);
-    await pull(page, [x, y], [x + 20, y - 10]);
-    await letGo(page);
-    assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text)), []);
-  } finally {
-    await page.close();
-    await studio.close();
+test('without a scene it greets with examples, and one of them opens', { skip }, () => closing(async (keep) => {
+  const studio = keep(await RealStudio.start(null)), page = keep(await openPage(browser(), studio.url, { width: 1024, height: 640 }));
+  await until(page, '(s) => s.connected === "open" && s.document?.open === false');
+  assert.ok(await page.isVisible('#empty h1') && await page.isHidden('#loading'));
+  await page.waitForSelector('#empty .scene');  // they come a moment later
+  await page.evaluate(() => document.querySelectorAll('#empty .scene img').forEach((one) => (one.loading = 'eager')));
+  await until(page, '(s) => [...document.querySelectorAll("#empty .scene img")].filter((one) => one.complete && one.naturalWidth > 100).length >= 25');
+  await picture(page, 'empty');
+  assert.equal(await page.locator('#empty .files button').count(), 0, 'nothing was opened yet');
+  const heights = await page.evaluate(() => [...document.querySelectorAll('#empty .scene, #empty .switches button')].map((one) => one.clientHeight));
+  assert.ok(heights.every((height) => height >= 24) && Math.max(...heights) > 120, `what there is to press is ${heights} px high`);
+  await page.click('#empty .scene:has-text("coatrack")');
+  await until(page, '(s) => s.document?.open && s.motion');
+  assert.ok(await page.isHidden('#empty'));
+  const [x, y] = await place(page, 'hat', 0.4);
+  await pull(page, [x, y], [x + 20, y - 10]);
+  await letGo(page);
+  for (const path of ['coin.json', 'hat.json', 'mug.json', 'coin.json']) {
+    await page.evaluate((name) => globalThis.carom.connection.request('open', { path: name, replace: true }), path);
+    await until(page, `(s) => s.document?.path === "${path}" && s.motion && !s.progress`);
   }
-});
+  assert.deepEqual(page.complaints.filter((text) => !/ReadPixels/.test(text)), []);
+  await studio.kill('SIGINT');
+  await studio.run();
+  const again = keep(await openPage(browser(), studio.url, { width: 1024, height: 640 }));
+  await again.waitForSelector('#empty .files button');
+  assert.deepEqual(await again.locator('#empty .files button').allTextContents(), ['coin.json', 'mug.json', 'hat.json'], 'those that were opened, the last one first');
+  await picture(again, 'empty-again');
+  await again.click('#empty .files button:text-is("hat.json")');
+  await until(again, '(s) => s.document?.path === "hat.json"');
+}));
 
 test('typed places, Move to… and quick flicks all come to where the hand was', { skip }, () =>
   withStudio('hat-on-coatrack.json', async (page) => {
@@ -145,24 +152,62 @@ test('typed places, Move to… and quick flicks all come to where the hand was',
     }
   }));
 
-test('an impact is dragged and nailed, and the body turned before it: the nail holds and the turn is met', { skip }, () =>
-  withStudio('mug-on-mark.json', async (page) => {
+for (const { scene, body, held, with: other, pull: [px, py], time, turn: [tx, ty] } of [
+  { scene: 'hat-on-coatrack', body: 'hat', held: 2, with: 1, pull: [-14, 8], time: 0.25, turn: [30, -15] },
+  { scene: 'hat-on-coatrack', body: 'hat', held: 2, with: 1, pull: [-6, 10], time: 0.25, turn: [-20, 10] },
+  { scene: 'mug-on-mark', body: 'mug', held: 2, with: 1, pull: [-10, 4], time: 0.15, turn: [8, -4] },
+]) {
+  test(`an impact of ${body} is dragged by ${px}, ${py} and nailed, and the body turned before it: the nail holds and the turn is met`, { skip }, () =>
+    withStudio(`${scene}.json`, async (page) => {
+      const nth = `(s) => s.motion.impacts.find((i) => i.pairs.some(([a, b]) => a === ${other} && b === ${held})).point`;
+      await page.click('#nail-on-release');
+      const from = await screenOf(page, await state(page, nth)), nails = await state(page, '(s) => s.document.nails.length');
+      await pullSlowly(page, from, [from[0] + px, from[1] + py]);
+      const target = await state(page, '(s) => s.gesture.target');
+      await letGo(page);
+      await until(page, `(s) => s.document.nails.length === ${nails + 1}`);
+      await picture(page, `${body}-impact-nailed`);
+      assert.deepEqual(await state(page, '(s) => { const nail = s.document.nails.at(-1); return [s.motion.reached, nail.met, typeof nail.constraint.at]; }'), [true, true, 'object']);
+      assert.ok(apart(await state(page, nth), target) <= 1e-3, `the contact is at ${await state(page, nth)}, not at ${target}`);
+      await page.click('#nail-on-release');
+      await page.click('#tool-turn');
+      const [x, y] = await place(page, body, time);
+      await pullSlowly(page, [x, y], [x + tx, y + ty]);
+      await letGo(page);
+      await picture(page, `${body}-turned`);
+      const [reached, turn, nail, why] = await state(page, '(s) => [s.motion.reached, s.motion.turn, s.document.nails.at(-1), s.card?.message]');
+      assert.ok(reached && turn <= 1e-6, `turned to within ${turn}: ${why}`);
+      assert.ok(nail.met && nail.error <= 1e-6, `the nail is off by ${nail.error} m`);
+    }));
+}
+
+test('the mark of a hat is pulled from the pole of the coatrack to its pegs: the contact comes there, and is nailed', { skip }, () =>
+  withStudio('hat-on-coatrack.json', async (page) => {
+    const nth = '(s) => s.motion.impacts.find((i) => i.bodies.includes(1) && i.bodies.includes(2)).point';
     await page.click('#nail-on-release');
-    const point = await state(page, '(s) => s.motion.impacts.find((i) => i.pairs.some(([a, b]) => a === 1 && b === 2)).point');
-    const from = await screenOf(page, point), nails = await state(page, '(s) => s.document.nails.length');
-    await pullSlowly(page, from, [from[0] - 10, from[1] + 4]);
-    await letGo(page);
-    await until(page, `(s) => s.document.nails.length === ${nails + 1}`);
-    assert.deepEqual(await state(page, '(s) => { const nail = s.document.nails.at(-1); return [nail.met, typeof nail.constraint.at]; }'), [true, 'object']);
-    await page.click('#nail-on-release');
-    await page.click('#tool-turn');
-    const [x, y] = await place(page, 'mug', 0.15);
-    await pullSlowly(page, [x, y], [x + 8, y - 4]);
-    await letGo(page);
-    await picture(page, 'mug-turned');
-    const [reached, turn, nail, why] = await state(page, '(s) => [s.motion.reached, s.motion.turn, s.document.nails.at(-1), s.card?.message]');
-    assert.ok(reached && turn <= 1e-6, `turned to within ${turn}: ${why}`);
-    assert.ok(nail.met && nail.error <= 1e-6, `the nail is off by ${nail.error} m`);
+    for (const peg of [[-0.108, 0, 1.555], [0.054, -0.0935, 1.555]]) {
+      await pullSlowly(page, await screenOf(page, await state(page, nth)), await screenOf(page, peg), 8);
+      const target = await state(page, '(s) => s.gesture.target');
+      assert.ok(Math.hypot(target[0], target[1]) > 0.05, `${target} is on no peg`);
+      await picture(page, `hat-on-peg-${peg[1]}`);
+      await letGo(page);
+      const [reached, why] = await state(page, '(s) => [s.motion.reached, s.card?.message]'), at = await state(page, nth);
+      assert.ok(reached && apart(at, target) <= 1e-3, `the contact is at ${at}, not at ${target}: ${why}`);
+      const nails = await state(page, '(s) => s.document.nails.filter((nail) => nail.on)');
+      assert.ok(nails.length === 1 && nails[0].met && nails[0].error <= 1e-6 && nails[0].constraint.contact, JSON.stringify(nails));
+      if (peg[1] === 0) {  // its nail, along the peg
+        await page.click('#nail-on-release');
+        await page.keyboard.press('Home');  // the handles of the hat are elsewhere then
+        await pullSlowly(page, await screenOf(page, at), await screenOf(page, [-0.1423, 0, 1.5838]), 3);
+        await letGo(page);
+        const [met, error] = await state(page, '(s) => { const nail = s.document.nails.find((one) => one.on); return [nail.met, nail.error]; }');
+        const [x, y] = await state(page, nth);
+        assert.ok(met && error <= 1e-6 && x < at[0] - 0.015 && Math.abs(y) < 0.011, `the nail was dragged, and the contact is at ${[x, y]}`);
+        await page.click('#nail-on-release');
+        await undo(page);
+      }
+      await undo(page);
+    }
   }));
 
 test('a die is dragged after its first bounce, where nothing that varies moves it: its throw may vary then', { skip }, () =>

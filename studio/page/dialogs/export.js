@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Handing on: the motion as a file of another program, which the browser keeps where it keeps downloads.
+
+import { el } from '../dom.js';
+import { dialog } from './ask.js';
+
+/** @typedef {import('../types.js').State} State */
+
+/** What the button says, its format, and whether it can show the motion as it was opened. @type {[string, string, boolean][]} */
+const formats = [
+  ['Page for any browser (.html)', 'html', true], ['Picture with paths (.svg)', 'svg', true], ['glTF, for three.js and others (.glb)', 'glb', false],
+  ['Script for Blender (.py)', 'py', false], ['Table (.csv)', 'csv', false],
+];
+const types = /** @type {Record<string, string>} */ ({ html: 'text/html', svg: 'image/svg+xml', glb: 'model/gltf-binary', py: 'text/x-python', csv: 'text/csv' });
+
+/** The browser keeps it. @param {string} name @param {Blob} blob */
+function keep(name, blob) {
+  const url = URL.createObjectURL(blob);
+  el('a', { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 60000);
+}
+
+/** @param {import('../store.js').Store<State>} store @param {import('../commands.js').Commands} commands
+ * @param {() => Promise<Blob | null>} picture of what is seen */
+export async function exportDialog(store, commands, picture) {
+  const { document, motion, opened } = store.state;
+  if (!document?.open) return;
+  const box = el('input', { type: 'checkbox', checked: motion !== opened && !!opened }), stem = (document.path ?? document.suggested ?? 'motion').replace(/^.*\//, '').replace(/\.json$/, '');
+  const answer = await dialog('Export', [el('div', { class: 'choices' },
+    ...formats.map(([words, format]) => el('button', { type: 'button', class: 'row', onclick: (/** @type {Event} */ event) => close(event, format) }, words)),
+    el('button', { type: 'button', class: 'row', onclick: (/** @type {Event} */ event) => close(event, 'png') }, 'Picture of the view (.png)')),
+  el('label', { class: 'switch' }, box, 'beside the motion as it was opened (.html, .svg)')], (end) => [el('button', { type: 'button', onclick: () => end('') }, 'Cancel')], 'small');
+  if (!answer) return;
+  if (answer === 'png') {
+    const blob = await picture();
+    if (blob) keep(`${stem}.png`, blob);
+    return;
+  }
+  const file = await commands.tell('export', { format: answer, ...(box.checked && formats.some(([, format, compares]) => format === answer && compares) ? { before: true } : {}) });
+  if (file) keep(file.name, new Blob([file.bytes], { type: types[answer] }));
+}
+
+/** @param {Event} event of a button @param {string} format */
+const close = (event, format) => /** @type {HTMLElement} */ (event.target).closest('dialog')?.close(format);

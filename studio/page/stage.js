@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The view with the canvas of marks above it, which draw a state whenever it changes.
+
+import { byId } from './dom.js';
+import { Overlay } from './overlay/overlay.js';
+import { frameView } from './view/framing.js';
+import { View } from './view/view.js';
+
+/** @param {import('./store.js').Store<import('./types.js').State>} store @param {boolean} shadowMap whether high quality may have one
+ * @returns {{view: View, overlay: Overlay, frame: (body: number, anew?: boolean) => void,
+ *    picture: () => Promise<Blob | null>}} `frame`: shows a body, -1: everything; `picture`: what is seen, as a PNG */
+export function makeStage(store, shadowMap) {
+  const canvas = /** @type {HTMLCanvasElement} */ (byId('overlay'));
+  /** @type {Overlay | null} */
+  let marks = null;
+  const view = new View({ host: byId('view'), input: canvas, store, shadowMap, drawn: () => marks?.draw(), resized: (width, height) => marks?.resize(width, height) });
+  const overlay = (marks = new Overlay(canvas, store, view));
+  overlay.resize(view.camera.width, view.camera.height);
+  store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
+  const picture = () => new Promise((/** @type {(blob: Blob | null) => void} */ done) => {
+    const layers = [...byId('view').querySelectorAll('canvas')], both = document.createElement('canvas'), pen = both.getContext('2d');
+    [both.width, both.height] = [Math.max(...layers.map((layer) => layer.width)), Math.max(...layers.map((layer) => layer.height))];
+    view.draw();  // what WebGL drew is there until the end of this task
+    for (const layer of layers) pen?.drawImage(layer, 0, 0, both.width, both.height);
+    both.toBlob(done, 'image/png');
+  });
+  return { view, overlay, picture, frame: (body, anew = false) => frameView(view, store.state, body, anew) };
+}
