@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// All that converts between C++ and Python, for every file alike: where the conversion of a type is not included, the
+// compiler is content, one of two definitions is linked, and calls fail with std::bad_cast.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+
+namespace carom::python {
+
+namespace nb = nanobind;
+
+/// str() of an object, and of a number.
+inline std::string pythonText(nb::handle object) { return nb::cast<std::string>(nb::str(object)); }
+inline std::string numberText(double number) { return pythonText(nb::float_(number)); }
+
+}  // namespace carom::python

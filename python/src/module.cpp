@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The module carom._carom. A file for each part of the API; python/carom/ has what is written in Python.
+
+#include "carom/version.h"
+#include "python/src/session.hpp"
+#include "python/src/errors.hpp"
+#include "python/src/motion.hpp"
+#include "python/src/scene.hpp"
+
+NB_MODULE(_carom, module) {
+  using namespace carom::python;
+  module.doc() = "Exact event-driven rigid bodies, with derivatives and edits.";
+  module.attr("version") = carom::kVersion;
+  registerErrors();
+  bindScene(module);
+  bindMotion(module);
+  bindSimulate(module);
+  bindDerivatives(module);
+  bindEdits(module);
+  bindSessions(module);
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/simulate/simulate.h"
+
+#include <exception>
+#include <functional>
+
+#include "python/src/motion.hpp"
+
+namespace carom::python {
+namespace {
+
+using Progress = std::function<bool(const SimulateProgress&)>;
+
+/// Looks for Ctrl-C while a simulation runs, and tells its progress. What is raised meanwhile stops it.
+class Watch {
+ public:
+  Watch(SimulateOptions& options, const nb::object& progress) : progress_(progress) {
+    options.stop = stop_.get_token();
+    options.progress = [this](const SimulateProgress& at) { look(at); };
+  }
+  /// After the simulation, with the GIL.
+  void finish() {
+    if (raised_) std::rethrow_exception(raised_);
+  }
+
+ private:
+  void look(const SimulateProgress& at) {
+    const nb::gil_scoped_acquire held;
+    try {
+      if (PyErr_CheckSignals() != 0) throw nb::python_error();
+      if (!progress_.is_none() && progress_(at).is(nb::bool_(false))) stop_.request_stop();
+    } catch (...) {
+      raised_ = std::current_exception();
+      stop_.request_stop();
+    }
+  }
+
+  const nb::object& progress_;
+  std::stop_source stop_;
+  std::exception_ptr raised_;
+};
+
+PyMotion simulated(const PyScene& scene, std::optional<double> duration, std::size_t impact_limit,
+                   std::optional<std::size_t> step_limit, std::optional<double> lowest_bounce, bool refuse_overlaps,
+                   bool record_events, const nb::object& progress) {
+  SimulateOptions options;
+  options.impact_limit = impact_limit;
+  if (step_limit) options.step_limit = *step_limit;
+  options.lowest_bounce = lowest_bounce;
+  options.refuse_overlaps = refuse_overlaps;
+  options.record_events = record_events;
+  Watch watch(options, progress);
+  PyMotion motion = [&] {
+    const nb::gil_scoped_release free;
+    SceneContent::Contacts contacts(*scene.content);
+    return motionOf(scene, simulate(scene.scene(), *contacts, duration.value_or(scene.document().duration), options));
+  }();
+  watch.finish();
+  return motion;
+}
+
+constexpr const char* kSimulateText =
+    "Simulates a scene event by event up to `duration` seconds (default: that of the scene).\n\n"
+    "The same scene gives the same motion, bit for bit. A motion that cannot be continued ends early: its status and "
+    "message say why. Ctrl-C raises KeyboardInterrupt.\n\n"
+    "impact_limit: limit on events of all kinds. step_limit: work limit in counted steps (a step takes roughly one to "
+    "several microseconds). lowest_bounce: restitution is 0 for bounces lower than this, m, and the bodies stay in "
+    "contact; 0: no persistent contact. refuse_overlaps: raise InputError if bodies overlap at the start. "
+    "record_events=False: paths alone, in less than half of the memory; they cannot be differentiated. progress: called "
+    "every few thousand steps; if it returns False, the motion ends with the status 'stopped'.\n\n"
+    "Raises InputError for invalid input.";
+
+}  // namespace
+
+PyMotion motionOf(const PyScene& scene, Motion motion) {
+  return motionOf(scene, std::make_shared<const Motion>(std::move(motion)));
+}
+
+PyMotion motionOf(const PyScene& scene, std::shared_ptr<const Motion> motion) {
+  return {scene, std::make_shared<MotionContent>(std::move(motion))};
+}
+
+void bindSimulate(nb::module_& module) {
+  nb::class_<SimulateProgress>(module, "SimulateProgress", "Progress of a simulation.")
+      .def_ro("time", &SimulateProgress::time, "s, the motion is known up to here")
+      .def_ro("impacts", &SimulateProgress::impacts, "So far.")
+      .def_ro("steps", &SimulateProgress::steps, "Counted so far.");
+  module.def("simulate", &simulated, nb::arg("scene"), nb::arg("duration") = nb::none(), nb::kw_only(),
+             nb::arg("impact_limit") = SimulateOptions().impact_limit, nb::arg("step_limit") = nb::none(),
+             nb::arg("lowest_bounce") = nb::none(), nb::arg("refuse_overlaps") = false, nb::arg("record_events") = true,
+             nb::arg("progress") = nb::none(),
+             nb::sig("def simulate(scene: Scene, duration: float | None = None, *, impact_limit: int = 20000, "
+                     "step_limit: int | None = None, lowest_bounce: float | None = None, refuse_overlaps: bool = False, "
+                     "record_events: bool = True, progress: collections.abc.Callable[[SimulateProgress], bool | None] | "
+                     "None = None) -> Motion"),
+             kSimulateText);
+}
+
+}  // namespace carom::python

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the Python package share."""
+
+import pathlib
+
+import pytest
+
+import carom
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENES = ROOT / "examples" / "scenes"
+
+# A ball that bounces on a floor, from the README.
+BALL = {
+    "carom": 1,
+    "gravity": [0, 0, -9.81],
+    "duration": 2,
+    "materials": {"rubber": {"elasticity": 0.8, "friction": 0.5}},
+    "bodies": [
+        {"name": "floor", "fixed": True, "material": "rubber", "shape": {"plane": {"normal": [0, 0, 1], "offset": 0}}},
+        {"name": "ball", "material": "rubber", "mass": 0.06, "shape": {"sphere": {"radius": 0.03}},
+         "position": [0, 0, 1], "velocity": [2, 0, 1], "angular_velocity": [0, 10, 0]},
+    ],
+}
+
+
+@pytest.fixture
+def ball() -> carom.Scene:
+    return carom.Scene(BALL)

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: MIT
+"""Every public name of C++ has one in Python, or a reason why it has none."""
+
+import inspect
+import re
+
+import pytest
+from conftest import ROOT
+
+import carom
+
+RENAMED = {
+    "LastingContact": "PersistentContact",  # the field's word
+    "lastingContacts": "Motion.contacts",
+    "StateSeed": "Seed",
+    "Document": "Scene",
+    "readDocument": "Scene.read",
+    "parseDocument": "Scene.__init__",
+    "writeDocument": "Scene.to_text",
+    "saveDocument": "Scene.write",
+    "FileRepair": "Scene.repairs",
+    "SceneDerivative": "SceneGradient",
+    "exportMotion": "Motion.export",
+    "motionText": "Motion.text",
+    "csvText": "Motion.text",
+    "svgText": "Motion.text",
+    "gltfText": "Motion.text",
+    "blenderText": "Motion.text",
+    "Margins": "Event.grazing",
+    "Participant": "Event.bodies",
+    "PairCoefficients": "Contact.friction",
+    "ContactPoint": "Contact.point",
+    "FeaturePair": "Contact.features",
+    "describeOverlap": "StartOverlap.__str__",
+    "MotionFunction": "Edit.require",
+    "RowReading": "Reading",
+    "Hit": "Edit.hit",
+    "Grip": "EditSession.grab",
+    "NailTargets": "EditSession.nail",
+    "NailId": "NailState.id",
+    "NailAt": "EditSession.release_nailed",
+    "AlsoVary": "EditSession.grab",
+    "MeasureFrom": "EditSession.__init__",
+    "SessionOptions": "EditSession.__init__",
+    "SessionObstacle": "SessionUpdate.obstacle",
+    "sessionNumbers": "EditSession.numbers",
+    "documentOf": "EditSession.scene",
+    "saveJournal": "EditSession.write_journal",
+    "SimulateOptions": "simulate",
+    "EditOptions": "Edit.solve",
+    "Effort": "Edit.solve",
+    "SequencePolicy": "Edit.solve",
+    "SecondDerivatives": "Edit.solve",
+    "ExportOptions": "Motion.export",
+    "GltfOptions": "Motion.export",
+    "Instant": "Seed",
+    "SceneGradient": "SceneGradient",
+    "importGltf": "import_gltf",
+    "Imported": "import_gltf",
+    "nthImpact": "nth_impact",
+    "atRest": "at_rest",
+    "atLeast": "at_least",
+    "atMost": "at_most",
+}
+
+WORDS = "an enumeration: its words are texts in Python"
+DICT = "scenes are written as documents: a dict has it"
+CONTACTS = "the interface of collision detection, for sources written in C++"
+INSIDE = "of the integrator and its derivatives; a motion is read by states"
+SECOND = "second derivatives are used by edits alone so far"
+EVALUATOR = "the evaluator for other optimisers is not in Python yet"
+CHECKER = "the checker of derivatives of one's own rows is not in Python yet"
+REPLAY = "journals are replayed by the command"
+CHEAP = "for C++ programs that draw or read by themselves"
+CONSTANT = "a constant that the page or the docstring says"
+LEFT_OUT = {
+    **dict.fromkeys(["EditStatus", "EventKind", "ImpactMode", "MotionStatus", "TransitionCause", "SessionStage", "ArcKind",
+                     "Tier", "Law", "GltfKeys", "RatesWanted", "nameOf", "branchOf"], WORDS),
+    **dict.fromkeys(["Body", "Material", "Inertia", "Tilt", "CollisionFilter", "Combine", "Shape", "Sphere", "Box", "Plane",
+                     "Capsule", "Cylinder", "Cone", "Hull", "Mesh", "Compound", "CompoundPart", "Surface", "Target",
+                     "Constraint", "validate", "nailConstraint"], DICT),
+    **dict.fromkeys(["ContactSource", "ContactGeometry", "ContactJacobian", "ContactMotion", "PairTangent", "PlacedContact",
+                     "PersistentFeatures", "PredictedImpact", "kSearchedSoFar", "OdeContacts", "Pose", "PoseRate", "WorkCount",
+                     "WorkEnded", "BodyGeometry", "FeatureLimit", "mayCollide"], CONTACTS),
+    **dict.fromkeys(["Arc", "State", "StateDerivative", "Kinematics", "BodyModel", "BodyModelDerivative", "BodyDerivative",
+                     "MaterialDerivative", "RotationSensitivity", "ArcSensitivity", "DerivativeTape", "WorldLine", "BodyPlan",
+                     "Plan", "Asked", "makePlan", "lawOf", "combine", "modelOf", "modelTangent", "modelPullback",
+                     "startState", "startTangent", "startPullback", "centerOfMass", "centerOfMassRates", "toBodyState",
+                     "flightTangent", "flightPullback", "chained", "turned", "isZero", "SolidProperties", "SolidRate",
+                     "ShapeKind", "shapeKinds", "kindOf", "FarthestPoint", "FarthestFrom", "farthestFrom"], INSIDE),
+    **dict.fromkeys(["SecondOrder", "SeedRates", "ReadingDirection", "secondOrder", "hasSecondOrder"], SECOND),
+    **dict.fromkeys(["MotionFunctionCheck", "checkMotionFunction"], CHECKER),
+    **dict.fromkeys(["NlpEvaluator", "NlpPoint", "NlpVariable", "NlpRow", "NlpJacobian", "NlpGradient"], EVALUATOR),
+    **dict.fromkeys(["Free", "TargetNumber", "WantedVector", "targetOf"], "numbers and None of a nail do it"),
+    **dict.fromkeys(["SessionJournal", "SessionGesture", "DragTarget", "SessionReplay", "ReplayedGesture", "JournalDocument",
+                     "readJournal", "parseJournal", "writeJournal", "replayJson", "SessionHistory", "SessionHistoryNail",
+                     "SessionHistoryPoint", "SessionContent"], REPLAY),
+    **dict.fromkeys(["bodyIndex", "materialIndex", "materialIndexOf", "materialOf"], "Scene.bodies.index does it"),
+    **dict.fromkeys(["DisplayMesh", "DisplayTrack", "displayMesh", "displayTrack",
+                     "TriangleSoup", "readMeshFile", "readPointsFile", "meshSurface", "assembleSurface", "convexHull",
+                     "parseGltfScene", "writeDocumentIn", "saveWithMeshes", "exportExtensions", "lastFrame",
+                     "describeOverlapAtStart", "refuseOverlap", "describeChanges", "sequenceChanges",
+                     "wholeSequenceChanges", "nailStateIn"], CHEAP),
+    **dict.fromkeys(["Vec2", "Vec3", "Mat3", "Quat", "skew", "unskew"], "NumPy's arrays"),
+    **dict.fromkeys(["MotionAlong", "simulateAlong"], "along a given sequence: of the solver's inside so far"),
+    "any": "None",
+}
+
+# Members of classes, and fields of options that are arguments in Python.
+CLASSES = {
+    "Motion": ("adjoint/motion/motion.h", "Motion", {
+        "stateAt": "state_at", "modelOf": None, "impacts": "impacts", "taken_over": None, "plan": None, "models": None, "geometry": None,
+        "world_lines": None, "arcAt": None, "describeEvent": None}),
+    "Event": ("adjoint/motion/motion.h", "Event", {
+        "border": None, "participants": "bodies", "margins": "grazing", "find": None, "touches": None, "meets": None}),
+    "Contact": ("adjoint/motion/motion.h", "Contact", {
+        "a": "bodies", "b": "bodies", "at": "point", "tilt_a": None, "tilt_b": None, "pair": "friction", "kept": None}),
+    "Nail": ("editing/nail.h", "Nail", {}),
+    "Edit": ("editing/edit.h", "Edit", {"evaluator": None, "constraints": None}),
+    "EditResult": ("editing/edit_result.h", "EditResult", {}),
+    "Certificate": ("editing/certificate.h", "Certificate", {"reliability": None, "signature_step": None}),
+    "EditSession": ("editing/session.h", "EditSession", {
+        "constraints": "scene", "constraintOf": None, "nailStates": "nails", "setNail": None, "grabbedPlace": None,
+        "grabbedOrientation": None, "setContent": None, "content": None, "options": None, "history": None,
+        "journal": "write_journal"}),
+    "SessionUpdate": ("editing/session_update.h", "SessionUpdate", {"scene": "motion"}),
+    "MotionTangent": ("adjoint/derivative/tangent.h", "MotionTangent", {"start": None, "model": None}),
+    "Reliability": ("adjoint/derivative/derivative_tape.h", "Reliability", {
+        "frictions": "unreliable_for", "beginning": "unreliable_for", "seams": "unreliable_for",
+        "friction_message": "sentences", "beginning_message": "sentences", "seam_message": "sentences", "pass": None,
+        "passFriction": None, "passArc": None, "askFriction": None, "askVelocity": None, "askSpin": None,
+        "askPlace": None}),
+    "SimulateOptions": ("adjoint/simulate/simulate.h", "simulate", {
+        "asked": None, "stop": "progress", "stop_when": None, "least_duration": None, "baseline": None, "given": None}),
+    "EditOptions": ("editing/edit_options.h", "Edit.solve", {"time_budget_seconds": "time_budget", "stop": "progress"}),
+    "Control": ("editing/control.h", "Control", {
+        "notes": None, "within": "min", "atLeast": "min", "atMost": "max", "only": "components", "weighted": "weight"}),
+}
+
+
+def snake(name):
+    return re.sub(r"(?<=[a-z])([A-Z])", r"_\1", name).lower()
+
+
+def public_headers():
+    for folder in ("adjoint", "ode_bridge", "editing", "formats"):
+        yield from sorted((ROOT / folder).rglob("*.h"))
+
+
+def names_of(text):
+    """Types, functions and constants directly in namespace carom: the sources are formatted."""
+    spaces, names = [], []
+    text = re.sub(r"^namespace \w+ \{\n(?:(?:struct|class) \w+;.*\n)+\}.*\n", "", text, flags=re.MULTILINE)  # declared only
+    for line in text.splitlines():
+        if match := re.match(r"namespace ([\w:]+) \{", line):
+            spaces.append(match[1])
+        elif re.match(r"\}  // namespace", line):
+            spaces.pop()
+        elif spaces == ["carom"] and not line.startswith(" "):
+            match = (re.match(r"(?:struct|class|enum class|enum) (\w+)(?: final)?(?: :[^:].*)? \{", line)
+                     or re.match(r"using (\w+) = ", line)
+                     or re.match(r"inline constexpr .*?(\w+)(?: =|\{)", line)
+                     or re.match(r"(?:\[\[\w+\]\] |inline )*[A-Za-z][\w:<>, ]*[&*]? [&*]?(\w+)\(", line))
+            if match:
+                names.append(match[1])
+    return names
+
+
+def members_of(path, name):
+    text = (ROOT / path).read_text()
+    body = re.search(rf"^(?:struct|class) {name}(?: final)?(?: : [^{{]*)? \{{\n(.*?)^\}};", text, re.DOTALL | re.MULTILINE)[1]
+    body = body.split("\n private:")[0]
+    members = []
+    for line in body.splitlines():
+        if not re.match(r"  \w", line) or re.match(r"  (struct|enum|friend|template|using|explicit|static)", line):
+            continue
+        match = (re.match(rf"  [\w:<>,&* ]+?[ &*](?!{name}\b)(\w+)\(", line)
+                 or re.match(r"  [\w:<>,&*() ]+[ &*](\w+)(?: =.*|\{.*)?;", line))
+        if match and match[1] not in ("operator", "noexcept", name):
+            members.append(match[1])
+    return members
+
+
+def found(path):
+    """The object that a dotted name of Python stands for; None if there is none."""
+    value = carom
+    for part in path.split("."):
+        value = getattr(value, part, None)
+    return value
+
+
+def test_every_public_name():
+    wrong, seen = [], set()
+    for path in public_headers():
+        for name in names_of(path.read_text()):
+            seen.add(name)
+            if name.endswith("Of") and name not in LEFT_OUT and name not in RENAMED:
+                continue  # a template: its instance for doubles has a name of its own
+            if re.match(r"k[A-Z]", name):
+                continue  # a constant
+            there = found(RENAMED.get(name, name if name[0].isupper() else snake(name)))
+            if there is None and name not in LEFT_OUT:
+                wrong.append(f"{name} of {path.relative_to(ROOT)} is neither in Python nor left out with a reason")
+            if there is not None and name in LEFT_OUT:
+                wrong.append(f"{name} is in Python, and left out: {LEFT_OUT[name]}")
+    wrong += [f"{name} is left out, and no public name" for name in LEFT_OUT if name not in seen]
+    wrong += [f"{name} is renamed, and no public name" for name in RENAMED if name not in seen]
+    assert not wrong, "\n".join(wrong)
+    assert len(seen) > 150
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_every_member(name):
+    path, python, others = CLASSES[name]
+    owner = found(python)
+    members = members_of(path, name)
+    assert len(members) >= 3
+    if inspect.isclass(owner):
+        there = set(dir(owner))
+    else:
+        there = set(re.findall(r"(\w+):", owner.__doc__.splitlines()[0]))
+    missing = []
+    for member in members:
+        stands_for = others.get(member, snake(member))
+        if stands_for is not None and stands_for not in there and stands_for + "_" not in there:
+            missing.append(f"{name}::{member}")
+    assert not missing
+    assert [member for member in others if member not in members] == []
+
+
+def test_names_are_documented():
+    for name in carom.__all__:
+        value = getattr(carom, name)
+        if name == "__version__":
+            continue
+        assert value.__doc__, name
+        if inspect.isclass(value) and not issubclass(value, Exception):
+            for member in vars(value):
+                if not member.startswith("_"):
+                    assert getattr(value, member).__doc__, f"{name}.{member}"
+                    assert member == snake(member), f"{name}.{member}"
+    assert sorted(set(carom.__all__)) == sorted(carom.__all__)
