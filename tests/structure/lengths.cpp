@@ -11,7 +11,7 @@ namespace {
 constexpr long kLongestFile = 450, kLongestProductFile = 350, kLongestFunction = 60;
 
 bool inProduct(const std::string& path) {
-  static const std::regex product("(adjoint|ode_bridge|editing|formats|cli|studio)/.*");
+  static const std::regex product("(adjoint|ode_bridge|editing|formats|cli|studio|python)/.*");
   return std::regex_match(path, product);
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-const std::vector<std::string> kFolders = {"adjoint", "ode_bridge", "editing", "formats", "cli",
-                                           "studio",  "examples",   "tests",   "bench",   "fuzz"};
+const std::vector<std::string> kFolders = {"adjoint", "ode_bridge", "editing", "formats", "cli",  "studio",
+                                           "python",  "examples",   "tests",   "bench",   "fuzz"};
 
 // Which folders of the project a library may include; a folder that is not listed may include all.
 const std::map<std::string, std::vector<std::string>> kMayInclude = {
@@ -27,6 +27,7 @@ const std::map<std::string, std::vector<std::string>> kMayInclude = {
     {"editing", {"editing", "adjoint"}},
     {"formats", {"formats", "editing", "ode_bridge", "adjoint"}},
     {"studio", {"studio", "formats", "editing", "ode_bridge", "adjoint"}},
+    {"python", {"python", "formats", "editing", "ode_bridge", "adjoint"}},
 };
 
 // A library that only some files may include. The patterns match whole include names and whole paths.
@@ -54,9 +55,10 @@ const std::vector<Confined>& confinedLibraries() {
        "formats/*.cpp, studio/*.cpp and tests"},
       {"TinyGLTF", std::regex("(.*/)?tiny_gltf\\.h"), std::regex("(formats|tests|fuzz)/.*\\.cpp"),
        "formats/*.cpp, tests and fuzz"},
+      {"nanobind", std::regex("nanobind/.*"), std::regex("python/src/.*"), "python/src"},
       {"Boost.Multiprecision", std::regex("boost/multiprecision/.*"), std::regex("tests/.*"), "tests"},
-      {"Boost", std::regex("boost/(?!multiprecision/).*"), std::regex("(studio/net(_stream)?\\.(cpp|hpp)|tests/.*)"),
-       "studio/net.cpp, net_stream.hpp and tests"},
+      {"Boost", std::regex("boost/(?!multiprecision/).*"), std::regex("(studio/(net|net_stream|deflate)\\.(cpp|hpp)|tests/.*)"),
+       "studio/net.cpp, net_stream.hpp, deflate.cpp and tests"},
   };
   return rows;
 }
@@ -94,6 +96,16 @@ std::vector<std::string> inexactCalls(const std::string& path, const std::string
     for (std::sregex_iterator it(code.begin(), code.end(), rule), end; it != end; ++it)
       found.push_back(path + " has " + it->str() + ", whose bits differ by machine; adjoint/numeric/elementary.hpp has its like");
   }
+  return found;
+}
+
+// What a kind of trajectory alone can do is asked of Trajectory.
+std::vector<std::string> trajectoryCasts(const std::string& path, const std::string& text) {
+  static const std::regex cast("(static|dynamic|reinterpret)_(pointer_)?cast<[^>]*(Trajectory|ConstrainedPath|ClosedPath|Flight)\\b[^>]*>");
+  const std::string code = withoutComments(text);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(code.begin(), code.end(), cast), end; it != end; ++it)
+    found.push_back(path + " has " + it->str() + "; what one kind of trajectory can do is asked of Trajectory");
   return found;
 }
 
@@ -155,7 +167,7 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
       found.push_back(path + " includes " + include + "; " + folder + "/ must not know " + target + "/");
     }
   }
-  for (const auto& more : {inexactCalls(path, text), layerViolations(path, text), privateIncludes(path, text),
+  for (const auto& more : {inexactCalls(path, text), trajectoryCasts(path, text), layerViolations(path, text), privateIncludes(path, text),
                            privateNamesInCarom(path, text), lengthViolations(path, text)})
     found.insert(found.end(), more.begin(), more.end());
   return found;

@@ -43,6 +43,14 @@ TEST(Structure, CirclesAreFound) {
   EXPECT_EQ(circleViolations(sources)[0], "a circle of 4 rooms: editing/a editing/b editing/c editing/d");
 }
 
+TEST(Structure, TrajectoriesAreNotCast) {
+  const auto found = [](const std::string& code) { return violations("adjoint/derivative/a.cpp", code).size(); };
+  EXPECT_EQ(found("auto p = static_cast" "<const ConstrainedPath*>(arc.shared().get());\n"), 1u);
+  EXPECT_EQ(found("auto& p = dynamic_cast" "<const adjoint_detail::ClosedPath&>(t);\n"), 1u);
+  EXPECT_EQ(found("auto p = std::static_pointer_cast" "<ConstrainedPath>(t);\n"), 1u);
+  EXPECT_EQ(found("auto n = static_cast<int>(path.size());\n"), 0u);
+}
+
 // The rules themselves: planted violations are found, what is allowed is not reported.
 struct Planted {
   const char* path;
@@ -118,6 +126,11 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"ode_bridge/world.cpp", "\"formats/base/document.h\"", false},
         Planted{"formats/base/document.h", "\"editing/control.h\"", true},
         Planted{"formats/documents/read.cpp", "\"cli/options.h\"", false},
+        Planted{"python/src/edit.cpp", "<nanobind/nanobind.h>", true},
+        Planted{"editing/edit.cpp", "<nanobind/nanobind.h>", false},
+        Planted{"python/src/edit.cpp", "\"editing/edit.h\"", true},
+        Planted{"python/src/edit.cpp", "\"editing/problem/edit_problem.hpp\"", false},
+        Planted{"python/src/edit.cpp", "\"cli/loading.h\"", false},
         Planted{"cli/main.cpp", "\"ode_bridge/ode_contacts.h\"", true}));
 
 TEST(Structure, IncludesAreReadAsTheCompilerReadsThem) {
