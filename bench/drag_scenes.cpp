@@ -78,7 +78,7 @@ DragCase boxAtTheWall() {
 DragCase nailedBox() {
   DragCase c = oneBox();
   c.name = "box with nail";
-  c.nails = {heldConstraint("box", 0.0, {.position = Vec3(0, 0, 1)})};
+  c.nails = {nailConstraint("box", 0.0, {.position = Vec3(0, 0, 1)})};
   c.grip.orientation = true;
   c.at = 0.9;
   return c;

@@ -15,6 +15,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
+#include "editing/problem_of.hpp"
 #include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
@@ -31,7 +32,7 @@ struct Case {
       : document(readDocument(projectFile("examples/scenes/") + name + ".json")),
         contacts(document.scene),
         edit(document.scene, contacts, document.duration, document.controls, document.constraints),
-        problem(edit.problem()),
+        problem(problemOf(edit)),
         values(problem.controls.startValues()) {}
 
   Motion motion() { return simulate(document.scene, contacts, problem.horizon, {20000, problem.asked}); }

@@ -14,7 +14,7 @@ endif()
 add_compile_options(-ffp-contract=off)
 
 # Eigen says itself where it takes two doubles at a time; a compiler that looks for more of it takes a tenth longer and
-# finds nothing that is quicker (decision 16).
+# finds nothing that is quicker (docs/decisions.md).
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   add_compile_options($<$<CONFIG:Release>:-fno-vectorize> $<$<CONFIG:Release>:-fno-slp-vectorize>)
 endif()

@@ -2,6 +2,7 @@
 # Ipopt, which is opened when the first edit is solved and not linked: IPOPT_INCLUDE_DIRS, IPOPT_VERSION, and
 # CAROM_IPOPT_RUNTIME, the file to open.
 
+find_package(PkgConfig REQUIRED)
 pkg_check_modules(IPOPT REQUIRED ipopt)
 find_library(CAROM_IPOPT_LIBRARY ipopt HINTS ${IPOPT_LIBRARY_DIRS} REQUIRED)
 mark_as_advanced(CAROM_IPOPT_LIBRARY)

@@ -2,7 +2,8 @@
 # cmake -DSOURCE=... -DBUILD=... -DWORK=... -DCOMPILER=... -P try_installed.cmake
 # Does what somebody does who finds carom installed: installs the build BUILD under WORK, builds examples/consumer and the
 # C++ program of the README against it, word for word, and runs both; builds that program with what pkg-config says, too.
-# Every installed header compiles alone, and all of them in one file. What goes with the command is there.
+# Every installed header compiles alone, and all of them in one file. What goes with the command is there. Parts of the
+# sources are configured alone, and as a part of another project.
 
 function(run)
   execute_process(COMMAND ${ARGV} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
@@ -41,18 +42,33 @@ foreach(file page/index.html page/main.js page/view/view.js scenes/mug.json asse
     message(FATAL_ERROR "share/carom/studio/${file} was not installed")
   endif()
 endforeach()
-set(expected "three.js is not installed .*: run scripts/setup studio")
+function(studio_says command expected)
+  execute_process(COMMAND ${command} studio --no-open nowhere.json
+    OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
+  if(NOT result EQUAL 1 OR NOT output MATCHES "${expected}")
+    message(FATAL_ERROR "${command} studio ended with ${result} and said:\n${output}\nexpected: ${expected}")
+  endif()
+endfunction()
+
+# From a build as it is beside its sources: its share leads there, and to three.js once that is installed.
+set(built ${WORK}/built/share/carom/studio)
+file(MAKE_DIRECTORY ${built})
+file(COPY ${BUILD}/carom DESTINATION ${WORK}/built)
+file(CREATE_LINK ${SOURCE}/studio/page ${built}/page SYMBOLIC)
+file(CREATE_LINK ${WORK}/nowhere ${built}/three SYMBOLIC)
+set(without_npm "three.js is not installed .*: run scripts/setup studio in the sources of carom")
+studio_says(${WORK}/built/carom "${without_npm}")
 if(EXISTS ${SOURCE}/studio/page/node_modules/three/LICENSE)
-  set(expected "found no file 'nowhere.json'")
+  file(REMOVE ${built}/three)
+  file(CREATE_LINK ${SOURCE}/studio/page/node_modules/three ${built}/three SYMBOLIC)
+  studio_says(${WORK}/built/carom "found no file 'nowhere.json'")
+  studio_says(${WORK}/installed/bin/carom "found no file 'nowhere.json'")
   if(NOT EXISTS ${WORK}/installed/share/carom/studio/three/LICENSE)
     message(FATAL_ERROR "the licence of three.js was not installed")
   endif()
+  file(REMOVE_RECURSE ${WORK}/installed/share/carom/studio/three)
 endif()
-execute_process(COMMAND ${WORK}/installed/bin/carom studio --no-open nowhere.json
-  OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
-if(NOT result EQUAL 1 OR NOT output MATCHES "${expected}")
-  message(FATAL_ERROR "carom studio ended with ${result} and said:\n${output}\nexpected: ${expected}")
-endif()
+studio_says(${WORK}/installed/bin/carom "${without_npm}")
 
 # Headers: the public ones alone, each of which needs no other; Eigen's, which nearly all include, are compiled once.
 set(include ${WORK}/installed/include/carom)
@@ -71,6 +87,18 @@ foreach(header IN LISTS headers)
   string(APPEND all "#include \"${header}\"\n")
 endforeach()
 file(WRITE ${WORK}/headers/alone/all.cpp "${all}int main() { return 0; }\n")
+# By <carom/...>, beside the paths of before; macros that say the version.
+file(WRITE ${WORK}/headers/alone/umbrella.cpp "#include <carom/version.h>
+#if CAROM_VERSION < 100 || CAROM_VERSION != 10000 * CAROM_VERSION_MAJOR + 100 * CAROM_VERSION_MINOR + CAROM_VERSION_PATCH
+#error CAROM_VERSION
+#endif
+#include <carom/editing/edit.h>
+#include \"editing/edit.h\"
+#include <carom/carom.h>
+carom::Edit* edit = nullptr;
+carom::OdeContacts* contacts = nullptr;
+carom::Document* document = nullptr;
+")
 file(WRITE ${WORK}/headers/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
 project(headers LANGUAGES CXX)
 find_package(carom REQUIRED COMPONENTS formats)
@@ -98,6 +126,23 @@ endif()
 ")
 run(${CMAKE_COMMAND} -S ${WORK}/component -B ${WORK}/component/build -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER}
   -DCMAKE_PREFIX_PATH=${WORK}/installed)
+
+# Of the sources alone: adjoint needs Eigen, and no other package is looked for; as a part of another project carom builds
+# neither tests nor benchmarks.
+set(none "")
+foreach(package Boost CLI11 GTest PkgConfig TBB TinyGLTF benchmark nlohmann_json valijson)
+  list(APPEND none -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/adjoint_alone -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER}
+  -DCAROM_ODE_BRIDGE=OFF -DCAROM_EDITING=OFF ${none})
+file(WRITE ${WORK}/parent/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(parent LANGUAGES CXX)
+add_subdirectory(${SOURCE} carom EXCLUDE_FROM_ALL)
+if(CAROM_TESTS OR CAROM_BENCH OR TARGET carom_bench OR NOT TARGET carom::carom)
+  message(FATAL_ERROR \"tests or benchmarks are built in another project\")
+endif()
+")
+run(${CMAKE_COMMAND} -S ${WORK}/parent -B ${WORK}/parent/build -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER})
 
 file(READ ${SOURCE}/README.md readme)
 if(NOT readme MATCHES "```cpp\n(#include[^`]*)```")

@@ -7,7 +7,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/adjoint.h"
-#include "adjoint/held/held_path.hpp"
+#include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/simulate/simulate.h"
 #include "bench/charts/chart.h"
@@ -17,7 +17,7 @@
 namespace carom::charts {
 namespace {
 
-using adjoint_detail::HeldPath;
+using adjoint_detail::ConstrainedPath;
 
 constexpr int kDice = 500;
 constexpr double kAsked = 60;  // s; a die rests long before
@@ -37,7 +37,7 @@ Counts countsOf(const Motion& motion) {
   Counts counts;
   for (const Event& event : motion.events) counts.impacts += event.kind != EventKind::transition;
   for (const Arc& arc : motion.world_lines[0].arcs)
-    if (const auto* path = static_cast<const HeldPath*>(arc.integrated()))
+    if (const auto* path = arc.trajectory().constrained())
       ++counts.paths, counts.steps += static_cast<int>(path->steps());
   return counts;
 }
@@ -55,9 +55,9 @@ void impactsAgain(const Motion& motion) {
 // All its paths once more, as far as they are known.
 void pathsAgain(const Motion& motion) {
   for (const Arc& arc : motion.world_lines[0].arcs) {
-    const auto* path = static_cast<const HeldPath*>(arc.integrated());
+    const auto* path = arc.trajectory().constrained();
     if (!path) continue;
-    HeldPath again(path->scene(), path->contacts(), path->redundant(), path->guards(), path->stateAt(path->start()),
+    ConstrainedPath again(path->scene(), path->contacts(), path->redundant(), path->guards(), path->stateAt(path->start()),
                    path->start(), motion.duration);
     again.extendTo(path->knownUntil());
   }

@@ -11,6 +11,7 @@
 #include "bench/edits/dice.h"
 #include "bench/edits/tasks.h"
 #include "editing/problem/hessian.hpp"
+#include "editing/problem/jacobian.hpp"
 #include "editing/solve/edit_program.hpp"
 #include "editing/solve/ipopt_solver.hpp"
 #include "ode_bridge/ode_contacts.h"
@@ -115,9 +116,9 @@ class Trial {
         [&] {
           EditOptions options;
           options.second_derivatives = source;
-          EditSearch search(problem_, options);
-          const EditPointPtr start = search.evaluateStart();
-          EditSearch smooth = search.branch({{}, start}, true);
+          EditEvaluator evaluator(problem_, options);
+          const EditPointPtr start = evaluator.evaluateStart();
+          EditEvaluator smooth = evaluator.branch({{}, start}, true);
           EditProgram program(smooth, start->changes, problem_.constraints.equations(), nullptr);
           Patient patient(program);
           SolverOptions solver;
@@ -134,8 +135,8 @@ class Trial {
   // Seconds of a simulation, a Jacobian and a Hessian of all rows at the start.
   std::vector<double> pieces() const {
     EditOptions options;
-    EditSearch search(problem_, options);
-    const EditPointPtr start = search.evaluateStart();
+    EditEvaluator evaluator(problem_, options);
+    const EditPointPtr start = evaluator.evaluateStart();
     const Eigen::VectorXd weights = Eigen::VectorXd::Ones(problem_.constraints.size());
     return {
         bestSeconds([&] { (void)simulateAt(problem_, start->values, problem_.horizon); }, 0.05),

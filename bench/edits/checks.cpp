@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editing/problem/jacobian.hpp"
+
 namespace carom::bench {
 
 using namespace editing_detail;

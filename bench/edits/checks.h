@@ -8,11 +8,11 @@
 
 #include "adjoint/motion/motion.h"
 #include "bench/edits/tasks.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 
 namespace carom::bench {
 
-/// Whether the first `count` impacts are ordinary ones: single, and far from grazing and from the border of stick and
+/// Whether the first `count` impacts are ordinary ones: single, and far from grazing and from the boundary of stick and
 /// slip.
 bool isPlain(const Motion& motion, std::size_t count);
 

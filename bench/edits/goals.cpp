@@ -11,7 +11,7 @@ namespace {
 constexpr double kShortestFlight = 0.02;  // s, between the impacts around a target
 constexpr double kLongestFlight = 0.4;    // s, from an impact to a target after it
 
-std::vector<double> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+std::vector<TargetNumber> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Target positionOf(const BodyState& s) { return {"position", numbers(s.position)}; }
 Target velocityOf(const BodyState& s) { return {"velocity", numbers(s.velocity)}; }
 Target orientationOf(const BodyState& s) {

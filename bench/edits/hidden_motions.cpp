@@ -115,7 +115,7 @@ std::optional<HiddenMotion> hitsIn(HiddenMotion hidden, const std::string& body,
   hidden.duration = 1.2 * time + 0.05;
   Constraint c{body, nthImpact(n, other), {}};
   if (goal == Goal::impact_comes) {
-    c = {body, 0, {}};
+    c = {body, 0.0, {}};
     c.hits = Hit{other};
   } else {
     holdAtImpact(c, motion, *event, hidden.planar, dice);
@@ -204,7 +204,7 @@ std::optional<HiddenMotion> encounter(const Wanted& wanted, Dice& dice) {
 }
 
 // What the cue ball touches before the last ball, and in which order.
-std::optional<HiddenMotion> wished(const Wanted& wanted, Dice& dice) {
+std::optional<HiddenMotion> required(const Wanted& wanted, Dice& dice) {
   const std::vector<std::vector<Leg>> kinds = {
       {{true, 0}, {true, 3}},          // three cushions
       {{true, 1}},                     // off a rail
@@ -221,7 +221,7 @@ std::optional<HiddenMotion> wished(const Wanted& wanted, Dice& dice) {
   if (!shot) return std::nullopt;
   HiddenMotion hidden{shot->scene, controlsOfShot(dice), {}, shot->sequence, 0, true};
   hidden.duration = 1.2 * shot->struck_at + 0.05;
-  hidden.constraints = {{"", 0, {}}};
+  hidden.constraints = {{"", 0.0, {}}};
   hidden.constraints[0].sequence = shot->sequence;
   hidden.missed_at_start = true;
   return hidden;
@@ -305,8 +305,8 @@ std::optional<HiddenMotion> drawHiddenMotion(const Wanted& wanted, Dice& dice) {
       return encounter(wanted, dice);
     case Family::hit:
       return wanted.kind % 2 == 0 ? hitOnTable(wanted, dice) : hitInFlight(wanted, dice);
-    case Family::wished:
-      return wished(wanted, dice);
+    case Family::required:
+      return required(wanted, dice);
     case Family::rack:
       return rack(wanted, dice);
     case Family::speed:

@@ -10,7 +10,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "bench/edits/checks.h"
 #include "bench/edits/tables.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {

@@ -14,7 +14,7 @@
 #include "bench/edits/goals.h"
 #include "bench/edits/throws.h"
 #include "bench/edits/varied.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {

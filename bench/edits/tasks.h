@@ -38,7 +38,7 @@ struct Task {
   double duration = 0;
   std::vector<Control> controls;
   std::vector<Constraint> constraints;
-  std::vector<std::string> sequence;  ///< wished: with which the motion begins, see beginsWith
+  std::vector<std::string> sequence;  ///< required: with which the motion begins, see beginsWith
 
   int numbers = 0, rows = 0;
   Eigen::VectorXd hidden_values;  ///< of the numbers that vary

@@ -22,7 +22,7 @@ struct Block {
   int tasks;
 };
 constexpr Block kBlocks[] = {
-    {Family::chain, 96}, {Family::encounter, 48}, {Family::hit, 72},      {Family::wished, 60},
+    {Family::chain, 96}, {Family::encounter, 48}, {Family::hit, 72},      {Family::required, 60},
     {Family::rack, 24},  {Family::speed, 30},     {Family::distance, 30},
 };
 
@@ -39,7 +39,7 @@ Wanted anywhere(Family family, int k) {
     case Family::hit:
       w.kind = k, w.goal = k / 2 % 3 == 2 ? Goal::impact_comes : Goal::at_an_impact;
       break;
-    case Family::wished:
+    case Family::required:
       w.kind = k, w.goal = Goal::impact_comes;
       break;
     case Family::speed:
@@ -61,7 +61,7 @@ Wanted anywhere(Family family, int k) {
 
 const char* nameOf(Family family) {
   constexpr const char* kNames[] = {"ball", "box",    "hull", "meeting", "chain",   "encounter",
-                                    "hit",  "wished", "rack", "speed",   "distance"};
+                                    "hit",  "required", "rack", "speed",   "distance"};
   static_assert(std::size(kNames) == kFamilies);
   return kNames[static_cast<int>(family)];
 }

@@ -184,7 +184,8 @@ std::optional<LongTask> draw(const Class& kind, bool far, int impacts, int numbe
     if (far && hidden.signature() == start.signature(count)) return std::nullopt;
     if (!far && hidden.signature() != start.signature(count)) continue;
     const Vec3 place = hidden.stateAt("ball", task.duration).position;
-    const std::vector<double> held = {place.x(), place.y(), flat && task.name != "room" ? any : place.z()};
+    std::vector<TargetNumber> held = {place.x(), place.y(), place.z()};
+    if (flat && task.name != "room") held[2] = any;
     task.constraints = {{"ball", When(task.duration), {{"position", held}}}};
     task.hidden = 0.5 * z.squaredNorm();
     task.growth = growthOf(task, contacts);
@@ -239,7 +240,7 @@ class Counted final : public ContactSource {
                                                    Arc& arc_b, double from, double until) override {
     return inner_->firstImpactBeside(a, b, held, arc_a, arc_b, from, until);
   }
-  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const HeldFeatures> held, Arc& arc_a,
+  std::optional<PredictedImpact> firstImpactOnGround(int a, int b, std::span<const PersistentFeatures> held, Arc& arc_a,
                                                      Arc& arc_b, double from, double until) override {
     return inner_->firstImpactOnGround(a, b, held, arc_a, arc_b, from, until);
   }

@@ -13,7 +13,8 @@
 #include "bench/drag_scenes.h"
 #include "bench/pen.h"
 #include "editing/edit.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
+#include "editing/problem_of.hpp"
 #include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
@@ -180,7 +181,7 @@ void addEdit(Workloads& out, const std::string& name) {
   const auto contacts = std::make_shared<OdeContacts>(document->scene);
   const auto edit = std::make_shared<Edit>(document->scene, *contacts, document->duration, document->controls,
                                            document->constraints);
-  const EditProblem problem = edit->problem();
+  const EditProblem problem = problemOf(*edit);
   const auto p = std::make_shared<Played>(document->scene, problem.horizon, 20000, problem.asked);
   addAdjoint(out, name, p);
   addSecondOrder(out, name, p);

@@ -8,7 +8,7 @@ import { cpus, loadavg } from 'node:os';
 import { performance } from 'node:perf_hooks';
 import { resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { canRun, countMessages, executable, launch, leftOut, openPage, place, state, until } from '../../tests/studio/page/browser.mjs';
+import { canRun, closing, countMessages, executable, launch, leftOut, openPage, place, state, until } from '../../tests/studio/page/browser.mjs';
 import { chromiumProcesses, cpuOf } from './processes.mjs';
 
 const [, , carom, csv = fileURLToPath(new URL('../../docs/charts/studio.csv', import.meta.url))] = process.argv;
@@ -35,17 +35,12 @@ function put(what, { scene, width = 1024, height = 640, quality = 'low', values,
   console.log(`${row.slice(0, 4).join(', ')}: ${values.length} values, median ${row[5]} p95 ${row[6]} most ${row[7]} ${unit}, load ${loadavg()[0].toFixed(1)}`);
 }
 
-async function withStudio(scene, options, act) {
-  const studio = await RealStudio.start(scene), browser = await launch();
-  try {
-    const page = await openPage(browser, studio.url, { width: 1024, height: 640, ...options });
-    await until(page, '(s) => s.connected === "open" && s.motion');
-    await act(page, studio);
-  } finally {
-    await browser.close();
-    await studio.close();
-  }
-}
+const withStudio = (scene, options, act) => closing(async (keep) => {
+  const studio = keep(await RealStudio.start(scene)), browser = keep(await launch());
+  const page = await openPage(browser, studio.url, { width: 1024, height: 640, ...options });
+  await until(page, '(s) => s.connected === "open" && s.motion');
+  await act(page, studio);
+});
 
 /** The mouse goes round the place where it took hold, a move every `spacing` ms whether or not the last was heard. */
 async function circle(page, [x, y], radius, seconds) {

@@ -12,7 +12,7 @@
 #include "bench/edits/checks.h"
 #include "bench/edits/tables.h"
 #include "bench/edits/tasks.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {
@@ -89,7 +89,7 @@ TEST(AnywhereTasks, AreMissedByTheirStart) {
       EXPECT_NEAR(task.miss, rows.scaled.cwiseAbs().maxCoeff(), 1e-9 * task.miss);
     }
   }
-  for (Family family : {Family::chain, Family::encounter, Family::hit, Family::wished})
+  for (Family family : {Family::chain, Family::encounter, Family::hit, Family::required})
     EXPECT_TRUE(lacking.contains(family)) << nameOf(family);
 }
 
@@ -104,7 +104,7 @@ TEST(AnywhereTasks, HoldWhatTheirFamilySays) {
     }
     EXPECT_EQ(c.hits.has_value() || !c.sequence.empty(), task.wanted.goal == Goal::impact_comes);
     EXPECT_EQ(c.sequence, task.sequence);
-    EXPECT_EQ(task.sequence.empty(), task.wanted.family != Family::wished);
+    EXPECT_EQ(task.sequence.empty(), task.wanted.family != Family::required);
     if (task.wanted.family == Family::speed) {
       constexpr const char* kWords[] = {"speed", "kinetic_energy", "height", "impulse"};
       EXPECT_EQ(task.constraints[0].targets[0].quantity, kWords[task.wanted.kind % 4]);
@@ -118,20 +118,20 @@ TEST(AnywhereTasks, HoldWhatTheirFamilySays) {
 TEST(AnywhereTasks, AreOfEveryKind) {
   std::set<std::tuple<int, int, Goal>> chains;
   std::set<int> layers, quantities;
-  int hits = 0, wished = 0;
+  int hits = 0, required = 0;
   for (int i = kThrownTasks; i < kTasks; ++i) {
     const Wanted w = wantedOf(i);
     if (w.family == Family::chain) chains.emplace(w.balls, w.rails, w.goal);
     if (w.family == Family::rack) layers.insert(w.balls);
     if (w.family == Family::speed) quantities.insert(w.kind % 4);
     hits += w.family == Family::hit && w.goal == Goal::impact_comes;
-    wished += w.family == Family::wished;
+    required += w.family == Family::required;
   }
   EXPECT_EQ(chains.size(), 3u * 4u * 2u);
   EXPECT_EQ(layers, (std::set{2, 3, 4}));
   EXPECT_EQ(quantities.size(), 4u);
   EXPECT_GE(hits, 20);
-  EXPECT_GE(wished, 50);
+  EXPECT_GE(required, 50);
   EXPECT_THROW(wantedOf(kTasks), std::out_of_range);
   EXPECT_THROW(wantedOf(-1), std::out_of_range);
 }

@@ -11,7 +11,7 @@
 #include "bench/edits/dice.h"
 #include "bench/edits/tasks.h"
 #include "bench/edits/varied.h"
-#include "editing/problem/jacobian.hpp"
+#include "editing/problem/edit_problem.hpp"
 #include "ode_bridge/ode_contacts.h"
 
 namespace carom::bench {

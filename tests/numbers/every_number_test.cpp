@@ -213,9 +213,10 @@ std::string problemOf(const Call& call, const Folder& folder, bool json_wanted) 
   if (json_wanted) words.push_back("--json");
   const Outcome run = runWords(words);
   const bool known = run.code == 0 || run.code == 1 || (run.code == 3 && call.command == std::string("edit")) ||
-                     (run.code == 4 && call.command == std::string("check"));
+                     (run.code == 4 && call.command == std::string("check")) ||
+                     (run.code == 5 && (call.command == std::string("simulate") || writes));  // the motion ended early
   if (!known) return "ended with " + std::to_string(run.code) + ": " + run.err;
-  if (run.code != 0 && run.code != 4 && run.err.find("carom: ") == std::string::npos) return "failed without a sentence";
+  if ((run.code == 1 || run.code == 3) && run.err.find("carom: ") == std::string::npos) return "failed without a sentence";
   for (const char* raw : {"::", "out of memory", "bad_alloc", "unknown error"})
     if (run.code == 1 && run.err.find(raw) != std::string::npos) return "failed with no sentence for people: " + run.err;
   if (run.code != 1 && hasNoNumber(run.out))  // a message may name what was found
@@ -224,7 +225,7 @@ std::string problemOf(const Call& call, const Folder& folder, bool json_wanted) 
     const std::string problem = problemOfJson(call.command, run.code, run.out);
     if (!problem.empty()) return problem;
   }
-  if (writes && run.code == 0) return problemOfFile(output);
+  if (writes && (run.code == 0 || run.code == 5)) return problemOfFile(output);
   return "";
 }
 
