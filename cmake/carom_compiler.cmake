@@ -71,6 +71,12 @@ find_program(CAROM_MOLD mold)
 mark_as_advanced(CAROM_MOLD)
 if(CAROM_MOLD AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_link_options(-fuse-ld=mold)
+  # Before 2.4 it may protect a page that is not there, by chance of the layout, and such a program does not start
+  # (rui314/mold#1151).
+  execute_process(COMMAND ${CAROM_MOLD} --version OUTPUT_VARIABLE mold_version)
+  if(mold_version MATCHES "mold ([0-9]+[.][0-9]+)" AND CMAKE_MATCH_1 VERSION_LESS 2.4)
+    add_link_options(LINKER:-z,norelro)
+  endif()
 endif()
 
 # What reads, writes and prints spends its time elsewhere: with -O1 it is as fast to use and faster to build, and under the
