@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editing/nlp_evaluator.h"
 
-#include <cmath>
+#include <algorithm>
 #include <mutex>
 
 #include "adjoint/base/arguments.hpp"
@@ -96,6 +96,12 @@ std::vector<NlpVariable> variablesOf(NlpState& state) {
   return variables;
 }
 
+Eigen::VectorXd ofVariables(const std::vector<NlpVariable>& variables, double NlpVariable::* member) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(variables.size()));
+  std::ranges::transform(variables, x.begin(), member);
+  return x;
+}
+
 std::vector<NlpRow> rowsOf(const EditProblem& problem) {
   std::vector<NlpRow> rows;
   for (int i = 0; i < problem.constraints.size(); ++i) {
@@ -173,23 +179,9 @@ NlpEvaluator::NlpEvaluator(const EditProblem& problem, std::size_t step_limit)
 const std::vector<NlpVariable>& NlpEvaluator::variables() const { return state_->variables; }
 const std::vector<NlpRow>& NlpEvaluator::rows() const { return state_->rows; }
 
-Eigen::VectorXd NlpEvaluator::start() const {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(variables().size()));
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = variables()[static_cast<std::size_t>(i)].start;
-  return x;
-}
-
-Eigen::VectorXd NlpEvaluator::lower() const {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(variables().size()));
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = variables()[static_cast<std::size_t>(i)].lower;
-  return x;
-}
-
-Eigen::VectorXd NlpEvaluator::upper() const {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(variables().size()));
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = variables()[static_cast<std::size_t>(i)].upper;
-  return x;
-}
+Eigen::VectorXd NlpEvaluator::start() const { return ofVariables(variables(), &NlpVariable::start); }
+Eigen::VectorXd NlpEvaluator::lower() const { return ofVariables(variables(), &NlpVariable::lower); }
+Eigen::VectorXd NlpEvaluator::upper() const { return ofVariables(variables(), &NlpVariable::upper); }
 
 NlpPoint NlpEvaluator::at(const Eigen::VectorXd& x) const {
   checkPoint("NlpEvaluator::at", *state_, x);
