@@ -5,6 +5,7 @@
 #include <string>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/base/types.h"
 
 namespace carom::adjoint_detail {
 
@@ -25,5 +26,8 @@ template <class... Parts>
 
 /// A number that was computed, to so many digits.
 inline std::string about(double value, int digits = 6) { return textOf(digits, value); }
+
+/// "(0.1, 2, -3)", to three digits.
+inline std::string aboutPlace(const Vec3& p) { return textOf(3, "(", p.x(), ", ", p.y(), ", ", p.z(), ")"); }
 
 }  // namespace carom::adjoint_detail

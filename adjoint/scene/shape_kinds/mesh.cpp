@@ -2,9 +2,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/numeric/union_find.hpp"
 #include "adjoint/scene/shape_kinds/scaled_surface.hpp"
 
 namespace carom::shapes {
@@ -13,28 +13,24 @@ using namespace adjoint_detail;
 
 namespace {
 
-std::string placeOf(const Vec3& p) { return "(" + about(p.x(), 3) + ", " + about(p.y(), 3) + ", " + about(p.z(), 3) + ")"; }
-
 /// Boundary edges that hang together bound a hole.
 std::string holesOf(const Surface& s) {
-  std::vector<int> up(s.vertices.size());
-  std::iota(up.begin(), up.end(), 0);
-  const auto find = [&](int v) {
-    while (up[static_cast<std::size_t>(v)] != v) v = up[static_cast<std::size_t>(v)] = up[static_cast<std::size_t>(up[static_cast<std::size_t>(v)])];
-    return v;
-  };
-  std::map<int, Eigen::AlignedBox3d> holes;
+  UnionFind rims(s.vertices.size());
+  std::map<std::size_t, Eigen::AlignedBox3d> holes;
   for (const Surface::Edge& e : s.edges)
-    if (e.right < 0) up[static_cast<std::size_t>(find(e.from))] = find(e.to);
+    if (e.right < 0) rims.join(static_cast<std::size_t>(e.from), static_cast<std::size_t>(e.to));
   for (const Surface::Edge& e : s.edges)
     if (e.right < 0)
-      for (const int v : {e.from, e.to}) holes[find(v)].extend(s.vertices[static_cast<std::size_t>(v)]);
+      for (const int v : {e.from, e.to}) {
+        const auto vertex = static_cast<std::size_t>(v);
+        holes[rims.find(vertex)].extend(s.vertices[vertex]);
+      }
   const auto widest = std::max_element(holes.begin(), holes.end(), [](const auto& a, const auto& b) {
     return a.second.sizes().norm() < b.second.sizes().norm();
   });
   if (widest == holes.end()) return "its surface does not close";
   const std::string many = holes.size() == 1 ? "a hole " : std::to_string(holes.size()) + " holes, the widest ";
-  return many + about(widest->second.sizes().norm(), 3) + " m across, around " + placeOf(widest->second.center()) + " m";
+  return many + about(widest->second.sizes().norm(), 3) + " m across, around " + aboutPlace(widest->second.center()) + " m";
 }
 
 void checkMesh(const Shape& shape, const validation::ShapeCheck& at) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/numeric/union_find.hpp"
 #include "formats/mesh/repair/loose_mesh.hpp"
 #include "formats/mesh/repair/triangulate.hpp"
 
@@ -70,12 +71,8 @@ void weldBoundary(LooseMesh& mesh, Repairs& repairs) {
   std::vector<int> edges(static_cast<std::size_t>(mesh.halfEdges()));
   std::iota(edges.begin(), edges.end(), 0);
   const SortedVertices boundary(mesh, boundaryOf(mesh)), all(mesh, edges);
-  std::vector<int> up(mesh.vertices.size());
-  std::iota(up.begin(), up.end(), 0);
-  const auto find = [&](int v) {
-    while (up[static_cast<std::size_t>(v)] != v) v = up[static_cast<std::size_t>(v)];
-    return v;
-  };
+  adjoint_detail::UnionFind welded(mesh.vertices.size());
+  const auto find = [&](int v) { return static_cast<int>(welded.find(static_cast<std::size_t>(v))); };
   std::size_t count = 0;
   double furthest = 0;
   for (const int v : boundary.all())
@@ -83,7 +80,7 @@ void weldBoundary(LooseMesh& mesh, Repairs& repairs) {
       const double apart = (mesh.at(w) - mesh.at(v)).norm();
       const int a = find(v), b = find(w);
       if (a == b || apart > near) return;
-      up[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      welded.join(static_cast<std::size_t>(std::max(a, b)), static_cast<std::size_t>(std::min(a, b)));
       furthest = std::max(furthest, apart), ++count;
     });
   if (count == 0) return;

@@ -2,9 +2,9 @@
 // Triangles that are of no use, and those that lie on each other.
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "adjoint/numeric/union_find.hpp"
 #include "adjoint/scene/polygons.hpp"
 #include "formats/mesh/repair/loose_mesh.hpp"
 
@@ -19,19 +19,6 @@ Triangle fromLeast(Triangle t) {
   return t;
 }
 Triangle turned(const Triangle& t) { return fromLeast({t[0], t[2], t[1]}); }
-
-/// Triangles dropped for one reason.
-struct Dropped {
-  std::size_t count = 0;
-  int line = 0;
-
-  void add(int at) {
-    if (count++ == 0) line = at;
-  }
-  void tell(Repairs& repairs, const char* why) const {
-    if (count > 0) repairs.push_back(countOf(count, "triangle") + " " + why + firstLine(line));
-  }
-};
 
 /// Two triangles on each other, the first written first, and the patch of such pairs that they belong to.
 struct Pair {
@@ -57,8 +44,8 @@ std::vector<Pair> coveredPairs(const LooseMesh& mesh) {
 /// or ends nowhere, and one side of a solid that is drawn twice would leave a hole.
 class Patches {
  public:
-  Patches(const LooseMesh& mesh, std::vector<Pair>& pairs) : pairs_(pairs), up_(pairs.size()) {
-    std::iota(up_.begin(), up_.end(), std::size_t{0});
+  Patches(const LooseMesh& mesh, std::vector<Pair>& pairs) : pairs_(pairs) {
+    adjoint_detail::UnionFind patches(pairs.size());
     constexpr std::size_t kNone = static_cast<std::size_t>(-1);
     std::vector<std::size_t> pair_of(mesh.triangles.size(), kNone);
     for (std::size_t i = 0; i < pairs.size(); ++i) pair_of[pairs[i].first] = pair_of[pairs[i].second] = i;
@@ -72,27 +59,20 @@ class Patches {
         else here.push_back(pair);
       }
       if (here.empty()) return;
-      for (const std::size_t pair : here) join(pair, here.front());
+      for (const std::size_t pair : here) patches.join(pair, here.front());
       if (others > 0) joined.push_back(here.front());
       if (others % 2 == 1 || (others == 0 && here.size() == 2)) free.push_back(here.front());
     });
-    for (std::size_t i = 0; i < pairs.size(); ++i) pairs_[i].patch = find(i);
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs_[i].patch = patches.find(i);
     is_free_.assign(pairs.size(), 0), is_joined_.assign(pairs.size(), 0);
-    for (const std::size_t pair : free) is_free_[find(pair)] = 1;
-    for (const std::size_t pair : joined) is_joined_[find(pair)] = 1;
+    for (const std::size_t pair : free) is_free_[patches.find(pair)] = 1;
+    for (const std::size_t pair : joined) is_joined_[patches.find(pair)] = 1;
   }
 
   bool isWall(const Pair& pair) const { return is_joined_[pair.patch] && !is_free_[pair.patch]; }
 
  private:
-  std::size_t find(std::size_t i) {
-    while (up_[i] != i) i = up_[i] = up_[up_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { up_[find(a)] = find(b); }
-
   std::vector<Pair>& pairs_;
-  std::vector<std::size_t> up_;
   std::vector<char> is_free_, is_joined_;
 };
 
@@ -102,7 +82,7 @@ void dropUseless(LooseMesh& mesh, Repairs& repairs) {
   const std::vector<int> first = adjoint_detail::firstOfEqual(mesh.vertices);
   std::vector<char> kept(mesh.triangles.size(), 0);
   std::set<Triangle> known;
-  Dropped points, flat, twice;
+  CountedTriangles points, flat, twice;
   for (std::size_t t = 0; t < kept.size(); ++t) {
     Triangle& corners = mesh.triangles[t];
     for (int& v : corners) v = first[static_cast<std::size_t>(v)];
@@ -127,7 +107,7 @@ void dropCovered(LooseMesh& mesh, Repairs& repairs) {
   if (pairs.empty()) return;
   const Patches patches(mesh, pairs);
   std::vector<char> kept(mesh.triangles.size(), 1);
-  Dropped walls, sheets;
+  CountedTriangles walls, sheets;
   for (const Pair& pair : pairs) {
     kept[pair.second] = 0;
     if (patches.isWall(pair)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/base/refuse.hpp"
 #include "adjoint/numeric/elementary.hpp"
 #include "formats/mesh/repair/loose_mesh.hpp"
 #include "formats/mesh/repair/triangulate.hpp"
@@ -80,7 +81,7 @@ void pairEdges(LooseMesh& mesh, Repairs& repairs) {
       where_cut = middle;
     }
   });
-  const auto at = [](const Vec3& p) { return " (the first at " + placeText(p) + " m)"; };
+  const auto at = [](const Vec3& p) { return " (the first at " + adjoint_detail::aboutPlace(p) + " m)"; };
   if (parted > 0)
     repairs.push_back(countOf(parted, "edge") + " of more than two triangles parted between the solids that meet there" +
                       at(where_parted));

@@ -94,10 +94,6 @@ void putLid(LooseMesh& mesh, const Hole& hole) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// The pieces of a mesh with their areas and holes.
 struct Pieces {
   std::vector<int> of;  ///< of each triangle
@@ -150,7 +146,7 @@ void closeHoles(LooseMesh& mesh, Repairs& repairs) {
   if (!widest) return;
   repairs.push_back(countOf(closed, "hole") + " closed, " + adjoint_detail::about(lids, 2) + " m^2 in all (" +
                     (closed == 1 ? "" : "the widest ") + adjoint_detail::about(widest->width, 2) + " m across, around " +
-                    placeText(widest->middle) + " m)");
+                    adjoint_detail::aboutPlace(widest->middle) + " m)");
 }
 
 void dropLoose(LooseMesh& mesh, Repairs& repairs) {
@@ -161,14 +157,13 @@ void dropLoose(LooseMesh& mesh, Repairs& repairs) {
     if (!pieces.holes[p].empty()) loose += pieces.area[p];
   if (!(loose <= kLoose * whole)) return;
   std::vector<char> kept(mesh.triangles.size(), 1);
-  std::size_t count = 0;
-  int line = 0;
+  CountedTriangles dropped;
   for (std::size_t t = 0; t < kept.size(); ++t)
     if (!pieces.holes[static_cast<std::size_t>(pieces.of[t])].empty()) {
-      if (count++ == 0) line = mesh.lines[t];
+      dropped.add(mesh.lines[t]);
       kept[t] = 0;
     }
-  if (count == 0) return;
+  if (dropped.count == 0) return;
   std::vector<int> place(kept.size());  // whole pieces go, so that no twin of what stays does
   int next = 0;
   for (std::size_t t = 0; t < kept.size(); ++t) place[t] = kept[t] ? next++ : -1;
@@ -177,7 +172,7 @@ void dropLoose(LooseMesh& mesh, Repairs& repairs) {
     if (kept[h / 3]) twins.push_back(3 * place[static_cast<std::size_t>(mesh.twins[h] / 3)] + mesh.twins[h] % 3);
   keepTriangles(mesh, kept);
   mesh.twins = std::move(twins);
-  repairs.push_back(countOf(count, "triangle") + " that bound no solid dropped, less than 1 % of the area" + firstLine(line));
+  dropped.tell(repairs, "that bound no solid dropped, less than 1 % of the area");
 }
 
 }  // namespace carom::mesh_repair

@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "adjoint/base/refuse.hpp"
 #include "adjoint/scene/surface.h"
 
 namespace carom::mesh_repair {
-
-using adjoint_detail::about;
 
 double LooseMesh::diagonal() const {
   Eigen::AlignedBox3d box;
@@ -21,10 +18,10 @@ double LooseMesh::diagonal() const {
 
 std::string countOf(std::size_t n, const char* thing) { return std::to_string(n) + " " + thing + (n == 1 ? "" : "s"); }
 
-std::string firstLine(int line) { return line > 0 ? " (the first at line " + std::to_string(line) + ")" : ""; }
-
-std::string placeText(const Vec3& p) {
-  return "(" + about(p.x(), 3) + ", " + about(p.y(), 3) + ", " + about(p.z(), 3) + ")";
+void CountedTriangles::tell(Repairs& repairs, const std::string& what) const {
+  if (count == 0) return;
+  const std::string first = line > 0 ? " (the first at line " + std::to_string(line) + ")" : "";
+  repairs.push_back(countOf(count, "triangle") + " " + what + first);
 }
 
 std::vector<EdgeUse> edgeUses(const LooseMesh& mesh) {

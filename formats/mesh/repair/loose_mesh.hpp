@@ -35,10 +35,18 @@ using Repairs = std::vector<std::string>;
 
 /// "1 triangle", "2 triangles".
 std::string countOf(std::size_t n, const char* thing);
-/// " (the first at line 12)"; nothing of line 0.
-std::string firstLine(int line);
-/// "(0.1, 2, -3)", to three digits.
-std::string placeText(const Vec3& place);
+
+/// Triangles to which the same was done.
+struct CountedTriangles {
+  std::size_t count = 0;
+  int line = 0;  ///< of the first; 0: none is known
+
+  void add(int at) {
+    if (count++ == 0) line = at;
+  }
+  /// "2 triangles dropped (the first at line 12)"; nothing if there are none.
+  void tell(Repairs& repairs, const std::string& what) const;
+};
 
 /// Half-edges that run along the same edge either way stand together, in their order.
 struct EdgeUse {

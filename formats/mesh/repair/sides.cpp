@@ -82,17 +82,15 @@ void turnAlike(LooseMesh& mesh, Repairs& repairs) {
   for (std::size_t t = 0; t < side.size(); ++t)
     if (side[t] < 0) markTurned(mesh, across, t, side);
   std::vector<char> turned(side.size(), 0);
-  std::size_t count = 0;
-  int line = 0;
+  CountedTriangles wrong;
   for (std::size_t t = 0; t < side.size(); ++t)
     if (side[t] == 1) {
-      if (count++ == 0) line = mesh.lines[t];
+      wrong.add(mesh.lines[t]);
       turned[t] = 1;
     }
-  if (count == 0) return;
+  if (wrong.count == 0) return;
   turnTriangles(mesh, turned);
-  repairs.push_back(countOf(count, "triangle") + " turned over to look the way of those beside " +
-                    (count == 1 ? "it" : "them") + firstLine(line));
+  wrong.tell(repairs, std::string("turned over to look the way of those beside ") + (wrong.count == 1 ? "it" : "them"));
 }
 
 void turnOutward(LooseMesh& mesh, Repairs& repairs) {
