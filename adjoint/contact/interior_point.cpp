@@ -82,14 +82,19 @@ void InteriorPoint::makeIndependent() {
 }
 
 InteriorPoint::InteriorPoint(const MatrixXd& D, const VectorXd& a, const VectorXd& b)
+    : InteriorPoint(D, a, b, std::vector<int>(static_cast<std::size_t>(a.size() / 3), 3)) {}
+
+InteriorPoint::InteriorPoint(const MatrixXd& D, const VectorXd& a, const VectorXd& b, const std::vector<int>& cones)
     : D_(D), K_(MatrixXd::Zero(D.cols(), D.cols())), G_(0, D.cols()), b_(b), g_(0), a_(a) {
   y_ = VectorXd::Zero(D.cols());
   lambda_.resize(0);
   s_ = a_, z_ = VectorXd::Zero(a.size());
-  for (Index at = 0; at < a.size(); at += 3) {
-    cones_.push_back({at, 3, 1, {}, {}});
-    s_[at] = std::max(s_[at], s_.segment<2>(at + 1).norm() + 1e-1);
-    z_[at] = 3.0 / static_cast<double>(a.size());
+  Index at = 0;
+  for (const int size : cones) {
+    cones_.push_back({at, size, 1, {}, {}});
+    s_[at] = std::max(s_[at], s_.segment(at + 1, size - 1).norm() + 1e-1);
+    z_[at] = 1.0 / static_cast<double>(cones.size());
+    at += size;
   }
 }
 

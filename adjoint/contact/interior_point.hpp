@@ -16,6 +16,8 @@ class InteriorPoint {
   explicit InteriorPoint(const ConeProgramOf<double>& program);
   /// Minimise b.y, where every three rows of D y + a are in the cone s_0 >= |(s_1, s_2)|.
   InteriorPoint(const Eigen::MatrixXd& D, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+  /// The same with cones of these sizes: 3 rows each, or 1, which is s >= 0.
+  InteriorPoint(const Eigen::MatrixXd& D, const Eigen::VectorXd& a, const Eigen::VectorXd& b, const std::vector<int>& cones);
 
   void step();
   double gap() const;  ///< of the cones, f.V each on the average

@@ -38,6 +38,13 @@ class Chooser {
     return form == PathForm::rest ? rests() : stays(form, body_.height());
   }
 
+  ContactChoice restOn(const std::vector<const Contact*>& contacts, bool loose) {
+    body_.hold(contacts);
+    ContactChoice choice = stays(PathForm::rest, 1);
+    choice.path->loose = loose;
+    return choice;
+  }
+
   /// As forces within the cones of friction hold it; without friction where none are found.
   FreeAcceleration acceleration() const {
     if (body_.pressed().empty()) return body_.acceleration();
@@ -84,7 +91,7 @@ class Chooser {
   }
 
  private:
-  double leastSlip(double reach) const { return kNoSlip * std::sqrt(body_.gravity().norm() * reach); }
+  double leastSlip(double reach) const { return adjoint_detail::leastSlip(body_.gravity().norm(), reach); }
   bool isSlow(const Vec3& v) const { return v.norm() <= no_slip_; }
   // What counts as no slip stops what can move by slipping alone: what rolls goes on, however slow.
   bool standsStill(const Vec3& v, const Vec3& spin) const {
@@ -257,6 +264,12 @@ void requireStill(const Motion& motion, int body, const std::vector<const Contac
 }
 
 }  // namespace
+
+double leastSlip(double gravity, double reach) { return kNoSlip * std::sqrt(gravity * reach); }
+
+ContactChoice restPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts, bool loose) {
+  return Chooser(motion, body, state, {}).restOn(contacts, loose);
+}
 
 FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State& state,
                                      const std::vector<const Contact*>& closed) {

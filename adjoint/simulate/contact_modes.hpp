@@ -38,6 +38,13 @@ FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State
 ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
                             const std::vector<const Contact*>& contacts, PathForm form);
 
+/// That of a body which these contacts hold at rest, what stands still and other bodies at rest. `loose`: not every motion of it is
+/// opposed.
+ContactChoice restPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts, bool loose);
+
+/// Slips slower than this count as none: 1e-9 sqrt(g l), m/s.
+double leastSlip(double gravity, double reach);
+
 /// The path of a body from `state` on, where `closed` are its contacts with fixed bodies that part without speed: rest where rest is
 /// possible; sliding or rolling of what has a closed form; else held (docs/equations.md section 11). `hint`: its contact is
 /// one of `closed`.

@@ -13,6 +13,7 @@
 #include "adjoint/simulate/pair_scales.hpp"
 #include "adjoint/simulate/path_transition.hpp"
 #include "adjoint/simulate/simulate.h"
+#include "adjoint/simulate/supported_component.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -88,6 +89,17 @@ class Simulator {
     std::size_t steps = 0;  // of an integrated path: of those the above is
   };
   static const BodyContactState kInFlight;
+  // Of a component at rest, what one of its bodies is held by, and with what state.
+  struct RestingMember {
+    State state;
+    std::vector<Contact> held;
+    bool opposed = false;  // every motion of the component slips or opens a contact that bears a load
+  };
+  struct RestingComponent {
+    std::vector<SupportedComponent::Member> members;
+    std::vector<Contact> on;
+    bool opposed = false;
+  };
   // An event that is worked out but not yet part of the motion. Its storage is used again and again.
   struct Draft {
     Event event;
@@ -96,6 +108,8 @@ class Simulator {
     std::vector<PredictedEvent> found;  // of the participants' pairs, on those arcs
     std::vector<NextImpact> next_impacts;  // of the participants
     std::vector<BodyContactState> contact_state;     // of the participants; empty where all of them fly
+    std::vector<std::optional<RestingMember>> resting;  // of the participants, if they rest with others
+    std::vector<Contact> pressing;  // between bodies that do not
     std::string beyond;             // why the motion ends: persistent contact that is not modelled
     std::optional<State> past_end;  // of a transition: the body a little later in the modes that end
   };
@@ -115,7 +129,8 @@ class Simulator {
   bool start();
   void startReused();
   bool placeAtStart();
-  void solvePlaced(int body);
+  bool placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts);
+  void solvePlaced(const std::vector<int>& bodies);
 
   // simulate.cpp: the event
   void resolve(const PredictedEvent& first);
@@ -159,6 +174,18 @@ class Simulator {
   std::vector<Contact> marksOf(const Contact& of) const;
   bool isRim(const Contact& c) const;
   bool isOnRim(const Contact& c, const Contact& of) const;
+
+  // simulator_component.cpp: bodies that lie on each other
+  SupportedComponent componentOf(const std::vector<int>& bodies, const std::vector<Contact>& closed) const;
+  std::vector<Contact> closedOf(const std::vector<int>& bodies) const;
+  std::vector<std::vector<int>> touchingParts() const;
+  std::vector<std::vector<int>> pressedParts(const std::vector<int>& bodies, const std::vector<Contact>& closed) const;
+  bool standsStill(const SupportedComponent& component, bool opposed, double no_slip) const;
+  std::optional<RestingComponent> restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed, double no_slip) const;
+  void chooseComponents();
+  void rest(std::size_t participant);
+  std::optional<FreeAcceleration> componentAcceleration(int body) const;
+  std::vector<std::pair<std::vector<int>, std::vector<Contact>>> placedParts(const std::vector<PlacedContact>& placed);
 
   // simulator_contact.cpp: persistent contact
   bool contactsLast() const { return motion_.lowest_bounce > 0; }

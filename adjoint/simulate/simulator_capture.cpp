@@ -64,6 +64,7 @@ const State& Simulator::stateAfter(int body) const {
 double Simulator::accelerationOf(const Contact& contact) const {
   const auto sideOf = [&](int body) -> ContactSide {
     if (!(*motion_.models)[index(body)].moving) return {stateAfter(body), std::nullopt};
+    if (const auto acceleration = componentAcceleration(body)) return {stateAfter(body), acceleration};
     std::vector<const Contact*> closed;
     for (const Contact& c : draft_.event.contacts)
       if (c.lasts && (c.a == body || c.b == body) && isFixed(c.a == body ? c.b : c.a))

@@ -68,8 +68,11 @@ void Simulator::addConstrained() {
   if (!std::ranges::is_sorted(contacts, order)) std::ranges::stable_sort(contacts, order);
 }
 
-// Whether a contact between bodies that move, which part without speed, goes on pressing while what stands still holds them.
-bool Simulator::presses(const Contact& c) const { return accelerationOf(c) < 0; }
+// Whether a contact with a body that moves, which parts without speed, goes on pressing while what stands still holds them.
+bool Simulator::presses(const Contact& c) const {
+  if (!isMoved(c.a) || !isMoved(c.b)) return accelerationOf(c) < 0;
+  return std::ranges::any_of(draft_.pressing, [&](const Contact& d) { return d.a == c.a && d.b == c.b && d.features == c.features; });
+}
 
 // How every participant goes on.
 void Simulator::chooseArcs() {
@@ -82,7 +85,8 @@ void Simulator::chooseArcs() {
     return;
   }
   draft_.contact_state.resize(bodies_.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) chooseArc(i);
+  chooseComponents();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) draft_.resting[i] ? rest(i) : chooseArc(i);
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
     c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {

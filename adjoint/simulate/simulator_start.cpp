@@ -75,54 +75,73 @@ void Simulator::startReused() {
     if (reused_.has(body)) arcOf(body) = takenArcOf(body);
 }
 
-// Bodies that the scene starts in contact: those that neither part nor approach go on from an event of their own.
+// Bodies that the scene starts in contact: those that neither part nor approach go on from an event of their own, those that
+// lie on each other from one that they share.
 bool Simulator::placeAtStart() {
   if (!contactsLast()) return true;
-  std::vector<PlacedContact> placed = contacts_.placed();
-  for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
-    if (!isMoved(body) || reused_.has(body)) continue;
-    Event& event = draft_.event;
-    event = {};
-    event.kind = EventKind::placed;
-    snapshots_.clear();
-    bodies_.clear();
-    for (const PlacedContact& p : placed) {
-      if ((p.a != body && p.b != body) || overlapOf(p.a, p.b)) continue;
-      if (!isFixed(p.a == body ? p.b : p.a)) continue;  // they meet at once, or part
-      for (const FeaturePair& f : p.features) {
-        Contact c = makeContact(0, p.a, p.b, f);
-        const double alpha = accelerationOf(c);
-        if (!(alpha < 0 && c.approach * c.approach < -2 * motion_.lowest_bounce * alpha)) continue;
-        c.counted = false;
-        c.kept = true;
-        c.pair.elasticity = c.pair.friction = 0;
-        event.contacts.push_back(c);
-      }
+  const std::vector<PlacedContact> placed = contacts_.placed();
+  std::vector<char> is_placed(scene_.bodies.size());
+  for (auto& [bodies, contacts] : placedParts(placed)) {
+    if (std::ranges::all_of(bodies, [&](int body) { return reused_.has(body); })) continue;
+    for (int body : bodies) {
+      if (invalidatesReuse(body)) return false;
+      is_placed[index(body)] = true;
     }
-    if (event.contacts.empty()) continue;
-    dropDoubles();
-    solvePlaced(body);
-    if (draft_.beyond.empty()) continue;
-    finish(MotionStatus::unresolved_contact, 0, draft_.beyond);
-    return false;
+    if (!placeBodies(bodies, std::move(contacts))) return false;
+  }
+  std::vector<std::vector<const PlacedContact*>> on_fixed(scene_.bodies.size());
+  for (const PlacedContact& p : placed)
+    if (isFixed(p.a) != isFixed(p.b) && !overlapOf(p.a, p.b)) on_fixed[index(isFixed(p.a) ? p.b : p.a)].push_back(&p);
+  for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
+    if (!isMoved(body) || reused_.has(body) || is_placed[index(body)]) continue;
+    draft_.event = {};
+    snapshots_.clear();
+    std::vector<Contact> contacts;
+    for (const PlacedContact* p : on_fixed[index(body)])
+      for (const FeaturePair& f : p->features) {
+        Contact c = makeContact(0, p->a, p->b, f);
+        const double alpha = accelerationOf(c);
+        if (alpha < 0 && c.approach * c.approach < -2 * motion_.lowest_bounce * alpha) contacts.push_back(std::move(c));
+      }
+    if (!contacts.empty() && !placeBodies({body}, std::move(contacts))) return false;
   }
   return true;
 }
 
-// Velocities along the normals, which are 0 but for rounding, are 0.
-void Simulator::solvePlaced(int body) {
+// False where these contacts last in a way that is beyond what is known of.
+bool Simulator::placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts) {
   Event& event = draft_.event;
-  bodies_ = {body};
-  event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
-                                snapshots_[snapshot(body, 0)].state});
+  event = {};
+  event.kind = EventKind::placed;
+  event.contacts = std::move(contacts);
+  for (Contact& c : event.contacts) {
+    c.counted = false;
+    c.kept = true;
+    c.pair.elasticity = c.pair.friction = 0;
+  }
+  snapshots_.clear();
+  dropDoubles();
+  solvePlaced(bodies);
+  if (draft_.beyond.empty()) return true;
+  finish(MotionStatus::unresolved_contact, 0, draft_.beyond);
+  return false;
+}
+
+// Velocities along the normals, which are 0 but for rounding, are 0.
+void Simulator::solvePlaced(const std::vector<int>& bodies) {
+  Event& event = draft_.event;
+  bodies_ = bodies;
+  for (int body : bodies_)
+    event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
+                                  snapshots_[snapshot(body, 0)].state});
   try {
     solveImpact(event, *motion_.models, draft_.after);
   } catch (const NotComputable& error) {
     giveUp("contact", event.contacts[0].a, event.contacts[0].b, 0, error);
   }
   chooseArcs();
-  setPath(body, draft_.arcs[0], 0);
-  draft_.next_impacts.assign(1, {});
+  for (std::size_t i = 0; i < bodies_.size(); ++i) setPath(bodies_[i], draft_.arcs[i], 0);
+  draft_.next_impacts.assign(bodies_.size(), {});
   commit();
 }
 

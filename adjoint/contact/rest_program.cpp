@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/contact/rest_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "adjoint/contact/interior_point.hpp"
+#include "adjoint/numeric/decompositions.hpp"
+#include "adjoint/numeric/so3.hpp"
+#include "adjoint/numeric/symmetric_eigen.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using Eigen::Index;
+
+// Motions that contacts oppose by less than this share of the others are not opposed, as a square.
+constexpr double kOpposed = 1e-16;
+// Loads along these that are a larger share of all are not held.
+constexpr double kHeldLoad = 1e-9;
+// Forces that leave less than this share of the loads hold them, if they are within the cones but for such a share.
+constexpr double kBalanced = 1e-13;
+// The interior point goes on until the room is known to this share, or no better.
+constexpr double kRestKnown = 1e-13;
+constexpr int kRestSteps = 80, kRestNoBetter = 5;
+constexpr double kSameMotion = 1e-9;
+
+double roomOf(const RestProgram::Contact& c, const Vec3& f) {
+  const double pressure = c.normal.dot(f), across = (f - pressure * c.normal).norm();
+  if (c.friction > 0) return (pressure - across / c.friction) / c.unit;
+  return across > kBalanced * (pressure + c.unit) ? -across / c.unit : pressure / c.unit;
+}
+
+// Velocities of the contact by those of its bodies, all in units of the square root of the mass.
+Eigen::Matrix<double, 3, 6> rowsOf(const RestProgram& program, const RestProgram::Contact& c, bool of_a) {
+  const double share = (of_a ? 1 : -1) / std::sqrt(program.mass[static_cast<std::size_t>(of_a ? c.a : c.b)]);
+  Eigen::Matrix<double, 3, 6> rows;
+  rows << share * Mat3::Identity(), -share * skew(of_a ? c.arm_a : c.arm_b);
+  return rows;
+}
+
+// The rows of what friction can push along: the normal alone where there is none.
+struct Rows {
+  Eigen::MatrixXd H;         // of all contacts
+  std::vector<Index> first;  // row of each
+  std::vector<Mat3> axes;    // its rows: n and two directions across it
+};
+
+Rows rowsOf(const RestProgram& program) {
+  Rows rows;
+  Index size = 0;
+  for (const RestProgram::Contact& c : program.contacts) {
+    rows.first.push_back(size);
+    size += c.friction > 0 ? 3 : 1;
+    Mat3 axes;
+    const Vec3 across = c.normal.unitOrthogonal();
+    axes << c.normal.transpose(), across.transpose(), c.normal.cross(across).transpose();
+    rows.axes.push_back(axes);
+  }
+  rows.H = Eigen::MatrixXd::Zero(size, 6 * static_cast<Index>(program.mass.size()));
+  for (std::size_t k = 0; k < program.contacts.size(); ++k) {
+    const RestProgram::Contact& c = program.contacts[k];
+    const Index count = c.friction > 0 ? 3 : 1;
+    for (const bool of_a : {true, false})
+      if (const int body = of_a ? c.a : c.b; body >= 0)
+        rows.H.block(rows.first[k], 6 * body, count, 6) = rows.axes[k].topRows(count) * rowsOf(program, c, of_a);
+  }
+  return rows;
+}
+
+class RestSolver {
+ public:
+  explicit RestSolver(const RestProgram& program)
+      : program_(program), rows_(rowsOf(program)), load_(program.load), eigen_(rows_.H.transpose() * rows_.H) {
+    for (std::size_t i = 0; i < program.mass.size(); ++i)
+      load_.segment<6>(6 * static_cast<Index>(i)) /= std::sqrt(program.mass[i]);
+    const double most = eigen_.values.size() > 0 ? eigen_.values[eigen_.values.size() - 1] : 0;
+    while (free_ < eigen_.values.size() && !(eigen_.values[free_] > kOpposed * most)) ++free_;
+  }
+
+  RestForces solve() const {
+    RestForces none;
+    none.room = -std::numeric_limits<double>::infinity();
+    none.force.assign(program_.contacts.size(), Vec3::Zero());
+    const Eigen::VectorXd unheld = eigen_.vectors.leftCols(free_).transpose() * load_;
+    none.unbalanced = unbalancedBy(none.force);
+    if (free_ > 0 && unheld.cwiseAbs().maxCoeff() > kHeldLoad * load_.cwiseAbs().maxCoeff()) return none;
+    RestForces least = leastNorm();
+    if (least.room >= -kBalanced && least.unbalanced <= kBalanced * none.unbalanced) return least;
+    return mostRoom();
+  }
+
+ private:
+  // Of the motions that contacts oppose.
+  Eigen::MatrixXd opposed() const { return eigen_.vectors.rightCols(eigen_.vectors.cols() - free_); }
+
+  RestForces leastNorm() const {
+    const Eigen::MatrixXd V = opposed();
+    const Eigen::VectorXd values = eigen_.values.tail(V.cols());
+    const auto answer = [&](const Eigen::VectorXd& w) {
+      return Eigen::VectorXd(-(rows_.H * (V * (V.transpose() * w).cwiseQuotient(values))));
+    };
+    Eigen::VectorXd f = answer(load_);
+    f += answer(load_ + rows_.H.transpose() * f);  // what rounding of the squares has left
+    return finished([&](std::size_t k, const Index count) { return f.segment(rows_.first[k], count); });
+  }
+
+  RestForces mostRoom() const {
+    const Eigen::MatrixXd V = opposed();
+    const auto n = static_cast<Index>(program_.contacts.size());
+    const Index size = rows_.H.rows() + 1;
+    Eigen::MatrixXd D(size, V.cols());
+    Eigen::VectorXd a = Eigen::VectorXd::Zero(size), pushes = Eigen::VectorXd::Zero(rows_.H.cols());
+    std::vector<int> cones;
+    D.topRows(size - 1) = rows_.H * V;
+    // forces in units of the loads: velocities that weigh them go with them
+    double unit = 0;
+    for (const RestProgram::Contact& c : program_.contacts) unit = std::max(unit, c.unit);
+    for (Index k = 0; k < n; ++k) {
+      const RestProgram::Contact& c = program_.contacts[static_cast<std::size_t>(k)];
+      const Index row = rows_.first[static_cast<std::size_t>(k)];
+      pushes += c.unit / unit * rows_.H.row(row).transpose();
+      if (c.friction > 0) D.middleRows(row + 1, 2) *= c.friction;  // n.u >= mu |u_t|
+      cones.push_back(c.friction > 0 ? 3 : 1);
+    }
+    D.row(size - 1) = -(V.transpose() * pushes).transpose();
+    a[size - 1] = 1;
+    cones.push_back(1);
+    const Eigen::VectorXd b = -(V.transpose() * (load_ / unit + pushes));
+    InteriorPoint point(D, a, b, cones);
+    RestForces best;
+    best.room = -std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0, since = 0; i < kRestSteps && since < kRestNoBetter; ++i) {
+      point.step();
+      if (!std::isfinite(point.gap()) || !point.unknowns().allFinite()) break;
+      const double off = std::max(point.gap(), point.unbalanced());
+      since = off < least ? 0 : since + 1;
+      if (since > 0) continue;
+      least = off;
+      const double room = 1 - point.duals()[size - 1];
+      best = finished([&](std::size_t k, Index count) {
+        Eigen::VectorXd f = unit * point.duals().segment(rows_.first[k], count);
+        if (count > 1) f.tail(2) *= program_.contacts[k].friction;
+        f[0] += room * program_.contacts[k].unit;
+        return f;
+      });
+      if (off < kRestKnown) break;
+    }
+    return best;
+  }
+
+  double unbalancedBy(const std::vector<Vec3>& force) const {
+    Eigen::VectorXd left = program_.load;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+      const RestProgram::Contact& c = program_.contacts[k];
+      const auto add = [&](int body, double sign, const Vec3& arm) {
+        if (body < 0) return;
+        left.segment<3>(6 * body) += sign * force[k];
+        left.segment<3>(6 * body + 3) += sign * arm.cross(force[k]);
+      };
+      add(c.a, 1, c.arm_a), add(c.b, -1, c.arm_b);
+    }
+    double most = 0;
+    for (std::size_t i = 0; i < program_.mass.size(); ++i)
+      most = std::max(most, left.segment<6>(6 * static_cast<Index>(i)).cwiseAbs().maxCoeff() / program_.mass[i]);
+    return most;
+  }
+
+  template <class ForceOf>
+  RestForces finished(const ForceOf& forceOf) const {
+    RestForces out;
+    out.room = 1;
+    for (std::size_t k = 0; k < program_.contacts.size(); ++k) {
+      const RestProgram::Contact& c = program_.contacts[k];
+      const Index count = c.friction > 0 ? 3 : 1;
+      const Eigen::VectorXd f = forceOf(k, count);
+      out.force.push_back(rows_.axes[k].topRows(count).transpose() * f);
+      out.room = std::min(out.room, roomOf(c, out.force.back()));
+    }
+    out.unbalanced = unbalancedBy(out.force);
+    return out;
+  }
+
+  const RestProgram& program_;
+  Rows rows_;
+  Eigen::VectorXd load_;
+  SymmetricEigen<double> eigen_;
+  Index free_ = 0;  // motions that no contact opposes
+};
+
+}  // namespace
+
+RestForces restForces(const RestProgram& program) { return RestSolver(program).solve(); }
+
+bool opposesEveryMotion(const RestProgram& program, const std::vector<Vec3>& force, double least) {
+  RestProgram loaded = program;
+  loaded.contacts.clear();
+  for (std::size_t k = 0; k < force.size(); ++k)
+    if (force[k].norm() > least) loaded.contacts.push_back(program.contacts[k]);
+  const Eigen::MatrixXd H = rowsOf(loaded).H;
+  return H.rows() > 0 && FullLu(H, kSameMotion).rank() == H.cols();
+}
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/simulate/supported_component.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/impact/complementarity.hpp"
+#include "adjoint/motion/guard.hpp"
+#include "adjoint/numeric/so3.hpp"
+
+namespace carom::adjoint_detail {
+namespace {
+
+using Eigen::Index;
+using Member = SupportedComponent::Member;
+
+// Normals that differ by less are those of one face.
+constexpr double kOneFace = 1e-9;
+// Accelerations that are left at rest, as a share of gravity, and in rounding, as a share of what they are made of.
+constexpr double kLeftAtRest = 1e-9, kLeftInRounding = 1e-13;
+// Room of a cone that friction may lack at the limit, as a share of the weights there.
+constexpr double kLackingRoom = 1e-9;
+// What bears less than this share of the weights bears nothing.
+constexpr double kBears = 1e-9;
+
+// Contacts along their normals: rows of the bodies' velocities, and how an impulse of 1 along each moves the bodies.
+struct NormalRows {
+  Eigen::MatrixXd rows, moved;  // 6n x N
+
+  NormalRows(const Motion& motion, const std::vector<Member>& members, const std::vector<const Contact*>& contacts)
+      : rows(Eigen::MatrixXd::Zero(6 * static_cast<Index>(members.size()), static_cast<Index>(contacts.size()))), moved(rows) {
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const BodyModel& model = (*motion.models)[asIndex(members[i].body)];
+      const Mat3 A = model.mobilityWorld(members[i].state.q.toRotationMatrix());
+      const auto at = 6 * static_cast<Index>(i);
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const Contact& c = *contacts[k];
+        if (c.a != members[i].body && c.b != members[i].body) continue;
+        const Vec3 n = (c.a == members[i].body ? 1.0 : -1.0) * c.at.normal, turns = (c.at.point - members[i].state.x).cross(n);
+        const auto column = static_cast<Index>(k);
+        rows.block<6, 1>(at, column) << n, turns;
+        moved.block<6, 1>(at, column) << model.inverse_mass * n, A * turns;
+      }
+    }
+  }
+  Eigen::MatrixXd mobility() const { return rows.transpose() * moved; }
+};
+
+}  // namespace
+
+SupportedComponent::SupportedComponent(const Motion& motion, std::vector<Member> members, std::vector<const Contact*> closed)
+    : motion_(motion), members_(std::move(members)), closed_(std::move(closed)), reach_(members_.size(), 0), presses_(closed_.size(), 0) {
+  for (const Member& m : members_) free_.push_back(freeAcceleration((*motion.models)[asIndex(m.body)], m.state, motion.scene->gravity));
+  pressed_ = free_;
+  for (const Contact* c : closed_)
+    for (const int body : {c->a, c->b})
+      if (const int i = memberOf(body); i >= 0)
+        reach_[asIndex(i)] = std::max(reach_[asIndex(i)], (c->at.point - members_[asIndex(i)].state.x).norm());
+  if (closed_.empty()) return;
+  Eigen::VectorXd alpha(closed_.size());
+  for (std::size_t k = 0; k < closed_.size(); ++k)
+    alpha[static_cast<Index>(k)] = gapAcceleration(motion_, *closed_[k], sideOf(closed_[k]->a, free_), sideOf(closed_[k]->b, free_));
+  const NormalRows along(motion_, members_, closed_);
+  const std::vector<int> active = activeContacts(along.mobility(), alpha);
+  if (active.empty()) return;
+  std::vector<const Contact*> pressing;
+  for (const int k : active) pressing.push_back(closed_[asIndex(k)]), presses_[asIndex(k)] = 1;
+  const NormalRows by(motion_, members_, pressing);
+  const Eigen::VectorXd force = LeastNormSolve(by.mobility(), alpha(active)).y, move = by.moved * force;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    pressed_[i].v += move.segment<3>(6 * static_cast<Index>(i));
+    pressed_[i].w += move.segment<3>(6 * static_cast<Index>(i) + 3);
+  }
+  const Eigen::MatrixXd answers = along.rows.transpose() * by.moved * force.asDiagonal();
+  for (std::size_t k = 0; k < closed_.size(); ++k) {  // a face stands on all of its corners that do not lift
+    const auto row = static_cast<Index>(k);
+    const double left = alpha[row] + answers.row(row).sum(), size = std::abs(alpha[row]) + answers.row(row).cwiseAbs().sum();
+    if (!(std::abs(left) <= kLeftAtRest * motion_.scene->gravity.norm() + kLeftInRounding * size)) continue;
+    const bool on_face = std::ranges::any_of(active, [&](int i) {
+      const Contact& c = *closed_[asIndex(i)];
+      return c.a == closed_[k]->a && c.b == closed_[k]->b && (c.at.normal - closed_[k]->at.normal).norm() <= kOneFace;
+    });
+    if (on_face) presses_[k] = 1;
+  }
+}
+
+int SupportedComponent::memberOf(int body) const {
+  const auto found = std::ranges::find(members_, body, &Member::body);
+  return found == members_.end() ? -1 : static_cast<int>(found - members_.begin());
+}
+
+ContactSide SupportedComponent::sideOf(int body, const std::vector<FreeAcceleration>& accelerations) const {
+  const int i = memberOf(body);
+  if (i < 0) return {motion_.world_lines[asIndex(body)].arcs.back().startState(), std::nullopt};
+  return {members_[asIndex(i)].state, accelerations[asIndex(i)]};
+}
+
+Vec3 SupportedComponent::spinOf(std::size_t member) const {
+  const Member& m = members_[member];
+  return (*motion_.models)[asIndex(m.body)].inverseInertiaWorld(m.state.q.toRotationMatrix()) * m.state.L;
+}
+
+std::vector<const Contact*> SupportedComponent::pressed() const {
+  std::vector<const Contact*> out;
+  for (std::size_t k = 0; k < closed_.size(); ++k)
+    if (presses_[k]) out.push_back(closed_[k]);
+  return out;
+}
+
+std::vector<FreeAcceleration> SupportedComponent::pressedAccelerations() const { return pressed_; }
+
+// A matter of statics, as for one body: moments count by the arm of the farthest contact.
+SupportedComponent::Rest SupportedComponent::restOn(const std::vector<const Contact*>& contacts) const {
+  RestProgram program;
+  double pull = 0;
+  program.load.setZero(6 * static_cast<Index>(members_.size()));
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const BodyModel& model = (*motion_.models)[asIndex(members_[i].body)];
+    const Vec3 gravity = model.gravity_factor * motion_.scene->gravity;
+    program.mass.push_back(model.mass);
+    program.load.segment<3>(6 * static_cast<Index>(i)) = model.mass * gravity;
+    pull = std::max(pull, gravity.norm());
+  }
+  for (const Contact* c : contacts) {
+    RestProgram::Contact& at = program.contacts.emplace_back();
+    at.a = memberOf(c->a), at.b = memberOf(c->b);
+    at.normal = c->at.normal, at.friction = c->pair.friction;
+    at.unit = std::numeric_limits<double>::infinity();
+    const auto side = [&](int i, Vec3& arm) {
+      if (i < 0) return;
+      arm = (c->at.point - members_[asIndex(i)].state.x) / reach_[asIndex(i)];
+      at.unit = std::min(at.unit, program.mass[asIndex(i)] * pull);
+    };
+    side(at.a, at.arm_a), side(at.b, at.arm_b);
+  }
+  const RestForces forces = restForces(program);
+  Rest rest;
+  rest.holds = forces.room >= -kLackingRoom && forces.unbalanced <= kLeftAtRest * pull;
+  if (!rest.holds) return rest;
+  double least = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const double bears = kBears * program.contacts[k].unit;
+    least = k == 0 ? bears : std::min(least, bears);
+    if (forces.force[k].norm() > bears) rest.bearing.push_back(contacts[k]);
+  }
+  rest.opposed = opposesEveryMotion(program, forces.force, least);
+  return rest;
+}
+
+void closeGaps(const Motion& motion, std::vector<Member>& members, std::vector<Contact>& closed) {
+  std::vector<const Contact*> contacts;
+  for (const Contact& c : closed) contacts.push_back(&c);
+  const NormalRows along(motion, members, contacts);
+  Eigen::VectorXd gaps(closed.size());
+  for (std::size_t k = 0; k < closed.size(); ++k) gaps[static_cast<Index>(k)] = closed[k].at.gap;
+  const Eigen::VectorXd move = along.moved * LeastNormSolve(along.mobility(), gaps).y;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Vec3 turn = move.segment<3>(6 * static_cast<Index>(i) + 3);
+    State& state = members[i].state;
+    state.x += move.segment<3>(6 * static_cast<Index>(i));
+    if (turn.norm() > 0) state.q = (expSO3(turn) * state.q).normalized();
+  }
+  for (Contact& c : closed) {
+    const auto pose = [&](int b) {
+      const auto own = std::ranges::find(members, b, &Member::body);
+      return shapePose(motion, b, own != members.end() ? own->state : motion.world_lines[asIndex(b)].arcs.back().startState());
+    };
+    c.at = motion.geometry->contact(c.a, c.b, c.features, pose(c.a), pose(c.b));
+  }
+}
+
+}  // namespace carom::adjoint_detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "adjoint/contact/rest_program.hpp"
+#include "adjoint/simulate/contact_acceleration.hpp"
+
+namespace carom::adjoint_detail {
+
+/// Bodies that impulses move, and the contacts between them and with what stands still that part without speed: which of
+/// these press, and whether forces hold all of the bodies (docs/equations.md, 11.14).
+class SupportedComponent {
+ public:
+  struct Member {
+    int body = -1;
+    State state;
+  };
+  SupportedComponent(const Motion& motion, std::vector<Member> members, std::vector<const Contact*> closed);
+
+  const std::vector<Member>& members() const { return members_; }
+  /// Of the closed contacts, those that forces without friction have to keep closed, and those of the same faces.
+  std::vector<const Contact*> pressed() const;
+  /// Accelerations while such forces act, a member each.
+  std::vector<FreeAcceleration> pressedAccelerations() const;
+
+  /// Whether forces within the cones of friction of these contacts undo all loads, and, where they do, what bears one.
+  struct Rest {
+    bool holds = false;                   ///< forces are enough
+    bool opposed = false;                 ///< every motion slips or opens a contact that bears a load
+    std::vector<const Contact*> bearing;  ///< contacts with a load
+  };
+  Rest restOn(const std::vector<const Contact*>& contacts) const;
+
+  double reachOf(std::size_t member) const { return reach_[member]; }  ///< the longest arm of a contact of it, m
+  Vec3 spinOf(std::size_t member) const;  ///< rad/s
+
+ private:
+  int memberOf(int body) const;
+  ContactSide sideOf(int body, const std::vector<FreeAcceleration>& accelerations) const;
+
+  const Motion& motion_;
+  std::vector<Member> members_;
+  std::vector<const Contact*> closed_;
+  std::vector<FreeAcceleration> free_, pressed_;
+  std::vector<double> reach_;
+  std::vector<char> presses_;  // of each of the closed ones
+};
+
+/// Poses of these bodies with all gaps of the contacts 0, moved as little as possible as measured by the masses (11.13); the
+/// contacts follow.
+void closeGaps(const Motion& motion, std::vector<SupportedComponent::Member>& members, std::vector<Contact>& closed);
+
+}  // namespace carom::adjoint_detail
