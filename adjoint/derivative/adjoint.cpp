@@ -72,7 +72,7 @@ class ReversePass {
         const Participant& p = event.participants[i];
         if (before[i].isZero()) continue;
         throughArc(p.body, p.arc, event.time, before[i],
-                   [&]() -> const ArcSensitivity& { return tape_.arc(p.body, p.arc); });
+                   [&]() -> const ArcSensitivity& { return tape_.until(p, event.time); });
       }
     };
     if (const SingleImpact* single = tape_.singleImpact(index)) {

@@ -86,6 +86,12 @@ const ArcSensitivity& DerivativeTape::arc(int body, int k) {
   return *slot;
 }
 
+const ArcSensitivity& DerivativeTape::until(const Participant& p, double time) {
+  if (!p.stays) return arc(p.body, p.arc);
+  arcUntil(p.body, p.arc, time);
+  return until_.at({p.body, p.arc, time});
+}
+
 ArcSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
   const std::size_t b = checkedIndex("DerivativeTape::arcUntil", "body", body, arcs_.size());
   checkedIndex("DerivativeTape::arcUntil", "arc", k, arcs_[b].size());

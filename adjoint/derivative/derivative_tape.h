@@ -118,6 +118,8 @@ class DerivativeTape {
   const Motion& motion() const { return motion_; }  ///< the linearised motion
   /// Sensitivity over arc k of a body, which ends in an event.
   const ArcSensitivity& arc(int body, int k);
+  /// Sensitivity up to an event at `time` of the arc on which a participant arrives there; good until the next call.
+  const ArcSensitivity& until(const Participant& participant, double time);
   /// Sensitivity from the start of arc k to time t; cached, because the rows of a Jacobian share their times.
   ArcSensitivity arcUntil(int body, int k, double t);
   /// Linearisation of an event.

@@ -76,7 +76,7 @@ Pass passOf(const Motion& motion, const Event& event) {
   rate_before.reserve(event.participants.size()), rate_after.reserve(event.participants.size());
   for (const Participant& p : event.participants) {
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
-    const Arc& next = arcs[static_cast<std::size_t>(p.arc) + 1];
+    const Arc& next = arcs[static_cast<std::size_t>(p.next())];
     rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rateAt(event.time, p.before));
     rate_after.push_back(next.startRate());
   }
@@ -117,7 +117,7 @@ namespace {
 std::shared_ptr<const PathStart> startMapOf(const Motion& motion, const Event& event) {
   for (std::size_t i = 0; i < event.participants.size(); ++i) {
     const Participant& p = event.participants[i];
-    const Arc& next = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc) + 1];
+    const Arc& next = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())];
     if (auto map = next.trajectory().mapOfStart(motion, static_cast<int>(i))) return map;
   }
   return nullptr;

@@ -138,7 +138,7 @@ void closeMarks(const Motion& motion, const Event& event, std::vector<ContactPar
     return on_face && on_face->features == f;
   };
   for (const Participant& p : event.participants) {
-    const ConstrainedPath* path = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc) + 1].trajectory().constrained();
+    const ConstrainedPath* path = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())].trajectory().constrained();
     if (!path || !path->beginsFlat()) continue;
     for (const PersistentContact& held : path->contacts()) {
       const int a = held.is_first ? p.body : held.with, b = held.is_first ? held.with : p.body;

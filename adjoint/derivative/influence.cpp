@@ -52,7 +52,7 @@ Influence::Influence(const Motion& motion, const std::vector<const SceneTangent*
     if (!influenced) continue;
     for (const Participant& p : event.participants) {
       int& first = first_arc_[static_cast<std::size_t>(p.body)];
-      first = std::min(first, p.arc + 1);
+      if (!p.stays) first = std::min(first, p.arc + 1);
     }
   }
 }

@@ -50,7 +50,7 @@ ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
     const Participant* p = event.find(body);
     if (!p) return readPlace(motion, body, Instant::at(event.time));
     if (!instant.follows) return {event.time, p->arc, p->before};
-    return {event.time, p->arc + 1, motion.world_lines[b].arcs[static_cast<std::size_t>(p->arc) + 1].startState()};
+    return {event.time, p->next(), motion.world_lines[b].arcs[static_cast<std::size_t>(p->next())].startState()};
   }
   checkTime("an instant that is read", motion, instant.time);
   const int k = motion.arcAt(body, instant.time);
@@ -58,8 +58,9 @@ ReadPlace readPlace(const Motion& motion, int body, const Instant& instant) {
 }
 
 bool startsArc(const Motion& motion, int body, const Instant& instant) {
-  return instant.follows && instant.event >= 0 &&
-         motion.events[static_cast<std::size_t>(instant.event)].find(body) != nullptr;
+  if (!instant.follows || instant.event < 0) return false;
+  const Participant* p = motion.events[static_cast<std::size_t>(instant.event)].find(body);
+  return p && !p->stays;
 }
 
 double timeDerivative(const Motion& motion, const StateSeed& seed) {

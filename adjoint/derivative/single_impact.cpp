@@ -55,13 +55,13 @@ SingleImpact::SingleImpact(const Motion& motion, const Event& event, const std::
     const Participant& p = event.participants[i];
     const BodyModel& model = (*motion.models)[static_cast<std::size_t>(p.body)];
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
-    const Arc &arc = arcs[static_cast<std::size_t>(p.arc)], &next = arcs[static_cast<std::size_t>(p.arc) + 1];
+    const Arc &arc = arcs[static_cast<std::size_t>(p.arc)], &next = arcs[static_cast<std::size_t>(p.next())];
     Mover& m = movers_[i];
     m.body = p.body;
     m.sign = p.body == c.a ? 1 : -1;
-    m.moves = !model.kinematic;
+    m.moves = !model.kinematic && !p.stays;
     m.round = (model.inverse_inertia.array() == model.inverse_inertia[0]).all();
-    m.inverse_mass = model.kinematic ? 0 : model.inverse_mass;
+    m.inverse_mass = m.moves ? model.inverse_mass : 0;
     m.R = p.before.q.toRotationMatrix();
     m.A = m.round ? Mat3(model.inverse_inertia[0] * Mat3::Identity()) : model.inverseInertiaWorld(m.R);
     m.r = c.at.point - p.before.x;

@@ -89,19 +89,20 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
     const Event& event = motion.events[e];
     if (influence && !influence->event(static_cast<int>(e))) {
       t.event_time_.push_back(0);
-      for (const Participant& p : event.participants) t.starts_[static_cast<std::size_t>(p.body)].emplace_back();
+      for (const Participant& p : event.participants)
+        if (!p.stays) t.starts_[static_cast<std::size_t>(p.body)].emplace_back();
       continue;
     }
     std::vector<StateDerivative> before;
     for (const Participant& p : event.participants) {
       const auto b = static_cast<std::size_t>(p.body), k = static_cast<std::size_t>(p.arc);
-      before.push_back(arcTangent(motion.world_lines[b].arcs[k], event.time, tape.arc(p.body, p.arc), t.starts_[b][k],
+      before.push_back(arcTangent(motion.world_lines[b].arcs[k], event.time, tape.until(p, event.time), t.starts_[b][k],
                                   direction, t.dmodels_[b]));
     }
     const EventLinearization::Tangent d = tape.event(static_cast<int>(e)).tangent(before, direction, t.dmodels_);
     t.event_time_.push_back(d.time);
     for (std::size_t i = 0; i < d.after.size(); ++i)
-      t.starts_[static_cast<std::size_t>(event.participants[i].body)].push_back(d.after[i]);
+      if (!event.participants[i].stays) t.starts_[static_cast<std::size_t>(event.participants[i].body)].push_back(d.after[i]);
   }
   return t;
 }

@@ -34,7 +34,7 @@ class WaitingBars {
   std::vector<BodyModelDerivativeOf<S>> model;
 
   /// What is read of a body at an event, whose weight of time is `time`; `rateOf()`: how fast its state changes there.
-  /// False where the body has no part in the event: then `bar` is still to go through its flight.
+  /// False where the body has no part in the event, or stays: then `bar` is still to go through its arc.
   template <class Rate>
   bool readAtEvent(const Instant& instant, int body, const StateBar& bar, const S& time, const Rate& rateOf) {
     const int event = instant.event;
@@ -46,8 +46,9 @@ class WaitingBars {
       return true;
     }
     at.time += bar.dot(rateOf());  // it moves on while the event comes later
-    if (p) at.after[placeOf(event, *p)] += bar;
-    return p;
+    if (!p || p->stays) return false;
+    at.after[placeOf(event, *p)] += bar;
+    return true;
   }
   /// Of a body at the start of its arc k, which is an event or the start of the motion.
   void arriveAt(int body, int k, const StateBar& bar) {

@@ -19,7 +19,7 @@ bool needsDoubleDouble(const Event& event, const std::vector<BodyModel>& models)
   double least = kInfinity, most = 0, lightest = 0;
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
-    if (model.kinematic) continue;
+    if (model.kinematic || p.stays) continue;
     if (!std::isfinite(model.inverse_mass)) return false;  // no number of digits helps
     double reach = 0;
     for (const Contact& c : event.contacts)

@@ -28,7 +28,7 @@ auto doubleDoublePass(const ImpactInputs<S>& inputs) {
   using W = typename DoubleDoubleOf<S>::Type;
   ImpactInputs<W> wide;
   for (const auto& b : inputs.bodies)
-    wide.bodies.push_back({b.kinematic, W(b.inverse_mass), b.R.template cast<W>(), b.D.template cast<W>(),
+    wide.bodies.push_back({b.kinematic, b.stays, W(b.inverse_mass), b.R.template cast<W>(), b.D.template cast<W>(),
                            b.x.template cast<W>(), b.v.template cast<W>(), b.L.template cast<W>()});
   for (const auto& c : inputs.contacts)
     wide.contacts.push_back({c.a, c.b, c.point.template cast<W>(), c.normal.template cast<W>(), castPair<W>(c.pair),

@@ -20,7 +20,8 @@ ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyMode
   in.bodies.reserve(event.participants.size());
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
-    in.bodies.push_back({model.kinematic, model.kinematic ? 0 : model.inverse_mass, p.before.q.toRotationMatrix(),
+    const bool moves = !model.kinematic && !p.stays;
+    in.bodies.push_back({!moves, p.stays, moves ? model.inverse_mass : 0, p.before.q.toRotationMatrix(),
                          model.inverse_inertia.asDiagonal(), p.before.x, p.before.v, p.before.L});
   }
   for (const Contact& c : event.contacts)
@@ -50,7 +51,7 @@ ImpactInputs<Rate> along(const ImpactInputs<double>& in, const std::vector<State
   for (std::size_t i = 0; i < in.bodies.size(); ++i) {
     const auto& b = in.bodies[i];
     const StateDerivative& d = dbefore[i];
-    both.bodies.push_back({b.kinematic, along(b.inverse_mass, -dmodel[i].mass * b.inverse_mass * b.inverse_mass),
+    both.bodies.push_back({b.kinematic, b.stays, along(b.inverse_mass, -dmodel[i].mass * b.inverse_mass * b.inverse_mass),
                            along(b.R, Mat3(skew(d.theta) * b.R)),
                            along(b.D, Mat3(-b.D * dmodel[i].inertiaTensor() * b.D)), along(b.x, d.x), along(b.v, d.v),
                            along(b.L, d.L)});
@@ -203,7 +204,7 @@ void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector
     const Mat3 A = model.inverseInertiaWorld(p.before.q.toRotationMatrix());
     const Vec3 r = c.at.point - p.before.x, omega = A * p.before.L;
     problem.u += (p.body == c.a ? 1.0 : -1.0) * (p.before.v + omega.cross(r));
-    if (!model.kinematic) problem.K += model.inverse_mass * Mat3::Identity() - skew(r) * A * skew(r);
+    if (!model.kinematic && !p.stays) problem.K += model.inverse_mass * Mat3::Identity() - skew(r) * A * skew(r);
   }
   Vec3 impulse;
   double stick_slip = 1;
@@ -221,7 +222,7 @@ void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector
   event.margins = marginsOf(c, problem.u, stick_slip);
   for (const Participant& p : event.participants) {
     State& s = after.emplace_back(p.before);
-    if (models[static_cast<std::size_t>(p.body)].kinematic) continue;
+    if (models[static_cast<std::size_t>(p.body)].kinematic || p.stays) continue;
     const Vec3 P = (p.body == c.a ? 1.0 : -1.0) * impulse;
     s.v += models[static_cast<std::size_t>(p.body)].inverse_mass * P;
     s.L += (c.at.point - p.before.x).cross(P);

@@ -12,6 +12,7 @@ template <class S>
 struct ImpactInputs {
   struct Body {
     bool kinematic = false;  // adds to u and not to K, and no impulse moves it
+    bool stays = false;      // the same of a body at rest, which is held
     S inverse_mass = 0;
     M3<S> R, D;  // principal axes to world, inverse inertia in them
     V3<S> x, v, L;
@@ -85,7 +86,7 @@ class ImpactPass {
     for (const auto& b : in_.bodies) {
       A_.push_back(b.R * b.D * b.R.transpose());
       omega_.push_back(A_.back() * b.L);
-      problem_.driven = problem_.driven || b.kinematic;
+      problem_.driven = problem_.driven || (b.kinematic && !b.stays);
     }
     for (std::size_t k = 0; k < in_.contacts.size(); ++k) {
       const auto& c = in_.contacts[k];

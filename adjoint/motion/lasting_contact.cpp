@@ -84,7 +84,7 @@ std::string describeChanges(const Motion& motion, int event) {
   if (of.time == motion.end && motion.status != MotionStatus::complete) return text;  // what comes next is not known
   for (const Participant& p : of.participants) {
     const std::vector<Arc>& arcs = motion.world_lines[index(p.body)].arcs;
-    const std::string verb = verbOf(of.kind, arcs[index(p.arc)].kind(), arcs[index(p.arc) + 1].kind());
+    const std::string verb = verbOf(of.kind, arcs[index(p.arc)].kind(), arcs[index(p.next())].kind());
     if (!verb.empty()) text += (text.empty() ? "" : ", ") + motion.scene->bodies[index(p.body)].name + " " + verb;
   }
   return text;

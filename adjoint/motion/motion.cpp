@@ -89,7 +89,7 @@ BodyState Motion::stateAfter(int event, int body) const {
   const Event& e = events[checkedIndex("stateAfter", "event", event, events.size())];
   const Participant* p = e.find(body);
   if (!p) return stateAt(body, e.time);
-  return toBodyState((*models)[b], world_lines[b].arcs[static_cast<std::size_t>(p->arc) + 1].startState());
+  return toBodyState((*models)[b], world_lines[b].arcs[static_cast<std::size_t>(p->next())].startState());
 }
 
 std::optional<int> Motion::findImpact(int body, int n, int with) const {

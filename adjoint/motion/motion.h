@@ -66,9 +66,14 @@ inline constexpr double kReliableMargin = 1e-6;
 /// A moving body in an event.
 struct Participant {
   int body = -1;   ///< index
-  int arc = -1;    ///< index in its world-line of the arc that ends here; the next one starts here
+  int arc = -1;    ///< index in its world-line of the arc that it arrives on
   int impact = 0;  ///< number of this impact among the body's reported ones, 1 = first; 0 if it is not one
   State before;    ///< its state just before
+  /// It stays at rest whatever the event does: other bodies and friction hold it, and its arc goes on.
+  bool stays = false;
+
+  /// Index of the arc that it leaves on: the next one, unless it stays.
+  int next() const { return stays ? arc : arc + 1; }
 };
 
 /// An event: the contacts of one instant, solved simultaneously.

@@ -21,7 +21,7 @@ class EventMaker {
       : lanes_(lanes), index_(event), event_(lanes.motion().events[static_cast<std::size_t>(event)]) {
     for (const Participant& p : event_.participants)
       before_.push_back(
-          lanes.stateAt(p.body, p.arc, lanes.eventTime(event), p.before, lanes.tape().arc(p.body, p.arc)));
+          lanes.stateAt(p.body, p.arc, lanes.eventTime(event), p.before, lanes.tape().until(p, event_.time)));
   }
 
   DualEvent take() {
@@ -73,9 +73,10 @@ class EventMaker {
       const Participant& p = event_.participants[i];
       const DualModel& m = lanes_.model(p.body);
       const DualState& s = before_[i];
-      inputs.bodies.push_back({m.kinematic, m.kinematic ? Num(0) : m.inverse_mass, s.R, m.A, s.x, s.v, s.L});
+      const bool moves = !m.kinematic && !p.stays;
+      inputs.bodies.push_back({!moves, p.stays, moves ? m.inverse_mass : Num(0), s.R, m.A, s.x, s.v, s.L});
       rate_before.push_back(lanes_.rate(p.body, p.arc, time, s));
-      rate_after.push_back(lanes_.rate(p.body, p.arc + 1, time, lanes_.startOf(p.body, p.arc + 1)));
+      rate_after.push_back(lanes_.rate(p.body, p.next(), time, lanes_.startOf(p.body, p.next())));
     }
     std::vector<Part> parts;
     const std::vector<double> weights = guardWeights(event_);

@@ -59,7 +59,7 @@ std::vector<Contact> FollowedPath::contactsAt(const Event& event, int body) cons
 Arc FollowedPath::follow(const Motion& motion, const Motion& was, const Participant& p, const State& after,
                          const std::vector<Contact>& from, double time) {
   const WorldLine& line = was.world_lines[asIndex(p.body)];
-  const std::size_t next = asIndex(p.arc) + 1;
+  const std::size_t next = asIndex(p.next());
   const ConstrainedPath& path = *line.arcs[next].trajectory().constrained();
   PathArc made = constrainedAlong(motion, path, ConstrainedEnds::all, after, from, time);
   contacts = std::move(made.held), transition = made.transition, like = &path;
@@ -82,7 +82,7 @@ bool landsFlat(const Motion& motion, const Event& event) {
   return std::ranges::any_of(event.participants, [&](const Participant& p) {
     const std::vector<Arc>& arcs = motion.world_lines[asIndex(p.body)].arcs;
     const auto path = [&](int arc) { return arcs[asIndex(arc)].trajectory().constrained(); };
-    const ConstrainedPath *before = path(p.arc), *after = path(p.arc + 1);
+    const ConstrainedPath *before = path(p.arc), *after = path(p.next());
     return (before && before->endsFlat() && before->knownUntil() == event.time) || (after && after->beginsFlat());
   });
 }

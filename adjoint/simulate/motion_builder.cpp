@@ -84,6 +84,7 @@ void MotionBuilder::add(Event&& event, std::vector<Arc>&& arcs) {
   const int number = static_cast<int>(motion.event_count++);
   if (event.counts()) ++motion.impacts;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (event.participants[i].stays) continue;
     WorldLine& line = motion.world_lines[index(event.participants[i].body)];
     line.arcs.push_back(std::move(arcs[i]));
     if (motion.has_events) line.events.push_back(number);

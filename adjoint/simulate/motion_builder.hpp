@@ -39,7 +39,7 @@ class MotionBuilder {
   /// where there is none.
   const Contact* notParted(const Event& event, const std::vector<State>& after) const;
 
-  /// Adds an event, and the arcs of its participants from then on.
+  /// Adds an event, and the arcs of its participants from then on, but of those that stay.
   void add(Event&& event, std::vector<Arc>&& arcs);
   /// The status and the message of a motion that ends where the flight of a body cannot be followed.
   void endFlight(std::size_t body, const NotComputable& why);

@@ -74,7 +74,8 @@ double ReusedBodies::nextTimeOf(int body) const {
 }
 
 void ReusedBodies::pass() {
-  for (const Participant& p : next().participants) ++passed_[index(p.body)];
+  for (const Participant& p : next().participants)
+    if (!p.stays) ++passed_[index(p.body)];
   ++next_;
   skip();
 }

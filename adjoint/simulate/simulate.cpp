@@ -102,14 +102,19 @@ void Simulator::resolve(const PredictedEvent& first) {
     const char* arc = reinterpret_cast<const char*>(&arcOf(body));
     for (std::size_t line = 0; line < sizeof(Arc); line += 64) __builtin_prefetch(arc + line);
   }
-  draft_.event = {};
-  draft_.event.time = first.time;
-  snapshots_.clear();
+  beginDraft(first.time);
   contactsOfInstant(first);
   do {
     solveDraft();
     predictDraft();
   } while (joinInstant());
+}
+
+void Simulator::beginDraft(double time) {
+  draft_.event = {};
+  draft_.event.time = time;
+  draft_.woken.clear();
+  snapshots_.clear();
 }
 
 // The predictions that share the instant and, directly or through others, a dynamic body.
@@ -177,7 +182,7 @@ Contact Simulator::makeContact(double time, int a, int b, const FeaturePair& fea
   c.a = a;
   c.b = b;
   c.features = features;
-  const auto tilt = [&](int body) { return arcOf(body).moving() ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
+  const auto tilt = [&](int body) { return arcOf(body).moving() && !isSupport(body) ? tiltOf(body, impacts_[index(body)] + 1) : -1; };
   builder_.place(c, ka, kb);
   if (rimLiesFlat(motion_, c, {ka.x, ka.R}, {kb.x, kb.R})) builder_.placeMoving(c, ka, kb);
   c.counted = isCounted(c, snapshots_[place_a].state, snapshots_[place_b].state);
@@ -196,8 +201,18 @@ int Simulator::tiltOf(int body, int impact) const {
   return at == tilts_.end() ? -1 : at->second;
 }
 
-// Participants, impulses and the arcs that follow.
+// Participants, impulses and the arcs that follow, with all that these move.
 void Simulator::solveDraft() {
+  do {
+    do {
+      takePart();
+      solveLaw();
+    } while (wakesStruck());
+    chooseArcs();
+  } while (wakesUnheld());
+}
+
+void Simulator::takePart() {
   Event& event = draft_.event;
   if (any_lasted_) addConstrained();
   dropDoubles();
@@ -215,11 +230,11 @@ void Simulator::solveDraft() {
   for (int body : bodies_) {
     const bool counts = std::ranges::any_of(
         event.contacts, [&](const Contact& c) { return !c.held && c.counted && (c.a == body || c.b == body); });
+    const bool stays = isSupport(body);
     event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1,
-                                  counts ? impacts_[index(body)] + 1 : 0, snapshots_[snapshot(body, event.time)].state});
+                                  counts && !stays ? impacts_[index(body)] + 1 : 0,
+                                  snapshots_[snapshot(body, event.time)].state, stays});
   }
-  solveLaw();
-  chooseArcs();
 }
 
 Pose Simulator::poseAt(int body, double time) {

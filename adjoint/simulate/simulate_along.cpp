@@ -259,7 +259,7 @@ class Follower {
   // A flight, or a path of the form that it was.
   Arc arcAfter(const Event& was, std::size_t participant, const State& after) {
     const Participant& p = was.participants[participant];
-    const Arc& like = like_.world_lines[index(p.body)].arcs[index(p.arc) + 1];
+    const Arc& like = like_.world_lines[index(p.body)].arcs[index(p.next())];
     FollowedPath& held = held_[index(p.body)];
     if (like.trajectory().constrained()) return constrainedAfter(p, after);
     held = {};

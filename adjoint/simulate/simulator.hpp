@@ -109,7 +109,9 @@ class Simulator {
     std::vector<NextImpact> next_impacts;  // of the participants
     std::vector<BodyContactState> contact_state;     // of the participants; empty where all of them fly
     std::vector<std::optional<RestingMember>> resting;  // of the participants, if they rest with others
+    std::vector<int> unheld;        // supports that the loads after the event move
     std::vector<Contact> pressing;  // between bodies that do not
+    std::vector<int> woken;         // bodies that rested on others, or under them, and do not stay
     std::string beyond;             // why the motion ends: persistent contact that is not modelled
     std::optional<State> past_end;  // of a transition: the body a little later in the modes that end
   };
@@ -129,6 +131,7 @@ class Simulator {
   bool start();
   void startReused();
   bool placeAtStart();
+  void beginDraft(double time);
   bool placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts);
   void solvePlaced(const std::vector<int>& bodies);
 
@@ -139,6 +142,7 @@ class Simulator {
   Contact makeContact(double time, int a, int b, const FeaturePair& features);
   std::size_t snapshot(int body, double time);
   void solveDraft();
+  void takePart();
   bool joinInstant();
   bool inDraft(int a, int b, const FeaturePair& features) const;
   bool meetsThere(const PredictedEvent& p, double time);
@@ -176,13 +180,21 @@ class Simulator {
   bool isOnRim(const Contact& c, const Contact& of) const;
 
   // simulator_component.cpp: bodies that lie on each other
+  bool isSupport(int body) const;
+  std::vector<int> supportsAround(int body) const;
+  std::vector<Contact> heldOf(const std::vector<int>& supports) const;
+  bool wakesStruck();
+  bool wakesUnheld();
+  void keep(std::size_t participant);
   SupportedComponent componentOf(const std::vector<int>& bodies, const std::vector<Contact>& closed) const;
-  std::vector<Contact> closedOf(const std::vector<int>& bodies) const;
-  std::vector<std::vector<int>> touchingParts() const;
+  std::vector<Contact> lasting(const std::vector<int>& bodies) const;
+  std::vector<int> movedBodies(bool with_supports) const;
   std::vector<std::vector<int>> pressedParts(const std::vector<int>& bodies, const std::vector<Contact>& closed) const;
   bool standsStill(const SupportedComponent& component, bool opposed, double no_slip) const;
   std::optional<RestingComponent> restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed, double no_slip) const;
   void chooseComponents();
+  void chooseRest(const std::vector<int>& part, const std::vector<Contact>& closed);
+  void holdAtRest(RestingComponent& rest);
   void rest(std::size_t participant);
   std::optional<FreeAcceleration> componentAcceleration(int body) const;
   std::vector<std::pair<std::vector<int>, std::vector<Contact>>> placedParts(const std::vector<PlacedContact>& placed);

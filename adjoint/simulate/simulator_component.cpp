@@ -14,28 +14,64 @@ namespace {
 
 using Member = SupportedComponent::Member;
 
-// The parts of `bodies` that these contacts connect, each in increasing order; those of one body alone are left out.
+// The parts of `bodies`, in increasing order, that these contacts connect, each in increasing order.
 std::vector<std::vector<int>> connectedBy(const std::vector<int>& bodies, const std::vector<const Contact*>& contacts) {
-  const auto placeOf = [&](int body) { return std::ranges::find(bodies, body) - bodies.begin(); };
+  const auto placeOf = [&](int body) -> std::ptrdiff_t {
+    const auto at = std::ranges::lower_bound(bodies, body);
+    return at != bodies.end() && *at == body ? at - bodies.begin() : -1;
+  };
   UnionFind sets(bodies.size());
-  for (const Contact* c : contacts) {
-    const auto a = placeOf(c->a), b = placeOf(c->b), none = static_cast<std::ptrdiff_t>(bodies.size());
-    if (a < none && b < none) sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-  }
+  for (const Contact* c : contacts)
+    if (const std::ptrdiff_t a = placeOf(c->a), b = placeOf(c->b); a >= 0 && b >= 0)
+      sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   std::vector<std::vector<int>> parts(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) parts[sets.find(i)].push_back(bodies[i]);
-  std::erase_if(parts, [](const std::vector<int>& part) { return part.size() < 2; });
-  for (std::vector<int>& part : parts) std::ranges::sort(part);
+  std::erase_if(parts, [](const std::vector<int>& part) { return part.empty(); });
   std::ranges::sort(parts);
   return parts;
 }
 
-bool isOf(const std::vector<int>& bodies, const Contact& c) {
-  const auto has = [&](int body) { return std::ranges::binary_search(bodies, body); };
-  return has(c.a) || has(c.b);
+bool has(const std::vector<int>& bodies, int body) { return std::ranges::binary_search(bodies, body); }
+bool isOf(const std::vector<int>& bodies, const Contact& c) { return has(bodies, c.a) || has(bodies, c.b); }
+std::vector<Contact> contactsOf(const std::vector<int>& bodies, const std::vector<Contact>& all) {
+  std::vector<Contact> own;
+  std::ranges::copy_if(all, std::back_inserter(own), [&](const Contact& c) { return isOf(bodies, c); });
+  return own;
 }
+bool isSame(const Contact& c, const Contact& d) { return c.a == d.a && c.b == d.b && c.features == d.features; }
 
 }  // namespace
+
+// Whether a body rests on others, or under them, and takes part in the event without being moved.
+bool Simulator::isSupport(int body) const {
+  if (!any_lasted_ || std::ranges::find(draft_.woken, body) != draft_.woken.end()) return false;
+  return std::ranges::any_of(contact_states_[index(body)].held, [&](const Contact& c) { return isMoved(c.a) && isMoved(c.b); });
+}
+
+// All supports that a support is connected with, itself among them.
+std::vector<int> Simulator::supportsAround(int body) const {
+  std::vector<int> found = {body};
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (const Contact& c : contact_states_[index(found[i])].held)
+      if (const int other = c.a == found[i] ? c.b : c.a;
+          isMoved(other) && isSupport(other) && std::ranges::find(found, other) == found.end())
+        found.push_back(other);
+  std::ranges::sort(found);
+  return found;
+}
+
+// What holds supports, but for what the event moves.
+std::vector<Contact> Simulator::heldOf(const std::vector<int>& supports) const {
+  std::vector<Contact> held;
+  for (int body : supports)
+    for (const Contact& c : contact_states_[index(body)].held) {
+      const int other = c.a == body ? c.b : c.a;
+      if (isMoved(other) && !isSupport(other)) continue;
+      if (other < body && has(supports, other)) continue;  // it is listed once
+      held.push_back(c);
+    }
+  return held;
+}
 
 SupportedComponent Simulator::componentOf(const std::vector<int>& bodies, const std::vector<Contact>& closed) const {
   std::vector<Member> members;
@@ -43,38 +79,71 @@ SupportedComponent Simulator::componentOf(const std::vector<int>& bodies, const 
   return {motion_, std::move(members), pointersTo(closed)};
 }
 
-// Of the event, those that last of bodies that impulses move, with what stands still.
-std::vector<Contact> Simulator::closedOf(const std::vector<int>& bodies) const {
+// Whether an impulse is more than friction and what lies around can take: then what is struck is moved.
+bool Simulator::wakesStruck() {
+  bool more = false;
+  std::vector<int> seen;
+  for (const Participant& p : draft_.event.participants) {
+    if (!p.stays || has(seen, p.body)) continue;
+    const std::vector<int> part = supportsAround(p.body);
+    seen.insert(seen.end(), part.begin(), part.end());
+    std::ranges::sort(seen);
+    std::vector<const Contact*> struck;
+    double slow = std::numeric_limits<double>::infinity();
+    for (const Contact& c : draft_.event.contacts)
+      if (isOf(part, c) && c.impulse.norm() > 0) struck.push_back(&c);
+    if (struck.empty()) continue;
+    const std::vector<Contact> held = heldOf(part);
+    const SupportedComponent component = componentOf(part, held);
+    for (std::size_t i = 0; i < part.size(); ++i) slow = std::min(slow, leastSlip(scene_.gravity.norm(), component.reachOf(i)));
+    if (component.holdImpulses(pointersTo(held), struck, slow)) continue;
+    for (const Contact* c : struck)
+      for (int body : {c->a, c->b})
+        if (has(part, body)) draft_.woken.push_back(body), more = true;
+  }
+  return more;
+}
+
+bool Simulator::wakesUnheld() {
+  draft_.woken.insert(draft_.woken.end(), draft_.unheld.begin(), draft_.unheld.end());
+  return !draft_.unheld.empty();
+}
+
+// Participants that impulses can move, in increasing order; with supports also those that are connected with them.
+std::vector<int> Simulator::movedBodies(bool with_supports) const {
+  std::vector<int> moved;
+  for (const Participant& p : draft_.event.participants) {
+    if (!isMoved(p.body)) continue;
+    if (!p.stays) moved.push_back(p.body);
+    if (!p.stays || !with_supports || std::ranges::find(moved, p.body) != moved.end()) continue;
+    const std::vector<int> part = supportsAround(p.body);
+    moved.insert(moved.end(), part.begin(), part.end());
+  }
+  std::ranges::sort(moved);
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  return moved;
+}
+
+// Contacts of these bodies that last, with each other and with what stays: those of the event, and those of supports before it.
+std::vector<Contact> Simulator::lasting(const std::vector<int>& bodies) const {
   std::vector<Contact> closed;
+  const auto stands = [&](int body) { return isFixed(body) || has(bodies, body) || isSupport(body); };
   for (const Contact& c : draft_.event.contacts) {
-    if (!c.lasts || !isOf(bodies, c)) continue;
-    const bool stands = (isMoved(c.a) || isFixed(c.a)) && (isMoved(c.b) || isFixed(c.b));
-    if (!stands) continue;
+    if (!c.lasts || !isOf(bodies, c) || !stands(c.a) || !stands(c.b)) continue;
     closed.push_back(c);
     closed.back().pair = builder_.pairOf(c.a, c.b);
   }
+  std::vector<int> supports;
+  std::ranges::copy_if(bodies, std::back_inserter(supports), [&](int body) { return isSupport(body); });
+  for (Contact& c : heldOf(supports))
+    if (std::ranges::none_of(closed, [&](const Contact& d) { return isSame(c, d); })) closed.push_back(std::move(c));
   dropFlatRims(closed);
   return closed;
 }
 
-// Participants that contacts which last connect, a part each.
-std::vector<std::vector<int>> Simulator::touchingParts() const {
-  std::vector<const Contact*> between;
-  for (const Contact& c : draft_.event.contacts)
-    if (c.lasts && isMoved(c.a) && isMoved(c.b)) between.push_back(&c);
-  if (between.empty()) return {};  // far most often
-  std::vector<int> moved;
-  for (const Participant& p : draft_.event.participants)
-    if (isMoved(p.body)) moved.push_back(p.body);
-  return connectedBy(moved, between);
-}
-
-// Parts of these bodies that contacts press together.
+// Parts of these bodies that contacts press together, and each of the others by itself.
 std::vector<std::vector<int>> Simulator::pressedParts(const std::vector<int>& bodies, const std::vector<Contact>& closed) const {
-  std::vector<const Contact*> pressing;
-  for (const Contact* c : componentOf(bodies, closed).pressed())
-    if (isMoved(c->a) && isMoved(c->b)) pressing.push_back(c);
-  return connectedBy(bodies, pressing);
+  return connectedBy(bodies, componentOf(bodies, closed).pressed());
 }
 
 bool Simulator::standsStill(const SupportedComponent& component, bool opposed, double no_slip) const {
@@ -88,7 +157,7 @@ bool Simulator::standsStill(const SupportedComponent& component, bool opposed, d
 
 // A component at rest: on what presses without friction if that is enough, else on all that is closed.
 std::optional<Simulator::RestingComponent> Simulator::restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed,
-                                                              double no_slip) const {
+                                                             double no_slip) const {
   const SupportedComponent component = componentOf(bodies, closed);
   if (!standsStill(component, true, no_slip)) return std::nullopt;
   std::vector<const Contact*> on = component.pressed();
@@ -103,36 +172,59 @@ std::optional<Simulator::RestingComponent> Simulator::restOf(const std::vector<i
   return found;
 }
 
-// Members of components of the draft that rest, by participant: their states, and what holds them. Contacts that press bodies
-// together which do not rest are kept in mind.
+// Which participants rest on others, or under them. Contacts that press bodies together of which some are moved are kept in mind,
+// and supports that nothing holds any more.
 void Simulator::chooseComponents() {
+  const Event& event = draft_.event;
   draft_.resting.assign(bodies_.size(), {});
   draft_.pressing.clear();
-  for (const std::vector<int>& touching : touchingParts()) {
-    const std::vector<Contact> all = closedOf(touching);
-    for (const std::vector<int>& part : pressedParts(touching, all)) {
-      const std::vector<Contact> closed = closedOf(part);
-      std::optional<RestingComponent> rest = restOf(part, closed, hintOf(closed).no_slip);
-      if (!rest) {
-        for (const Contact* c : componentOf(part, closed).pressed())
-          if (isMoved(c->a) && isMoved(c->b)) draft_.pressing.push_back(*c);
-        continue;
-      }
-      if (std::ranges::any_of(rest->on, [](const Contact& c) { return !c.held; })) closeGaps(motion_, rest->members, rest->on);
-      for (const Member& m : rest->members) {
-        const auto participant = static_cast<std::size_t>(std::ranges::find(bodies_, m.body) - bodies_.begin());
-        RestingMember& member = draft_.resting[participant].emplace(RestingMember{m.state, {}, rest->opposed});
-        for (const Contact& c : rest->on)
-          if (c.a == m.body || c.b == m.body) member.held.push_back(c);
-      }
-    }
+  draft_.unheld.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (event.participants[i].stays) draft_.contact_state[i].held = heldOf({bodies_[i]});
+  const auto joins = [&](const Contact& c) { return c.lasts && isMoved(c.a) && isMoved(c.b); };
+  if (draft_.woken.empty() && std::ranges::none_of(event.contacts, joins)) return;  // far most often
+  const std::vector<int> bodies = movedBodies(true);
+  const std::vector<Contact> all = lasting(bodies);
+  for (const std::vector<int>& touching : connectedBy(bodies, pointersTo(all))) {
+    if (touching.size() == 1 && !isSupport(touching.front())) continue;
+    const std::vector<Contact> closed = contactsOf(touching, all);
+    for (const std::vector<int>& part : pressedParts(touching, closed))
+      if (part.size() > 1 || isSupport(part.front())) chooseRest(part, contactsOf(part, closed));
   }
+}
+
+void Simulator::chooseRest(const std::vector<int>& part, const std::vector<Contact>& closed) {
+  if (std::optional<RestingComponent> rest = restOf(part, closed, hintOf(closed).no_slip)) return holdAtRest(*rest);
+  if (part.size() == 1) {
+    draft_.unheld.push_back(part.front());
+    return;
+  }
+  for (const Contact* c : componentOf(part, closed).pressed())
+    if (isMoved(c->a) && isMoved(c->b)) draft_.pressing.push_back(*c);
+}
+
+// The poses of what has come to rest close its gaps; what stays has more that holds it.
+void Simulator::holdAtRest(RestingComponent& rest) {
+  std::vector<Contact> on;
+  for (const Contact& c : rest.on)
+    if (!isSupport(c.a) || !isSupport(c.b)) on.push_back(c);
+  std::erase_if(on, [&](const Contact& c) { return (isSupport(c.a) && isFixed(c.b)) || (isSupport(c.b) && isFixed(c.a)); });
+  std::erase_if(rest.members, [&](const Member& m) { return isSupport(m.body); });
+  if (std::ranges::any_of(on, [](const Contact& c) { return !c.held; })) closeGaps(motion_, rest.members, on);
+  const auto participantOf = [&](int body) { return static_cast<std::size_t>(std::ranges::find(bodies_, body) - bodies_.begin()); };
+  for (const Member& m : rest.members) {
+    RestingMember& member = draft_.resting[participantOf(m.body)].emplace(RestingMember{m.state, {}, rest.opposed});
+    std::ranges::copy_if(on, std::back_inserter(member.held), [&](const Contact& c) { return c.a == m.body || c.b == m.body; });
+  }
+  for (const Contact& c : on)
+    for (int body : {c.a, c.b})
+      if (isMoved(body) && isSupport(body)) draft_.contact_state[participantOf(body)].held.push_back(c);
 }
 
 void Simulator::rest(std::size_t participant) {
   RestingMember& member = *draft_.resting[participant];
   const int body = bodies_[participant];
-  ContactChoice choice = restPathOf(motion_, body, member.state, pointersTo(member.held), !member.opposed);
+  const ContactChoice choice = restPathOf(motion_, body, member.state, pointersTo(member.held), !member.opposed);
   PathArc made = makePathArc(motion_, choice, draft_.event.time);
   draft_.after[participant] = choice.start;
   draft_.contact_state[participant].held = std::move(made.held);
@@ -141,11 +233,23 @@ void Simulator::rest(std::size_t participant) {
   any_lasted_ = true;
 }
 
+// What stays goes on along its arc.
+void Simulator::keep(std::size_t participant) {
+  const int body = bodies_[participant];
+  draft_.arcs.push_back(arcOf(body));
+  in_draft_[index(body)] = static_cast<int>(participant);
+}
+
 // d^2/dt^2 of bodies that lie on each other, as after the event: none of those that do not.
 std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const {
-  for (const std::vector<int>& touching : touchingParts()) {
-    if (!std::ranges::binary_search(touching, body)) continue;
-    const std::vector<Contact> closed = closedOf(touching);
+  if (const Participant* p = draft_.event.find(body); p && p->stays) return FreeAcceleration();
+  const auto joins = [&](const Contact& c) { return c.lasts && isMoved(c.a) && isMoved(c.b); };
+  if (std::ranges::none_of(draft_.event.contacts, joins)) return std::nullopt;
+  const std::vector<int> bodies = movedBodies(false);
+  const std::vector<Contact> all = lasting(bodies);
+  for (const std::vector<int>& touching : connectedBy(bodies, pointersTo(all))) {
+    const std::vector<Contact> closed = contactsOf(touching, all);
+    if (!has(touching, body) || std::ranges::none_of(closed, joins)) continue;
     if (restOf(touching, closed, 0)) return FreeAcceleration();
     const SupportedComponent component = componentOf(touching, closed);
     const auto at = std::ranges::find(component.members(), body, &Member::body) - component.members().begin();
@@ -157,39 +261,29 @@ std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const
 // What is placed with bodies on each other: the parts that are pressed together, with the contacts of each.
 std::vector<std::pair<std::vector<int>, std::vector<Contact>>> Simulator::placedParts(const std::vector<PlacedContact>& placed) {
   std::vector<std::pair<std::vector<int>, std::vector<Contact>>> parts;
-  std::vector<const PlacedContact*> between;
-  for (const PlacedContact& p : placed)
-    if (isMoved(p.a) && isMoved(p.b) && !overlapOf(p.a, p.b)) between.push_back(&p);
-  if (between.empty()) return parts;
+  const auto isBetween = [&](const PlacedContact& p) { return isMoved(p.a) && isMoved(p.b) && !overlapOf(p.a, p.b); };
+  if (std::ranges::none_of(placed, isBetween)) return parts;
+  beginDraft(0);
+  std::vector<Contact> touching;
+  std::vector<int> bodies;
   const double lowest = 2 * motion_.lowest_bounce * scene_.gravity.norm();
-  const auto closedIn = [&](const PlacedContact& p, std::vector<Contact>& closed) {
+  const auto close = [&](const PlacedContact& p) {
     for (const FeaturePair& f : p.features) {
       Contact c = makeContact(0, p.a, p.b, f);
-      if (!(c.approach * c.approach < lowest)) continue;
-      c.counted = false;
-      c.kept = c.lasts = true;
-      closed.push_back(std::move(c));
+      if (c.approach * c.approach < lowest) touching.push_back(std::move(c));
     }
   };
-  snapshots_.clear();
-  draft_.event = {};
-  std::vector<Contact> touching;
-  for (const PlacedContact* p : between) closedIn(*p, touching);
-  std::vector<int> bodies;
+  for (const PlacedContact& p : placed)
+    if (isBetween(p)) close(p);
   for (const Contact& c : touching) bodies.push_back(c.a), bodies.push_back(c.b);
   std::ranges::sort(bodies);
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   for (const PlacedContact& p : placed)
-    if (isFixed(p.a) != isFixed(p.b) && std::ranges::binary_search(bodies, isFixed(p.a) ? p.b : p.a) && !overlapOf(p.a, p.b))
-      closedIn(p, touching);
+    if (isFixed(p.a) != isFixed(p.b) && has(bodies, isFixed(p.a) ? p.b : p.a) && !overlapOf(p.a, p.b)) close(p);
   for (const std::vector<int>& all : connectedBy(bodies, pointersTo(touching))) {
-    std::vector<Contact> closed;
-    std::ranges::copy_if(touching, std::back_inserter(closed), [&](const Contact& c) { return isOf(all, c); });
-    for (const std::vector<int>& part : pressedParts(all, closed)) {
-      std::vector<Contact> of_part;
-      std::ranges::copy_if(closed, std::back_inserter(of_part), [&](const Contact& c) { return isOf(part, c); });
-      parts.emplace_back(part, std::move(of_part));
-    }
+    const std::vector<Contact> closed = contactsOf(all, touching);
+    for (const std::vector<int>& part : pressedParts(all, closed))
+      if (part.size() > 1) parts.emplace_back(part, contactsOf(part, closed));
   }
   return parts;
 }

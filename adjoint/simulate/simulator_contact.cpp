@@ -51,7 +51,8 @@ std::optional<PredictedImpact> Simulator::besideConstrained(int a, int b, double
 void Simulator::addConstrained() {
   std::vector<Contact>& contacts = draft_.event.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    for (int body : {contacts[k].a, contacts[k].b})
+    for (int body : {contacts[k].a, contacts[k].b}) {
+      if (isSupport(body)) continue;
       for (const Contact& h : contact_states_[index(body)].held) {
         const auto known = std::ranges::find_if(
             contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b && c.features == h.features; });
@@ -64,6 +65,7 @@ void Simulator::addConstrained() {
         c.counted = false;
         contacts.push_back(c);
       }
+    }
   const auto order = [](const Contact& c, const Contact& d) { return std::pair(c.a, c.b) < std::pair(d.a, d.b); };
   if (!std::ranges::is_sorted(contacts, order)) std::ranges::stable_sort(contacts, order);
 }
@@ -80,13 +82,20 @@ void Simulator::chooseArcs() {
   draft_.beyond.clear();
   draft_.arcs.clear();
   draft_.contact_state.clear();
-  if (std::ranges::none_of(event.contacts, &Contact::lasts)) {  // far most often
+  if (std::ranges::none_of(event.contacts, &Contact::lasts) && std::ranges::none_of(event.participants, &Participant::stays)) {  // far most often
     for (std::size_t i = 0; i < bodies_.size(); ++i) fly(i);
     return;
   }
   draft_.contact_state.resize(bodies_.size());
   chooseComponents();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) draft_.resting[i] ? rest(i) : chooseArc(i);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (event.participants[i].stays)
+      keep(i);
+    else if (draft_.resting[i])
+      rest(i);
+    else
+      chooseArc(i);
+  }
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
     c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
@@ -271,10 +280,8 @@ double Simulator::strikingSpeed(const Contact& c) {
 void Simulator::resolveTransition(int body) {
   const BodyContactState from = contact_states_[index(body)];
   Event& event = draft_.event;
-  event = {};
-  event.time = from.transition;
+  beginDraft(from.transition);
   event.kind = EventKind::transition;
-  snapshots_.clear();
   snapshot(body, event.time);
   if (from.why.cause == TransitionCause::leaves && from.why.limit < 0) return resolveFlat(from, body);
   event.cause = from.why.cause;
@@ -326,9 +333,7 @@ void Simulator::addBeside(const BodyContactState& from) {
 
 // What a body rolls over to may come down on it instead: an impact like others.
 void Simulator::resolveLanding(const std::vector<Contact>& on) {
-  const double time = draft_.event.time;
-  draft_.event = {};
-  draft_.event.time = time;
+  beginDraft(draft_.event.time);
   for (const Contact& c : on)
     if (strikes(c)) draft_.event.contacts.push_back(c);
   do {

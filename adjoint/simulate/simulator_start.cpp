@@ -94,8 +94,7 @@ bool Simulator::placeAtStart() {
     if (isFixed(p.a) != isFixed(p.b) && !overlapOf(p.a, p.b)) on_fixed[index(isFixed(p.a) ? p.b : p.a)].push_back(&p);
   for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
     if (!isMoved(body) || reused_.has(body) || is_placed[index(body)]) continue;
-    draft_.event = {};
-    snapshots_.clear();
+    beginDraft(0);
     std::vector<Contact> contacts;
     for (const PlacedContact* p : on_fixed[index(body)])
       for (const FeaturePair& f : p->features) {
@@ -111,7 +110,7 @@ bool Simulator::placeAtStart() {
 // False where these contacts last in a way that is beyond what is known of.
 bool Simulator::placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts) {
   Event& event = draft_.event;
-  event = {};
+  beginDraft(0);
   event.kind = EventKind::placed;
   event.contacts = std::move(contacts);
   for (Contact& c : event.contacts) {
@@ -119,7 +118,6 @@ bool Simulator::placeBodies(const std::vector<int>& bodies, std::vector<Contact>
     c.kept = true;
     c.pair.elasticity = c.pair.friction = 0;
   }
-  snapshots_.clear();
   dropDoubles();
   solvePlaced(bodies);
   if (draft_.beyond.empty()) return true;
@@ -133,7 +131,7 @@ void Simulator::solvePlaced(const std::vector<int>& bodies) {
   bodies_ = bodies;
   for (int body : bodies_)
     event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
-                                  snapshots_[snapshot(body, 0)].state});
+                                  snapshots_[snapshot(body, 0)].state, false});
   try {
     solveImpact(event, *motion_.models, draft_.after);
   } catch (const NotComputable& error) {

@@ -109,42 +109,67 @@ std::vector<const Contact*> SupportedComponent::pressed() const {
 
 std::vector<FreeAcceleration> SupportedComponent::pressedAccelerations() const { return pressed_; }
 
-// A matter of statics, as for one body: moments count by the arm of the farthest contact.
-SupportedComponent::Rest SupportedComponent::restOn(const std::vector<const Contact*>& contacts) const {
+// A matter of statics, as for one body: moments count by the arm of the farthest contact. Without loads and units.
+RestProgram SupportedComponent::programOf(const std::vector<const Contact*>& contacts) const {
   RestProgram program;
-  double pull = 0;
   program.load.setZero(6 * static_cast<Index>(members_.size()));
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const BodyModel& model = (*motion_.models)[asIndex(members_[i].body)];
-    const Vec3 gravity = model.gravity_factor * motion_.scene->gravity;
-    program.mass.push_back(model.mass);
-    program.load.segment<3>(6 * static_cast<Index>(i)) = model.mass * gravity;
-    pull = std::max(pull, gravity.norm());
-  }
+  for (const Member& m : members_) program.mass.push_back((*motion_.models)[asIndex(m.body)].mass);
   for (const Contact* c : contacts) {
     RestProgram::Contact& at = program.contacts.emplace_back();
     at.a = memberOf(c->a), at.b = memberOf(c->b);
     at.normal = c->at.normal, at.friction = c->pair.friction;
+    if (at.a >= 0) at.arm_a = (c->at.point - members_[asIndex(at.a)].state.x) / reach_[asIndex(at.a)];
+    if (at.b >= 0) at.arm_b = (c->at.point - members_[asIndex(at.b)].state.x) / reach_[asIndex(at.b)];
+  }
+  return program;
+}
+
+SupportedComponent::Rest SupportedComponent::restOn(const std::vector<const Contact*>& contacts) const {
+  RestProgram program = programOf(contacts);
+  double pull = 0;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const BodyModel& model = (*motion_.models)[asIndex(members_[i].body)];
+    const Vec3 gravity = model.gravity_factor * motion_.scene->gravity;
+    program.load.segment<3>(6 * static_cast<Index>(i)) = model.mass * gravity;
+    pull = std::max(pull, gravity.norm());
+  }
+  for (RestProgram::Contact& at : program.contacts) {
     at.unit = std::numeric_limits<double>::infinity();
-    const auto side = [&](int i, Vec3& arm) {
-      if (i < 0) return;
-      arm = (c->at.point - members_[asIndex(i)].state.x) / reach_[asIndex(i)];
-      at.unit = std::min(at.unit, program.mass[asIndex(i)] * pull);
-    };
-    side(at.a, at.arm_a), side(at.b, at.arm_b);
+    for (const int i : {at.a, at.b})
+      if (i >= 0) at.unit = std::min(at.unit, program.mass[asIndex(i)] * pull);
   }
   const RestForces forces = restForces(program);
   Rest rest;
   rest.holds = forces.room >= -kLackingRoom && forces.unbalanced <= kLeftAtRest * pull;
   if (!rest.holds) return rest;
-  double least = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double bears = kBears * program.contacts[k].unit;
-    least = k == 0 ? bears : std::min(least, bears);
+    least = std::min(least, bears);
     if (forces.force[k].norm() > bears) rest.bearing.push_back(contacts[k]);
   }
   rest.opposed = opposesEveryMotion(program, forces.force, least);
   return rest;
+}
+
+bool SupportedComponent::holdImpulses(const std::vector<const Contact*>& contacts, const std::vector<const Contact*>& struck,
+                                      double slow) const {
+  RestProgram program = programOf(contacts);
+  double most = 0;
+  for (const Contact* c : struck) {
+    most = std::max(most, c->impulse.norm());
+    for (const bool of_a : {true, false}) {
+      const int i = memberOf(of_a ? c->a : c->b);
+      if (i < 0) continue;
+      const Vec3 P = (of_a ? 1.0 : -1.0) * c->impulse, arm = (c->at.point - members_[asIndex(i)].state.x) / reach_[asIndex(i)];
+      program.load.segment<3>(6 * i) += P;
+      program.load.segment<3>(6 * i + 3) += arm.cross(P);
+    }
+  }
+  if (!(most > 0)) return true;
+  for (RestProgram::Contact& at : program.contacts) at.unit = most;
+  const RestForces impulses = restForces(program);
+  return impulses.room >= -kLackingRoom && impulses.unbalanced <= slow;
 }
 
 void closeGaps(const Motion& motion, std::vector<Member>& members, std::vector<Contact>& closed) {

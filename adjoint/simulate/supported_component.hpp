@@ -31,12 +31,15 @@ class SupportedComponent {
     std::vector<const Contact*> bearing;  ///< contacts with a load
   };
   Rest restOn(const std::vector<const Contact*>& contacts) const;
+  /// Whether impulses within these cones undo those that `struck` contacts give the bodies, but for speeds up to `slow` m/s.
+  bool holdImpulses(const std::vector<const Contact*>& contacts, const std::vector<const Contact*>& struck, double slow) const;
 
   double reachOf(std::size_t member) const { return reach_[member]; }  ///< the longest arm of a contact of it, m
   Vec3 spinOf(std::size_t member) const;  ///< rad/s
 
  private:
   int memberOf(int body) const;
+  RestProgram programOf(const std::vector<const Contact*>& contacts) const;
   ContactSide sideOf(int body, const std::vector<FreeAcceleration>& accelerations) const;
 
   const Motion& motion_;

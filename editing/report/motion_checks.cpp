@@ -130,7 +130,7 @@ double energyGain(const Motion& motion) {
       const WorldLine& line = motion.world_lines[static_cast<std::size_t>(p.body)];
       const BodyModel& model = (*motion.models)[static_cast<std::size_t>(p.body)];
       before += kineticEnergy(model, p.before);
-      after += kineticEnergy(model, line.arcs[static_cast<std::size_t>(p.arc) + 1].startState());
+      after += kineticEnergy(model, line.arcs[static_cast<std::size_t>(p.next())].startState());
     }
     after -= workDone(motion, event);
     if (before > 0) worst = std::max(worst, after / before - 1);

@@ -56,7 +56,7 @@ void addSamples(const Motion& motion, int body, double rate, std::vector<CsvRow>
 // Null when the motion ends in the event.
 const Arc* arcAfter(const Motion& motion, const Participant& p) {
   const auto& arcs = motion.world_lines[p.body].arcs;
-  return p.arc + 1 < static_cast<int>(arcs.size()) ? &arcs[p.arc + 1] : nullptr;
+  return p.next() < static_cast<int>(arcs.size()) ? &arcs[p.next()] : nullptr;
 }
 
 std::vector<CsvRow> rowsOf(const Motion& motion, double rate) {
@@ -93,7 +93,7 @@ std::string pathOf(const Motion& motion, const CsvRow& row) {
   if (row.kind == RowKind::after && row.time == motion.end && motion.status != MotionStatus::complete) return "";
   const int arc = row.kind == RowKind::sample   ? motion.arcAt(row.body, row.time)
                   : row.kind == RowKind::before ? motion.events[row.event].find(row.body)->arc
-                                                : motion.events[row.event].find(row.body)->arc + 1;
+                                                : motion.events[row.event].find(row.body)->next();
   return nameOf(motion.world_lines[row.body].arcs[arc].kind());
 }
 

@@ -22,7 +22,7 @@ using namespace test;
 constexpr int kScenes = 25;
 
 const State& stateAfter(const Motion& m, const Participant& p) {
-  return m.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc) + 1].startState();
+  return m.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())].startState();
 }
 
 const BodyModel& modelAt(const Motion& m, int body) { return (*m.models)[static_cast<std::size_t>(body)]; }

@@ -24,7 +24,7 @@ Body ofMass(Body body, double mass) {
 Vec3 velocityAfter(const Motion& m, std::size_t event, int body) {
   const Event& e = m.events[event];
   const Participant* p = e.find(body);
-  return m.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->arc) + 1].startState().v;
+  return m.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->next())].startState().v;
 }
 
 void expectRelative(double found, double right, double tolerance, const char* what) {

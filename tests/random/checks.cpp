@@ -99,7 +99,7 @@ void checkEnergy(const Motion& motion, Findings& findings) {
       const Arc& arc = motion.world_lines[body].arcs[static_cast<std::size_t>(p.arc)];
       const Real kinetic_before = kinetic(masses[body], p.before);
       before += kinetic_before;
-      after += kinetic(masses[body], motion.world_lines[body].arcs[static_cast<std::size_t>(p.arc) + 1].startState());
+      after += kinetic(masses[body], motion.world_lines[body].arcs[static_cast<std::size_t>(p.next())].startState());
       // along the arc that ends here: kinetic energy gained = work of gravity, less what friction takes
       const Real start = kinetic(masses[body], arc.startState());
       const Real work = masses[body].mass * g.dot(widen(p.before.x) - widen(arc.startState().x));

@@ -77,7 +77,7 @@ TEST(RatioScenes, StacksAreRightOrSayWhyNot) {
         const BodyModel& model = (*m.models)[static_cast<std::size_t>(p.body)];
         before += kineticEnergy(model, p.before);
         after += kineticEnergy(
-            model, m.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc) + 1].startState());
+            model, m.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())].startState());
       }
       EXPECT_TRUE(after <= before * (1 + 1e-9)) << "gains " << after / before - 1 << " of its energy at " << event.time;
       for (const Contact& c : event.contacts) {
@@ -92,7 +92,7 @@ TEST(RatioScenes, StacksAreRightOrSayWhyNot) {
           };
           approach += speed(p.before);
           parting += speed(
-              m.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.arc) + 1].startState());
+              m.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())].startState());
         }
         EXPECT_TRUE(parting >= -c.pair.elasticity * approach - 1e-9 * size)
             << "parts at " << parting << " after " << approach << " at " << event.time;

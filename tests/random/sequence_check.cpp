@@ -127,7 +127,7 @@ class SequenceCheck {
   Kinematic after(const Event& event, int body) {
     const Participant* p = event.find(body);
     if (!p) return brute_.stateAt(body, event.time);
-    const Arc& arc = motion_.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->arc) + 1];
+    const Arc& arc = motion_.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->next())];
     const Kinematics k = arc.kinematicsAt(arc.start());
     return {widen(k.x), widen(k.v), widen(k.w), k.R.cast<Real>()};
   }
@@ -184,7 +184,7 @@ class SequenceCheck {
   void restart(const Event& event) {
     for (const Participant& p : event.participants) {
       const auto& arcs = motion_.world_lines[static_cast<std::size_t>(p.body)].arcs;
-      brute_.restart(p.body, event.time, arcs[static_cast<std::size_t>(p.arc) + 1].startState());
+      brute_.restart(p.body, event.time, arcs[static_cast<std::size_t>(p.next())].startState());
     }
     for (const auto& [a, b] : pairs_) brute_.leaveContact(a, b, event.time);
   }

@@ -81,7 +81,7 @@ Vec3 velocityAfter(const Motion& m, const Event& e, const Contact& c) {
   for (const int body : {c.a, c.b}) {
     const Participant* p = e.find(body);
     if (!p) continue;
-    const Arc& next = m.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->arc) + 1];
+    const Arc& next = m.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->next())];
     const Kinematics k = next.kinematicsOf(next.startState());
     u += (body == c.a ? 1.0 : -1.0) * (k.v + k.w.cross(c.at.point - k.x));
   }
