@@ -82,7 +82,9 @@ void InteriorPoint::makeIndependent() {
 }
 
 InteriorPoint::InteriorPoint(const MatrixXd& D, const VectorXd& a, const VectorXd& b)
-    : InteriorPoint(D, a, b, std::vector<int>(static_cast<std::size_t>(a.size() / 3), 3)) {}
+    : InteriorPoint(D, a, b, std::vector<int>(static_cast<std::size_t>(a.size() / 3), 3)) {
+  by_rows_ = false;
+}
 
 InteriorPoint::InteriorPoint(const MatrixXd& D, const VectorXd& a, const VectorXd& b, const std::vector<int>& cones)
     : D_(D), K_(MatrixXd::Zero(D.cols(), D.cols())), G_(0, D.cols()), b_(b), g_(0), a_(a) {
@@ -96,6 +98,7 @@ InteriorPoint::InteriorPoint(const MatrixXd& D, const VectorXd& a, const VectorX
     z_[at] = 1.0 / static_cast<double>(cones.size());
     at += size;
   }
+  by_rows_ = true;
 }
 
 void InteriorPoint::addContact(const ConeProgramOf<double>& program, int k, Index& column) {
@@ -152,13 +155,20 @@ void InteriorPoint::scale(Cone& c) {
 
 void InteriorPoint::direction(const VectorXd& q) {
   const VectorXd lacks = D_ * y_ + a_ - s_;
-  VectorXd along(z_.size());
-  for (const Cone& c : cones_)
-    along.segment(c.at, c.size) = c.inverse * (q.segment(c.at, c.size) - c.inverse * lacks.segment(c.at, c.size));
-  const VectorXd right = D_.transpose() * (along + z_) + G_.transpose() * lambda_ - K_ * y_ - b_;
-  const VectorXd first = H_inverse_ * right;
-  dlambda_ = S_inverse_ * (g_ - G_ * y_ - G_ * first);
-  dy_ = first + H_inverse_ * (G_.transpose() * dlambda_);
+  VectorXd scaled(z_.size()), along(z_.size());
+  for (const Cone& c : cones_) {
+    scaled.segment(c.at, c.size) = q.segment(c.at, c.size) - c.inverse * lacks.segment(c.at, c.size);
+    along.segment(c.at, c.size) = c.inverse * scaled.segment(c.at, c.size);
+  }
+  if (by_rows_) {
+    dy_ = scaled_->solveNormal(scaled, D_.transpose() * z_ - b_);
+    dlambda_.setZero(0);
+  } else {
+    const VectorXd right = D_.transpose() * (along + z_) + G_.transpose() * lambda_ - K_ * y_ - b_;
+    const VectorXd first = H_inverse_ * right;
+    dlambda_ = S_inverse_ * (g_ - G_ * y_ - G_ * first);
+    dy_ = first + H_inverse_ * (G_.transpose() * dlambda_);
+  }
   const VectorXd moved = D_ * dy_;
   ds_ = moved + lacks;
   dz_ = along;
@@ -181,7 +191,18 @@ double InteriorPoint::longest(const VectorXd& from, const VectorXd& along) const
   return most;
 }
 
-void InteriorPoint::step() {
+// For directions: the matrix of y with its inverse, or its scaled rows. False where numbers let it come no nearer.
+bool InteriorPoint::factorise() {
+  if (by_rows_) {
+    MatrixXd rows(D_.rows(), D_.cols());
+    for (Cone& c : cones_) {
+      scale(c);
+      rows.middleRows(c.at, c.size) = c.inverse * D_.middleRows(c.at, c.size);
+    }
+    if (!rows.allFinite()) return false;
+    scaled_.emplace(rows);
+    return true;
+  }
   MatrixXd H = K_;
   H.diagonal().array() += 1e-14;
   for (Cone& c : cones_) {
@@ -189,12 +210,17 @@ void InteriorPoint::step() {
     const MatrixXd rows = c.inverse * D_.middleRows(c.at, c.size);
     H += rows.transpose() * rows;
   }
-  if (!H.allFinite()) {  // it has come as near as numbers let it
+  if (!H.allFinite()) return false;
+  H_inverse_ = inverseOfSymmetric(H);
+  S_inverse_ = symmetricInverse<double>(G_ * H_inverse_ * G_.transpose(), VectorXd::Ones(G_.rows()));
+  return true;
+}
+
+void InteriorPoint::step() {
+  if (!factorise()) {
     s_.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  H_inverse_ = inverseOfSymmetric(H);
-  S_inverse_ = symmetricInverse<double>(G_ * H_inverse_ * G_.transpose(), VectorXd::Ones(G_.rows()));
   VectorXd even(z_.size());
   for (const Cone& c : cones_) even.segment(c.at, c.size) = c.W * z_.segment(c.at, c.size);
   direction(-even);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "adjoint/contact/cone.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -16,7 +18,8 @@ class InteriorPoint {
   explicit InteriorPoint(const ConeProgramOf<double>& program);
   /// Minimise b.y, where every three rows of D y + a are in the cone s_0 >= |(s_1, s_2)|.
   InteriorPoint(const Eigen::MatrixXd& D, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
-  /// The same with cones of these sizes: 3 rows each, or 1, which is s >= 0.
+  /// The same with cones of these sizes: 3 rows each, or 1, which is s >= 0. Directions come from the scaled rows themselves,
+  /// whose square would be singular near the solution; the columns of D are independent.
   InteriorPoint(const Eigen::MatrixXd& D, const Eigen::VectorXd& a, const Eigen::VectorXd& b, const std::vector<int>& cones);
 
   void step();
@@ -38,6 +41,7 @@ class InteriorPoint {
   void addContact(const ConeProgramOf<double>& program, int k, Eigen::Index& column);
   void makeIndependent();
   void scale(Cone& cone);
+  bool factorise();
   /// Directions of y, lambda, s and z for W^-1 ds + W dz = q.
   void direction(const Eigen::VectorXd& q);
   double longest(const Eigen::VectorXd& from, const Eigen::VectorXd& along) const;
@@ -48,6 +52,8 @@ class InteriorPoint {
   Eigen::VectorXd b_, g_, a_;      // s = D y + a
   Eigen::VectorXd y_, lambda_, s_, z_, dy_, dlambda_, ds_, dz_;
   Eigen::MatrixXd H_inverse_, S_inverse_;
+  std::optional<HouseholderQr> scaled_;  // of W^-1 D
+  bool by_rows_ = false;
 };
 
 }  // namespace carom::adjoint_detail

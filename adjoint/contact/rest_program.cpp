@@ -21,9 +21,10 @@ constexpr double kOpposed = 1e-16;
 constexpr double kHeldLoad = 1e-9;
 // Forces that leave less than this share of the loads hold them, if they are within the cones but for such a share.
 constexpr double kBalanced = 1e-13;
-// The interior point goes on until the room is known to this share, or no better.
-constexpr double kRestKnown = 1e-13;
-constexpr int kRestSteps = 80, kRestNoBetter = 5;
+// The interior point goes on until there is room, until there can be none by so many times what it lacks, or until rooms below
+// this get no better.
+constexpr double kRestKnown = 1e-8, kLacks = 100;
+constexpr int kRestSteps = 80, kRestNoBetter = 6;
 constexpr double kSameMotion = 1e-9;
 
 double roomOf(const RestProgram::Contact& c, const Vec3& f) {
@@ -96,14 +97,18 @@ class RestSolver {
   Eigen::MatrixXd opposed() const { return eigen_.vectors.rightCols(eigen_.vectors.cols() - free_); }
 
   RestForces leastNorm() const {
+    return balanced(Eigen::VectorXd::Zero(rows_.H.rows()));
+  }
+
+  // Forces next to these that undo the loads.
+  RestForces balanced(Eigen::VectorXd f) const {
     const Eigen::MatrixXd V = opposed();
     const Eigen::VectorXd values = eigen_.values.tail(V.cols());
-    const auto answer = [&](const Eigen::VectorXd& w) {
-      return Eigen::VectorXd(-(rows_.H * (V * (V.transpose() * w).cwiseQuotient(values))));
-    };
-    Eigen::VectorXd f = answer(load_);
-    f += answer(load_ + rows_.H.transpose() * f);  // what rounding of the squares has left
-    return finished([&](std::size_t k, const Index count) { return f.segment(rows_.first[k], count); });
+    for (int round = 0; round < 2; ++round) {  // again for what rounding of the squares leaves
+      const Eigen::VectorXd left = load_ + rows_.H.transpose() * f;
+      f -= rows_.H * (V * (V.transpose() * left).cwiseQuotient(values));
+    }
+    return finished([&](std::size_t k, Index count) { return f.segment(rows_.first[k], count); });
   }
 
   RestForces mostRoom() const {
@@ -131,22 +136,22 @@ class RestSolver {
     InteriorPoint point(D, a, b, cones);
     RestForces best;
     best.room = -std::numeric_limits<double>::infinity();
-    double least = std::numeric_limits<double>::infinity();
     for (int i = 0, since = 0; i < kRestSteps && since < kRestNoBetter; ++i) {
       point.step();
       if (!std::isfinite(point.gap()) || !point.unknowns().allFinite()) break;
-      const double off = std::max(point.gap(), point.unbalanced());
-      since = off < least ? 0 : since + 1;
-      if (since > 0) continue;
-      least = off;
       const double room = 1 - point.duals()[size - 1];
-      best = finished([&](std::size_t k, Index count) {
-        Eigen::VectorXd f = unit * point.duals().segment(rows_.first[k], count);
-        if (count > 1) f.tail(2) *= program_.contacts[k].friction;
-        f[0] += room * program_.contacts[k].unit;
-        return f;
-      });
-      if (off < kRestKnown) break;
+      Eigen::VectorXd f = unit * point.duals().head(size - 1);
+      for (std::size_t k = 0; k < program_.contacts.size(); ++k) {
+        if (program_.contacts[k].friction > 0) f.segment<2>(rows_.first[k] + 1) *= program_.contacts[k].friction;
+        f[rows_.first[k]] += room * program_.contacts[k].unit;
+      }
+      RestForces now = balanced(std::move(f));
+      since = now.room > best.room ? 0 : since + 1;
+      if (now.room > best.room) best = std::move(now);
+      if (best.room >= 0) break;
+      // no forces have more room than these by what the point still lacks
+      const double lacks = point.gap() * static_cast<double>(cones.size()) + point.unbalanced();
+      if (best.room < -kLacks * lacks && best.room < -kRestKnown) break;
     }
     return best;
   }

@@ -11,42 +11,40 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// What a body is in contact with on the arc that begins with an event, which lists it: times and kind are left open.
-std::vector<LastingContact> startedBy(const Event& event, int body) {
+/// Whether body a of a contact between moving bodies lies on b, as gravity has it.
+bool isOnTop(const Motion& motion, const Contact& c) { return c.at.normal.dot(motion.scene->gravity) <= 0; }
+
+double endOf(const Motion& motion, int body, int arc) {
+  const std::vector<int>& events = motion.world_lines[index(body)].events;
+  return index(arc) < events.size() ? motion.events[index(events[index(arc)])].time : motion.end;
+}
+
+/// What persists from an event on: of two moving bodies, listed with that which lies on the other.
+std::vector<LastingContact> startedBy(const Motion& motion, const Event& event) {
   std::vector<LastingContact> started;
   for (const Contact& c : event.contacts) {
-    if (!c.lasts || (c.a != body && c.b != body)) continue;
-    const int with = c.a == body ? c.b : c.a;
-    auto known = std::ranges::find(started, with, &LastingContact::with);
-    if (known == started.end()) known = started.insert(known, {body, with, ArcKind::rest, {}, 0, 0});
+    const auto moved = [&](int body) {  // null for a body that impacts do not move
+      const Participant* p = event.find(body);
+      return p && !(*motion.models)[index(body)].kinematic ? p : nullptr;
+    };
+    const Participant *a = moved(c.a), *b = moved(c.b);
+    if (!c.lasts || (!a && !b)) continue;
+    const Participant& own = !b || (a && isOnTop(motion, c)) ? *a : *b;
+    const int with = own.body == c.a ? c.b : c.a;
+    auto known = std::ranges::find_if(started, [&](const LastingContact& l) { return l.body == own.body && l.with == with; });
+    if (known == started.end()) {
+      double to = endOf(motion, own.body, own.next());
+      if (const Participant* other = own.body == c.a ? b : a) to = std::min(to, endOf(motion, other->body, other->next()));
+      known = started.insert(known, {own.body, with, motion.world_lines[index(own.body)].arcs[index(own.next())].kind(), {}, event.time, to});
+    }
     known->features.push_back(c.features);
   }
   return started;
 }
 
 bool goesOn(const LastingContact& before, const LastingContact& after) {
-  return before.with == after.with && before.kind == after.kind && before.to == after.from &&
+  return before.body == after.body && before.with == after.with && before.kind == after.kind && before.to == after.from &&
          std::ranges::is_permutation(before.features, after.features);
-}
-
-void addOf(const Motion& motion, int body, std::vector<LastingContact>& found) {
-  const WorldLine& line = motion.world_lines[index(body)];
-  std::vector<LastingContact> own;
-  for (std::size_t k = 1; k < line.arcs.size(); ++k) {
-    if (line.arcs[k].kind() == ArcKind::flight) continue;
-    const Event& event = motion.events[index(line.events[k - 1])];
-    const double to = k < line.events.size() ? motion.events[index(line.events[k])].time : motion.end;
-    if (!(event.time < to)) continue;
-    for (LastingContact& c : startedBy(event, body)) {
-      c.kind = line.arcs[k].kind(), c.from = event.time, c.to = to;
-      const auto before = std::ranges::find_if(own, [&](const LastingContact& b) { return goesOn(b, c); });
-      if (before == own.end())
-        own.push_back(std::move(c));
-      else
-        before->to = to;
-    }
-  }
-  found.insert(found.end(), own.begin(), own.end());
 }
 
 const char* verbOf(EventKind event, ArcKind before, ArcKind after) {
@@ -72,7 +70,20 @@ const char* verbOf(EventKind event, ArcKind before, ArcKind after) {
 std::vector<LastingContact> lastingContacts(const Motion& motion) {
   if (!motion.has_events) throw InputError("found a motion whose events were not recorded, expected one with them");
   std::vector<LastingContact> found;
-  for (std::size_t b = 0; b < motion.world_lines.size(); ++b) addOf(motion, static_cast<int>(b), found);
+  std::vector<std::vector<std::size_t>> latest(motion.world_lines.size());  // of each body, those that may go on
+  for (const Event& event : motion.events)
+    for (LastingContact& c : startedBy(motion, event)) {
+      if (c.kind == ArcKind::flight || !(c.from < c.to)) continue;
+      std::vector<std::size_t>& own = latest[index(c.body)];
+      const auto before = std::ranges::find_if(own, [&](std::size_t i) { return goesOn(found[i], c); });
+      if (before != own.end()) {
+        found[*before].to = c.to;
+        continue;
+      }
+      own.push_back(found.size());
+      found.push_back(std::move(c));
+    }
+  std::ranges::stable_sort(found, {}, &LastingContact::body);
   std::ranges::stable_sort(found, {}, &LastingContact::from);
   return found;
 }

@@ -8,8 +8,8 @@
 
 namespace carom {
 
-/// An interval of persistent contact: a body rests, slides, rolls or pivots on a fixed one, at the same features
-/// throughout.
+/// An interval of persistent contact: a body rests, slides, rolls or pivots on a fixed one, or rests on another that rests, at
+/// the same features throughout. Of two bodies that rest on each other it is listed once, with that on top.
 struct LastingContact {
   int body = -1;                      ///< on a path in contact
   int with = -1;                      ///< what it is in contact with

@@ -27,6 +27,14 @@ Eigen::VectorXi PivotingQr::order() const { return qr_.colsPermutation().indices
 MatrixXd PivotingQr::Q() const { return qr_.householderQ(); }
 VectorXd PivotingQr::solve(const VectorXd& b) const { return qr_.solve(b); }
 
+VectorXd HouseholderQr::solveNormal(const VectorXd& b, const VectorXd& c) const {
+  const Eigen::Index n = qr_.cols();
+  const auto R = qr_.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  VectorXd rotated = b;
+  rotated.applyOnTheLeft(qr_.householderQ().adjoint());
+  const VectorXd half = R.transpose().solve(c);
+  return R.solve(VectorXd(rotated.head(n) + half));
+}
 HouseholderQr::HouseholderQr(const MatrixXd& A) : qr_(A) {}
 VectorXd HouseholderQr::solve(const VectorXd& b) const { return qr_.solve(b); }
 

@@ -56,6 +56,8 @@ class HouseholderQr {
  public:
   explicit HouseholderQr(const Eigen::MatrixXd& A);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;  ///< least squares
+  /// x with A^T A x = A^T b + c, without the square of A.
+  Eigen::VectorXd solveNormal(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const;
 
  private:
   Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
