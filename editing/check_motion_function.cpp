@@ -41,8 +41,9 @@ Differences extrapolated(const Eigen::VectorXd (&d)[3], double rounding) {
 
 class FunctionChecker {
  public:
-  FunctionChecker(const NlpEvaluator& program, NlpPoint start, bool says_second)
+  FunctionChecker(const NlpEvaluator& program, NlpPoint start, bool says_second, std::stop_token stop)
       : program_(program),
+        stop_(std::move(stop)),
         start_(std::move(start)),
         signature_(start_.signature()),
         says_second_(says_second),
@@ -64,7 +65,8 @@ class FunctionChecker {
     } else if (says_second_) {
       say("Its second derivatives could not be compared: the motion has none.");
     }
-    for (Eigen::Index j = 0; j < g.size(); ++j) checkVariable(j, g, H);
+    for (Eigen::Index j = 0; j < g.size() && !stop_.stop_requested(); ++j) checkVariable(j, g, H);
+    if (stop_.stop_requested()) check_.findings = {"The check was stopped."};
     check_.passed = check_.findings.empty();
     return check_;
   }
@@ -137,7 +139,7 @@ class FunctionChecker {
   std::optional<Eigen::VectorXd> readingAt(Eigen::Index j, double step) const {
     Eigen::VectorXd x = start_.x();
     x[j] += step * scale_[j];
-    const NlpPoint point = program_.at(x);
+    const NlpPoint point = program_.at(x, stop_);
     if (!point.available() || point.signature() != signature_ || (second_ && !point.hasHessian())) return std::nullopt;
     Eigen::VectorXd reading = Eigen::VectorXd::Constant(1, point.objective());
     if (!second_) return reading;
@@ -147,6 +149,7 @@ class FunctionChecker {
   }
 
   const NlpEvaluator& program_;
+  std::stop_token stop_;
   NlpPoint start_;
   std::string signature_;
   bool says_second_, second_;
@@ -169,20 +172,25 @@ std::vector<std::string> valueFindings(const MotionFunction& function, const Mot
 }  // namespace
 
 MotionFunctionCheck checkMotionFunction(const Scene& scene, ContactSource& contacts, double duration,
-                                        const MotionFunction& function, const std::vector<Control>& controls) {
+                                        const MotionFunction& function, const std::vector<Control>& controls,
+                                        std::stop_token stop) {
   Edit edit(scene, contacts, duration, controls, {});
   edit.minimise(function);
   const NlpEvaluator program = edit.evaluator();
-  NlpPoint start = program.at(program.start());
+  NlpPoint start = program.at(program.start(), stop);
   MotionFunctionCheck check;
   if (!start.available()) {
     check.findings.push_back(sentence(start.message()));
     return check;
   }
   const RowReading reading = function.read(start.motion());
-  check.findings = valueFindings(function, start.motion(), simulate(program.sceneAt(start.x()), contacts, duration));
+  SimulateOptions options;
+  options.stop = stop;
+  const Motion whole = simulate(program.sceneAt(start.x()), contacts, duration, options);
+  if (whole.status != MotionStatus::stopped) check.findings = valueFindings(function, start.motion(), whole);
   try {
-    MotionFunctionCheck of_derivatives = FunctionChecker(program, std::move(start), reading.second_order).run();
+    MotionFunctionCheck of_derivatives =
+        FunctionChecker(program, std::move(start), reading.second_order, std::move(stop)).run();
     check.findings.insert(check.findings.end(), of_derivatives.findings.begin(), of_derivatives.findings.end());
     of_derivatives.findings = std::move(check.findings);
     check = std::move(of_derivatives);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct MotionFunctionCheck {
 /// seed_rates if it has second_order) with central differences over changes of the controls; calls it twice on one
 /// motion; and compares its value on the whole motion with that on one that ends at `until`. Derivatives must agree to
 /// 1e-6 of their size. Where the impact sequence changes nearby, or differences are too inaccurate, nothing is compared,
-/// and the check does not pass: choose another scene. Throws InputError for invalid input, and what the function throws.
+/// and the check does not pass: choose another scene. One that is stopped says so, and does not pass. Throws InputError
+/// for invalid input, and what the function throws.
 MotionFunctionCheck checkMotionFunction(const Scene& scene, ContactSource& contacts, double duration,
-                                        const MotionFunction& function, const std::vector<Control>& controls);
+                                        const MotionFunction& function, const std::vector<Control>& controls,
+                                        std::stop_token stop = {});
 
 }  // namespace carom

@@ -28,11 +28,12 @@ struct NlpState {
     endWhereNothingCounts(problem);
   }
 
-  Motion simulate(const Eigen::VectorXd& values) {
+  Motion simulate(const Eigen::VectorXd& values, Simulating how = {}) {
     std::unique_lock<std::mutex> lock(alone, std::defer_lock);
     if (!own_source) lock.lock();  // there is no second one
     const ContactPool::Loan loan(pool);
-    return simulateAt(problem, values, problem.horizon, {.contacts = &loan.source()});
+    how.contacts = &loan.source();
+    return simulateAt(problem, values, problem.horizon, how);
   }
 
   std::unique_ptr<ContactSource> own_source;  // null: the caller's
@@ -129,18 +130,30 @@ std::string timeOutside(const NlpState& state, const Eigen::VectorXd& x) {
   return "";
 }
 
-void evaluate(NlpReading& reading) {
+/// Of what functions of the caller throw the caller gets that itself.
+template <class Call>
+auto passingOn(Call&& call) {
+  try {
+    return call();
+  } catch (const ThrownByUser& by_user) {
+    std::rethrow_exception(by_user.thrown);
+  }
+}
+
+void evaluate(NlpReading& reading, const Simulating& how) {
   const EditProblem& problem = reading.problem();
   reading.message = timeOutside(*reading.state, reading.x);
   if (!reading.message.empty()) return;
   try {
-    reading.motion = reading.state->simulate(reading.controls());
+    reading.motion = reading.state->simulate(reading.controls(), how);
+    if (reading.motion->status == MotionStatus::stopped) {
+      reading.message = "The simulation was stopped.";
+      return;
+    }
     reading.rows = problem.constraints.evaluate(*reading.motion, reading.x.tail(problem.times()));
   } catch (const InputError& error) {
     reading.message = error.what();
     return;
-  } catch (const ThrownByUser& by_user) {
-    std::rethrow_exception(by_user.thrown);
   }
   reading.values.resize(problem.constraints.size() + problem.validity.size());
   reading.values << reading.rows.values, problem.validity.evaluate(problem.controls, reading.controls());
@@ -183,12 +196,13 @@ Eigen::VectorXd NlpEvaluator::start() const { return ofVariables(variables(), &N
 Eigen::VectorXd NlpEvaluator::lower() const { return ofVariables(variables(), &NlpVariable::lower); }
 Eigen::VectorXd NlpEvaluator::upper() const { return ofVariables(variables(), &NlpVariable::upper); }
 
-NlpPoint NlpEvaluator::at(const Eigen::VectorXd& x) const {
+NlpPoint NlpEvaluator::at(const Eigen::VectorXd& x, std::stop_token stop,
+                          const std::function<void(const SimulateProgress&)>& progress) const {
   checkPoint("NlpEvaluator::at", *state_, x);
   auto reading = std::make_shared<NlpReading>();
   reading->state = state_;
   reading->x = x;
-  evaluate(*reading);
+  passingOn([&] { evaluate(*reading, {.stop = std::move(stop), .progress = progress}); });
   return NlpPoint(std::move(reading));
 }
 
@@ -270,9 +284,11 @@ Eigen::MatrixXd NlpPoint::secondDerivatives(double objective_weight, const Eigen
   const Eigen::Index n = problem.controls.size(), rows = problem.constraints.size();
   const Eigen::VectorXd controls = reading_->controls();
   const BoundFunction* own = problem.constraints.objective();
-  Eigen::MatrixXd along = rowsCurvature(problem, controls, motion(), reading_->rows, row_weights.head(rows),
-                                        own ? objective_weight / own->function.scale : 0, directions, wanted)
-                              .along;
+  Eigen::MatrixXd along = passingOn([&] {
+    return rowsCurvature(problem, controls, motion(), reading_->rows, row_weights.head(rows),
+                         own ? objective_weight / own->function.scale : 0, directions, wanted)
+        .along;
+  });
   const Eigen::VectorXd of_validity = row_weights.tail(problem.validity.size());
   along.topRows(n) += problem.validity.hessian(problem.controls, of_validity) * directions.topRows(n);
   const Changes changes = changesAt(problem.controls, controls);

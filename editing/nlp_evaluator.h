@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "adjoint/base/types.h"
+#include "adjoint/base/work_count.h"
 #include "adjoint/derivative/derivative_tape.h"
 #include "adjoint/motion/motion.h"
 #include "adjoint/scene/scene.h"
@@ -84,8 +87,10 @@ class NlpEvaluator {
 
   /// Simulates the scene with these values, up to where nothing later counts, and reads all rows. Throws InputError if
   /// x has another size or a number that is not finite, and what functions of the motion throw; a point that cannot be
-  /// evaluated says why (NlpPoint::available).
-  NlpPoint at(const Eigen::VectorXd& x) const;
+  /// evaluated says why (NlpPoint::available), as does one whose simulation was stopped. `stop` and `progress` are those
+  /// of the simulation (SimulateOptions).
+  NlpPoint at(const Eigen::VectorXd& x, std::stop_token stop = {},
+              const std::function<void(const SimulateProgress&)>& progress = {}) const;
   /// The scene with these values of its parameters. Throws InputError like `at`.
   Scene sceneAt(const Eigen::VectorXd& x) const;
 

@@ -148,7 +148,8 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
   options.baseline = how.baseline;
   options.stop_when = problem.stop_when;
   options.least_duration = problem.least_duration;
-  if (!how.even_if_stopped) options.stop = problem.stop;
+  options.progress = how.progress;
+  if (!how.even_if_stopped) options.stop = how.stop.stop_possible() ? how.stop : problem.stop;
   ContactSource& contacts = how.contacts ? *how.contacts : *problem.contacts;
   return simulate(problem.controls.sceneAt(values), contacts, until, options);
 }

@@ -72,6 +72,8 @@ struct Simulating {
   bool even_if_stopped = false;       ///< to the end although a stop was requested
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();  ///< beside that of the problem
   const Motion* baseline = nullptr;  ///< see SimulateOptions
+  std::stop_token stop = {};         ///< in place of that of the problem, if it can be requested
+  std::function<void(const SimulateProgress&)> progress = {};  ///< see SimulateOptions
 };
 /// Simulates up to a time, with no more detail than the problem asks for.
 Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, const Simulating& how = {});

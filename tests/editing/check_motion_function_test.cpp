@@ -138,6 +138,20 @@ TEST(CheckMotionFunction, DoesNotPassWhereNothingIsCompared) {
   EXPECT_EQ(of_rest.compared, 0) << all(of_rest);
 }
 
+TEST(CheckMotionFunction, SaysThatItWasStopped) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  std::stop_source stop;
+  MotionFunction f = reachOfBox();
+  f.read = [&stop, calls = std::make_shared<int>(0), read = f.read](const Motion& motion) {
+    if (++*calls == 5) stop.request_stop();
+    return read(motion);
+  };
+  const MotionFunctionCheck check = checkMotionFunction(scene, contacts, 0.8, f, throwOfBox(), stop.get_token());
+  EXPECT_FALSE(check.passed);
+  EXPECT_EQ(all(check), "The check was stopped.\n");
+}
+
 TEST(CheckMotionFunction, PassesOnWhatTheFunctionThrows) {
   MotionFunction f = reachOfBox();
   f.read = [](const Motion&) -> RowReading { throw std::runtime_error("own trouble"); };

@@ -252,10 +252,39 @@ TEST(NlpEvaluator, SaysWhatAPointLacks) {
   EXPECT_THROW(program.at(Eigen::VectorXd::Zero(4)), InputError);
   EXPECT_THROW(program.at(Eigen::VectorXd::Constant(5, kNaN)), InputError);
   EXPECT_THROW(program.sceneAt(Eigen::VectorXd::Zero(6)), InputError);
-  const NlpPoint start = program.at(program.start());
+  std::stop_source stop;
+  stop.request_stop();
+  const NlpPoint stopped = program.at(program.start(), stop.get_token());
+  EXPECT_EQ(stopped.message(), "The simulation was stopped.");
+  EXPECT_THROW(stopped.values(), NotComputable);
+  const NlpPoint start = program.at(program.start(), std::stop_source().get_token());
+  EXPECT_TRUE(start.available());
   EXPECT_THROW(start.hessian(1, Eigen::VectorXd::Zero(1)), InputError);
   EXPECT_THROW(start.hessian(kNaN, Eigen::VectorXd::Zero(2)), InputError);
   EXPECT_THROW(start.hessianTimes(1, Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(1)), InputError);
+}
+
+// What rates of seeds throw comes out as it is.
+TEST(NlpEvaluator, PassesOnWhatRatesOfSeedsThrow) {
+  const Scene scene = thrownBox();
+  OdeContacts contacts(scene);
+  Edit edit(scene, contacts, 0.6);
+  edit.vary(velocity("box"));
+  MotionFunction height{"height", {}, 1, When(0.1)};
+  height.read = [](const Motion& motion) {
+    RowReading reading;
+    reading.value = motion.stateAt("box", 0.1).position.z();
+    StateSeed& seed = reading.seeds.emplace_back();
+    seed.body = bodyIndex(*motion.scene, "box"), seed.at = Instant::at(0.1), seed.position = {0, 0, 1};
+    reading.second_order = true;
+    reading.seed_rates = [](std::span<const BodyStateRate>) -> std::vector<StateSeed> { throw std::runtime_error("own"); };
+    return reading;
+  };
+  edit.require(height, 0.5);
+  const NlpEvaluator program = edit.evaluator();
+  const NlpPoint point = program.at(program.start());
+  ASSERT_TRUE(point.hasHessian()) << point.message();
+  EXPECT_THROW(point.hessian(1, Eigen::VectorXd::Ones(1)), std::runtime_error);
 }
 
 // Rows of validity, and logarithmic variables: names, bounds and what a change costs.
