@@ -30,11 +30,16 @@ std::optional<PyEvent> foundImpact(const PyMotion& self, const BodyName& body, i
   const Motion& motion = self.motion();
   if (n < 1) throw InputError("n", "found " + std::to_string(n) + ", expected 1 or more");
   const int other = with ? bodyOf(*motion.scene, *with) : -1;
-  const std::optional<int> found = motion.findImpact(bodyOf(*motion.scene, body), n, other);
+  const int index = bodyOf(*motion.scene, body);
+  const std::optional<int> found = [&] {
+    const nb::gil_scoped_release free;
+    return motion.findImpact(index, n, other);
+  }();
   return found ? std::optional(PyEvent{self.content, *found}) : std::nullopt;
 }
 
 std::string signatureOf(const PyMotion& self, std::optional<std::size_t> count) {
+  const nb::gil_scoped_release free;
   return self.motion().signature(count.value_or(static_cast<std::size_t>(-1)));
 }
 
@@ -107,7 +112,10 @@ void bindMotion(nb::module_& module) {
       .def("signature", &signatureOf, nb::arg("count") = nb::none(),
            "The impact sequence as text: bodies, features and modes of the first `count` events. Derivatives relate only "
            "motions with equal signatures.")
-      .def("describe_events", [](const PyMotion& self) { return self.motion().describeEvents(); },
+      .def("describe_events", [](const PyMotion& self) {
+             const nb::gil_scoped_release free;
+             return self.motion().describeEvents();
+           },
            "The events as text, without impacts too low to be reported.")
       .def("export", &exportTo, nb::arg("path"), nb::kw_only(), nb::arg("before") = nb::none(),
            nb::arg("frames_per_second") = 24.0, nb::arg("rate") = 60.0, nb::arg("camera") = false,

@@ -36,6 +36,7 @@ std::vector<PyPersistentContact> contactsOfMotion(const PyMotion& self) {
 }
 
 std::vector<PyOverlap> overlapsOf(const PyMotion& self) {
+  const nb::gil_scoped_release free;
   const Motion& motion = self.motion();
   std::vector<PyOverlap> all;
   for (const StartOverlap& overlap : motion.overlaps)

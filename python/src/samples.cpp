@@ -118,20 +118,26 @@ void bindSamples(nb::module_& module, nb::class_<PyMotion>& motion) {
   motion
       .def("state_at",
            [](const PyMotion& self, const BodyName& body, double t) {
-             return PyState(self.motion().stateAt(bodyOf(self.scene.scene(), body), t));
+             const int index = bodyOf(self.scene.scene(), body);
+             const nb::gil_scoped_release free;  // a path in contact is integrated as far as it is read
+             return PyState(self.motion().stateAt(index, t));
            },
            nb::arg("body"), nb::arg("t"),
            "State of a body at a time from 0 to `end`, s; at the time of an impact, the state after it. Raises "
            "InputError for a time outside.")
       .def("state_before",
            [](const PyMotion& self, const EventName& event, const BodyName& body) {
-             return PyState(self.motion().stateBefore(eventOf(*self.content, event), bodyOf(self.scene.scene(), body)));
+             const int at = eventOf(*self.content, event), index = bodyOf(self.scene.scene(), body);
+             const nb::gil_scoped_release free;
+             return PyState(self.motion().stateBefore(at, index));
            },
            nb::arg("event"), nb::arg("body"),
            "State just before an event; of a body that takes no part in it, at its time.")
       .def("state_after",
            [](const PyMotion& self, const EventName& event, const BodyName& body) {
-             return PyState(self.motion().stateAfter(eventOf(*self.content, event), bodyOf(self.scene.scene(), body)));
+             const int at = eventOf(*self.content, event), index = bodyOf(self.scene.scene(), body);
+             const nb::gil_scoped_release free;
+             return PyState(self.motion().stateAfter(at, index));
            },
            nb::arg("event"), nb::arg("body"), "State just after an event.")
       .def("sample", &sampled, nb::arg("bodies"), nb::arg("times"), kSampleText);

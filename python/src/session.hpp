@@ -55,10 +55,11 @@ PyUpdate callShort(const PySession& self, Call call) {
   return {self.content->scene, call(self.content->session)};
 }
 
-/// Reads the session; not while it computes.
+/// Reads the session, or changes what is not solved for; not while it computes. Without the GIL: what is read is C++.
 template <class Read>
 auto readFrom(const PySession& self, Read read) {
   const OneAtATime::Use use(self.content->one, "the session");
+  const nb::gil_scoped_release free;
   return read(self.content->session);
 }
 

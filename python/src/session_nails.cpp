@@ -72,13 +72,13 @@ void bindSessionNails(nb::module_& module, nb::class_<PySession>& session) {
            "Nails the body as it is at that moment: position and orientation. Gives its id.")
       .def("set_nail_on",
            [](const PySession& self, int id, bool on) {
-             readFrom(self, [&](EditSession& of) { return of.setNailOn(NailId{id}, on), 0; });
+             readFrom(self, [&](EditSession& of) { of.setNailOn(NailId{id}, on); });
            },
            nb::arg("id"), nb::arg("on"), "A nail that is off is kept, but not enforced. One undo step.")
       .def("meet_nails", &metNails, "Switches all nails on and solves for those that are available. One undo step.")
       .def("unnail",
            [](const PySession& self, int id) {
-             readFrom(self, [&](EditSession& of) { return of.unnail(NailId{id}), 0; });
+             readFrom(self, [&](EditSession& of) { of.unnail(NailId{id}); });
            },
            nb::arg("id"), "Removes a nail. The motion does not change. One undo step.")
       .def_prop_ro("nails",

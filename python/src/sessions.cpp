@@ -37,11 +37,12 @@ void makeSession(PySession* self, const PyScene& scene, std::optional<double> du
 }
 
 void varySession(const PySession& self, const nb::args& controls) {
+  std::vector<Control> more;
+  for (const nb::handle control : controls) more.push_back(nb::cast<Control>(control));
   readFrom(self, [&](EditSession& session) {
     std::vector<Control> all = session.controls();
-    for (const nb::handle control : controls) all.push_back(nb::cast<Control>(control));
+    all.insert(all.end(), more.begin(), more.end());
     session.setControls(std::move(all));
-    return 0;
   });
 }
 
@@ -61,7 +62,6 @@ void writeJournalTo(const PySession& self, const std::filesystem::path& path) {
     document.folder = self.content->scene.document().folder;
     document.name = self.content->scene.document().name;
     saveJournal(path.string(), document);
-    return 0;
   });
 }
 
@@ -138,7 +138,7 @@ void bindSessions(nb::module_& module) {
            "Adds controls. One undo step.")
       .def("set_controls",
            [](const PySession& self, const std::vector<Control>& controls) {
-             readFrom(self, [&](EditSession& of) { return of.setControls(controls), 0; });
+             readFrom(self, [&](EditSession& of) { of.setControls(controls); });
            },
            nb::arg("controls"), "Replaces all controls. One undo step.")
       .def("write_journal", &writeJournalTo, nb::arg("path"),
