@@ -53,6 +53,11 @@ Quat quaternionOf(const ArrayLike& argument, const char* where) {
   return Quat(q[0], q[1], q[2], q[3]);
 }
 
+Eigen::VectorXd columnOf(const ArrayLike& argument, const char* where) {
+  const Numbers numbers = numbersOf(argument, where, {-1});
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+}
+
 Mat3 matrixOf(const ArrayLike& argument, const char* where) {
   const Numbers numbers = numbersOf(argument, where, {3, 3});
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data());

@@ -33,6 +33,18 @@ ArrayType owning(std::vector<double> numbers, std::initializer_list<std::size_t>
   const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
   return ArrayType(kept.release()->data(), shape, owner);
 }
+/// A copy of a vector, and of a matrix in C order.
+template <class ArrayType>
+ArrayType copied(const Eigen::VectorXd& vector) {
+  return owning<ArrayType>({vector.data(), vector.data() + vector.size()}, {static_cast<std::size_t>(vector.size())});
+}
+template <class ArrayType>
+ArrayType copied(const Eigen::MatrixXd& matrix) {
+  std::vector<double> numbers;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) numbers.push_back(matrix(i, j));
+  return owning<ArrayType>(std::move(numbers), {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())});
+}
 /// An attribute that is an array with its own memory needs no other owner.
 inline constexpr auto kOwnArray = nb::rv_policy::automatic;
 
@@ -53,5 +65,6 @@ nb::ndarray<const double, nb::c_contig, nb::device::cpu> numbersOf(const ArrayLi
 Vec3 vectorOf(const ArrayLike& argument, const char* where);  ///< 3 numbers
 Quat quaternionOf(const ArrayLike& argument, const char* where);  ///< w, x, y, z, as they are
 Mat3 matrixOf(const ArrayLike& argument, const char* where);      ///< 3x3
+Eigen::VectorXd columnOf(const ArrayLike& argument, const char* where);  ///< any number of numbers
 
 }  // namespace carom::python

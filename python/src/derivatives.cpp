@@ -8,24 +8,14 @@
 namespace carom::python {
 namespace {
 
-/// carom.BodyStateRate.
-struct PyStateRate {
-  BodyStateRate rate;
-};
-
 /// carom.MotionTangent; keeps the motion, whose tape it reads.
 struct PyMotionTangent {
   std::shared_ptr<const MotionContent> content;
   MotionTangent tangent;
 };
 
-using Seeds = std::variant<PySeed, std::vector<PySeed>>;
-
-PyGradient adjointOf(const PyMotion& motion, const Seeds& seeds) {
-  std::vector<StateSeed> resolved;
-  if (const auto* one = std::get_if<PySeed>(&seeds)) resolved.push_back(seedIn(*motion.content, *one));
-  else
-    for (const PySeed& seed : std::get<std::vector<PySeed>>(seeds)) resolved.push_back(seedIn(*motion.content, seed));
+PyGradient adjointOf(const PyMotion& motion, const SeedsArgument& seeds) {
+  const std::vector<StateSeed> resolved = seedsIn(*motion.content, seeds);
   const nb::gil_scoped_release free;
   Reliability reliability;
   SceneGradient gradient =
@@ -80,10 +70,23 @@ void bindRate(nb::module_& module) {
   bindVector(rate, "velocity", &BodyStateRate::velocity, "Of the velocity.");
   bindVector(rate, "angular_velocity", &BodyStateRate::angular_velocity, "Of the angular velocity.");
   bindVector(rate, "center_of_mass", &BodyStateRate::center_of_mass, "Of the position of the centre of mass.");
-  rate.def_prop_ro("time", [](const PyStateRate& self) { return self.rate.time; }, "Of the instant; 0 at a fixed time.")
+  bindVector(rate, "gravity", &BodyStateRate::gravity, "Of the gravity of the scene.");
+  rate.def_prop_ro("inertia", [](const PyStateRate& self) { return copied<ReadOnly<-1, -1>>(Eigen::MatrixXd(self.rate.inertia)); }, kOwnArray,
+                   "(3, 3), of its inertia tensor about the centre of mass, axes of the shape.")
+      .def_prop_ro("size", [](const PyStateRate& self) { return copied<ReadOnly<-1>>(self.rate.size); }, kOwnArray,
+                   "Of the dimensions of its shape; empty: constant.")
+      .def_prop_ro("time", [](const PyStateRate& self) { return self.rate.time; }, "Of the instant; 0 at a fixed time.")
       .def_prop_ro("mass", [](const PyStateRate& self) { return self.rate.mass; }, "Of the body's mass.")
       .def("dot", [](const PyStateRate& self, const PySeed& seed) { return self.rate.dot(seed.weights); },
-           nb::arg("seed"), "Rate of a functional: the sum of weights times rates.");
+           nb::arg("seed"), "Rate of a functional: the sum of weights times rates.")
+      .def("__repr__", [](const PyStateRate& self) {
+        std::string text = "<BodyStateRate";
+        for (const auto& [name, member] : {std::pair{" position=[", &BodyStateRate::position},
+                                           std::pair{" velocity=[", &BodyStateRate::velocity}})
+          text += name + numberText((self.rate.*member).x()) + ", " + numberText((self.rate.*member).y()) + ", " +
+                  numberText((self.rate.*member).z()) + "]";
+        return text + ">";
+      });
 }
 
 constexpr const char* kAdjointText =
@@ -104,11 +107,15 @@ void bindDerivatives(nb::module_& module) {
   bindReliability(module);
   bindSceneDerivatives(module);
   bindRate(module);
+  bindSecondOrder(module);
   nb::class_<PyMotionTangent>(module, "MotionTangent", "Directional derivative of a motion.")
       .def("at", &rateAt, nb::arg("body"), nb::arg("t") = none, nb::kw_only(), nb::arg("before") = none,
            nb::arg("after") = none, "Of the state of a body at a time, s, or just before or after an event.")
       .def("event_time", &eventTime, nb::arg("event"), "Of the time of an event, s per unit.")
-      .def("__repr__", [](const PyMotionTangent&) { return "<MotionTangent>"; });
+      .def("__repr__", [](const PyMotionTangent& self) {
+        return "<MotionTangent of " + std::to_string(self.content->motion.scene->bodies.size()) + " bodies and " +
+               std::to_string(self.content->motion.events.size()) + " events>";
+      });
   module.def("adjoint", &adjointOf, nb::arg("motion"), nb::arg("seeds"), kAdjointText)
       .def("tangent", &tangentOf, nb::arg("motion"), nb::arg("direction"), kForwardText)
       .def("settles_at_gradient", &settlingGradient, nb::arg("motion"), nb::arg("event"),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adjoint/derivative/tangent.h"
+#include "adjoint/second_order/second_order.h"
 #include "python/src/motion.hpp"
 
 namespace carom::python {
@@ -25,6 +26,19 @@ struct PySeed {
   StateSeed weights;
 };
 StateSeed seedIn(const MotionContent& motion, const PySeed& seed);
+/// One of them or a list.
+using SeedsArgument = std::variant<PySeed, std::vector<PySeed>>;
+std::vector<StateSeed> seedsIn(const MotionContent& motion, const SeedsArgument& seeds);
+
+/// carom.BodyStateRate.
+struct PyStateRate {
+  BodyStateRate rate;
+};
+
+/// A function of Python that may be called and let go of by any thread.
+std::shared_ptr<nb::object> sharedFunction(const nb::object& function);
+/// Rates of the weights of seeds by a function of Python: from a list of BodyStateRate to a list of Seed.
+SeedRates seedRatesBy(const nb::object& function);
 
 /// carom.Reliability, with names in place of indices.
 struct PyReliability {
@@ -47,6 +61,7 @@ struct PyTangent {
 void bindSeeds(nb::module_& module);
 void bindReliability(nb::module_& module);
 void bindSceneDerivatives(nb::module_& module);
+void bindSecondOrder(nb::module_& module);
 void bindDerivatives(nb::module_& module);
 
 }  // namespace carom::python

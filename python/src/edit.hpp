@@ -56,6 +56,7 @@ void bindNails(nb::module_& module);
 void bindEdits(nb::module_& module);
 void bindSolve(nb::class_<PyEdit>& edit, nb::module_& module);
 void bindMotionFunctions(nb::module_& module, nb::class_<PyEdit>& edit);
+void bindEvaluator(nb::module_& module, nb::class_<PyEdit>& edit);
 void bindEditResults(nb::module_& module);
 
 /// carom.EditResult.

@@ -118,6 +118,7 @@ void bindEdits(nb::module_& module) {
       .def("__repr__", &reprOfEdit);
   bindMotionFunctions(module, edit);
   bindSolve(edit, module);
+  bindEvaluator(module, edit);
 }
 
 }  // namespace carom::python

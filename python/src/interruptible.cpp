@@ -61,6 +61,17 @@ std::exception_ptr signalled() {
 
 }  // namespace
 
+void Watch::look(const SimulateProgress& at) {
+  const nb::gil_scoped_acquire held;
+  try {
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    if (!progress_.is_none() && progress_(at).is(nb::bool_(false))) stop_.request_stop();
+  } catch (...) {
+    raised_ = std::current_exception();
+    stop_.request_stop();
+  }
+}
+
 void runInterruptible(std::stop_source& stop, const std::function<void()>& work) {
   std::exception_ptr raised;
   {

@@ -2,10 +2,37 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <stop_token>
 
+#include "adjoint/base/work_count.h"
+#include "python/src/bindings.hpp"
+
 namespace carom::python {
+
+/// Looks for Ctrl-C while a simulation runs in this thread, and tells its progress to a function of Python, or None. What
+/// is raised meanwhile stops it. It costs nothing: a simulation calls it every few thousand steps.
+class Watch {
+ public:
+  explicit Watch(nb::object progress = nb::none()) : progress_(std::move(progress)) {}
+
+  std::stop_token stop() const { return stop_.get_token(); }  ///< of the simulation
+  std::function<void(const SimulateProgress&)> progress() {   ///< of the simulation, without the GIL
+    return [this](const SimulateProgress& at) { look(at); };
+  }
+  /// After the simulation, with the GIL: throws what was raised.
+  void finish() {
+    if (raised_) std::rethrow_exception(raised_);
+  }
+
+ private:
+  void look(const SimulateProgress& at);
+
+  nb::object progress_;
+  std::stop_source stop_;
+  std::exception_ptr raised_;
+};
 
 /// Does the work in a thread of its own, without the GIL, and looks for Ctrl-C meanwhile: that asks `stop` to end the
 /// work, and is raised after it. What the work throws is thrown here. Call it with the GIL.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <thread>
 #include <utility>
 #include <variant>
 
@@ -19,17 +22,33 @@ class MotionContent {
 
   const Motion& motion;
 
-  /// Calls `use` with the tape, for one thread at a time. Not with the GIL: its holder may be who is waited for.
+  /// Calls `use` with the tape, for one thread at a time. Not with the GIL: its holder may be who is waited for. Throws
+  /// RuntimeError in a callback of `use`, which would wait for itself.
   template <class Use>
   auto withTape(Use use) const {
+    if (user_ == std::this_thread::get_id())
+      throw std::runtime_error("a callback of a derivative must not differentiate the same motion");
     const std::lock_guard lock(guard_);
+    const User user(user_);
     if (!tape_) tape_ = std::make_unique<DerivativeTape>(motion);
     return use(*tape_);
   }
 
  private:
+  class User {
+   public:
+    explicit User(std::atomic<std::thread::id>& user) : user_(user) { user_ = std::this_thread::get_id(); }
+    ~User() { user_ = std::thread::id(); }
+    User(const User&) = delete;
+    User& operator=(const User&) = delete;
+
+   private:
+    std::atomic<std::thread::id>& user_;
+  };
+
   std::shared_ptr<const Motion> kept_;
   mutable std::mutex guard_;
+  mutable std::atomic<std::thread::id> user_;
   mutable std::unique_ptr<DerivativeTape> tape_;
 };
 

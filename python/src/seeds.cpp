@@ -12,8 +12,7 @@ Vec3 weightsOf(const Weights& given, const char* where) { return given ? vectorO
 
 Eigen::VectorXd sizesOf(const Weights& given) {
   if (!given) return {};
-  const auto numbers = numbersOf(*given, "size", {-1});
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  return columnOf(*given, "size");
 }
 
 void makeSeed(PySeed* self, const BodyName& body, std::optional<double> at, const std::optional<EventName>& before,
@@ -76,6 +75,13 @@ StateSeed seedIn(const MotionContent& motion, const PySeed& seed) {
   weights.body = bodyOf(*motion.motion.scene, seed.body);
   weights.at = instantIn(motion, seed.instant);
   return weights;
+}
+
+std::vector<StateSeed> seedsIn(const MotionContent& motion, const SeedsArgument& seeds) {
+  if (const auto* one = std::get_if<PySeed>(&seeds)) return {seedIn(motion, *one)};
+  std::vector<StateSeed> all;
+  for (const PySeed& seed : std::get<std::vector<PySeed>>(seeds)) all.push_back(seedIn(motion, seed));
+  return all;
 }
 
 void bindSeeds(nb::module_& module) {

@@ -1,44 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/simulate/simulate.h"
 
-#include <exception>
-#include <functional>
-
+#include "python/src/interruptible.hpp"
 #include "python/src/motion.hpp"
 
 namespace carom::python {
 namespace {
-
-using Progress = std::function<bool(const SimulateProgress&)>;
-
-/// Looks for Ctrl-C while a simulation runs, and tells its progress. What is raised meanwhile stops it.
-class Watch {
- public:
-  Watch(SimulateOptions& options, const nb::object& progress) : progress_(progress) {
-    options.stop = stop_.get_token();
-    options.progress = [this](const SimulateProgress& at) { look(at); };
-  }
-  /// After the simulation, with the GIL.
-  void finish() {
-    if (raised_) std::rethrow_exception(raised_);
-  }
-
- private:
-  void look(const SimulateProgress& at) {
-    const nb::gil_scoped_acquire held;
-    try {
-      if (PyErr_CheckSignals() != 0) throw nb::python_error();
-      if (!progress_.is_none() && progress_(at).is(nb::bool_(false))) stop_.request_stop();
-    } catch (...) {
-      raised_ = std::current_exception();
-      stop_.request_stop();
-    }
-  }
-
-  const nb::object& progress_;
-  std::stop_source stop_;
-  std::exception_ptr raised_;
-};
 
 PyMotion simulated(const PyScene& scene, std::optional<double> duration, std::size_t impact_limit,
                    std::optional<std::size_t> step_limit, std::optional<double> lowest_bounce, bool refuse_overlaps,
@@ -49,7 +16,9 @@ PyMotion simulated(const PyScene& scene, std::optional<double> duration, std::si
   options.lowest_bounce = lowest_bounce;
   options.refuse_overlaps = refuse_overlaps;
   options.record_events = record_events;
-  Watch watch(options, progress);
+  Watch watch(progress);
+  options.stop = watch.stop();
+  options.progress = watch.progress();
   PyMotion motion = [&] {
     const nb::gil_scoped_release free;
     SceneContent::Contacts contacts(*scene.content);

@@ -61,21 +61,19 @@ RENAMED = {
     "atRest": "at_rest",
     "atLeast": "at_least",
     "atMost": "at_most",
+    "SeedRates": "second_order",  # its argument seed_rates
 }
 
 WORDS = "an enumeration: its words are texts in Python"
 DICT = "scenes are written as documents: a dict has it"
 CONTACTS = "the interface of collision detection, for sources written in C++"
 INSIDE = "of the integrator and its derivatives; a motion is read by states"
-SECOND = "second derivatives are used by edits alone so far"
-EVALUATOR = "the evaluator for other optimisers is not in Python yet"
-CHECKER = "the checker of derivatives of one's own rows is not in Python yet"
 REPLAY = "journals are replayed by the command"
 CHEAP = "for C++ programs that draw or read by themselves"
 CONSTANT = "a constant that the page or the docstring says"
 LEFT_OUT = {
     **dict.fromkeys(["EditStatus", "EventKind", "ImpactMode", "MotionStatus", "TransitionCause", "SessionStage", "ArcKind",
-                     "Tier", "Law", "GltfKeys", "RatesWanted", "nameOf", "branchOf"], WORDS),
+                     "Tier", "Law", "GltfKeys", "nameOf", "branchOf"], WORDS),
     **dict.fromkeys(["Body", "Material", "Inertia", "Tilt", "CollisionFilter", "Combine", "Shape", "Sphere", "Box", "Plane",
                      "Capsule", "Cylinder", "Cone", "Hull", "Mesh", "Compound", "CompoundPart", "Surface", "Target",
                      "Constraint", "validate", "nailConstraint"], DICT),
@@ -88,9 +86,6 @@ LEFT_OUT = {
                      "startState", "startTangent", "startPullback", "centerOfMass", "centerOfMassRates", "toBodyState",
                      "flightTangent", "flightPullback", "chained", "turned", "isZero", "SolidProperties", "SolidRate",
                      "ShapeKind", "shapeKinds", "kindOf", "FarthestPoint", "FarthestFrom", "farthestFrom"], INSIDE),
-    **dict.fromkeys(["SecondOrder", "SeedRates", "ReadingDirection", "secondOrder", "hasSecondOrder"], SECOND),
-    **dict.fromkeys(["MotionFunctionCheck", "checkMotionFunction"], CHECKER),
-    **dict.fromkeys(["NlpEvaluator", "NlpPoint", "NlpVariable", "NlpRow", "NlpJacobian", "NlpGradient"], EVALUATOR),
     **dict.fromkeys(["Free", "TargetNumber", "WantedVector", "targetOf"], "numbers and None of a nail do it"),
     **dict.fromkeys(["SessionJournal", "SessionGesture", "DragTarget", "SessionReplay", "ReplayedGesture", "JournalDocument",
                      "readJournal", "parseJournal", "writeJournal", "replayJson", "SessionHistory", "SessionHistoryNail",
@@ -103,6 +98,7 @@ LEFT_OUT = {
                      "wholeSequenceChanges", "nailStateIn"], CHEAP),
     **dict.fromkeys(["Vec2", "Vec3", "Mat3", "Quat", "skew", "unskew"], "NumPy's arrays"),
     **dict.fromkeys(["MotionAlong", "simulateAlong"], "along a given sequence: of the solver's inside so far"),
+    "RatesWanted": "an option of speed: Python gives all rates",
     "any": "None",
 }
 
@@ -116,7 +112,15 @@ CLASSES = {
     "Contact": ("adjoint/motion/motion.h", "Contact", {
         "a": "bodies", "b": "bodies", "at": "point", "tilt_a": None, "tilt_b": None, "pair": "friction", "kept": None}),
     "Nail": ("editing/nail.h", "Nail", {}),
-    "Edit": ("editing/edit.h", "Edit", {"evaluator": None, "constraints": None}),
+    "Edit": ("editing/edit.h", "Edit", {"constraints": None}),
+    "NlpEvaluator": ("editing/nlp_evaluator.h", "NlpEvaluator", {}),
+    "NlpPoint": ("editing/nlp_evaluator.h", "NlpPoint", {}),
+    "NlpVariable": ("editing/nlp_evaluator.h", "NlpVariable", {}),
+    "NlpRow": ("editing/nlp_evaluator.h", "NlpRow", {}),
+    "MotionFunctionCheck": ("editing/check_motion_function.h", "MotionFunctionCheck", {}),
+    "RowReading": ("editing/motion_function.h", "Reading", {"seed_rates": None}),  # given, not read
+    "SecondOrder": ("adjoint/second_order/second_order.h", "SecondOrder", {}),
+    "BodyStateRate": ("adjoint/derivative/tangent.h", "BodyStateRate", {}),
     "EditResult": ("editing/edit_result.h", "EditResult", {}),
     "Certificate": ("editing/certificate.h", "Certificate", {"reliability": None, "signature_step": None}),
     "EditSession": ("editing/session.h", "EditSession", {

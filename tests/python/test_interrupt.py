@@ -10,27 +10,29 @@ import pytest
 
 import carom
 
-# A scene whose motion takes minutes: a frictionless cube of balls that hit one another for a long time.
-CROWD = {
-    "carom": 1,
-    "gravity": [0, 0, 0],
-    "duration": 1e6,
-    "materials": {"ideal": {"elasticity": 1, "friction": 0}},
-    "bodies": [
-        {"name": f"wall {axis}{side}", "fixed": True, "material": "ideal",
-         "shape": {"plane": {"normal": [side * -(axis == k) for k in range(3)], "offset": -2}}}
-        for axis in range(3) for side in (-1, 1)
-    ] + [
-        {"name": f"ball {i}{j}{k}", "material": "ideal", "mass": 1, "shape": {"sphere": {"radius": 0.1}},
-         "position": [i - 1, j - 1, k - 1], "velocity": [1 + 0.1 * i, 0.3 * j - 0.2, 0.7 - 0.4 * k]}
-        for i in range(3) for j in range(3) for k in range(3)
-    ],
-}
+def crowd_of(count):
+    """A scene whose motion takes minutes: a frictionless cube of balls that hit one another for a long time."""
+    return {
+        "carom": 1,
+        "gravity": [0, 0, 0],
+        "duration": 1e6,
+        "materials": {"ideal": {"elasticity": 1, "friction": 0}},
+        "bodies": [
+            {"name": f"wall {axis}{side}", "fixed": True, "material": "ideal",
+             "shape": {"plane": {"normal": [side * -(axis == k) for k in range(3)], "offset": -0.5 - count / 2}}}
+            for axis in range(3) for side in (-1, 1)
+        ] + [
+            {"name": f"ball {i}{j}{k}", "material": "ideal", "mass": 1, "shape": {"sphere": {"radius": 0.1}},
+             "position": [i - (count - 1) / 2, j - (count - 1) / 2, k - (count - 1) / 2],
+             "velocity": [1 + 0.1 * i, 0.3 * j - 0.2, 0.7 - 0.4 * k]}
+            for i in range(count) for j in range(count) for k in range(count)
+        ],
+    }
 
 
 @pytest.fixture(scope="module")
 def crowd():
-    return carom.Scene(CROWD)
+    return carom.Scene(crowd_of(3))
 
 
 def pressed_after(seconds):
