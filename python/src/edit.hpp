@@ -35,6 +35,7 @@ struct PyEdit {
 struct PyNail {
   std::shared_ptr<EditContent> content;
   Nail nail;
+  std::string text;  ///< "'ball', impact 2"
 };
 
 /// An argument for one component: None is free, a pair a range with an open side for None.
@@ -46,6 +47,7 @@ Wanted wantedOf(const WantedArgument& argument, const char* where);
 /// An argument for a moment: a time, s, or a When.
 using WhenArgument = std::variant<double, When>;
 When whenOf(const WhenArgument& argument);
+std::string whenText(const When& when);  ///< "at rest", "0.5 s"
 
 /// First and last second of an interval.
 using Interval = std::optional<std::pair<double, double>>;

@@ -111,9 +111,13 @@ void bindChecks(nb::module_& module) {
       .def_ro("signature_radius", &Certificate::signature_radius,
               "First-order distance to the nearest boundary of the impact sequence, in the norm that the edit minimises; inf "
               "if none is found.")
-      .def_ro("signature_event", &Certificate::signature_event, "What happens there.")
+      .def_ro("signature_event", &Certificate::signature_event, "What happens there; empty if none is found.")
+      .def_prop_ro("signature_step", [](const Certificate& self) { return copied<ReadOnly<-1>>(self.signature_step); },
+                   kOwnArray, "The change that leads there, one number per control parameter; empty if none is found.")
       .def("__repr__", [](const Certificate& self) {
-        return std::string("<Certificate") + (self.taken ? ">" : ": nothing was checked>");
+        if (!self.taken) return std::string("<Certificate: nothing was checked>");
+        return "<Certificate: residual " + numberText(self.residual) + ", energy drift " + numberText(self.energy_drift) +
+               ", signature radius " + numberText(self.signature_radius) + ">";
       });
   nb::class_<WhyNot>(module, "WhyNot", "Diagnosis of an edit that does not meet its constraints.")
       .def_ro("sentences", &WhyNot::sentences, "All of it as text; empty if nothing was found.")

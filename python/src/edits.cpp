@@ -27,7 +27,8 @@ PyEdit& variedEdit(PyEdit& self, const nb::args& controls) {
 
 PyNail nailedIn(const PyEdit& self, const std::string& body, const WhenArgument& at) {
   const OneAtATime::Use use(self.content->one, "the edit");
-  return {self.content, self.content->edit.nail(body, whenOf(at))};
+  const When when = whenOf(at);
+  return {self.content, self.content->edit.nail(body, when), "'" + body + "', " + whenText(when)};
 }
 
 void unnailed(const PyEdit& self, const PyNail& nail) {

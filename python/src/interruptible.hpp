@@ -54,6 +54,8 @@ class OneAtATime {
     const OneAtATime& of_;
   };
 
+  bool isInUse() const { return in_use_; }
+
  private:
   mutable std::atomic<bool> in_use_ = false;
 };

@@ -10,12 +10,7 @@
 namespace carom::python {
 namespace {
 
-std::string reprOfWhen(const When& when) {
-  if (when.rest) return "<When at rest>";
-  if (when.span) return "<When between " + numberText(when.span->first) + " and " + numberText(when.span->second) + " s>";
-  if (when.isTime()) return "<When " + numberText(when.time) + " s>";
-  return "<When impact " + std::to_string(when.impact) + (when.with.empty() ? ">" : " with '" + when.with + "'>");
-}
+std::string reprOfWhen(const When& when) { return "<When " + whenText(when) + ">"; }
 
 std::string reprOfWanted(const Wanted& wanted) {
   if (!std::isnan(wanted.value)) return "<Wanted " + numberText(wanted.value) + ">";
@@ -79,6 +74,13 @@ Wanted wantedOf(const WantedArgument& argument, const char* where) {
     return numberOf(*value, where);
   };
   return Wanted(bound(min), bound(max));
+}
+
+std::string whenText(const When& when) {
+  if (when.rest) return "at rest";
+  if (when.span) return "between " + numberText(when.span->first) + " and " + numberText(when.span->second) + " s";
+  if (when.isTime()) return numberText(when.time) + " s";
+  return "impact " + std::to_string(when.impact) + (when.with.empty() ? "" : " with '" + when.with + "'");
 }
 
 When whenOf(const WhenArgument& argument) {

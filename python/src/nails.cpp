@@ -96,7 +96,7 @@ void bindNails(nb::module_& module) {
       .def("inside",
            [](PyNail& of, const Region& region) -> PyNail& { return changed(of, [&](Nail& to) { to.inside(region); }); },
            nb::arg("region"), self, "The body stays within a region.")
-      .def("__repr__", [](const PyNail&) { return "<Nail>"; });
+      .def("__repr__", [](const PyNail& of) { return "<Nail of " + of.text + ">"; });
 }
 
 }  // namespace carom::python

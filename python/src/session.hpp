@@ -66,6 +66,8 @@ auto readFrom(const PySession& self, Read read) {
 void bindSessions(nb::module_& module);
 void bindSessionUpdates(nb::module_& module);
 void bindGestures(nb::class_<PySession>& session);
+void bindSessionContent(nb::class_<PySession>& session);
+void bindReplay(nb::module_& module);
 void bindSessionNails(nb::module_& module, nb::class_<PySession>& session);
 
 }  // namespace carom::python

@@ -12,19 +12,34 @@ std::optional<Vec3> givenVector(const Target3& given, const char* where) {
   return given ? std::optional(vectorOf(*given, where)) : std::nullopt;
 }
 
-int sessionNail(const PySession& self, const std::string& body, const WhenArgument& at, const Target3& position,
-                const Target3& orientation, const Target3& velocity, const Target3& angular_velocity,
-                std::optional<double> time) {
+Constraint constraintOf(const std::string& body, const WhenArgument& at, const Target3& position,
+                        const Target3& orientation, const Target3& velocity, const Target3& angular_velocity,
+                        std::optional<double> time) {
   NailTargets targets;
   targets.position = givenVector(position, "position");
   if (orientation) targets.orientation = quaternionOf(*orientation, "orientation");
   targets.velocity = givenVector(velocity, "velocity");
   targets.angular_velocity = givenVector(angular_velocity, "angular_velocity");
   targets.time = time;
-  const Constraint constraint = nailConstraint(body, whenOf(at), targets);
+  return nailConstraint(body, whenOf(at), targets);
+}
+
+int sessionNail(const PySession& self, const std::string& body, const WhenArgument& at, const Target3& position,
+                const Target3& orientation, const Target3& velocity, const Target3& angular_velocity,
+                std::optional<double> time) {
+  const Constraint constraint = constraintOf(body, at, position, orientation, velocity, angular_velocity, time);
   NailId id;
   callLong(self, [&](EditSession& session, std::stop_source& stop) { id = session.nail(constraint, stop.get_token()); });
   return id.value;
+}
+
+void setNail(const PySession& self, int id, const std::string& body, const WhenArgument& at, const Target3& position,
+             const Target3& orientation, const Target3& velocity, const Target3& angular_velocity,
+             std::optional<double> time) {
+  const Constraint constraint = constraintOf(body, at, position, orientation, velocity, angular_velocity, time);
+  callLong(self, [&](EditSession& session, std::stop_source& stop) {
+    session.setNail(NailId{id}, constraint, stop.get_token());
+  });
 }
 
 int nailedAsItIs(const PySession& self, const std::string& body, const WhenArgument& at) {
@@ -70,6 +85,10 @@ void bindSessionNails(nb::module_& module, nb::class_<PySession>& session) {
            "step.")
       .def("nail_as_it_is", &nailedAsItIs, nb::arg("body"), nb::arg("at"),
            "Nails the body as it is at that moment: position and orientation. Gives its id.")
+      .def("set_nail", &setNail, nb::arg("id"), nb::arg("body"), nb::arg("at"), nb::kw_only(), nb::arg("position") = none,
+           nb::arg("orientation") = none, nb::arg("velocity") = none, nb::arg("angular_velocity") = none,
+           nb::arg("time") = none,
+           "Replaces what a nail holds, arguments as in `nail`, and solves for it if it is on. One undo step.")
       .def("set_nail_on",
            [](const PySession& self, int id, bool on) {
              readFrom(self, [&](EditSession& of) { of.setNailOn(NailId{id}, on); });

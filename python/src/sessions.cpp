@@ -145,11 +145,17 @@ void bindSessions(nb::module_& module) {
            nb::sig("def write_journal(self, path: str | os.PathLike[str]) -> None"),
            "Writes all completed gestures; `carom replay` plays them again, to the same bits.")
       .def("__repr__", [](const PySession& self) {
-        return "<EditSession with " + std::to_string(self.content->session.controls().size()) + " controls>";
+        if (self.content->one.isInUse()) return std::string("<EditSession, in use>");
+        return readFrom(self, [](EditSession& of) {
+          return "<EditSession with " + std::to_string(of.controls().size()) + " controls and " +
+                 std::to_string(of.nails().size()) + " nails" + (of.isGrabbed() ? ", grabbed>" : ">");
+        });
       });
   bindSessionState(session);
   bindGestures(session);
   bindSessionNails(module, session);
+  bindSessionContent(session);
+  bindReplay(module);
 }
 
 }  // namespace carom::python

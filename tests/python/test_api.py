@@ -46,6 +46,8 @@ RENAMED = {
     "sessionNumbers": "EditSession.numbers",
     "documentOf": "EditSession.scene",
     "saveJournal": "EditSession.write_journal",
+    "readJournal": "SessionReplay.read",
+    "SessionContent": "EditSession.set_content",
     "SimulateOptions": "simulate",
     "EditOptions": "Edit.solve",
     "Effort": "Edit.solve",
@@ -68,7 +70,8 @@ WORDS = "an enumeration: its words are texts in Python"
 DICT = "scenes are written as documents: a dict has it"
 CONTACTS = "the interface of collision detection, for sources written in C++"
 INSIDE = "of the integrator and its derivatives; a motion is read by states"
-REPLAY = "journals are replayed by the command"
+JOURNAL = "a journal is a file in Python: EditSession.write_journal, SessionReplay.read"
+HISTORY = "for programs that resume a session with its undo steps: the studio; in Python a journal is replayed"
 CHEAP = "for C++ programs that draw or read by themselves"
 CONSTANT = "a constant that the page or the docstring says"
 LEFT_OUT = {
@@ -87,9 +90,9 @@ LEFT_OUT = {
                      "flightTangent", "flightPullback", "chained", "turned", "isZero", "SolidProperties", "SolidRate",
                      "ShapeKind", "shapeKinds", "kindOf", "FarthestPoint", "FarthestFrom", "farthestFrom"], INSIDE),
     **dict.fromkeys(["Free", "TargetNumber", "WantedVector", "targetOf"], "numbers and None of a nail do it"),
-    **dict.fromkeys(["SessionJournal", "SessionGesture", "DragTarget", "SessionReplay", "ReplayedGesture", "JournalDocument",
-                     "readJournal", "parseJournal", "writeJournal", "replayJson", "SessionHistory", "SessionHistoryNail",
-                     "SessionHistoryPoint", "SessionContent"], REPLAY),
+    **dict.fromkeys(["SessionJournal", "SessionGesture", "DragTarget", "JournalDocument", "parseJournal", "writeJournal",
+                     "replayJson"], JOURNAL),
+    **dict.fromkeys(["SessionHistory", "SessionHistoryNail", "SessionHistoryPoint"], HISTORY),
     **dict.fromkeys(["bodyIndex", "materialIndex", "materialIndexOf", "materialOf"], "Scene.bodies.index does it"),
     **dict.fromkeys(["DisplayMesh", "DisplayTrack", "displayMesh", "displayTrack",
                      "TriangleSoup", "readMeshFile", "readPointsFile", "meshSurface", "assembleSurface", "convexHull",
@@ -102,43 +105,53 @@ LEFT_OUT = {
     "any": "None",
 }
 
-# Members of classes, and fields of options that are arguments in Python.
+# Members of classes, and fields of options that are arguments in Python: under which name, or why there is none.
+GIVEN = "what was given, which the caller has"
+LISTS = "Event.contacts and Event.bodies are lists, to be searched"
+CALLS = "called after every impact: a C++ program would wait for Python; `progress` stops a simulation"
+SPEED = "an option of speed alone"
+RELIABLE = "EditResult.reliability says it, of the worst row"
+REASONS = {GIVEN, LISTS, CALLS, SPEED, RELIABLE, INSIDE, CONTACTS, DICT, HISTORY}
 CLASSES = {
     "Motion": ("adjoint/motion/motion.h", "Motion", {
-        "stateAt": "state_at", "modelOf": None, "impacts": "impacts", "taken_over": None, "plan": None, "models": None, "geometry": None,
-        "world_lines": None, "arcAt": None, "describeEvent": None}),
+        "stateAt": "state_at", "modelOf": INSIDE, "impacts": "impacts", "taken_over": INSIDE, "plan": INSIDE, "models": INSIDE, "geometry": CONTACTS,
+        "world_lines": INSIDE, "arcAt": INSIDE, "describeEvent": "events"}),
     "Event": ("adjoint/motion/motion.h", "Event", {
-        "border": None, "participants": "bodies", "margins": "grazing", "find": None, "touches": None, "meets": None}),
+        "border": INSIDE, "participants": "bodies", "margins": "grazing", "find": LISTS, "touches": LISTS, "meets": LISTS}),
     "Contact": ("adjoint/motion/motion.h", "Contact", {
-        "a": "bodies", "b": "bodies", "at": "point", "tilt_a": None, "tilt_b": None, "pair": "friction", "kept": None}),
+        "a": "bodies", "b": "bodies", "at": "point", "tilt_a": INSIDE, "tilt_b": INSIDE, "pair": "friction", "kept": INSIDE}),
     "Nail": ("editing/nail.h", "Nail", {}),
-    "Edit": ("editing/edit.h", "Edit", {"constraints": None}),
+    "Edit": ("editing/edit.h", "Edit", {"constraints": DICT}),
     "NlpEvaluator": ("editing/nlp_evaluator.h", "NlpEvaluator", {}),
     "NlpPoint": ("editing/nlp_evaluator.h", "NlpPoint", {}),
     "NlpVariable": ("editing/nlp_evaluator.h", "NlpVariable", {}),
     "NlpRow": ("editing/nlp_evaluator.h", "NlpRow", {}),
     "MotionFunctionCheck": ("editing/check_motion_function.h", "MotionFunctionCheck", {}),
-    "RowReading": ("editing/motion_function.h", "Reading", {"seed_rates": None}),  # given, not read
+    "RowReading": ("editing/motion_function.h", "Reading", {"seed_rates": GIVEN}),
     "SecondOrder": ("adjoint/second_order/second_order.h", "SecondOrder", {}),
     "BodyStateRate": ("adjoint/derivative/tangent.h", "BodyStateRate", {}),
     "EditResult": ("editing/edit_result.h", "EditResult", {}),
-    "Certificate": ("editing/certificate.h", "Certificate", {"reliability": None, "signature_step": None}),
+    "Certificate": ("editing/certificate.h", "Certificate", {"reliability": RELIABLE}),
     "EditSession": ("editing/session.h", "EditSession", {
-        "constraints": "scene", "constraintOf": None, "nailStates": "nails", "setNail": None, "grabbedPlace": None,
-        "grabbedOrientation": None, "setContent": None, "content": None, "options": None, "history": None,
-        "journal": "write_journal"}),
+        "constraints": "scene", "constraintOf": "scene", "nailStates": "nails", "content": "scene",
+        "options": GIVEN,
+        "history": HISTORY, "journal": "write_journal"}),
+    "SessionReplay": ("editing/session_replay.h", "SessionReplay", {"next": "__next__", "session": "scene"}),
+    "ReplayedGesture": ("editing/session_replay.h", "ReplayedGesture", {}),
+    "NailState": ("editing/session.h", "NailState", {}),
+    "SessionNumber": ("editing/session_numbers.h", "SessionNumber", {}),
     "SessionUpdate": ("editing/session_update.h", "SessionUpdate", {"scene": "motion"}),
-    "MotionTangent": ("adjoint/derivative/tangent.h", "MotionTangent", {"start": None, "model": None}),
+    "MotionTangent": ("adjoint/derivative/tangent.h", "MotionTangent", {"start": INSIDE, "model": INSIDE}),
     "Reliability": ("adjoint/derivative/derivative_tape.h", "Reliability", {
         "frictions": "unreliable_for", "beginning": "unreliable_for", "seams": "unreliable_for",
-        "friction_message": "sentences", "beginning_message": "sentences", "seam_message": "sentences", "pass": None,
-        "passFriction": None, "passArc": None, "askFriction": None, "askVelocity": None, "askSpin": None,
-        "askPlace": None}),
+        "friction_message": "sentences", "beginning_message": "sentences", "seam_message": "sentences", "pass": INSIDE,
+        "passFriction": INSIDE, "passArc": INSIDE, "askFriction": INSIDE, "askVelocity": INSIDE, "askSpin": INSIDE,
+        "askPlace": INSIDE}),
     "SimulateOptions": ("adjoint/simulate/simulate.h", "simulate", {
-        "asked": None, "stop": "progress", "stop_when": None, "least_duration": None, "baseline": None, "given": None}),
+        "asked": INSIDE, "stop": "progress", "stop_when": CALLS, "least_duration": CALLS, "baseline": SPEED, "given": CONTACTS}),
     "EditOptions": ("editing/edit_options.h", "Edit.solve", {"time_budget_seconds": "time_budget", "stop": "progress"}),
     "Control": ("editing/control.h", "Control", {
-        "notes": None, "within": "min", "atLeast": "min", "atMost": "max", "only": "components", "weighted": "weight"}),
+        "notes": DICT, "within": "min", "atLeast": "min", "atMost": "max", "only": "components", "weighted": "weight"}),
 }
 
 
@@ -226,7 +239,9 @@ def test_every_member(name):
     missing = []
     for member in members:
         stands_for = others.get(member, snake(member))
-        if stands_for is not None and stands_for not in there and stands_for + "_" not in there:
+        if stands_for in REASONS:
+            assert snake(member) not in there, member
+        elif stands_for not in there and stands_for + "_" not in there:
             missing.append(f"{name}::{member}")
     assert not missing
     assert [member for member in others if member not in members] == []

@@ -170,9 +170,10 @@ def test_bad_edits(court):
 
 
 def test_a_nail_keeps_its_edit(court):
-    nail = carom.Edit(court).nail("ball", 0.5)
+    nail = carom.Edit(court).nail("ball", carom.nth_impact(2, "floor"))
     gc.collect()
     nail.position(1, 2, 3)
+    assert repr(nail) == "<Nail of 'ball', impact 2 with 'floor'>"
     result = bounce(carom.Scene(COURT)).solve(effort="fast")
     changed, why, certificate = result.changed, result.why_not, result.certificate
     del result

@@ -126,3 +126,76 @@ def test_ctrl_c_and_other_threads():
             session.dwell()
     assert all("in use" in text for text in refused)
     assert session.scene.bodies  # usable after it
+
+
+def test_nails_are_changed(session):
+    nail = session.nail("ball", 0.4, position=(1.0, 0.1, 1.5))
+    session.set_nail(nail, "ball", 0.5, position=(1.2, 0.0, 1.4))
+    assert session.nails[0].met and session.nails[0].id == nail
+    np.testing.assert_allclose(session.motion.state_at("ball", 0.5).position, [1.2, 0, 1.4], atol=1e-8)
+    session.undo()
+    np.testing.assert_allclose(session.motion.state_at("ball", 0.4).position, [1, 0.1, 1.5], atol=1e-8)
+    for wrong in (lambda: session.set_nail(nail + 7, "ball", 0.5, position=(0, 0, 1)),
+                  lambda: session.set_nail(nail, "bal", 0.5, position=(0, 0, 1)),
+                  lambda: session.set_nail(nail, "ball", 0.5, position=(0, float("nan"), 1))):
+        with pytest.raises(carom.InputError):
+            wrong()
+
+
+def test_the_content_is_replaced(session):
+    kept = session.nail("ball", 0.4, position=(1.0, 0.1, 1.5))
+    session.set_nail_on(kept, False)
+    document = session.scene.to_dict()
+    document["duration"] = 2
+    document["bodies"].append({"name": "wall", "fixed": True, "shape": {"plane": {"normal": [-1, 0, 0], "offset": -3}}})
+    document["constraints"].append({"body": "ball", "at": 0.2, "position": [None, 0, None]})
+    session.set_content(carom.Scene(document), "a wall", nail_ids=[kept, None])
+    assert session.duration == 2 and session.scene.bodies[-1] == "wall" and session.undo_name == "a wall"
+    assert session.motion.duration == 2
+    states = session.nails
+    assert states[0].id == kept and not states[0].on and states[1].id != kept
+    with pytest.raises(carom.InputError, match="expected 2"):
+        session.set_content(carom.Scene(document), "again", nail_ids=[kept])
+    with pytest.raises(carom.InputError):
+        session.set_content(carom.Scene(document), "again", nail_ids=[77, None])
+    session.set_content(carom.Scene(document), "all new")
+    assert kept not in [state.id for state in session.nails]
+    session.undo()
+    session.undo()
+    assert session.duration == 1 and len(session.scene.bodies) == 2
+    assert repr(session) == "<EditSession with 2 controls and 1 nails>"
+
+
+def test_what_is_grabbed(session):
+    with pytest.raises(carom.InputError):
+        session.grabbed_place
+    session.grab("ball", 0.4, orientation=True)
+    assert session.grabbed_place.tolist() == session.motion.state_at("ball", 0.4).position.tolist()
+    assert session.grabbed_orientation.tolist() == [1, 0, 0, 0]
+
+
+def test_a_replay_gives_the_same_bits(session, tmp_path):
+    session.nail("ball", 0.2, position=(0.4, 0, 1.4))
+    session.grab("ball", 0.5)
+    session.drag_to((1, 0, 1.2))
+    session.drag_to((1.1, 0.1, 1.2))
+    session.release()
+    session.undo()
+    path = tmp_path / "journal.json"
+    session.write_journal(path)
+    replay = carom.SessionReplay.read(path)
+    assert not replay.done and "gestures" in repr(replay)
+    gestures = list(replay)
+    assert [gesture.kind for gesture in gestures] == ["controls", "nail", "drag", "undo"] and replay.done
+    assert all(gesture.differences == [] for gesture in gestures), gestures
+    assert gestures[2].body == "ball" and gestures[2].updates == 2 and gestures[2].update.reached
+    assert gestures[2].update.motion.duration == 1
+    assert replay.scene.to_text() == session.scene.to_text()
+    states = [of.motion.sample("ball", [0.3, 0.9]).position.tobytes() for of in (replay, session)]
+    assert states[0] == states[1]
+    with pytest.raises(carom.FormatError) as error:
+        carom.SessionReplay.read(tmp_path / "none.json")
+    assert "none.json" in error.value.file
+    path.write_text(path.read_text().replace('"drag"', '"drug"'))
+    with pytest.raises(carom.FormatError):
+        carom.SessionReplay.read(path)
