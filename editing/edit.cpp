@@ -103,6 +103,9 @@ EditResult Edit::solve(const EditOptions& options) const {
     return solved(options);
   } catch (const ThrownByUser& by_user) {
     std::rethrow_exception(by_user.thrown);
+  } catch (...) {
+    if (options.abandon && options.stop.stop_requested()) throw EditAbandoned();  // half a motion makes no sense to some
+    throw;
   }
 }
 
@@ -111,17 +114,21 @@ EditResult Edit::solved(const EditOptions& options) const {
   EditProblem problem = problemOf(*this);
   problem.step_limit = options.step_limit;
   problem.stop = options.stop;
+  if (options.abandon) problem.abandon = options.stop;
   endWhereNothingCounts(problem);
   EditEvaluator evaluator(problem, options);
   EditSolution solution = findSolution(evaluator);
   if (problem.constraints.objective() && solution.status == EditStatus::solved)
     solution.point = lowerObjective(evaluator, solution.point);
+  problem.leaveIfAbandoned();
   EditResult result = verify(scene_, evaluator, solution);
+  problem.leaveIfAbandoned();
   if (options.explain) explainInto(result, scene_, evaluator, solution);
   // what stands against each other is said there, or else here
   if (result.why_not.sentences.empty() && !solution.contradiction.empty())
     result.message = solution.contradiction + " " + result.message;
   if (result.solved() && !evaluator.isCancelled()) result.alternatives = alternativesTo(scene_, evaluator, solution);
+  problem.leaveIfAbandoned();
   if (evaluator.isCancelled()) endAsCancelled("its answer was completed", result);
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
   return result;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <stop_token>
 
 namespace carom {
@@ -38,6 +39,12 @@ enum class SecondDerivatives {
   limited_memory  ///< Ipopt's limited-memory approximation
 };
 
+/// Edit::solve was stopped, with EditOptions::abandon: there is no answer.
+class EditAbandoned : public std::runtime_error {
+ public:
+  EditAbandoned() : std::runtime_error("the edit was abandoned") {}
+};
+
 /// Options of an edit.
 struct EditOptions {
   int max_iterations = 10000;  ///< of all stages together; the last stage may exceed it by a few
@@ -56,6 +63,8 @@ struct EditOptions {
   /// Once a stop is requested, from any thread, the edit ends with EditStatus::cancelled and its best point,
   /// simulated again: EditResult::met tells whether it meets the constraints.
   std::stop_token stop;
+  /// Once stopped, Edit::solve throws EditAbandoned as soon as it can: sooner than an answer could be completed.
+  bool abandon = false;
   bool explain = true;   ///< fill in EditResult::why_not if the edit is infeasible or does not converge
   std::function<bool(const EditProgress&)> progress;  ///< returning false cancels; must not solve another edit
 };

@@ -7,6 +7,8 @@
 
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
+#include "editing/detail/thrown_by_user.hpp"
+#include "editing/edit_options.h"
 
 namespace carom::editing_detail {
 
@@ -93,6 +95,7 @@ Eigen::VectorXd EditProblem::unknownTimes(const Eigen::VectorXd& t) const {
 }
 
 Eigen::VectorXd EditProblem::byChanges(const SceneGradient& gradient, const Eigen::VectorXd& unknowns) const {
+  leaveIfAbandoned();
   const Eigen::VectorXd changes = unknowns.head(controls.size());
   return controls.gather(gradient, controls.valuesOf(changes)).cwiseProduct(controls.valueRates(changes));
 }
@@ -129,6 +132,10 @@ double EditProblem::objective(const Eigen::VectorXd& unknowns, const RowValues& 
   return rows.objective->value / own->function.scale + (change_weight > 0 ? change_weight * change(unknowns) : 0);
 }
 
+void EditProblem::leaveIfAbandoned() const {
+  if (abandon.stop_requested()) throw ThrownByUser{std::make_exception_ptr(EditAbandoned())};
+}
+
 void endWhereNothingCounts(EditProblem& problem) {
   if (problem.constraints.waits())
     problem.stop_when = [&](const Motion& motion) { return problem.constraints.hasWhatItWaitsFor(motion); };
@@ -138,7 +145,10 @@ void endWhereNothingCounts(EditProblem& problem) {
 Motion simulateScene(const EditProblem& problem, const Scene& scene, double until) {
   SimulateOptions options;
   options.step_limit = problem.step_limit;
-  return simulate(scene, *problem.contacts, until, options);
+  options.stop = problem.abandon;
+  Motion motion = simulate(scene, *problem.contacts, until, options);
+  problem.leaveIfAbandoned();
+  return motion;
 }
 
 Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, double until, const Simulating& how) {
@@ -149,13 +159,17 @@ Motion simulateAt(const EditProblem& problem, const Eigen::VectorXd& values, dou
   options.stop_when = problem.stop_when;
   options.least_duration = problem.least_duration;
   options.progress = how.progress;
-  if (!how.even_if_stopped) options.stop = how.stop.stop_possible() ? how.stop : problem.stop;
+  options.stop = how.even_if_stopped ? problem.abandon : how.stop.stop_possible() ? how.stop : problem.stop;
   ContactSource& contacts = how.contacts ? *how.contacts : *problem.contacts;
-  return simulate(problem.controls.sceneAt(values), contacts, until, options);
+  problem.leaveIfAbandoned();
+  Motion motion = simulate(problem.controls.sceneAt(values), contacts, until, options);
+  problem.leaveIfAbandoned();
+  return motion;
 }
 
 MotionAlong simulateAlong(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& like, double until,
                           ContactSource* contacts) {
+  problem.leaveIfAbandoned();
   const Scene scene = problem.controls.sceneAt(values);
   const std::vector<BoundControl>& controls = problem.controls.controls();
   const bool resized =

@@ -58,6 +58,9 @@ struct EditProblem {
   /// Of every motion, see SimulateOptions.
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();
   std::stop_token stop;  ///< of motions that are tried; one that an answer is read from is simulated in any case
+  std::stop_token abandon;  ///< of all of them: there will be no answer
+  /// Throws EditAbandoned, by ThrownByUser, if that was requested.
+  void leaveIfAbandoned() const;
 };
 
 /// From now on motions that are tried end where nothing later counts. The problem stays where it is in memory.

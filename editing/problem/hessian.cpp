@@ -120,6 +120,7 @@ Eigen::VectorXd timeRatesAlong(const Readings& readings, const Eigen::VectorXd& 
 RowsCurvature rowsCurvature(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
                             const RowValues& rows, const Eigen::VectorXd& weights, double objective_weight,
                             const Eigen::MatrixXd& directions, RatesWanted wanted) {
+  problem.leaveIfAbandoned();
   const Eigen::Index n = problem.controls.size();
   std::vector<ReadingDirection> controls;
   for (Eigen::Index j = 0; j < n; ++j)

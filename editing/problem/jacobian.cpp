@@ -43,6 +43,7 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
   DerivativeTape tape(motion);
   for (Eigen::Index i = 0; i < J.rows(); ++i) {
     if (rows.seeds[i].empty()) continue;
+    problem.leaveIfAbandoned();
     const SceneGradient gradient = adjoint(tape, rows.seeds[i], reliability ? &(*reliability)[i] : nullptr);
     J.row(i) = problem.controls.gather(gradient, values).transpose();
     if (reliability) askControls(problem.controls, (*reliability)[i]);
@@ -60,6 +61,7 @@ Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::Vecto
   Eigen::MatrixXd J = unknown(problem);
   DerivativeTape tape(motion);
   for (Eigen::Index j = 0; j < J.cols(); ++j) {
+    problem.leaveIfAbandoned();
     const SceneTangent direction = problem.controls.scatter(Eigen::VectorXd::Unit(J.cols(), j), values);
     const MotionTangent moved = tangent(tape, direction);
     for (Eigen::Index i = 0; i < J.rows(); ++i) {

@@ -33,7 +33,7 @@ Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns,
   certificate.taken = true;
   certificate.energy_drift = energyDrift(motion, kEnergySamples);
   certificate.energy_gain = energyGain(motion);
-  certificate.deepest_penetration = deepestPenetration(motion, kOverlapSamples);
+  certificate.deepest_penetration = deepestPenetration(motion, kOverlapSamples, [&] { problem.leaveIfAbandoned(); });
   if (motion.world_lines.size() > kMarginBodies) {
     certificate.signature_radius = std::numeric_limits<double>::quiet_NaN();
     certificate.signature_event = "Not predicted: there are more than " + std::to_string(kMarginBodies) + " bodies.";

@@ -179,6 +179,7 @@ void tryHelp(const Scene& written, const EditEvaluator& evaluator, WhyNot& why) 
     EditProblem extended(written, *problem.contacts, problem.duration, more, problem.constraints.constraints());
     extended.step_limit = problem.step_limit;
     extended.stop = options.stop = problem.stop;
+    extended.abandon = problem.abandon;
     EditEvaluator again(extended, options);
     const EditSolution solution = findSolution(again);
     help.tried = true;

@@ -138,7 +138,7 @@ double energyGain(const Motion& motion) {
   return worst;
 }
 
-std::optional<double> deepestPenetration(const Motion& motion, int samples) {
+std::optional<double> deepestPenetration(const Motion& motion, int samples, const std::function<void()>& between) {
   const auto* bodies = dynamic_cast<const BodyGeometry*>(motion.geometry.get());
   if (!bodies) return std::nullopt;
   Overlaps overlaps(motion, *bodies);
@@ -153,6 +153,7 @@ std::optional<double> deepestPenetration(const Motion& motion, int samples) {
       const Arc& arc = line.arcs[k];
       const double end = endOf(motion, line, k);
       if (!arc.moving() || flight++ % stride != 0) continue;
+      between();
       for (const double fraction : fractions)
         overlaps.lookAt(b, arc, std::min(end, arc.start() + fraction * (end - arc.start())));
     }

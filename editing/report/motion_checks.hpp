@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "adjoint/motion/motion.h"
@@ -10,6 +11,7 @@ namespace carom::editing_detail {
 
 double energyDrift(const Motion& motion, int samples);
 double energyGain(const Motion& motion);
-std::optional<double> deepestPenetration(const Motion& motion, int samples);
+/// `between` is called between parts of the work; what it throws ends it.
+std::optional<double> deepestPenetration(const Motion& motion, int samples, const std::function<void()>& between = [] {});
 
 }  // namespace carom::editing_detail

@@ -2,6 +2,7 @@
 // An edit with everything that it can be asked and told: ranges, spans of time, progress, other solutions, a certificate,
 // and why another edit cannot be solved.
 #include <cstdio>
+#include <stop_token>
 
 #include "editing/edit.h"
 #include "ode_bridge/ode_contacts.h"
@@ -48,6 +49,16 @@ int main() {
   for (const SequenceChange& change : result.sequence_changes) std::printf("%s\n", change.sentence.c_str());
   const Certificate& certificate = result.certificate;
   std::printf("energy drifts by less than 1e-12: %s\n", certificate.energy_drift < 1e-12 ? "yes" : "no");
+
+  std::stop_source nobody_waits;  // a stop keeps the best so far; with `abandon` it ends sooner, without an answer
+  options.stop = nobody_waits.get_token();
+  options.abandon = true;
+  nobody_waits.request_stop();
+  try {
+    edit.solve(options);
+  } catch (const EditAbandoned& why) {
+    std::printf("%s\n", why.what());
+  }
 
   Edit beyond(scene, contacts, 2);
   beyond.vary(velocity("ball").only({"x"}));

@@ -190,6 +190,30 @@ TEST(CancelledEdit, IsVerifiedWheneverItIsStopped) {
   EXPECT_GT(met, 0);
 }
 
+// With `abandon` there is no answer, and no further motion begins, with whatever motion the stop comes.
+TEST(AbandonedEdit, EndsWithTheMotionThatIsSimulated) {
+  const Scene scene = bouncing();
+  OdeContacts plain(scene);
+  StopAfter stop;
+  StoppingContacts contacts(plain, stop);
+  Edit edit(scene, contacts, 1.2);
+  edit.vary(velocity("ball"), elasticity("rubber"));
+  edit.nail("ball", 1.1).position({1.3, 0.1, 0.9});
+  EditOptions options;
+  options.threads = 1;
+  options.alternatives = 2;
+  options.abandon = true;
+  options.stop = stop.set(-1);
+  ASSERT_TRUE(edit.solve(options).solved());
+  const int all = stop.begun;
+  ASSERT_GT(all, 20);
+  for (int motions = 0; motions < all; motions += motions < all - 12 ? 1 + motions / 4 : 1) {
+    options.stop = stop.set(motions);
+    EXPECT_THROW(edit.solve(options), EditAbandoned) << motions << " of " << all;
+    EXPECT_EQ(stop.begun, motions + 1);
+  }
+}
+
 TEST(CancelledEdit, ByItsCallbackToo) {
   const Scene scene = bouncing();
   OdeContacts contacts(scene);
