@@ -14,7 +14,7 @@
 namespace carom::python {
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{50};  // half of what one notices
+constexpr std::chrono::milliseconds kBetweenLooks{10};  // a look takes some microseconds
 
 thread_local int callbacks = 0;
 

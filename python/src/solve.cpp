@@ -19,10 +19,10 @@ Value valueOf(const std::string& word, const char* where, const std::map<std::st
   throw InputError(where, "found '" + word + "', expected one of " + words);
 }
 
-/// Calls a progress callback from whatever thread; what it raises first ends the edit.
+/// Calls a progress callback from whatever thread; what it raises first ends the edit, without an answer.
 class Callback {
  public:
-  explicit Callback(const nb::object& function) : function_(function) {}
+  Callback(const nb::object& function, std::stop_source& stop) : function_(function), stop_(stop) {}
 
   bool operator()(const EditProgress& progress) {
     const nb::gil_scoped_acquire held;
@@ -31,6 +31,7 @@ class Callback {
       return !function_(progress).is(nb::bool_(false));
     } catch (...) {
       if (!raised_) raised_ = std::current_exception();
+      stop_.request_stop();
       return false;
     }
   }
@@ -41,18 +42,25 @@ class Callback {
 
  private:
   const nb::object& function_;
+  std::stop_source& stop_;
   std::exception_ptr raised_;  // guarded by the GIL
 };
 
 PyEditResult solvedBy(const PyEdit& self, EditOptions options, const nb::object& progress) {
   InCallback::refuse();
   const OneAtATime::Use use(self.content->one, "the edit");
-  Callback callback(progress);
-  if (!progress.is_none()) options.progress = std::ref(callback);
   std::stop_source stop;
+  Callback callback(progress, stop);
+  if (!progress.is_none()) options.progress = std::ref(callback);
   options.stop = stop.get_token();
+  options.abandon = true;  // whoever presses Ctrl-C gets no answer
   std::optional<EditResult> result;
-  runInterruptible(stop, [&] { result = self.content->edit.solve(options); });
+  try {
+    runInterruptible(stop, [&] { result = self.content->edit.solve(options); });
+  } catch (const EditAbandoned&) {
+    callback.finish();
+    throw;
+  }
   callback.finish();
   const PyScene scene = sceneWith(self.content->scene, result->scene);
   PyMotion motion = motionOf(scene, std::move(result->motion));

@@ -102,6 +102,7 @@ LEFT_OUT = {
     **dict.fromkeys(["Vec2", "Vec3", "Mat3", "Quat", "skew", "unskew"], "NumPy's arrays"),
     **dict.fromkeys(["MotionAlong", "simulateAlong"], "along a given sequence: of the solver's inside so far"),
     "RatesWanted": "an option of speed: Python gives all rates",
+    "EditAbandoned": "Ctrl-C, and what a callback raises, abandon an edit: that comes out of Edit.solve",
     "any": "None",
 }
 
@@ -111,7 +112,8 @@ LISTS = "Event.contacts and Event.bodies are lists, to be searched"
 CALLS = "called after every impact: a C++ program would wait for Python; `progress` stops a simulation"
 SPEED = "an option of speed alone"
 RELIABLE = "EditResult.reliability says it, of the worst row"
-REASONS = {GIVEN, LISTS, CALLS, SPEED, RELIABLE, INSIDE, CONTACTS, DICT, HISTORY}
+ALWAYS = "Ctrl-C, and what a callback raises, always abandon an edit"
+REASONS = {ALWAYS, GIVEN, LISTS, CALLS, SPEED, RELIABLE, INSIDE, CONTACTS, DICT, HISTORY}
 CLASSES = {
     "Motion": ("adjoint/motion/motion.h", "Motion", {
         "stateAt": "state_at", "modelOf": INSIDE, "impacts": "impacts", "taken_over": INSIDE, "plan": INSIDE, "models": INSIDE, "geometry": CONTACTS,
@@ -149,7 +151,8 @@ CLASSES = {
         "askPlace": INSIDE}),
     "SimulateOptions": ("adjoint/simulate/simulate.h", "simulate", {
         "asked": INSIDE, "stop": "progress", "stop_when": CALLS, "least_duration": CALLS, "baseline": SPEED, "given": CONTACTS}),
-    "EditOptions": ("editing/edit_options.h", "Edit.solve", {"time_budget_seconds": "time_budget", "stop": "progress"}),
+    "EditOptions": ("editing/edit_options.h", "Edit.solve", {
+        "time_budget_seconds": "time_budget", "stop": "progress", "abandon": ALWAYS}),
     "Control": ("editing/control.h", "Control", {
         "notes": DICT, "within": "min", "atLeast": "min", "atMost": "max", "only": "components", "weighted": "weight"}),
 }
