@@ -12,7 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "adjoint/base/errors.h"
 #include "editing/detail/thrown_by_user.hpp"
+#include "editing/solver_library.h"
+
+#ifdef __SANITIZE_ADDRESS__
+#undef RTLD_DEEPBIND  // its functions have to come first
+#define RTLD_DEEPBIND 0
+#endif
 
 namespace carom::editing_detail {
 namespace {
@@ -22,6 +29,16 @@ constexpr Number kIpoptInfinity = 2e19;  // beyond Ipopt's nlp_upper_bound_inf
 std::mutex& ipoptMutex() {
   static std::mutex mutex;
   return mutex;
+}
+
+/// What setSolverLibrary named, and whether a library is open; both under the mutex.
+struct NamedLibrary {
+  std::string path;
+  bool open = false;
+};
+NamedLibrary& namedLibrary() {
+  static NamedLibrary library;
+  return library;
 }
 
 /// Ipopt's C interface. The library is opened when the first program is solved: it brings a dozen others along, whose
@@ -37,9 +54,7 @@ struct IpoptLibrary {
   std::string error;  ///< why it cannot be used; empty if it can
 
   IpoptLibrary() {
-    const std::string path = CAROM_IPOPT_LIBRARY;  // as it was found when carom was built, else wherever it is now
-    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (handle == nullptr) handle = dlopen(path.substr(path.rfind('/') + 1).c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* handle = open();
     if (handle == nullptr) {
       error = "Ipopt, which solves edits, could not be opened: " + std::string(dlerror());
       return;
@@ -51,6 +66,15 @@ struct IpoptLibrary {
   }
 
  private:
+  static void* open() {
+    NamedLibrary& named = namedLibrary();
+    named.open = true;
+    if (!named.path.empty()) return dlopen(named.path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
+    const std::string path = CAROM_IPOPT_LIBRARY;  // as it was found when carom was built, else wherever it is now
+    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    return handle != nullptr ? handle : dlopen(path.substr(path.rfind('/') + 1).c_str(), RTLD_NOW | RTLD_LOCAL);
+  }
+
   template <class Function>
   void find(void* handle, const char* name, Function& function) {
     function = reinterpret_cast<Function>(dlsym(handle, name));
@@ -291,3 +315,10 @@ SolverResult solveWithIpopt(NonlinearProgram& program, const SolverOptions& opti
 }
 
 }  // namespace carom::editing_detail
+
+void carom::setSolverLibrary(const std::string& path) {
+  const std::lock_guard<std::mutex> lock(editing_detail::ipoptMutex());
+  editing_detail::NamedLibrary& named = editing_detail::namedLibrary();
+  if (named.open) throw InputError("solver library", "Ipopt is open already: name its library before the first edit");
+  named.path = path;
+}

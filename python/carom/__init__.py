@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """carom: exact event-driven rigid bodies, with derivatives and edits. docs/python.md begins with an example."""
 
+import pathlib as _pathlib
+
+from carom import _carom
 from carom._carom import (
     BodyState,
     BodyStateRate,
@@ -81,6 +84,9 @@ from carom._carom import (
 )
 from carom._carom import version as __version__
 from carom.errors import FormatError, InputError, NotComputable
+
+# Ipopt, opened by the first edit: that of the wheel, with carom's own elementary functions in front of it.
+_carom.set_solver_library(str(_pathlib.Path(__file__).with_name("_ipopt.so")))
 
 __all__ = [
     "BodyState",

@@ -2,6 +2,7 @@
 // The module carom._carom. A file for each part of the API; python/carom/ has what is written in Python.
 
 #include "carom/version.h"
+#include "editing/solver_library.h"
 #include "python/src/session.hpp"
 #include "python/src/errors.hpp"
 #include "python/src/motion.hpp"
@@ -18,4 +19,6 @@ NB_MODULE(_carom, module) {
   bindDerivatives(module);
   bindEdits(module);
   bindSessions(module);
+  module.def("set_solver_library", &carom::setSolverLibrary, nb::arg("path"),
+             "Names what the first edit opens as Ipopt; the package does so by itself.");
 }

@@ -104,6 +104,7 @@ LEFT_OUT = {
     "RatesWanted": "an option of speed: Python gives all rates",
     "EditAbandoned": "Ctrl-C, and what a callback raises, abandon an edit: that comes out of Edit.solve",
     "any": "None",
+    "setSolverLibrary": "the package names its own",
 }
 
 # Members of classes, and fields of options that are arguments in Python: under which name, or why there is none.

@@ -24,7 +24,7 @@ const std::map<std::string, std::vector<Layer>>& layers() {
       {"editing",
        {folder("detail"),
         {"data", std::regex("(certificate|constraint|control|edit_options|edit_result|motion_function|sequence_changes|"
-                            "session_journal|wanted|why_not)\\.(h|cpp)")},
+                            "session_journal|solver_library|wanted|why_not)\\.(h|cpp)")},
         folder("problem"),
         folder("solve"),
         folder("strategy"),
