@@ -22,7 +22,8 @@ LICENSES = {  # a phrase that the text of each has
     "NOTICE": "EPL-1.0", "libeigen3-dev": "MPL", "nlohmann-json3-dev": "Niels Lohmann", "nanobind": "Wenzel Jakob", "Apache-2.0": "Apache License",
 }
 # Of the system: what every Python has loaded, or the tags of the wheel promise.
-SYSTEM = re.compile(r"/(ld-linux|lib(c|m|dl|rt|util|pthread|gcc_s|stdc\+\+|z|expat|crypto|ssl|uuid|ffi|mvec))[-.\w]*\.so[.\d]*$")
+SYSTEM = re.compile(r"/(ld-linux|lib(c|m|dl|rt|util|pthread|gcc_s|stdc\+\+|z|expat|crypto|ssl|uuid|ffi|mvec))"
+                    r"[-.\w]*\.so[.\d]*$")
 
 USE = """
 import sys

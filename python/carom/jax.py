@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""Motions as differentiable functions of JAX: `rows` in both modes, `states` in reverse mode.
+
+Both work with jit, grad and vmap; a batch is simulated in several threads. Derivatives are carom's, exact through
+impacts, and are computed in double precision even if JAX has its 32 bits: then they come back rounded to these. Second
+derivatives raise; NlpPoint.hessian has them.
+"""
+
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import batches
+from carom._carom import Control, NlpEvaluator, Scene
+from carom.errors import InputError
+
+try:
+    import jax
+    import jax.numpy as jnp
+except ImportError:
+    batches.missing("jax", "jax")
+
+_warned = False
+
+
+def _like(x: Any, n: int) -> Any:
+    """x as floats of JAX, checked while it is traced; warns once of 32 bits."""
+    global _warned
+    x = jnp.asarray(x, dtype=jnp.result_type(float))
+    if x.shape != (n,):
+        raise InputError("x", f"found the shape {x.shape}, expected ({n},); jax.vmap does batches")
+    if x.dtype == jnp.float32 and not _warned:
+        _warned = True
+        warnings.warn("JAX rounds to 32 bits: jax.config.update('jax_enable_x64', True) keeps every digit", stacklevel=3)
+    return x
+
+
+def _on_host(function: Callable[..., batches.Floats], shape: tuple[int, ...], *arguments: Any) -> Any:
+    """What a function of arrays gives, of a batch as a whole; `shape` is that of one x."""
+    dtype = arguments[0].dtype
+
+    def call(*given: Any) -> Any:
+        return function(*[np.asarray(one) for one in given]).astype(dtype, copy=False)
+
+    return jax.pure_callback(call, jax.ShapeDtypeStruct(shape, dtype), *arguments, vmap_method="broadcast_all")
+
+
+def rows(evaluator: NlpEvaluator, *, threads: int | None = None) -> Callable[[Any], Any]:
+    """The rows of an edit as a function x (n,) -> (m,), by SI, with a `custom_jvp`: value and Jacobian come from one
+    simulation. For few rows: the Jacobian takes one reverse pass each.
+
+    Raises as carom.batches.Rows; within jit it is JAX that raises, with the same sentence.
+    """
+    work = batches.Rows(evaluator, threads=threads)
+
+    def together(x: Any) -> batches.Floats:
+        """The values as the first column: every further result of a callback takes JAX 10 us."""
+        values, jacobian = work.values_and_jacobian(x)
+        return np.concatenate([values[..., None], jacobian], axis=-1)
+
+    @jax.custom_jvp
+    def inner(x: Any) -> Any:
+        return _on_host(work.values, (work.m,), x)
+
+    @inner.defjvp
+    def rule(primals: Any, tangents: Any) -> Any:
+        both = _on_host(together, (work.m, 1 + work.n), primals[0])
+        return both[:, 0], both[:, 1:] @ tangents[0]
+
+    def function(x: Any) -> Any:
+        return inner(_like(x, work.n))
+
+    return function
+
+
+class States(NamedTuple):
+    """States as arrays of JAX, SI, rows in the order of the bodies and times."""
+
+    position: Any  # (bodies, times, 3)
+    orientation: Any  # (bodies, times, 4), [w, x, y, z]
+    velocity: Any  # (bodies, times, 3)
+    angular_velocity: Any  # (bodies, times, 3)
+
+
+def states(scene: Scene, controls: Sequence[Control], bodies: Sequence[str], times: npt.ArrayLike, *,
+           threads: int | None = None) -> Callable[[Any], States]:
+    """The states of bodies at times as a function x (n,) -> States of the control parameters, by SI, with a `custom_vjp`:
+    for many states. The reverse pass simulates again and takes one pass for all of them. Forward mode raises TypeError.
+
+    Raises as carom.batches.States; within jit it is JAX that raises, with the same sentence.
+    """
+    work = batches.States(scene, controls, bodies, times, threads=threads)
+
+    @jax.custom_vjp
+    def inner(x: Any) -> Any:
+        return _on_host(work.values, work.shape, x)
+
+    def forward(x: Any) -> Any:
+        return inner(x), x
+
+    def backward(x: Any, weights: Any) -> Any:
+        return (_on_host(work.pullback, (work.n,), x, weights),)
+
+    inner.defvjp(forward, backward)
+
+    def function(x: Any) -> States:
+        values = inner(_like(x, work.n))
+        return States(*(values[..., columns] for columns in work.COLUMNS))
+
+    return function
