@@ -66,6 +66,7 @@ struct PyEditResult {
   EditResult result;  ///< without its motion
   PyScene scene;
   PyMotion motion;
+  PyScene before;  ///< what was edited
 };
 
 }  // namespace carom::python

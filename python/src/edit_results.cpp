@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "adjoint/simulate/simulate.h"
+#include "formats/export/export_motion.h"
 #include "python/src/arrays.hpp"
 #include "python/src/edit.hpp"
 
@@ -43,8 +45,24 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// What a notebook shows: the status, and a table of the changes.
-std::string tableOf(const PyEditResult& self) {
+constexpr std::size_t kStepsOfAPicture = 3'000'000;  // as the command: a few seconds
+
+/// The motion over that of the scene before, dashed.
+std::string pictureOf(const PyEditResult& self) {
+  const nb::gil_scoped_release free;
+  const Motion& after = self.motion.motion();
+  SimulateOptions limited;
+  limited.step_limit = kStepsOfAPicture;
+  SceneContent::Contacts contacts(*self.before.content);
+  const Motion before = simulate(self.before.scene(), *contacts, after.duration, limited);
+  ExportOptions options;
+  options.before = &before;
+  const std::string picture = motionText("svg", self.scene.document().name, self.scene.document(), after, options);
+  return picture.substr(picture.find("<svg"));
+}
+
+/// What a notebook shows: the status, a table of the changes, a picture.
+std::string shownInNotebook(const PyEditResult& self) {
   std::string html = "<p>" + escaped(nameOf(self.result.status)) + ". " + escaped(self.result.message) +
                      "</p><table><tr><th></th><th>before</th><th>after</th><th>share</th></tr>";
   for (const ChangedNumber& number : self.result.changed) {
@@ -53,7 +71,7 @@ std::string tableOf(const PyEditResult& self) {
                   number.share);
     html += "<tr><td>" + escaped(number.name) + cells;
   }
-  return html + "</table>";
+  return html + "</table>" + pictureOf(self);
 }
 
 std::vector<PyAlternative> alternativesOf(const PyEditResult& self) {
@@ -200,7 +218,8 @@ void bindEditResults(nb::module_& module) {
       .def_prop_ro("reliability",
                    [](const PyEditResult& self) { return PyReliability(self.result.reliability, self.scene.scene()); },
                    nb::rv_policy::move, "Of the derivatives at the result, worst row.")
-      .def("_repr_html_", &tableOf, "What a notebook shows: the status, and a table of the changes.")
+      .def("_repr_html_", &shownInNotebook,
+           "What a notebook shows: the status, a table of the changes, and a picture with the motion before dashed.")
       .def("__repr__", &reprOfResult);
 }
 

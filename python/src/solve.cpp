@@ -64,7 +64,7 @@ PyEditResult solvedBy(const PyEdit& self, EditOptions options, const nb::object&
   callback.finish();
   const PyScene scene = sceneWith(self.content->scene, result->scene);
   PyMotion motion = motionOf(scene, std::move(result->motion));
-  return {std::move(*result), scene, std::move(motion)};
+  return {std::move(*result), scene, std::move(motion), self.content->scene};
 }
 
 PyEditResult solvedWith(const PyEdit& self, const std::string& effort, const std::string& sequence, int alternatives,
