@@ -79,36 +79,15 @@ class Rows:
         self.n, self.m = len(evaluator.variables), len(evaluator.rows)
         self._threads = _threads(threads)
 
-    def _at(self, x: Floats) -> NlpPoint:
-        point = self.evaluator.at(x)
-        if not point.available:
-            raise NotComputable(f"x = {x.tolist()}: {point.message}")
-        return point
-
     def values(self, x: npt.ArrayLike) -> Floats:
         points, batch = _points(x, self.n)
-        if not batch:
-            return self._at(points[0]).values
-        values = np.empty((len(points), self.m))
-
-        def work(i: int) -> None:
-            values[i] = self._at(points[i]).values
-
-        _for_each(len(points), self._threads, work)
+        values, _ = self.evaluator.rows_at(points, threads=self._threads)
         return values.reshape(*batch, self.m)
 
     def values_and_jacobian(self, x: npt.ArrayLike) -> tuple[Floats, Floats]:
         points, batch = _points(x, self.n)
-        if not batch:  # as fast as can be
-            point = self._at(points[0])
-            return point.values, point.jacobian().entries
-        values, jacobian = np.empty((len(points), self.m)), np.empty((len(points), self.m, self.n))
-
-        def work(i: int) -> None:
-            point = self._at(points[i])
-            values[i], jacobian[i] = point.values, point.jacobian().entries
-
-        _for_each(len(points), self._threads, work)
+        values, jacobian = self.evaluator.rows_at(points, jacobian=True, threads=self._threads)
+        assert jacobian is not None
         return values.reshape(*batch, self.m), jacobian.reshape(*batch, self.m, self.n)
 
 

@@ -3,6 +3,7 @@
 
 #include "python/src/arrays.hpp"
 #include "python/src/edit.hpp"
+#include "python/src/evaluator_batch.hpp"
 
 namespace carom::python {
 namespace {
@@ -237,6 +238,16 @@ void bindEvaluator(nb::module_& module, nb::class_<PyEdit>& edit) {
            "Simulates the scene with these values, up to where nothing later counts, and reads all rows. Ctrl-C raises "
            "KeyboardInterrupt. Raises InputError if x has another size or a number that is not finite, and what functions of "
            "the motion raise; a point that cannot be evaluated says why (NlpPoint.message).")
+      .def("rows_at",
+           [](const PyEvaluator& self, const ArrayLike& x, bool jacobian, int threads) {
+             return rowsAt(self.evaluator, x, jacobian, threads);
+           },
+           nb::arg("x"), nb::kw_only(), nb::arg("jacobian") = false, nb::arg("threads") = 1,
+           nb::sig("def rows_at(self, x: numpy.typing.ArrayLike, *, jacobian: bool = False, threads: int = 1) -> "
+                   "tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64] | None]"),
+           "The values of all rows at many points x (count, variables): (count, rows), and with `jacobian` their Jacobians "
+           "(count, rows, variables), computed in that many threads. Raises NotComputable for the first point that is not "
+           "available, else as `at`.")
       .def("scene_at", &sceneAt, nb::arg("x"), "The scene with these values of its parameters. Raises InputError like `at`.")
       .def("__repr__", [](const PyEvaluator& self) {
         return "<NlpEvaluator of " + std::to_string(self.evaluator.variables().size()) + " variables and " +
