@@ -4,6 +4,7 @@
 #include "python/src/arrays.hpp"
 #include "python/src/edit.hpp"
 #include "python/src/evaluator_batch.hpp"
+#include "python/src/plain_arithmetic.hpp"
 
 namespace carom::python {
 namespace {
@@ -45,6 +46,7 @@ PyEvaluator evaluatorOf(const nb::object& edit, std::optional<std::size_t> step_
 PyPoint pointAt(const nb::object& self, const ArrayLike& x) {
   const auto& of = nb::cast<const PyEvaluator&>(self);
   const Eigen::VectorXd values = columnOf(x, "x");
+  const PlainArithmetic plain;
   Watch watch;
   NlpPoint point = [&] {
     const nb::gil_scoped_release free;
@@ -187,12 +189,14 @@ void bindPoint(nb::module_& module) {
       .def("gradient",
            [](const PyPoint& self) {
              const nb::gil_scoped_release free;
+             const PlainArithmetic plain;
              return PyNlpGradient{self.scene, self.point.gradient()};
            },
            "Of the objective, by one reverse pass.")
       .def("jacobian",
            [](const PyPoint& self) {
              const nb::gil_scoped_release free;
+             const PlainArithmetic plain;
              return PyJacobian{self.scene, self.point.jacobian()};
            },
            "Of all rows, by one reverse pass each.")

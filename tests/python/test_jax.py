@@ -102,6 +102,20 @@ def test_batches(evaluator):
     assert np.array_equal(nested.reshape(6, 2), jax.vmap(function)(xs[:6]))
 
 
+def test_denormal_numbers_are_computed_with(ball):
+    """JAX flushes them to zero where it calls back."""
+    def smallest(motion):
+        return carom.Reading(float(least * one > 0), [carom.Seed("ball", 1.0)])
+
+    least, one = np.float64(5e-324), np.float64(1)
+    edit = carom.Edit(ball)
+    edit.vary(carom.velocity("ball"))
+    edit.require("smallest", smallest, 1, until=1.0)
+    function = carom.jax.rows(edit.evaluator(), threads=2)
+    assert function(jnp.ones(3)) == 1
+    assert (jax.vmap(function)(jnp.ones((8, 3))) == 1).all()
+
+
 def test_reduced_precision_is_told_once(evaluator):
     jax.config.update("jax_enable_x64", False)
     carom.jax._warned = False
