@@ -5,6 +5,7 @@ It installs the wheel with what it requires, checks its size and its licences, a
 differentiate and edit there. What that process has opened then is the system's C and C++ library, and else from the wheel.
 """
 
+import io
 import pathlib
 import re
 import subprocess
@@ -12,6 +13,8 @@ import sys
 import tempfile
 import venv
 import zipfile
+
+from elftools.elf.elffile import ELFFile
 
 LIMIT = 12_000_000  # bytes
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -60,6 +63,10 @@ def main() -> None:
             assert phrase in text, f"{name}: expected {phrase!r}"
             assert f"\nLicense-File: {file}\n" in head, name
         assert re.findall(r"^Requires-Dist: (\w+).*", head, re.MULTILINE) == ["numpy"]
+        for name in files.namelist():  # read-only relocations, which an old mold does not give
+            if re.fullmatch(r"carom/_\w+[.\w-]*\.so", name):
+                segments = ELFFile(io.BytesIO(files.read(name))).iter_segments()
+                assert any(segment["p_type"] == "PT_GNU_RELRO" for segment in segments), name
     with tempfile.TemporaryDirectory() as folder:
         venv.create(folder, with_pip=True)
         python = pathlib.Path(folder) / "bin" / "python"
