@@ -44,12 +44,17 @@ std::string percent(double share) {
   return whole == 0 && share > 0 ? "<1 %" : std::to_string(whole) + " %";
 }
 
-void printNumbers(Output& out, const std::vector<ChangedNumber>& changed) {
-  Table table({"control", ">before", "", ">after", ">change", "unit", ">share"});
+/// Fitted numbers have a standard deviation in place of their share of the change.
+void printNumbers(Output& out, const std::vector<ChangedNumber>& changed, bool fitted = false) {
+  Table table({"control", ">before", "", ">after", ">change", "unit", fitted ? ">std. deviation" : ">share"});
+  const auto last = [&](const ChangedNumber& number) {
+    if (!fitted) return percent(number.share);
+    return number.standard_deviation ? out.rounded(*number.standard_deviation) : std::string("-");
+  };
   for (const ChangedNumber& number : changed)
     table.row({number.name, out.roundedBeside(number.before, number.after), "->",
                out.roundedBeside(number.after, number.before), out.rounded(number.after - number.before),
-               unitOf(number.name), percent(number.share)});
+               unitOf(number.name), last(number)});
   if (!table.empty()) table.print(out);
 }
 
@@ -60,13 +65,27 @@ std::string valueBesideTarget(const Output& out, const ConstrainedNumber& number
   return on_target ? out.number(number.target) : out.roundedBeside(number.value, number.target);
 }
 
-void printResiduals(Output& out, const EditResult& result) {
-  Table table({"constraint", ">value", ">target", ">error", "unit"});
-  for (const ConstrainedNumber& number : result.residuals)
+void printConstrained(Output& out, const char* heading, const std::vector<ConstrainedNumber>& numbers) {
+  Table table({heading, ">value", ">target", ">error", "unit"});
+  for (const ConstrainedNumber& number : numbers)
     table.row({number.name, valueBesideTarget(out, number),
                describeWanted(out, number.target, number.lower, number.upper), out.rounded(number.error),
                unitOf(number.name)});
   if (!table.empty()) table.print(out);
+}
+
+void printFit(Output& out, const Fit& fit) {
+  if (fit.rows == 0) return;
+  out.text() << "  fit: sum of squares " << out.rounded(fit.sum_of_squares) << " of " << counted(fit.rows, "error");
+  if (fit.deviation) out.text() << ", standard deviation of one " << out.rounded(*fit.deviation) << " natural scales";
+  out.text() << '\n';
+  if (!fit.message.empty()) out.text() << "  " << fit.message << '\n';
+}
+
+void printResiduals(Output& out, const EditResult& result) {
+  printConstrained(out, "constraint", result.residuals);
+  printConstrained(out, "soft constraint", result.soft_residuals);
+  printFit(out, result.fit);
   for (const MetTime& met : result.times) out.text() << "  " << met.name << ": at " << out.rounded(met.time) << " s\n";
 }
 
@@ -82,7 +101,7 @@ void printCertificate(Output& out, const Certificate& certificate) {
 }
 
 void printResult(Output& out, const EditResult& result, bool all_impacts) {
-  printNumbers(out, result.changed);
+  printNumbers(out, result.changed, result.fit.rows > 0);
   out.text() << '\n';
   printResiduals(out, result);
   const bool in_seconds = result.milliseconds >= 1000;

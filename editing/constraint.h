@@ -158,6 +158,10 @@ struct Constraint {
   /// follows the last entry is free. Such a constraint has no other targets.
   std::vector<std::string> sequence = {};
   std::string notes = {};            ///< for readers; kept in documents
+  /// A soft constraint: not met exactly, but a term of what is minimised. With this weight w > 0 it adds
+  /// 1/2 sum (w r / s)^2 over its rows, r the error of a row (SI), s its natural scale. Not for hits, sequences and
+  /// constraints `between` two times.
+  std::optional<double> soft = std::nullopt;
 };
 
 }  // namespace carom

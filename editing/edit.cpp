@@ -14,6 +14,7 @@
 #include "editing/report/verify.hpp"
 #include "editing/solve/minimise.hpp"
 #include "editing/strategy/edit_solution.hpp"
+#include "editing/strategy/least_squares_search.hpp"
 
 namespace carom {
 using namespace editing_detail;
@@ -119,7 +120,7 @@ EditResult Edit::solved(const EditOptions& options) const {
   EditEvaluator evaluator(problem, options);
   EditSolution solution = findSolution(evaluator);
   if (problem.constraints.objective() && solution.status == EditStatus::solved)
-    solution.point = lowerObjective(evaluator, solution.point);
+    solution.point = problem.isLeastSquares() ? smallestSquares(evaluator, solution.point) : lowerObjective(evaluator, solution.point);
   problem.leaveIfAbandoned();
   EditResult result = verify(scene_, evaluator, solution);
   problem.leaveIfAbandoned();

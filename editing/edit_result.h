@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct ChangedNumber {
   /// Fraction of the objective: (w z)^2 / sum, 0 if nothing changed. With Edit::minimise likewise, independent of
   /// change_weight.
   double share = 0;
+  /// Of a number fitted to soft constraints (EditResult::fit): SI, of their errors as independent and equally likely in
+  /// natural scales over weights. Empty where it is not determined; Fit::message has the reason.
+  std::optional<double> standard_deviation = std::nullopt;
 };
 
 /// One constrained quantity, in the verified motion.
@@ -58,6 +62,17 @@ struct MetTime {
   double from = 0;     ///< s, start of the interval
   double to = 0;       ///< s, end of the interval; at rest and of impacts: of the motion
   double time = 0;     ///< s
+};
+
+/// A fit to soft constraints: r their errors in natural scales, W their weights.
+struct Fit {
+  int rows = 0;               ///< errors; 0: there are no soft constraints
+  int parameters = 0;         ///< independent ones that neither hard constraints nor bounds hold
+  double sum_of_squares = 0;  ///< |W r|^2; NaN if an error cannot be evaluated
+  /// sqrt(|W r|^2 / (rows - parameters)): of one error W r, as estimated from all. Empty if there are no more errors than
+  /// parameters.
+  std::optional<double> deviation = std::nullopt;
+  std::string message;  ///< not empty: why some or all numbers have no standard deviation
 };
 
 /// An alternative whose objective exceeds that of the result by this factor is much_dearer.
@@ -84,10 +99,12 @@ struct EditResult {
   Motion motion;        ///< of that scene, simulated again
   std::vector<ChangedNumber> changed;  ///< all control parameters
   std::vector<ConstrainedNumber> residuals;   ///< all constrained quantities
+  std::vector<ConstrainedNumber> soft_residuals;  ///< all quantities of soft constraints; not in `residual`
+  Fit fit;                     ///< to soft constraints
   std::vector<MetTime> times;  ///< of constraints `between` two times, at rest, hits, sequences
   double residual = 0;         ///< largest |error| of that motion, SI (mixed units: m, m/s, rad, rad/s, s)
   double scaled_residual = 0;  ///< the same, dimensionless; compared with EditOptions::tolerance
-  double objective = 0;        ///< 1/2 sum (w_i z_i)^2, or that of Edit::minimise
+  double objective = 0;        ///< 1/2 sum (w_i z_i)^2 + 1/2 |W r|^2 of soft constraints, or that of Edit::minimise
   int iterations = 0;          ///< of all stages together
   double milliseconds = 0;     ///< wall time
   std::vector<std::string> sequence_before;  ///< of the initial motion, one line per impact

@@ -71,6 +71,11 @@ Nail& Nail::relativeTo(const std::string& body) {
   return *this;
 }
 
+Nail& Nail::soft(double weight) {
+  constraint().soft = weight;
+  return *this;
+}
+
 Nail& Nail::avoid(Region region) {
   region.side = Region::Side::avoid;
   constraint().regions.push_back(std::move(region));

@@ -50,6 +50,9 @@ class Nail {
   /// world.
   Nail& relativeTo(const std::string& body);
 
+  /// Makes it a soft constraint, a term of the objective (Constraint::soft): edit.nail("ball", 0.3).position(p).soft().
+  Nail& soft(double weight = 1);
+
   /// Adds a region that the body stays out of, during the region's own interval, independent of the time of the nail.
   Nail& avoid(Region region);
   /// Adds a region that the body stays within.

@@ -22,6 +22,7 @@ namespace carom {
 struct NailState {
   NailId id;                ///< which
   bool on = true;           ///< enforced by gestures, see EditSession::setNailOn
+  bool soft = false;        ///< gives way to the others, and to the goal of a gesture: Constraint::soft
   bool available = true;    ///< can be evaluated; gestures ignore a nail whose impact or rest does not happen
   bool met = true;          ///< within SessionOptions::tolerance
   double time = 0;          ///< s, its current time, also of an n-th impact or rest; NaN if not available

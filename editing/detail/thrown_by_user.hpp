@@ -17,6 +17,8 @@ template <class Call>
 auto guarded(Call&& call) {
   try {
     return std::forward<Call>(call)();
+  } catch (const ThrownByUser&) {
+    throw;
   } catch (...) {
     throw ThrownByUser{std::current_exception()};
   }

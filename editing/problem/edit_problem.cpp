@@ -35,14 +35,15 @@ const Scene& checkedScene(const Scene& scene) {
 }
 
 // Without gravity up is z; which way it would turn is not defined.
-void checkUp(const ControlSet& controls, const ConstraintSet& constraints) {
+void checkUp(const ControlSet& controls, const ConstraintSet& constraints, const ConstraintSet& soft) {
   if (!controls.startScene().gravity.isZero(0)) return;
   for (const BoundControl& bound : controls.controls()) {
     if (bound.kind->owner != OwnerKind::scene) continue;
-    for (const Row& row : constraints.rows())
-      if (row.kind && row.kind->of_shape)
-        throw InputError("/constraints/" + std::to_string(row.constraint) + "/" + row.kind->word,
-                         "found a varying gravity of 0, expected another one: it defines the direction up");
+    for (const ConstraintSet* set : {&constraints, &soft})
+      for (const Row& row : set->rows())
+        if (row.kind && row.kind->of_shape)
+          throw InputError("/constraints/" + std::to_string(row.constraint) + "/" + row.kind->word,
+                           "found a varying gravity of 0, expected another one: it defines the direction up");
   }
 }
 
@@ -63,13 +64,16 @@ EditProblem::EditProblem(const Scene& scene, ContactSource& contact_source, doub
                          const OwnFunctions& own)
     : contacts(&contact_source),
       controls(checkedScene(scene), varied),
-      constraints(controls.startScene(), held, checkedDuration(length), own),
+      soft(controls.startScene(), held, checkedDuration(length)),
+      constraints(controls.startScene(), held, checkedDuration(length),
+                  soft.beside(controls.startScene(), own, checkedDuration(length))),
       validity(controls),
-      change_weight(checkedChangeWeight(own.change_weight)),
+      own_objective(own.objective.has_value()),
+      change_weight(!soft.empty() && !own.objective ? 1 : checkedChangeWeight(own.change_weight)),
       duration(checkedDuration(length)),
       horizon(constraints.horizon(duration)),
       asked(askedOf(controls, constraints)) {
-  checkUp(controls, constraints);
+  checkUp(controls, constraints, soft.set());
 }
 
 Eigen::VectorXd EditProblem::valuesOf(const Eigen::VectorXd& unknowns) const {

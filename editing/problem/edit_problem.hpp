@@ -14,6 +14,7 @@
 #include "editing/problem/controls/control_set.hpp"
 #include "editing/problem/controls/validity_rows.hpp"
 #include "editing/problem/rows/constraint_rows.hpp"
+#include "editing/problem/rows/soft_terms.hpp"
 
 /// The controls and constraints of an edit, bound to a scene, and its motions. Internal to editing/.
 namespace carom::editing_detail {
@@ -26,6 +27,7 @@ struct EditProblem {
 
   ContactSource* contacts;
   ControlSet controls;
+  SoftTerms soft;  ///< of the objective of `constraints`
   ConstraintSet constraints;
   ValidityRows validity;
   /// The unknowns of the edit: the changes of the controls, then the free times, t = from + y (scale).
@@ -48,6 +50,10 @@ struct EditProblem {
   /// How much the change weighs in the objective.
   double changeWeight() const { return constraints.objective() ? change_weight : 1; }
 
+  /// Whether the objective is a sum of squares: soft constraints, and the change.
+  bool isLeastSquares() const { return !soft.empty() && !own_objective; }
+
+  bool own_objective;        ///< the caller's own, whether or not there are soft constraints beside it
   double change_weight;      ///< beside an objective of one's own
   double duration;           ///< s, of the motion
   double horizon;            ///< s; nothing after it counts for the constraints

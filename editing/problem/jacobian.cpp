@@ -56,9 +56,11 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
   return J;
 }
 
-Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
-                                  const RowValues& rows) {
-  Eigen::MatrixXd J = unknown(problem);
+namespace {
+
+/// One forward pass a column.
+void putTangents(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion, const RowValues& rows,
+                 Eigen::MatrixXd& J) {
   DerivativeTape tape(motion);
   for (Eigen::Index j = 0; j < J.cols(); ++j) {
     problem.leaveIfAbandoned();
@@ -70,7 +72,38 @@ Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::Vecto
       for (const StateSeed& seed : rows.seeds[i]) J(i, j) += moved.at(seed.body, seed.at).dot(seed);
     }
   }
+}
+
+}  // namespace
+
+Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
+                                  const RowValues& rows) {
+  Eigen::MatrixXd J = unknown(problem);
+  putTangents(problem, values, motion, rows, J);
   return J;
+}
+
+Eigen::MatrixXd softJacobian(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
+                             const RowValues& rows) {
+  const ConstraintSet& set = problem.soft.set();
+  const Eigen::Index n = problem.controls.size();
+  const Eigen::VectorXd values = problem.valuesOf(unknowns);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(set.size(), n);
+  if (n < set.size()) {
+    putTangents(problem, values, motion, rows, J);
+  } else {
+    DerivativeTape tape(motion);
+    for (Eigen::Index i = 0; i < J.rows(); ++i)
+      J.row(i) = problem.controls.gather(adjoint(tape, rows.seeds[i]), values).transpose();
+  }
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(set.size(), problem.unknowns());
+  all.leftCols(n) = J * problem.controls.valueRates(unknowns.head(n)).asDiagonal();
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    const Row& row = set.rows()[static_cast<std::size_t>(i)];
+    const bool within = row.isRange() && rows.residuals[i] == 0;
+    all.row(i) *= within ? 0 : problem.soft.weights()[i] / row.scale;
+  }
+  return all;
 }
 
 Eigen::MatrixXd jacobianByTimes(const EditProblem& problem, const Motion& motion, const RowValues& rows) {

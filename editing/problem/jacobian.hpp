@@ -32,6 +32,10 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
 Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion,
                                   const RowValues& rows);
 
+/// d(w r)/d(unknowns) of the soft constraints' rows, w r as in SoftTerms: by the passes that are fewer. Throws NotComputable.
+Eigen::MatrixXd softJacobian(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
+                             const RowValues& soft_rows);
+
 /// d(rows)/d(free times): size() x times(), SI.
 Eigen::MatrixXd jacobianByTimes(const EditProblem& problem, const Motion& motion, const RowValues& rows);
 

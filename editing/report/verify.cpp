@@ -9,6 +9,8 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/jacobian.hpp"
 #include "editing/report/certify.hpp"
+#include "editing/report/constrained_numbers.hpp"
+#include "editing/report/fit.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -23,16 +25,6 @@ std::vector<ChangedNumber> changesOf(const ControlSet& controls, const EditPoint
                        all > 0 ? costs[i] / all : 0});
   }
   return changed;
-}
-
-std::vector<ConstrainedNumber> constrainedNumbers(const ConstraintSet& constraints, const RowValues& rows) {
-  std::vector<ConstrainedNumber> numbers;
-  for (int i = 0; i < constraints.size(); ++i) {
-    const Row& row = constraints.rows()[i];
-    numbers.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.target, rows.residuals[i],
-                       rows.scaled[i], row.lower, row.upper});
-  }
-  return numbers;
 }
 
 std::vector<MetTime> metTimes(const ConstraintSet& constraints, const Motion& motion, const RowValues& rows) {
@@ -133,7 +125,7 @@ std::string roundingSentence(double growth, double tolerance) {
          brief(rounding) + " of the natural scales.";
 }
 
-void conclude(const EditOptions& options, const EditSolution& solution, bool as_it_was, EditResult& result) {
+void conclude(const EditOptions& options, const EditSolution& solution, bool as_it_was, bool least_squares, EditResult& result) {
   result.status = solution.status;
   result.message = solution.message;
   if (solution.status != EditStatus::solved) return;
@@ -146,8 +138,11 @@ void conclude(const EditOptions& options, const EditSolution& solution, bool as_
   }
   result.met = true;
   const bool unchanged = as_it_was && result.iterations == 0;
-  result.message = unchanged ? "The initial motion already meets all constraints."
-                             : "All constraints are met, the largest error is " + brief(result.residual) + ".";
+  if (result.residuals.empty() && least_squares)
+    result.message = "The change and the errors of the soft constraints are least.";
+  else
+    result.message = unchanged ? "The initial motion already meets all constraints."
+                               : "All constraints are met, the largest error is " + brief(result.residual) + ".";
   if (result.signature_changed) {
     result.status = EditStatus::solved_sequence_changed;
     result.message += " The impact sequence has changed." + sentencesOf(result.sequence_changes);
@@ -156,6 +151,16 @@ void conclude(const EditOptions& options, const EditSolution& solution, bool as_
 }
 
 }  // namespace
+
+std::vector<ConstrainedNumber> constrainedNumbers(const ConstraintSet& constraints, const RowValues& rows) {
+  std::vector<ConstrainedNumber> numbers;
+  for (int i = 0; i < constraints.size(); ++i) {
+    const Row& row = constraints.rows()[i];
+    numbers.push_back({row.constraint, constraints.describeRow(i), row.name, rows.values[i], row.target, rows.residuals[i],
+                       rows.scaled[i], row.lower, row.upper});
+  }
+  return numbers;
+}
 
 void endAsCancelled(const std::string& meanwhile, EditResult& result) {
   if (!result.solved()) return;
@@ -186,7 +191,8 @@ EditResult verify(const Scene& written, const EditEvaluator& evaluator, const Ed
     certificate.scaled_residual = result.scaled_residual;
     certificate.reliability = result.reliability;
   }
-  conclude(evaluator.options(), solution, as_it_was, result);
+  conclude(evaluator.options(), solution, as_it_was, problem.isLeastSquares(), result);
+  fitInto(result, evaluator, solution.point);
   if (evaluator.halt() == Halt::cancelled) endAsCancelled("it looked for a smaller change", result);
   result.growth = solution.growth;
   if (!result.solved()) result.message += roundingSentence(result.growth, evaluator.options().tolerance);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "adjoint/base/errors.h"
+#include "editing/problem/jacobian.hpp"
 #include "editing/session/session_solver.hpp"
 #include "editing/solve/dependence.hpp"
 
@@ -51,7 +52,11 @@ StepProblem SessionSolver::stepProblem(EditPoint& point) const {
   StepProblem step;
   step.at = point.changes, step.lower = lower_, step.upper = upper_, step.costless = problem_.times();
   step.longest = longest_, step.ease = ease_;
-  for (LinearRows* rows : {&step.hard, &step.within, &step.soft}) rows->J.resize(0, n);
+  for (LinearRows* rows : {&step.hard, &step.within, &step.soft, &step.terms}) rows->J.resize(0, n);
+  if (!problem_.soft.empty()) {
+    const RowValues soft = problem_.soft.set().evaluate(point.motion);
+    step.terms = {softJacobian(problem_, point.changes, point.motion, soft), problem_.soft.weighted(soft)};
+  }
   const Eigen::MatrixXd& J = *point.row_jacobian;
   for (int i = 0; i < problem_.constraints.size(); ++i) {
     const Row& row = problem_.constraints.rows()[static_cast<std::size_t>(i)];

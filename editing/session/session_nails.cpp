@@ -53,7 +53,10 @@ double timeOf(const ConstraintSet& set, const RowValues& rows, const Motion& mot
 NailState stateIn(const Scene& scene, const Motion& motion, const Constraint& constraint, double duration,
                   double tolerance) {
   NailState state;
-  const ConstraintSet set(scene, {constraint}, duration);
+  state.soft = constraint.soft.has_value();
+  Constraint exact = constraint;
+  exact.soft.reset();
+  const ConstraintSet set(scene, {exact}, duration);
   const RowValues rows = set.evaluate(motion);
   if (!rows.available) {
     state.available = state.met = false;
@@ -118,7 +121,7 @@ SessionUpdate EditSession::State::solveStep(NailStep step, SessionGesture gestur
   const std::unique_ptr<SessionSolver> solver = solverFor(step.next, step.held.constraints, step.goal);
   Budget budget = this->budget(options.drag_simulations, options.release_seconds, std::move(stop));
   SessionUpdate update;
-  if (!solver->reached()) {
+  if (!solver->reached() || solver->problem().isLeastSquares()) {
     solver->improve(budget);
     update.simulations = budget.done();
     budget.allow(options.release_iterations);
@@ -166,6 +169,7 @@ void EditSession::State::setNail(NailId id, Constraint constraint, std::stop_tok
   step.next.find(id)->constraint = constraint;
   if (!on) {
     const ConstraintSet checked(*now.scene, {constraint}, now.duration);
+    const SoftTerms checked_soft(*now.scene, {constraint}, now.duration);
     remember(std::move(now), std::move(step.name));
     now = std::move(step.next);
     stay("", last.motion);

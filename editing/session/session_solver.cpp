@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adjoint/base/errors.h"
+#include "editing/solve/least_squares.hpp"
 #include "editing/solve/minimise.hpp"
 #include "editing/strategy/edit_solution.hpp"
 
@@ -28,19 +29,25 @@ class Interruptible {
   EditProblem& problem_;
 };
 
+/// A goal is come to as near as may be, whether or not its constraint is soft.
+std::vector<Constraint> withoutWeight(std::vector<Constraint> constraints, int goal) {
+  if (goal >= 0) constraints[static_cast<std::size_t>(goal)].soft.reset();
+  return constraints;
+}
+
 }  // namespace
 
 SessionSolver::SessionSolver(const Scene& reference, ContactSource& contacts, double duration,
                              const std::vector<Control>& controls, const std::vector<Constraint>& constraints, int goal,
                              const Eigen::VectorXd& changes, const SessionOptions& options, bool part)
     : options_(options),
-      problem_(reference, contacts, duration, controls, constraints),
+      problem_(reference, contacts, duration, controls, withoutWeight(constraints, goal)),
       goal_(goal),
       lower_(problem_.lower()),
       upper_(problem_.upper()),
       until_(problem_.horizon),
       is_part_(part),
-      stays_whole_(part) {
+      stays_whole_(part || !problem_.soft.empty()) {
   // Motions are shown as well: whoever turns is to be seen turning.
   for (Asked& asked : problem_.asked) asked.orientation = true;
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(problem_.unknowns());
@@ -147,8 +154,10 @@ void SessionSolver::finishHere(Budget& budget) {
     if (!reached()) {
       found = findSolution(evaluator).point;
     } else if (const EditPointPtr from = evaluator.evaluate(point_->changes)) {
-      found = minimiseWithin(evaluator, from, evaluator.iterationsLeft());
+      found = problem_.isLeastSquares() ? from : minimiseWithin(evaluator, from, evaluator.iterationsLeft());
     }
+    if (found && problem_.isLeastSquares() && reached(*found))
+      found = minimiseLeastSquares(evaluator, found, evaluator.iterationsLeft());
     iterations_ += evaluator.iterations();
   }
   if (!budget.pass()) found = counted;

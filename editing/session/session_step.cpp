@@ -82,6 +82,7 @@ struct Solver {
     }
     if (Z.cols() > 0) {
       Eigen::VectorXd w = -(Z.transpose() * pull(free, d));
+      if (problem.terms.size() > 0) w = withTerms(w, Z, columns(problem.terms.J, free), problem.terms.J * fixed, d);
       if (moved.cols() > 0) w -= moved * (moved.transpose() * w);
       shorten(w, problem.longest);
       towards = Z * w;
@@ -125,6 +126,15 @@ struct Solver {
       if (length > 0) rows.add(part.row(i) / length, r[i] / length);
     }
     return rows;
+  }
+
+  /// What makes |z|^2 + |terms|^2 least along Z, where w does it for |z|^2 alone.
+  Eigen::VectorXd withTerms(const Eigen::VectorXd& w, const Eigen::MatrixXd& Z, const Eigen::MatrixXd& J,
+                            const Eigen::VectorXd& fixed, const Eigen::VectorXd& d) const {
+    const Eigen::MatrixXd S = J * Z;
+    Eigen::MatrixXd H = S.transpose() * S;
+    H.diagonal().array() += 1;
+    return adjoint_detail::solveSymmetric(H, w - S.transpose() * (problem.terms.r + fixed + J * d));
   }
 
   /// Gradient of what is to be small after a step d of the free unknowns.

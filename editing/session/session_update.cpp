@@ -88,7 +88,7 @@ void EditSession::State::measureNails(SessionUpdate& update) const {
   Errors held;
   for (const SessionNail& nail : now.nails) {
     const NailState state = stateOf(nail, *update.motion);
-    if (state.on && state.available) held.add(state.error, state.scaled_error);
+    if (state.on && state.available && !state.soft) held.add(state.error, state.scaled_error);
   }
   putNails(held, options.tolerance, update);
 }

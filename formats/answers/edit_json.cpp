@@ -10,15 +10,16 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-void writeChanged(JsonWriter& out, const std::vector<ChangedNumber>& changed) {
+void writeChanged(JsonWriter& out, const std::vector<ChangedNumber>& changed, bool fitted = false) {
   out.objects("changed", changed, Layout::line, [&](const ChangedNumber& number) {
     out.members("control", number.control, "component", number.component, "name", number.name);
     out.members("before", number.before, "after", number.after, "share", number.share);
+    if (fitted) out.members("standard_deviation", number.standard_deviation);
   });
 }
 
-void writeResiduals(JsonWriter& out, const std::vector<ConstrainedNumber>& residuals) {
-  out.objects("residuals", residuals, Layout::line, [&](const ConstrainedNumber& number) {
+void writeResiduals(JsonWriter& out, const char* member, const std::vector<ConstrainedNumber>& residuals) {
+  out.objects(member, residuals, Layout::line, [&](const ConstrainedNumber& number) {
     out.members("constraint", number.constraint, "component", number.component, "name", number.name);
     out.members("value", number.value, "target", number.target);
     if (!(number.lower == number.upper)) out.members("min", number.lower, "max", number.upper);
@@ -91,8 +92,16 @@ std::string editJson(const EditResult& result, const std::vector<std::string>& o
   JsonWriter out;
   out.beginObject();
   out.members("status", nameOf(result.status), "message", result.message, "met", result.met);
-  writeChanged(out, result.changed);
-  writeResiduals(out, result.residuals);
+  const Fit& fit = result.fit;
+  writeChanged(out, result.changed, fit.rows > 0);
+  writeResiduals(out, "residuals", result.residuals);
+  if (fit.rows > 0) {
+    writeResiduals(out, "soft_residuals", result.soft_residuals);
+    out.key("fit").beginObject(Layout::line);
+    out.members("rows", fit.rows, "parameters", fit.parameters, "sum_of_squares", fit.sum_of_squares);
+    out.members("deviation", fit.deviation, "message", textOrNone(fit.message));
+    out.endObject();
+  }
   writeTimes(out, result.times);
   out.members("residual", result.residual, "scaled_residual", result.scaled_residual, "objective", result.objective);
   out.members("iterations", result.iterations, "growth", result.growth, "milliseconds", result.milliseconds);

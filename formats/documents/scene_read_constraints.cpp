@@ -189,6 +189,11 @@ Constraint readSequence(const Json& value, const std::string& where) {
   return constraint;
 }
 
+double readSoft(const Json& value, const When& at, const std::string& where) {
+  if (at.span) fail(where, describe(value) + " beside \"between\"", "a soft constraint at a time, at an impact or at rest");
+  return value.get<double>();
+}
+
 Constraint readConstraint(const Json& value, const Scene& scene, double duration, const std::string& where) {
   if (value.contains("sequence")) return readSequence(value, where);
   if (!value.contains("body")) fail(where, "a constraint without \"body\"", "the name of a moving body");
@@ -207,7 +212,7 @@ Constraint readConstraint(const Json& value, const Scene& scene, double duration
   for (const auto& member : value.items()) {
     const std::string& word = member.key();
     const std::string place = pointerTo(where, word);
-    if (word == "body" || word == "at" || word == "notes") continue;
+    if (word == "body" || word == "at" || word == "notes" || word == "soft") continue;
     if (word == "relative_to") {
       constraint.relative_to = readRelativeTo(member.value(), value["body"], scene, place);
     } else if (word == "avoid" || word == "inside") {
@@ -222,6 +227,7 @@ Constraint readConstraint(const Json& value, const Scene& scene, double duration
     }
   }
   requireTargets(constraint, value, where);
+  if (value.contains("soft")) constraint.soft = readSoft(value["soft"], constraint.at, where + "/soft");
   constraint.notes = textOr(value, "notes");
   return constraint;
 }

@@ -157,6 +157,7 @@ void requireWritable(const Constraint& constraint, const std::string& where) {
     requireFinite(where + "/during/1", constraint.hits->during->second);
   }
   requireFinite(where + "/at", constraint.at.time);
+  if (constraint.soft) requireFinite(where + "/soft", *constraint.soft);
   if (constraint.at.span) {
     requireFinite(where + "/at/between/0", constraint.at.span->first);
     requireFinite(where + "/at/between/1", constraint.at.span->second);
@@ -220,6 +221,7 @@ void writeConstraint(JsonWriter& out, const Constraint& constraint) {
       (again ? next : written).push_back(target);
     }
     if (first) writeBothSides(out, constraint.regions);
+    if (constraint.soft) out.members("soft", *constraint.soft);
     if (first) out.unlessEmpty("notes", constraint.notes);
     out.endObject();
     left = std::move(next);

@@ -89,6 +89,8 @@ void bindNumbers(nb::module_& module) {
       .def_ro("before", &ChangedNumber::before, "SI, initially")
       .def_ro("after", &ChangedNumber::after, "SI, in the result")
       .def_ro("share", &ChangedNumber::share, "Fraction of the objective: (w z)^2 / sum.")
+      .def_ro("standard_deviation", &ChangedNumber::standard_deviation,
+              "Of a number fitted to soft constraints, SI; None where it is not determined.")
       .def("__repr__", [](const ChangedNumber& self) { return "<ChangedNumber " + changedText(self) + ">"; });
   nb::class_<ConstrainedNumber>(module, "ConstrainedNumber", "A constrained quantity, in the verified motion.")
       .def_ro("constraint", &ConstrainedNumber::constraint, "Index of its constraint; -1: a function of the motion.")
@@ -101,6 +103,13 @@ void bindNumbers(nb::module_& module) {
       .def_ro("lower", &ConstrainedNumber::lower, "Lower bound, SI; -inf if none.")
       .def_ro("upper", &ConstrainedNumber::upper, "Upper bound, SI; inf if none.")
       .def("__repr__", [](const ConstrainedNumber& self) { return "<ConstrainedNumber " + residualText(self) + ">"; });
+  nb::class_<Fit>(module, "Fit", "A fit to soft constraints.")
+      .def_ro("rows", &Fit::rows, "Errors; 0: there are no soft constraints.")
+      .def_ro("parameters", &Fit::parameters, "Independent ones that neither hard constraints nor bounds hold.")
+      .def_ro("sum_of_squares", &Fit::sum_of_squares, "Of the weighted errors in natural scales.")
+      .def_ro("deviation", &Fit::deviation, "Standard deviation of one of them; None if there are too few.")
+      .def_ro("message", &Fit::message, "Why some or all numbers have no standard deviation.")
+      .def("__repr__", [](const Fit& self) { return "<Fit of " + std::to_string(self.rows) + " errors>"; });
   nb::class_<MetTime>(module, "MetTime", "The time at which a constraint is met that leaves it open.")
       .def_ro("constraint", &MetTime::constraint, "Index of its constraint.")
       .def_ro("name", &MetTime::name, "\"'hat' between 1 s and 2 s\"")
@@ -181,6 +190,8 @@ void bindOutcomeOf(nb::class_<PyEditResult>& result) {
   bindMember(result, "met", &EditResult::met, "Verified: all constraints are met in `motion`, in a cancelled edit too.");
   bindMember(result, "changed", &EditResult::changed, "All control parameters.");
   bindMember(result, "residuals", &EditResult::residuals, "All constrained quantities.");
+  bindMember(result, "soft_residuals", &EditResult::soft_residuals, "All quantities of soft constraints.");
+  bindMember(result, "fit", &EditResult::fit, "To soft constraints.");
   bindMember(result, "times", &EditResult::times, "Of constraints that leave their time open.");
   bindMember(result, "residual", &EditResult::residual, "Largest |error| of the motion, SI (mixed units).");
   bindMember(result, "scaled_residual", &EditResult::scaled_residual, "The same, dimensionless.");

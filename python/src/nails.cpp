@@ -90,6 +90,8 @@ void bindNails(nb::module_& module) {
              return changed(of, [&](Nail& to) { to.relativeTo(body); });
            },
            nb::arg("body"), self, "All targets are relative to another body, in the axes of its shape; '' resets it.")
+      .def("soft", [](PyNail& of, double weight) -> PyNail& { return changed(of, [&](Nail& to) { to.soft(weight); }); },
+           nb::arg("weight") = 1.0, self, "A term of the objective in place of exact targets.")
       .def("avoid",
            [](PyNail& of, const Region& region) -> PyNail& { return changed(of, [&](Nail& to) { to.avoid(region); }); },
            nb::arg("region"), self, "The body stays out of a region, during the region's own interval.")

@@ -63,6 +63,7 @@ void bindNailStates(nb::module_& module) {
   nb::class_<NailState>(module, "NailState", "State of a nail of a session in the current motion.")
       .def_prop_ro("id", [](const NailState& self) { return self.id.value; }, "Which.")
       .def_ro("on", &NailState::on, "Enforced by gestures.")
+      .def_ro("soft", &NailState::soft, "Gives way to the others, and to what is dragged.")
       .def_ro("available", &NailState::available, "Can be evaluated: its impact or rest happens.")
       .def_ro("met", &NailState::met, "Within the tolerance.")
       .def_ro("time", &NailState::time, "s, its current time; NaN if not available.")

@@ -38,9 +38,14 @@ double boundingRadiusAboutCenter(const Body& body) {
 }  // namespace
 
 ConstraintSet::ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints, double duration,
-                             const OwnFunctions& own)
+                             const OwnFunctions& own, RowsOf which)
     : body_count_(static_cast<int>(scene.bodies.size())), constraints_(constraints), bound_(constraints.size()) {
-  for (std::size_t i = 0; i < constraints.size(); ++i) bind(scene, static_cast<int>(i), duration);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    if (constraints[i].soft.has_value() == (which == RowsOf::soft))
+      bind(scene, static_cast<int>(i), duration);
+    else
+      constraints_[i] = Constraint{constraints[i].body, When(0.0), {}};
+  }
   for (std::size_t i = 0; i < own.rows.size(); ++i) addOwnRow(scene, static_cast<int>(i), own.rows[i], duration);
   if (own.objective) objective_.emplace(scene, *own.objective, duration, "minimise");
   sortRows();

@@ -87,14 +87,19 @@ struct RowValues {
   std::optional<RowReading> objective;  ///< of one's own, where there is one and the motion has it
 };
 
+/// Which constraints a set has rows of; those that it leaves out keep their index.
+enum class RowsOf { hard, soft };
+
 /// The constraints of an edit as rows. Which rows there are depends on the constraints alone, not on the motion.
 class ConstraintSet {
  public:
   /// Throws InputError naming "/constraints/<i>": unknown words and bodies, targets that are not numbers, nothing held,
   /// `time` at a time, ... Sizes and speeds of `scene` give the scales; `duration` ends spans that are open.
   ConstraintSet(const Scene& scene, const std::vector<Constraint>& constraints,
-                double duration = std::numeric_limits<double>::infinity(), const OwnFunctions& own = {});
+                double duration = std::numeric_limits<double>::infinity(), const OwnFunctions& own = {},
+                RowsOf which = RowsOf::hard);
 
+  /// All that were given; one that the set leaves out has neither targets nor regions.
   const std::vector<Constraint>& constraints() const { return constraints_; }
   const std::vector<Row>& rows() const { return rows_; }
   const std::vector<FreeTime>& freeTimes() const { return free_times_; }
