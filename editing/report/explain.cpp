@@ -255,7 +255,7 @@ WhyNot explain(const Scene& written, EditEvaluator& evaluator, const EditSolutio
 
 void explainInto(EditResult& result, const Scene& written, EditEvaluator& evaluator, const EditSolution& solution) {
   if (result.status != EditStatus::infeasible && result.status != EditStatus::not_converged) return;
-  if (!solution.point->rows.available || !evaluator.differentiate(*solution.point)) return;
+  if (solution.tells_all || !solution.point->rows.available || !evaluator.differentiate(*solution.point)) return;
   result.why_not = explain(written, evaluator, solution);
   if (!result.why_not.inside.empty()) result.status = EditStatus::infeasible;
   const WhyNot& why = result.why_not;

@@ -81,16 +81,6 @@ void cutAt(double until, const SoftTerms& soft, LeastSquaresModel& model) {
   }
 }
 
-/// The objective, of the errors up to `until`.
-double objectiveUntil(double until, const EditProblem& problem, const EditPoint& point) {
-  if (std::isinf(until)) return point.objective;
-  LeastSquaresModel errors;
-  errors.r = problem.soft.weighted(problem.soft.set().evaluate(point.motion));
-  errors.S.resize(errors.r.size(), 0);
-  cutAt(until, problem.soft, errors);
-  return 0.5 * errors.r.squaredNorm() + problem.change(point.changes);
-}
-
 /// The point at the end of a step, back on the constraints; null where there is none.
 EditPointPtr takeStep(EditEvaluator& evaluator, const EditPoint& point, const Eigen::VectorXd& step) {
   const Eigen::VectorXd to = (point.changes + step).cwiseMax(evaluator.lower()).cwiseMin(evaluator.upper());
@@ -108,11 +98,21 @@ EditPointPtr stationary(EditEvaluator& evaluator, const EditPointPtr& point, con
 
 }  // namespace
 
-LeastSquaresModel leastSquaresModel(const EditProblem& problem, EditPoint& point, const std::vector<int>& held_ranges) {
+double objectiveUntil(double until, const EditProblem& problem, const EditPoint& point) {
+  if (std::isinf(until)) return point.objective;
+  LeastSquaresModel errors;
+  errors.r = problem.soft.weighted(problem.soft.set().evaluate(point.motion));
+  errors.S.resize(errors.r.size(), 0);
+  cutAt(until, problem.soft, errors);
+  return 0.5 * errors.r.squaredNorm() + problem.change(point.changes);
+}
+
+LeastSquaresModel leastSquaresModel(const EditProblem& problem, EditPoint& point, const std::vector<int>& held_ranges, double until) {
   LeastSquaresModel model;
   const RowValues soft = problem.soft.set().evaluate(point.motion);
   model.r = problem.soft.weighted(soft);
   model.S = softJacobian(problem, point.changes, point.motion, soft);
+  cutAt(until, problem.soft, model);
   model.J.resize(0, point.changes.size());
   if (!differentiate(problem, point)) throw NotComputable(point.not_computable);
   for (const int i : problem.constraints.equations()) addHeld(point.row_jacobian->row(i), point.rows.scaled[i], model);
@@ -129,23 +129,18 @@ LeastSquaresModel leastSquaresModel(const EditProblem& problem, EditPoint& point
 
 EditPointPtr minimiseLeastSquares(EditEvaluator& evaluator, EditPointPtr point, int max_steps, double until) {
   const EditProblem& problem = evaluator.problem();
-  const auto modelAt = [&](EditPoint& at, const std::vector<int>& held) {
-    LeastSquaresModel model = leastSquaresModel(problem, at, held);
-    cutAt(until, problem.soft, model);
-    return model;
-  };
   double objective = objectiveUntil(until, problem, *point);
   double damping = kFirstDamping;
   try {
     for (int k = 0; k < max_steps && evaluator.goesOn(); ++k) {
       std::vector<int> held;
-      const LeastSquaresModel free = modelAt(*point, held);
+      const LeastSquaresModel free = leastSquaresModel(problem, *point, held, until);
       EditPointPtr next;
       while (!next && damping <= kLastDamping && evaluator.halt() == Halt::none) {
         LeastSquaresModel model = free;
         Eigen::VectorXd step = stepOf(evaluator, *point, model, damping);
         for (held.clear(); holdWhatIsLeft(evaluator, *point, step, held);) {
-          model = modelAt(*point, held);
+          model = leastSquaresModel(problem, *point, held, until);
           step = stepOf(evaluator, *point, model, damping);
         }
         if (!(gainOf(problem, *point, model, step) > kNothingLeft * objective)) return stationary(evaluator, point, step, objective, until);

@@ -15,8 +15,12 @@ struct LeastSquaresModel {
   Eigen::MatrixXd J;  ///< of the rows that are held: equations, ranges that are left or at a limit, validity that lacks
   Eigen::VectorXd h;  ///< their residuals
 };
-/// Of a point that has all rows; throws NotComputable. `held_ranges`: of the rows that are ranges, those to hold beside.
-LeastSquaresModel leastSquaresModel(const EditProblem& problem, EditPoint& point, const std::vector<int>& held_ranges);
+/// Of a point that has all rows; throws NotComputable. `held_ranges`: of the rows that are ranges, those to hold beside. With
+/// `until` errors that are read later, or at an event, are left out (0), s.
+LeastSquaresModel leastSquaresModel(const EditProblem& problem, EditPoint& point, const std::vector<int>& held_ranges,
+                                    double until = std::numeric_limits<double>::infinity());
+/// The objective of the errors up to `until`.
+double objectiveUntil(double until, const EditProblem& problem, const EditPoint& point);
 
 /// Levenberg-Marquardt steps, each tried by simulation whatever its impacts, from a point that meets the hard constraints;
 /// each is brought back onto them. The last point, with the smallest objective. Ends where the steps do, and after

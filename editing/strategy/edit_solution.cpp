@@ -239,9 +239,10 @@ EditSolution findSolution(EditEvaluator& evaluator) {
     solution.status = EditStatus::solved;
     return solution;
   }
-  if (const std::string why = whyImpossible(evaluator, *start); !why.empty()) {
+  if (const Impossible impossible = whyImpossible(evaluator, *start); !impossible.why.empty()) {
     solution.status = EditStatus::infeasible;
-    solution.message = why;
+    solution.message = impossible.why;
+    solution.tells_all = impossible.tells_all;
     return solution;
   }
   const bool may_leave = evaluator.options().sequence != SequencePolicy::stay;

@@ -17,6 +17,7 @@ struct EditSolution {
   double growth = 0;                 ///< of the start's motion, see growthOf; 0: not measured
   EditStatus status = EditStatus::not_converged;
   std::string message;  ///< why, when it is not solved
+  bool tells_all = false;  ///< the message is a proof that names what would have to be otherwise, see Impossible
   std::string contradiction;  ///< which constraints are in conflict in the start's impacts; may be empty
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "editing/detail/messages.hpp"
+#include "editing/strategy/kept_coordinates.hpp"
 #include "editing/strategy/proven_bounds.hpp"
 
 namespace carom::editing_detail {
@@ -91,14 +92,15 @@ std::string readTooEarly(const EditEvaluator& evaluator, const EditPoint& start)
 
 }  // namespace
 
-std::string whyImpossible(const EditEvaluator& evaluator, const EditPoint& start) {
-  if (nothingVaries(evaluator)) return "Nothing varies.";
+Impossible whyImpossible(const EditEvaluator& evaluator, const EditPoint& start) {
+  if (nothingVaries(evaluator)) return {"Nothing varies."};
   const EditProblem& problem = evaluator.problem();
   const double tolerance = evaluator.options().tolerance;
-  for (const std::string& why : {twoValues(evaluator), whyTheyNeverMeet(problem), whyItCannotRest(problem, tolerance),
-                                 whyItIsTooHigh(problem, tolerance)})
-    if (!why.empty()) return why;
-  return readTooEarly(evaluator, start);
+  if (const std::string why = twoValues(evaluator); !why.empty()) return {why};
+  for (const std::string& why : {whyTheyNeverMeet(problem), whyItCannotRest(problem, tolerance), whyItIsTooHigh(problem, tolerance),
+                                 whyItStaysAway(problem, tolerance)})
+    if (!why.empty()) return {why, true};
+  return {readTooEarly(evaluator, start)};
 }
 
 }  // namespace carom::editing_detail

@@ -8,12 +8,18 @@
 /// Constraints that no motion meets. Internal to editing/.
 namespace carom::editing_detail {
 
-/// Why the constraints cannot be met whatever impacts come, as far as that is proven; else empty:
+/// A proof that no motion meets the constraints.
+struct Impossible {
+  std::string why;            ///< a sentence; empty: there is none
+  bool tells_all = false;     ///< it names what would have to be otherwise: trying other controls tells no more
+};
+
+/// Why the constraints cannot be met whatever impacts come, as far as that is proven:
 /// - nothing varies;
 /// - an impact is required of bodies that never collide, a rest in the air, a height above what energy allows
-///   (proven_bounds.hpp);
+///   (proven_bounds.hpp); a place or a body to the side of all that a speed, which nothing changes, leads to (kept_coordinates.hpp);
 /// - one number is held at two values, or in ranges that have nothing in common;
 /// - only what acts in impacts varies (materials, tilts), and a number is read before the first impact that it acts in.
-std::string whyImpossible(const EditEvaluator& evaluator, const EditPoint& start);
+Impossible whyImpossible(const EditEvaluator& evaluator, const EditPoint& start);
 
 }  // namespace carom::editing_detail
