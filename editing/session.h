@@ -14,6 +14,7 @@
 #include "editing/session_history.h"
 #include "editing/session_journal.h"
 #include "editing/session_numbers.h"
+#include "editing/session_snapshot.h"
 #include "editing/session_update.h"
 
 namespace carom {
@@ -168,6 +169,8 @@ class EditSession {
   std::vector<NailState> nailStates() const;  ///< of all nails, oldest first, in the current motion
   const SessionOptions& options() const;  ///< as they were given
 
+  /// What the last gesture asked for and where it got to, see whyNot and alternativesTo. Not in a gesture.
+  SessionSnapshot snapshot() const;
   /// The complete state, to resume the session later. Not in a gesture.
   SessionHistory history() const;
 

@@ -22,6 +22,7 @@ struct WhyNot {
   struct AtBound {
     int control = -1;    ///< index of the Control
     std::string name;    ///< "velocity.x of 'hat'"
+    std::string component;  ///< "x"
     double bound = 0;    ///< SI
     bool upper = false;  ///< the upper bound
     double removes = 0;  ///< share of the error removed without this bound, to first order; in [0, 1]

@@ -62,7 +62,7 @@ struct Explanation {
       for (const bool upper : {false, true}) {
         const double bound = upper ? evaluator.upper()[j] : evaluator.lower()[j];
         if (!std::isfinite(bound) || !(std::abs(y - bound) <= 1e-7 * (1 + std::abs(bound)))) continue;
-        WhyNot::AtBound at{v.control, problem.controls.describeVariable(j), upper ? v.upper : v.lower, upper, 0, 0};
+        WhyNot::AtBound at{v.control, problem.controls.describeVariable(j), v.component, upper ? v.upper : v.lower, upper, 0, 0};
         LinearModel freed = linear;
         (upper ? freed.upper : freed.lower)[j] = upper ? kLargestStep : -kLargestStep;
         const LinearModel::Nearest now = freed.nearest(freed.allRows());

@@ -136,12 +136,14 @@ SessionUpdate EditSession::State::solveStep(NailStep step, SessionGesture gestur
   gesture.cut_after = budget.cutAfter();
   measureGoal(*solver, update);
   describe(*solver, *shown, step.held.left_out, update);
+  const std::shared_ptr<const Scene> began = now.scene;
   if (step.changes_nails || !solver->atStart()) remember(std::move(now), std::move(step.name));
   now = std::move(step.next);
   takeOver(*solver, update);
   update.milliseconds = millisecondsSince(began_at);
   last = std::move(update);
   record(std::move(gesture));
+  asked = AskedFor{began};
   return last;
 }
 

@@ -69,13 +69,17 @@ SessionUpdate EditSession::State::endDrag(SessionGesture::Ending ending, std::st
   SessionDrag ended = std::move(*drag);
   drag.reset();
   takeOver(*ended.solver, update);
+  std::optional<AskedFor> wanted;
+  if (!ended.record.targets.empty()) wanted = AskedFor{ended.began.scene, askedBy(ended), NailId()};
   leaveNail(ended, update);
   const bool moved_nail = ended.record.grabbed_nail && !ended.record.targets.empty();
   const bool new_nail = ended.record.nail >= 0, varies = !ended.record.controls.empty();
   if (moved_nail || new_nail || varies || !ended.solver->atStart()) remember(std::move(ended.began), stepName(ended));
   last = std::move(update);
   last.milliseconds = millisecondsSince(began_at);
+  if (wanted) wanted->nail = ended.record.grabbed_nail ? NailId{*ended.record.grabbed_nail} : NailId{ended.record.nail};
   record(std::move(ended.record));
+  asked = std::move(wanted);
   return last;
 }
 

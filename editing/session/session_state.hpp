@@ -58,6 +58,13 @@ struct ConstrainedNails {
   std::string left_out;  ///< a sentence about those that cannot be evaluated; empty if none
 };
 
+/// What the last gesture that solved asked for.
+struct AskedFor {
+  std::shared_ptr<const Scene> began;  ///< at its start
+  std::optional<Constraint> goal = {};  ///< of a drag, at its last target
+  NailId nail = {};                    ///< that it left there, or moved
+};
+
 /// A step that solves for nails.
 struct NailStep {
   SessionMoment next;  ///< but for the scene, which is solved for
@@ -116,6 +123,7 @@ struct EditSession::State {
   SessionUpdate last;
   SessionJournal journal;
   std::optional<SessionDrag> drag;
+  std::optional<AskedFor> asked;  ///< until the next gesture
   Clock::time_point started = Clock::now();
   /// Set by a replay: no clock, but what ended things when this was recorded.
   bool replays = false;
@@ -158,6 +166,7 @@ struct EditSession::State {
   SessionUpdate finishDrag(std::stop_token stop);
   /// The nail that a drag leaves: a new one, or the one that was grabbed.
   void leaveNail(SessionDrag& ended, const SessionUpdate& update);
+  Constraint askedBy(const SessionDrag& ended);  // session_snapshot.cpp
 
   // session_nails.cpp
   /// Throws InputError for one that is not there.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a window over a session shows and does: goals that begin off, a drag out of reach and why, a hand that rests, nails
-// that are moved, and numbers that were typed.
+// What a window over a session shows and does: goals that begin off, a drag out of reach, why and what would help, a hand
+// that rests, nails that are moved, and numbers that were typed.
 #include <cstdio>
 #include <string>
 
 #include "editing/session.h"
+#include "editing/session_alternatives.h"
+#include "editing/session_remedies.h"
 #include "ode_bridge/ode_contacts.h"
 
 using namespace carom;
@@ -52,6 +54,14 @@ int main() {
   std::printf("%.2f m from its target (%s). %s\n", update.distance, nameOf(obstacle.kind), obstacle.sentence.c_str());
   session.releaseNailed(NailAt::where_it_got);
   tellNails(session);
+  // in another thread, with a contact source of its own: what would help, and other motions that meet the same
+  const SessionSnapshot asked = session.snapshot();
+  OdeContacts own(asked.content.scene);
+  const SessionWhyNot why = whyNot(asked, own);
+  for (const SessionRemedy& remedy : why.remedies)
+    std::printf("%s (%s): %s\n", remedy.name.c_str(), nameOf(remedy.kind), remedy.solves ? "reaches it" : "not enough alone");
+  const SessionAlternatives others = alternativesTo(asked, own, 6);
+  std::printf("%zu others. %s\n", others.found.size(), others.message.c_str());
 
   const NailId nail = session.nails().back();
   session.grabNail(nail);

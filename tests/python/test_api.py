@@ -72,6 +72,7 @@ CONTACTS = "the interface of collision detection, for sources written in C++"
 INSIDE = "of the integrator and its derivatives; a motion is read by states"
 JOURNAL = "a journal is a file in Python: EditSession.write_journal, SessionReplay.read"
 HISTORY = "for programs that resume a session with its undo steps: the studio; in Python a journal is replayed"
+SNAPSHOT = "what sessions look for in the background is of the studio so far"
 CHEAP = "for C++ programs that draw or read by themselves"
 CONSTANT = "a constant that the page or the docstring says"
 LEFT_OUT = {
@@ -93,6 +94,8 @@ LEFT_OUT = {
     **dict.fromkeys(["SessionJournal", "SessionGesture", "DragTarget", "JournalDocument", "parseJournal", "writeJournal",
                      "replayJson"], JOURNAL),
     **dict.fromkeys(["SessionHistory", "SessionHistoryNail", "SessionHistoryPoint"], HISTORY),
+    **dict.fromkeys(["SessionSnapshot", "SessionRemedy", "SessionWhyNot", "whyNot", "SessionAlternatives",
+                     "alternativesTo"], SNAPSHOT),
     **dict.fromkeys(["bodyIndex", "materialIndex", "materialIndexOf", "materialOf"], "Scene.bodies.index does it"),
     **dict.fromkeys(["DisplayMesh", "DisplayTrack", "displayMesh", "displayTrack",
                      "TriangleSoup", "readMeshFile", "readPointsFile", "meshSurface", "assembleSurface", "convexHull",
@@ -136,6 +139,7 @@ CLASSES = {
     "EditResult": ("editing/edit_result.h", "EditResult", {}),
     "Certificate": ("editing/certificate.h", "Certificate", {"reliability": RELIABLE}),
     "EditSession": ("editing/session.h", "EditSession", {
+<<<<<<< HEAD
         "constraints": "scene", "constraintOf": "scene", "nailStates": "nails", "content": "scene",
         "options": GIVEN,
         "history": HISTORY, "journal": "write_journal"}),
@@ -143,6 +147,11 @@ CLASSES = {
     "ReplayedGesture": ("editing/session_replay.h", "ReplayedGesture", {}),
     "NailState": ("editing/session.h", "NailState", {}),
     "SessionNumber": ("editing/session_numbers.h", "SessionNumber", {}),
+=======
+        "constraints": "scene", "constraintOf": None, "nailStates": "nails", "setNail": None, "grabbedPlace": None,
+        "grabbedOrientation": None, "setContent": None, "content": None, "options": None, "history": None,
+        "snapshot": None, "journal": "write_journal"}),
+>>>>>>> bd0a0214 (Sessions name what would help, and find other motions)
     "SessionUpdate": ("editing/session_update.h", "SessionUpdate", {"scene": "motion"}),
     "MotionTangent": ("adjoint/derivative/tangent.h", "MotionTangent", {"start": INSIDE, "model": INSIDE}),
     "Reliability": ("adjoint/derivative/derivative_tape.h", "Reliability", {
