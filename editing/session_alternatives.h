@@ -19,7 +19,7 @@ struct SessionAlternatives {
 };
 
 /// Searches for at most `most` solutions other than the current motion, each the smallest change of its kind from the
-/// start of the last gesture (SessionSnapshot::began), as EditOptions::alternatives does. Once a stop is requested it
+/// start of the last gesture (SessionSnapshot::began), as EditOptions::alternatives does, for five seconds. Once a stop is requested it
 /// ends without any. For the thread that owns `contacts`.
 SessionAlternatives alternativesTo(const SessionSnapshot& snapshot, ContactSource& contacts, int most,
                                    std::stop_token stop = {});

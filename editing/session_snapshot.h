@@ -10,9 +10,9 @@
 
 namespace carom {
 
-/// What the last gesture of a session asked for and where it got to, by value: for another thread.
+/// What the last gesture that solved asked for, and where the session is now, by value: for another thread.
 struct SessionSnapshot {
-  Scene began;             ///< at the start of that gesture, if it solved; otherwise the current scene
+  Scene began;             ///< at the start of the last gesture that solved; otherwise the current scene
   SessionContent content;  ///< where it ended
   /// Nails that are enforced and available, with the target of a drag as it was asked for.
   std::vector<Constraint> wanted;

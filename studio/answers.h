@@ -16,6 +16,7 @@
 namespace carom::studio {
 
 class OpenScene;
+struct Findings;
 
 /// The same message as the answer to a command: with its number, where it has one (above 0).
 std::string answering(std::int64_t id, std::string message);
@@ -42,6 +43,14 @@ struct Problem {
 std::string errorMessage(const Problem& problem);
 /// Of an exception that a command ended with.
 Problem problemOf(const std::exception& error);
+
+/// What would help, as far as it is known.
+std::string whyMessage(const Findings& found, std::int64_t rev);
+/// How many other motions there are, after their frames; and members of the frame of one of them.
+std::string alternativesMessage(const Findings& found, std::int64_t rev);
+std::string alternativeMembers(const Findings& found, std::size_t index, std::int64_t rev);
+/// That no answer comes to such a question any more.
+std::string cancelledMessage(const std::string& type, std::int64_t rev);
 
 std::string savedMessage(const std::string& path, std::int64_t rev);
 /// `recent`: the scenes of the workspace that were opened last.

@@ -128,10 +128,8 @@ Json bodyOf(const BodyView& body, std::size_t index, Blocks& blocks) {
   return json;
 }
 
-}  // namespace
-
-std::string motionFrame(const MotionView& view, std::string_view members, const MotionView* sent) {
-  Json header = headerOf("motion", members);
+std::string frameOfMotion(const char* type, const MotionView& view, std::string_view members, const MotionView* sent) {
+  Json header = headerOf(type, members);
   if (sent && sent->scene != view.scene) sent = nullptr;
   Blocks blocks;
   Json tracks = Json::array();
@@ -148,6 +146,16 @@ std::string motionFrame(const MotionView& view, std::string_view members, const 
   add(header, "count", view.tracks.size());
   add(header, "tracks", std::move(tracks));
   return frameOf(header, blocks);
+}
+
+}  // namespace
+
+std::string motionFrame(const MotionView& view, std::string_view members, const MotionView* sent) {
+  return frameOfMotion("motion", view, members, sent);
+}
+
+std::string alternativeFrame(const MotionView& view, std::string_view members) {
+  return frameOfMotion("alternative", view, members, nullptr);
 }
 
 std::string sceneFrame(const SceneView& view, std::string_view members, const SceneView* sent) {

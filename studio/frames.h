@@ -21,6 +21,9 @@ namespace carom::studio {
 /// was of the same scene.
 std::string motionFrame(const MotionView& view, std::string_view members = "{}", const MotionView* sent = nullptr);
 
+/// Type "alternative": the same of another motion, with all its tracks.
+std::string alternativeFrame(const MotionView& view, std::string_view members = "{}");
+
 /// Type "scene": scene (its number), count (bodies that the scene has), extent {min, max} and bodies [{body, name,
 /// fixed, colour, center, radius, pose {position, orientation}, and either plane {normal, offset} or vertices, normals,
 /// triangles, accent}],

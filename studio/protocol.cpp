@@ -160,6 +160,10 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
        }},
       {"save", readSave},
       {"export", [](const Json& m) -> What { return Export{m["format"].get<std::string>(), m.value("before", false)}; }},
+      {"why", [](const Json& m) -> What { return Why{integer(m, "rev")}; }},
+      {"alternatives", [](const Json& m) -> What { return Alternatives{integer(m, "rev"), m.value("count", 6)}; }},
+      {"remedy", [](const Json& m) -> What { return TakeRemedy{integer(m, "rev"), m["name"].get<std::string>()}; }},
+      {"adopt", [](const Json& m) -> What { return Adopt{integer(m, "rev"), m["index"].get<int>()}; }},
       {"list", [](const Json& m) -> What { return List{m.value("path", std::string())}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;
@@ -197,7 +201,7 @@ bool isOneOf(const Command& command) {
 
 }  // namespace
 
-bool interrupts(const Command& command) { return !isOneOf<Hello, Prove, Drag, Release, Save, Export, List, Gallery, Gone>(command); }
+bool interrupts(const Command& command) { return !isOneOf<Hello, Prove, Drag, Release, Save, Export, List, Gallery, Gone, Found>(command); }
 
 bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
 

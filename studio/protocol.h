@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -142,19 +143,43 @@ struct Export {
   std::string format;   ///< "glb", "py", "csv", "svg" or "html"
   bool before = false;  ///< beside the motion as it was opened, where the format has that
 };
+/// What would help where a gesture did not reach its target.
+struct Why {
+  std::int64_t rev = 0;
+};
+/// Other motions that meet the same.
+struct Alternatives {
+  std::int64_t rev = 0;
+  int count = 6;  ///< at most
+};
+/// Takes one of the remedies that were found.
+struct TakeRemedy {
+  std::int64_t rev = 0;
+  std::string name;  ///< of the remedy
+};
+/// Takes one of the other motions that were found.
+struct Adopt {
+  std::int64_t rev = 0;
+  int index = 0;  ///< of the motion
+};
 struct List {
   std::string path;  ///< a folder
 };
 struct Gallery {};
 /// A socket went away; never read from a message.
 struct Gone {};
+struct Findings;
+/// Something was found in the background; never read from a message.
+struct Found {
+  std::shared_ptr<const Findings> what;
+};
 
 /// A command with the number that its answers carry.
 struct Command {
   std::int64_t id = 0;  ///< 0: nobody waits for an answer
   std::variant<Hello, Prove, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
                Unnail, SetControls, SetNumbers, Try, AddBody, RemoveBody, CopyBody, RenameBody, NewScene, Open, Save, Export,
-               List, Gallery, Gone>
+               Why, Alternatives, TakeRemedy, Adopt, List, Gallery, Gone, Found>
       what;  ///< what it asks for
 };
 

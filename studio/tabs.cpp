@@ -58,6 +58,12 @@ void Tabs::showMotion(SocketId asker, std::int64_t id, std::shared_ptr<const Mot
   for (const auto& [socket, tab] : tabs_) showMotionTo(socket, socket == asker ? id : 0, view, members, gives_way);
 }
 
+void Tabs::showAlternative(SocketId socket, std::shared_ptr<const MotionView> view, const std::string& members) const {
+  if (!tabs_.contains(socket)) return;
+  const std::size_t bytes = bytesOf(*view);
+  post_.send(socket, {[view = std::move(view), members] { return alternativeFrame(*view, members); }, bytes, true, false, false});
+}
+
 void Tabs::showSceneTo(SocketId socket, std::int64_t id, std::shared_ptr<const SceneView> view) const {
   const auto tab = tabs_.find(socket);
   if (tab == tabs_.end()) return;

@@ -41,6 +41,8 @@ class Tabs {
   /// A motion to one page.
   void showMotionTo(SocketId socket, std::int64_t id, std::shared_ptr<const MotionView> view,
                     const std::string& members, bool gives_way) const;
+  /// One of other motions to one page, with all its tracks.
+  void showAlternative(SocketId socket, std::shared_ptr<const MotionView> view, const std::string& members) const;
   /// A scene to all pages.
   void showScene(SocketId asker, std::int64_t id, std::shared_ptr<const SceneView> view) const;
   /// A scene to one page.

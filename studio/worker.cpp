@@ -50,6 +50,7 @@ bool Worker::step(const std::stop_token& stop) {
 
 void Worker::handle(const Letter& letter) {
   const Asker asker{letter.from, letter.command.id};
+  if (interrupts(letter.command)) endQuestion();
   tellingProblems(asker, [&] { std::visit([&](const auto& what) { perform(asker, what); }, letter.command.what); });
 }
 

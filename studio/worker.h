@@ -10,6 +10,8 @@
 
 #include "studio/answers.h"
 #include "studio/autosave.h"
+#include "studio/background.h"
+#include "studio/findings.h"
 #include "studio/limits.h"
 #include "studio/mailbox.h"
 #include "studio/open_scene.h"
@@ -68,6 +70,15 @@ class Worker {
     bool resting = false;  // the hand rests before its target was reached
   };
 
+  /// What a page asked for in the background; one at a time.
+  struct Question {
+    Asker asker;
+    std::string type;  // of its message
+    std::int64_t number = 0, rev = 0;
+    bool answered = false;
+    std::shared_ptr<const Findings> found;
+  };
+
   void perform(const Asker& asker, const Hello& hello);
   void perform(const Asker&, const Prove&) {}  // answered before there is a session
   void perform(const Asker& asker, const Grab& grab);
@@ -94,6 +105,11 @@ class Worker {
   void perform(const Asker& asker, const Open& open);
   void perform(const Asker& asker, const Save& save);
   void perform(const Asker& asker, const Export& what);
+  void perform(const Asker& asker, const Why& why);
+  void perform(const Asker& asker, const Alternatives& alternatives);
+  void perform(const Asker& asker, const TakeRemedy& take);
+  void perform(const Asker& asker, const Adopt& adopt);
+  void perform(const Asker& asker, const Found& found);
   void perform(const Asker& asker, const List& list);
   void perform(const Asker& asker, const Gallery& gallery);
   void perform(const Asker& asker, const Gone& gone);
@@ -113,6 +129,10 @@ class Worker {
   template <class Make>
   void changeBodies(const Asker& asker, std::int64_t rev, const std::string& name, const Make& make);
   void endTry();
+  template <class Find>
+  void askInBackground(const Asker& asker, std::int64_t rev, const std::string& type, const Find& find);
+  void endQuestion();
+  const Findings& findingsFor(const Asker& asker, std::int64_t rev, const std::string& type);
   std::string newName() const;
   template <class Take>
   void beginGesture(const Asker& asker, std::int64_t gesture, const Take& take);
@@ -152,6 +172,9 @@ class Worker {
   std::shared_ptr<const Motion> viewed_;  // what view_ shows
   std::shared_ptr<const MotionView> view_;
   std::shared_ptr<const SceneView> scene_view_;
+  std::optional<Question> question_;
+  std::int64_t questions_ = 0;
+  Background background_;  // last: its job ends before the others go
 };
 
 }  // namespace carom::studio

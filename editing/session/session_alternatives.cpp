@@ -12,6 +12,8 @@ namespace {
 
 /// Motions whose numbers differ by less than this, in natural scales, are one solution.
 constexpr double kSameSolution = 1e-3;
+/// The search goes on until there are as many as are asked for, which there may never be.
+constexpr double kSearchSeconds = 5;
 
 bool isSame(const Scene& a, const Scene& b, const std::vector<Control>& controls) {
   const std::vector<SessionNumber> x = sessionNumbers(a, controls), y = sessionNumbers(b, controls);
@@ -35,6 +37,7 @@ SessionAlternatives alternativesTo(const SessionSnapshot& snapshot, ContactSourc
   options.alternatives = most + 1;
   options.threads = 1;
   options.certify = options.explain = false;
+  options.time_budget_seconds = kSearchSeconds;
   options.stop = stop;
   const Edit edit(snapshot.began, contacts, now.duration, now.controls, snapshot.wanted);
   EditResult result = edit.solve(options);
@@ -50,7 +53,11 @@ SessionAlternatives alternativesTo(const SessionSnapshot& snapshot, ContactSourc
   std::ranges::move(result.alternatives, std::back_inserter(out.found));
   std::erase_if(out.found, [&](const EditAlternative& one) { return isSame(one.scene, now.scene, now.controls); });
   if (out.found.size() > static_cast<std::size_t>(most)) out.found.resize(static_cast<std::size_t>(most));
-  if (out.found.empty()) out.message = "No other solution was found.";
+  // from where everything is met already, no search begins
+  const bool from_here = result.objective == 0;
+  if (out.found.empty())
+    out.message = from_here ? "The motion met everything before it was changed: drag it, or meet nails that are not met, to have a change that could be another."
+                            : "No other solution was found.";
   return out;
 }
 

@@ -39,7 +39,6 @@ void EditSession::State::record(SessionGesture gesture) {
   gesture.distance = last.distance;
   for (const SessionNumber& number : sessionNumbers(*now.scene, now.controls)) gesture.numbers.push_back(number.value);
   journal.gestures.push_back(std::move(gesture));
-  asked.reset();
 }
 
 SessionUpdate EditSession::State::stay(const std::string& message, const std::shared_ptr<const Motion>& shown) {

@@ -139,11 +139,11 @@ SessionUpdate EditSession::State::solveStep(NailStep step, SessionGesture gestur
   const std::shared_ptr<const Scene> began = now.scene;
   if (step.changes_nails || !solver->atStart()) remember(std::move(now), std::move(step.name));
   now = std::move(step.next);
+  now.asked = AskedFor{began};
   takeOver(*solver, update);
   update.milliseconds = millisecondsSince(began_at);
   last = std::move(update);
   record(std::move(gesture));
-  asked = AskedFor{began};
   return last;
 }
 

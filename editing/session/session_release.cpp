@@ -78,8 +78,8 @@ SessionUpdate EditSession::State::endDrag(SessionGesture::Ending ending, std::st
   last = std::move(update);
   last.milliseconds = millisecondsSince(began_at);
   if (wanted) wanted->nail = ended.record.grabbed_nail ? NailId{*ended.record.grabbed_nail} : NailId{ended.record.nail};
+  if (wanted) now.asked = std::move(wanted);
   record(std::move(ended.record));
-  asked = std::move(wanted);
   return last;
 }
 

@@ -22,7 +22,8 @@ SessionSnapshot EditSession::snapshot() const {
   const State& s = *state_;
   s.requireNoDrag("snapshot");
   SessionSnapshot snapshot;
-  snapshot.began = s.asked ? *s.asked->began : scene();
+  const std::optional<AskedFor>& asked = s.now.asked;
+  snapshot.began = asked ? *asked->began : scene();
   snapshot.content = content();
   snapshot.reached = s.last.reached;
   snapshot.tolerance = s.options.tolerance;
@@ -31,12 +32,15 @@ SessionSnapshot EditSession::snapshot() const {
     snapshot.wanted.push_back(constraint);
     snapshot.nails.push_back(id);
   };
-  const bool has_goal = s.asked && s.asked->goal;
+  bool has_goal = asked && asked->goal && asked->nail == NailId();
   for (const SessionNail& nail : s.now.nails) {
-    if (has_goal && nail.id == s.asked->nail) continue;
+    if (asked && asked->goal && nail.id == asked->nail) {
+      has_goal = nail.on;
+      continue;
+    }
     if (nail.on && s.stateOf(nail, motion()).available) want(nail.constraint, nail.id);
   }
-  if (has_goal) want(*s.asked->goal, s.asked->nail);
+  if (has_goal) want(*asked->goal, asked->nail);
   return snapshot;
 }
 

@@ -21,6 +21,13 @@ struct SessionNail {
   bool on = true;
 };
 
+/// What the last gesture that solved asked for.
+struct AskedFor {
+  std::shared_ptr<const Scene> began;  ///< at its start
+  std::optional<Constraint> goal = {};  ///< of a drag, at its last target
+  NailId nail = {};                    ///< that it left there, or moved
+};
+
 /// All that undo brings back. The motion is simulated again, with the same bits.
 struct SessionMoment {
   std::shared_ptr<const Scene> scene;
@@ -29,6 +36,7 @@ struct SessionMoment {
   std::vector<Control> controls;
   std::vector<SessionNail> nails;
   double duration = 0;
+  std::optional<AskedFor> asked = {};  ///< until another content
   std::string step;  ///< in the lists of undo and redo: what leads from here to where the session was
 
   std::vector<Constraint> constraints() const;
@@ -56,13 +64,6 @@ struct SessionDrag {
 struct ConstrainedNails {
   std::vector<Constraint> constraints;
   std::string left_out;  ///< a sentence about those that cannot be evaluated; empty if none
-};
-
-/// What the last gesture that solved asked for.
-struct AskedFor {
-  std::shared_ptr<const Scene> began;  ///< at its start
-  std::optional<Constraint> goal = {};  ///< of a drag, at its last target
-  NailId nail = {};                    ///< that it left there, or moved
 };
 
 /// A step that solves for nails.
@@ -123,7 +124,6 @@ struct EditSession::State {
   SessionUpdate last;
   SessionJournal journal;
   std::optional<SessionDrag> drag;
-  std::optional<AskedFor> asked;  ///< until the next gesture
   Clock::time_point started = Clock::now();
   /// Set by a replay: no clock, but what ended things when this was recorded.
   bool replays = false;

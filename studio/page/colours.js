@@ -3,7 +3,7 @@
 
 export const colours = {
   view: '#202327', text: '#e8eaec', dim: '#a9b0b8', accent: '#5aa9ff', nail: '#58c56a', amber: '#e8b04a', red: '#ff7a6b',
-  before: '#9aa1a9', casing: '#101215', fixed: '#8a9098', raised: '#30343a', pressed: '#1f5fae', panel: '#26292e', lane: '#2d3137',
+  before: '#9aa1a9', preview: '#f2f4f6', casing: '#101215', fixed: '#8a9098', raised: '#30343a', pressed: '#1f5fae', panel: '#26292e', lane: '#2d3137',
   axes: { x: '#ff7a6b', y: '#58c56a', z: '#5aa9ff' },
 };
 

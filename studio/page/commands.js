@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a person can do besides dragging: called by keys, buttons and menus alike.
 
+import { tellChanges } from './messages.js';
 import { PlayHead } from './play_head.js';
 import { hitAt } from './take.js';
 
@@ -150,6 +151,38 @@ export class Commands extends PlayHead {
     this.store.set({ before: this.store.state.motion, card: null });
     const answer = await this.tell('set_nail', { nail, constraint });
     if (answer) this.gesture.ended('released', answer, false);
+  }
+
+  /** What would help where the last gesture did not reach its target; the answers come into the card. @param {number} rev */
+  async askWhy(rev) {
+    await this.connection.request('why', { rev }).catch(() => this.store.state.card?.key === 'why' && this.store.set({ card: { ...this.store.state.card, searching: false } }));
+  }
+
+  /** @param {string} name of a remedy */
+  async takeRemedy(name) {
+    const { motion } = this.store.state;
+    this.store.set({ before: motion, changesShown: false, card: null });
+    if (await this.tell('remedy', { rev: motion?.rev ?? 0, name })) tellChanges(this.store, { undo: () => void this.undo() });
+  }
+
+  /** Looks for other motions that meet the same. */
+  async findOthers() {
+    const rev = this.store.state.motion?.rev ?? 0, { gesture } = this.store.state;
+    if (gesture.state !== 'idle') return;
+    this.store.set({ others: { rev, list: [], searching: true, message: '', taken: -1, taking: false }, preview: null, card: null });
+    const answer = await this.tell('alternatives', { rev, count: 6 }), { others } = this.store.state;
+    if (others?.rev !== rev || !others.searching) return;
+    this.store.set({ others: answer && !answer.cancelled ? { ...others, searching: false, message: answer.message } : null });
+  }
+
+  /** @param {number} index of another motion */
+  async takeOther(index) {
+    const { others, motion } = this.store.state;
+    if (!others || others.taking) return;
+    this.store.set({ others: { ...others, taking: true }, before: motion, changesShown: false, preview: null });
+    const answer = await this.tell('adopt', { rev: others.rev, index });
+    this.store.set({ others: answer ? { ...others, rev: answer.rev, taken: index, taking: false } : null });
+    if (answer) tellChanges(this.store, { undo: () => void this.undo() });
   }
 
   /** @param {import('./types.js').Control[]} controls all of them from now on */

@@ -19,6 +19,7 @@ import { showBody } from './panels/body.js';
 import { showNails } from './panels/nails.js';
 import { forPeople } from './number_field_text.js';
 import { showNumbers } from './panels/numbers.js';
+import { showOthers } from './panels/others.js';
 import { showPlayer } from './player.js';
 import { makeStage } from './stage.js';
 import { initialState, Store } from './store.js';
@@ -55,7 +56,7 @@ function start() {
   }
   const store = new Store({ ...initialState(), tab: tabName(), quality: qualityFor(renderer, query.get('quality')) });
   remember(store);
-  const { view, overlay, frame, picture } = makeStage(store, isHardware(renderer) || query.get('shadows') === 'map');
+  const { view, overlay, frame, picture, small } = makeStage(store, isHardware(renderer) || query.get('shadows') === 'map');
   /** @type {Gesture | null} */
   let gesture = null;
   const connection = new Connection({
@@ -69,19 +70,20 @@ function start() {
       store.set({ selected: hit.body, selectedNail: hit.kind === 'nail' ? (hit.nail ?? -1) : -1, ...(hit.kind === 'handle' || hit.kind === 'body' ? {} : { time: hit.time }) });
     },
     ended: (how, answer) => {
-      if (how === 'released') tellEnding(store, { undo: () => void commands.undo() }, answer);
+      if (how === 'released') tellEnding(store, { undo: () => void commands.undo(), askWhy: (rev) => void commands.askWhy(rev) }, answer);
       commands.saveIfWaiting();
     },
     refused: (error) => commands.tellOverlap(error),
   });
   const commands = new Commands({ store, connection, gesture, view: { frame }, ask, choose, askName });
   showHeader(store, commands, gesture, picture);
-  showNotices(store);
+  showNotices(store, { takeRemedy: (name) => void commands.takeRemedy(name) });
   showReadout(store);
   showBodies(store);
   showBody(store, commands);
   showNumbers(store, commands);
   showNails(store, commands);
+  showOthers(store, commands, small);
   showPlayer(store, commands);
   showEmpty(store, commands);
   showHint(store);

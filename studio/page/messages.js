@@ -47,6 +47,19 @@ export function listener({ store, gesture, opened, recovered }) {
     if (message.re === undefined) store.set({ notice: { message: message.message, kind: 'red' } });
   };
 
+  /** What would help, as far as it is known. @param {any} message */
+  const why = ({ rev, more, cancelled, sentence, remedies }) => {
+    const { card, motion } = store.state;
+    if (card?.key !== 'why' || rev !== motion?.rev) return;
+    store.set({ card: cancelled ? { ...card, searching: false } : { ...card, message: card.message.includes(sentence) ? card.message : `${card.message} ${sentence}`, remedies, searching: more } });
+  };
+
+  /** Another motion that meets the same. @param {import('./frames.js').Frame} frame */
+  const another = (frame) => {
+    const { others } = store.state, { rev, index, size, other_impacts: impacts } = frame.header;
+    if (others && others.rev === rev) store.set({ others: { ...others, list: [...others.list, { index, motion: motionOf(frame, null), size, impacts }] } });
+  };
+
   return {
     status(status, why) {
       if (status === 'open') return;
@@ -64,6 +77,7 @@ export function listener({ store, gesture, opened, recovered }) {
       else if (message.type === 'error') error(message);
       else if (message.type === 'notice') store.set({ notice: { message: message.message } });
       else if (message.type === 'progress') store.set({ progress: message.message });
+      else if (message.type === 'why') why(message);
     },
     frame(frame) {
       if (frame.header.type === 'scene') {
@@ -75,6 +89,7 @@ export function listener({ store, gesture, opened, recovered }) {
         store.set({ ...(other ? { ...nothingOfAScene(), notice: stays } : {}), scene: shapes });
         return;
       }
+      if (frame.header.type === 'alternative') return another(frame);
       if (frame.header.type !== 'motion') return;
       if (frame.header.scene !== scene) throw new Error(`a motion is of scene ${frame.header.scene}, and scene ${scene} is shown`);
       const motion = motionOf(frame, first ? null : store.state.motion), is_first = first;
@@ -105,14 +120,20 @@ function timeShown({ document, gesture: { state, hit }, time }, motion) {
 }
 
 /** What a person is told when a gesture came to its end. @param {import('./store.js').Store<State>} store
- * @param {{undo: () => void}} commands @param {any} answer header of the motion */
+ * @param {{undo: () => void, askWhy: (rev: number) => void}} commands @param {any} answer header of the motion */
 export function tellEnding(store, commands, answer) {
-  const { before, motion, document } = store.state;
-  if (!motion || !document) return;
-  const names = document.bodies.map((body) => body.name);
-  const card = answer.reached === false ? { message: whyNot(motion), kind: /** @type {const} */ ('amber') } : null;
-  const changed = before ? changesText(before, motion, names) : '';
-  store.set({ card });
+  const { motion } = store.state;
+  if (!motion || !store.state.document) return;
+  const missed = answer.reached === false;
+  store.set({ card: missed ? { message: whyNot(motion), kind: 'amber', key: 'why', searching: true } : null });
+  if (missed) commands.askWhy(motion.rev);
+  tellChanges(store, commands);
+}
+
+/** Who meets whom more or less often than before. @param {import('./store.js').Store<State>} store @param {{undo: () => void}} commands */
+export function tellChanges(store, commands) {
+  const { before, motion, document } = store.state, names = document?.bodies.map((body) => body.name) ?? [];
+  const changed = before && motion ? changesText(before, motion, names) : '';
   if (!changed) return;
   store.set({
     notice: {

@@ -9,8 +9,11 @@ import { forPeople } from './number_field_text.js';
 /** ms, until what is no warning fades; with a button to press longer. */
 const fades = 6000, fadesWithButtons = 15000;
 
-/** @param {import('./store.js').Store<import('./types.js').State>} store */
-export function showNotices(store) {
+/** So many remedies are offered; of those that do not reach it alone fewer. */
+const mostRemedies = 4, mostOthers = 3;
+
+/** @param {import('./store.js').Store<import('./types.js').State>} store @param {{takeRemedy: (name: string) => void}} commands */
+export function showNotices(store, commands) {
   const notice = byId('notice'), card = byId('card'), live = byId('live');
   /** @param {HTMLElement} place @param {Notice | null} shown @param {() => void} close */
   const show = (place, shown, close) => {
@@ -39,8 +42,32 @@ export function showNotices(store) {
     if (state.notice) timer = setTimeout(fade, state.notice.actions?.length ? fadesWithButtons : fades);
     if (state.notice) live.textContent = forPeople(state.notice.message);
   });
+  /** The answers come one by one: what was said is not said again. */
+  let said = '';
   store.on(['card'], (state) => {
+    const focused = document.activeElement?.getAttribute('data-remedy');
     show(card, state.card, () => store.set({ card: null }));
-    if (state.card) live.textContent = forPeople(state.card.message);
+    const remedies = offered(state.card);
+    if (state.card && (remedies.length || state.card.searching)) {
+      card.append(el('div', { class: 'remedies' }, ...remedies.map((remedy) => remedyButton(remedy, commands.takeRemedy)),
+        !!state.card.searching && el('span', { class: 'dim' }, 'Looking for what would help…')));
+      if (focused) /** @type {HTMLElement | null} */ (card.querySelector(`[data-remedy="${CSS.escape(focused)}"]`))?.focus();
+    }
+    const solving = remedies.filter(({ solves }) => solves).map(({ name }) => `${forPeople(name)} reaches it.`);
+    const words = state.card ? [forPeople(state.card.message), ...(state.card.searching ? [] : solving)].join(' ') : '';
+    if (words && words !== said) live.textContent = words;
+    said = words;
   });
+}
+
+/** @param {Notice | null} card @returns {import('./types.js').Remedy[]} those that reach it, or those that may */
+function offered(card) {
+  const all = card?.remedies ?? [], open = all.filter(({ solves }) => solves !== false);
+  return open.length ? open.slice(0, mostRemedies) : all.slice(0, mostOthers);
+}
+
+/** @param {import('./types.js').Remedy} remedy @param {(name: string) => void} take */
+function remedyButton({ name, solves }, take) {
+  const [words, kind] = solves ? ['reaches it', 'good'] : solves === null ? ['…', 'dim'] : ['not enough alone', 'dim'];
+  return el('button', { type: 'button', 'data-remedy': name, onclick: () => take(name) }, forPeople(name), el('span', { class: kind }, words));
 }

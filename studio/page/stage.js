@@ -8,7 +8,8 @@ import { View } from './view/view.js';
 
 /** @param {import('./store.js').Store<import('./types.js').State>} store @param {boolean} shadowMap whether high quality may have one
  * @returns {{view: View, overlay: Overlay, frame: (body: number, anew?: boolean) => void,
- *    picture: () => Promise<Blob | null>}} `frame`: shows a body, -1: everything; `picture`: what is seen, as a PNG */
+ *    picture: () => Promise<Blob | null>, small: (motion: import('./types.js').Motion, canvas: HTMLCanvasElement) => void}} `frame`: shows a body, -1: everything;
+ *    `picture`: what is seen, as a PNG; `small`: draws another motion, as it would be seen, into a canvas */
 export function makeStage(store, shadowMap) {
   const canvas = /** @type {HTMLCanvasElement} */ (byId('overlay'));
   /** @type {Overlay | null} */
@@ -16,7 +17,7 @@ export function makeStage(store, shadowMap) {
   const view = new View({ host: byId('view'), input: canvas, store, shadowMap, drawn: () => marks?.draw(), resized: (width, height) => marks?.resize(width, height) });
   const overlay = (marks = new Overlay(canvas, store, view));
   overlay.resize(view.camera.width, view.camera.height);
-  store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
+  store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'preview', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
   const picture = () => new Promise((/** @type {(blob: Blob | null) => void} */ done) => {
     const layers = [...byId('view').querySelectorAll('canvas')], both = document.createElement('canvas'), pen = both.getContext('2d');
     [both.width, both.height] = [Math.max(...layers.map((layer) => layer.width)), Math.max(...layers.map((layer) => layer.height))];
@@ -24,5 +25,7 @@ export function makeStage(store, shadowMap) {
     for (const layer of layers) pen?.drawImage(layer, 0, 0, both.width, both.height);
     both.toBlob(done, 'image/png');
   });
-  return { view, overlay, picture, frame: (body, anew = false) => frameView(view, store.state, body, anew) };
+  const small = (/** @type {import('./types.js').Motion} */ motion, /** @type {HTMLCanvasElement} */ place) =>
+    view.drawSmall({ ...store.state, motion, preview: null, before: null, hover: null, time: Math.min(store.state.time, motion.end) }, place);
+  return { view, overlay, picture, small, frame: (body, anew = false) => frameView(view, store.state, body, anew) };
 }

@@ -45,8 +45,14 @@
 /** What lies under the pointer, or is held.
  * @typedef {{kind: 'path' | 'body' | 'impact' | 'rest' | 'nail' | 'handle', body: number, time: number, at: When, place: Vec3,
  *    nail?: number, impact?: Impact, handle?: string}} Hit */
-/** @typedef {{message: string, kind?: 'plain' | 'amber' | 'red', actions?: {name: string, act: () => void}[],
- *    key?: string}} Notice */
+/** What would help; solves: null until it was tried.
+ * @typedef {{name: string, kind: string, removes: number, solves: boolean | null}} Remedy */
+/** searching: for remedies.
+ * @typedef {{message: string, kind?: 'plain' | 'amber' | 'red', actions?: {name: string, act: () => void}[],
+ *    key?: string, remedies?: Remedy[], searching?: boolean}} Notice */
+/** Another motion that meets the same. size: of its change, the smallest that was found 1.
+ * @typedef {{index: number, motion: Motion, size: number | null, impacts: string[]}} Other */
+/** @typedef {{rev: number, list: Other[], searching: boolean, message: string, taken: number, taking: boolean}} Others */
 /** The gesture under way, as the drawing parts see it.
  * @typedef {{state: 'idle' | 'pressed' | 'dragging' | 'typing' | 'settling', number: number, hit: Hit | null,
  *    target: Vec3 | null, turn: Quat | null, axis: string, seq: number, answered: number, settlingShown: boolean,
@@ -60,7 +66,7 @@
  *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw', adding: number,
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
- *    noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  noticesStay: for tests, which take their time;
- *    looking: nothing can be changed; adding: which of `additions` the next press puts down, -1: none */
+ *    others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  noticesStay: for tests, which take their time;
+ *    looking: nothing can be changed; preview: of the others, the one that is pointed at; adding: which of `additions` the next press puts down, -1: none */
 
 export {};

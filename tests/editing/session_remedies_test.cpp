@@ -147,6 +147,23 @@ TEST(SessionAlternatives, MeetTheSameAndAreOthers) {
   }
 }
 
+TEST(SessionAlternatives, AreThereAfterStepsBack) {
+  BoxSession s;
+  ASSERT_TRUE(dragged(s.session, "box", 0.9, {0.1, 0.02, 0}).reached);
+  const SessionSnapshot asked = s.session.snapshot();
+  s.session.setNailOn(s.session.nailAsItIs("box", 0.3), false);
+  s.session.undo();
+  s.session.undo();
+  const SessionSnapshot again = s.session.snapshot();
+  EXPECT_TRUE(sameScene(again.began, asked.began));
+  ASSERT_EQ(again.wanted.size(), 1u);
+  EXPECT_EQ(again.wanted[0].targets[0].value[0], asked.wanted[0].targets[0].value[0]);
+  s.session.undo();
+  EXPECT_TRUE(s.session.snapshot().wanted.empty());
+  s.session.redo();
+  EXPECT_EQ(s.session.snapshot().wanted.size(), 1u);
+}
+
 TEST(SessionAlternatives, SayWhyThereAreNone) {
   BoxSession s;
   OdeContacts own(s.scene);
@@ -154,9 +171,15 @@ TEST(SessionAlternatives, SayWhyThereAreNone) {
   EXPECT_TRUE(none.found.empty());
   EXPECT_TRUE(none.message.starts_with("Nothing is nailed")) << none.message;
   ASSERT_TRUE(dragged(s.session, "box", 0.9, {0.1, 0.02, 0}).reached);
+  SessionContent content = s.session.content();
+  content.nails.emplace_back(NailId(), nailConstraint("box", 0.3, {.position = s.session.motion().stateAt("box", 0.3).position}));
   std::stop_source stop;
   stop.request_stop();
   EXPECT_TRUE(alternativesTo(s.session.snapshot(), own, 6, stop.get_token()).found.empty());
+  s.session.setContent(content, "a nail that is met");
+  const SessionAlternatives met = alternativesTo(s.session.snapshot(), own, 6);
+  EXPECT_TRUE(met.found.empty());
+  EXPECT_TRUE(met.message.starts_with("The motion met everything")) << met.message;
 }
 
 }  // namespace

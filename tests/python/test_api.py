@@ -117,7 +117,7 @@ CALLS = "called after every impact: a C++ program would wait for Python; `progre
 SPEED = "an option of speed alone"
 RELIABLE = "EditResult.reliability says it, of the worst row"
 ALWAYS = "Ctrl-C, and what a callback raises, always abandon an edit"
-REASONS = {ALWAYS, GIVEN, LISTS, CALLS, SPEED, RELIABLE, INSIDE, CONTACTS, DICT, HISTORY}
+REASONS = {ALWAYS, SNAPSHOT, GIVEN, LISTS, CALLS, SPEED, RELIABLE, INSIDE, CONTACTS, DICT, HISTORY}
 CLASSES = {
     "Motion": ("adjoint/motion/motion.h", "Motion", {
         "stateAt": "state_at", "modelOf": INSIDE, "impacts": "impacts", "taken_over": INSIDE, "plan": INSIDE, "models": INSIDE, "geometry": CONTACTS,
@@ -139,19 +139,13 @@ CLASSES = {
     "EditResult": ("editing/edit_result.h", "EditResult", {}),
     "Certificate": ("editing/certificate.h", "Certificate", {"reliability": RELIABLE}),
     "EditSession": ("editing/session.h", "EditSession", {
-<<<<<<< HEAD
         "constraints": "scene", "constraintOf": "scene", "nailStates": "nails", "content": "scene",
         "options": GIVEN,
-        "history": HISTORY, "journal": "write_journal"}),
+        "history": HISTORY, "snapshot": SNAPSHOT, "journal": "write_journal"}),
     "SessionReplay": ("editing/session_replay.h", "SessionReplay", {"next": "__next__", "session": "scene"}),
     "ReplayedGesture": ("editing/session_replay.h", "ReplayedGesture", {}),
     "NailState": ("editing/session.h", "NailState", {}),
     "SessionNumber": ("editing/session_numbers.h", "SessionNumber", {}),
-=======
-        "constraints": "scene", "constraintOf": None, "nailStates": "nails", "setNail": None, "grabbedPlace": None,
-        "grabbedOrientation": None, "setContent": None, "content": None, "options": None, "history": None,
-        "snapshot": None, "journal": "write_journal"}),
->>>>>>> bd0a0214 (Sessions name what would help, and find other motions)
     "SessionUpdate": ("editing/session_update.h", "SessionUpdate", {"scene": "motion"}),
     "MotionTangent": ("adjoint/derivative/tangent.h", "MotionTangent", {"start": INSIDE, "model": INSIDE}),
     "Reliability": ("adjoint/derivative/derivative_tape.h", "Reliability", {

@@ -31,6 +31,10 @@ const std::map<std::string, Json>& examples() {
          {"grip", {{"orientation", true}, {"point", {0, 0, 0.1}}, {"components", {"x", "z"}}}},
          {"also_vary", {control}}},
         {{"type", "grab_nail"}, {"gesture", 4}, {"nail", 2}},
+        {{"type", "why"}, {"rev", 3}},
+        {{"type", "alternatives"}, {"rev", 3}, {"count", 4}},
+        {{"type", "remedy"}, {"rev", 3}, {"name", "Let gravity change"}},
+        {{"type", "adopt"}, {"rev", 3}, {"index", 2}},
         {{"type", "drag"}, {"gesture", 4}, {"seq", 9}, {"place", {0.8, 0, 1.7}}, {"orientation", {1, 0, 0, 0}}, {"components", {"x", "y"}}},
         {{"type", "release"},
          {"gesture", 4},
@@ -108,6 +112,10 @@ TEST(Protocol, ReadsEveryMessage) {
   EXPECT_EQ(grab.grip.components, (std::vector<std::string>{"x", "z"}));
   EXPECT_FALSE(grab.also_vary.empty());
   EXPECT_EQ(example<GrabNail>("grab_nail").nail, 2);
+  EXPECT_EQ(example<Why>("why").rev, 3);
+  EXPECT_EQ(example<Alternatives>("alternatives").count, 4);
+  EXPECT_EQ(example<TakeRemedy>("remedy").name, "Let gravity change");
+  EXPECT_EQ(example<Adopt>("adopt").index, 2);
   const auto drag = example<Drag>("drag");
   EXPECT_EQ(drag.gesture, 4);
   EXPECT_EQ(drag.seq, 9);
@@ -207,7 +215,7 @@ TEST(Protocol, AGrabMayHoldATurnAloneOrAContact) {
 TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
   const std::map<std::string, std::vector<const char*>> optional = {
       {"grab", {"grip", "also_vary"}},  {"drag", {"orientation", "components"}},     {"release", {"orientation", "components", "nail"}},
-      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before"}}};
+      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before"}}, {"alternatives", {"count"}}};
   for (const auto& [type, good] : examples()) {
     const auto known = optional.find(type);
     for (const auto& member : good.items()) {
@@ -252,6 +260,8 @@ TEST(Protocol, WrongMembersWithinOthersAreNamed) {
   expectNamed("hello", "/tab", std::string(65, 't'));
   expectNamed("hello", "/token", std::string(201, 't'));
   expectNamed("nail_on", "/nail", -1);
+  expectNamed("alternatives", "/count", 13);
+  expectNamed("adopt", "/index", -1);
 }
 
 TEST(Protocol, ErrorsSayFoundAndExpected) {

@@ -69,6 +69,12 @@ export class Paths {
       this.put(wanted, `before ${track.body}`, [track, end], () =>
         dashedLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), this.scale));
     }
+    const { preview } = state;
+    for (const track of preview?.tracks ?? []) {
+      if (!shown.includes(track.body)) continue;
+      const end = preview?.end ?? 0;
+      this.put(wanted, `preview ${track.body}`, [track, end], () => thinLine(lineOf((t) => centreAt(track, t), pathTimes(track, end, sag)), colours.preview));
+    }
     for (const track of gone?.tracks ?? []) {
       if (!shown.includes(track.body) || track === motion?.tracks[track.body]) continue;
       const ink = inkOf(scene?.shapes[track.body]?.colour ?? colours.fixed), end = gone?.end ?? 0;

@@ -108,6 +108,14 @@ export class View {
     const { state, gone, share } = this.glide.shown(this.store.state, performance.now());
     if (state.quality !== this.quality) this.changeQuality(state.quality);
     this.shown = state;
+    this.render(state, gone, share);
+    ++this.frames;
+    this.drawn();
+    if (this.glide.from) this.invalidate();
+  }
+
+  /** @param {State} state @param {State['motion']} gone @param {number} share */
+  render(state, gone, share) {
     this.lights.update(state.scene, this.renderer.shadowMap.enabled);
     this.bodies.update(state);
     this.ground.update(state);
@@ -116,9 +124,20 @@ export class View {
     this.paths.update(state, gone, share);
     this.ghosts.update(state, this.bodies.meshes);
     this.renderer.render(this.scene, this.camera.camera);
-    ++this.frames;
-    this.drawn();
-    if (this.glide.from) this.invalidate();
+  }
+
+  /** Draws another state into a canvas, as wide as that, from where one looks now; what is shown stays.
+   * @param {State} state @param {HTMLCanvasElement} canvas */
+  drawSmall(state, canvas) {
+    const { width, height } = this.camera;
+    canvas.height = Math.round((canvas.width * height) / width);
+    this.renderer.setSize(canvas.width, canvas.height, false);
+    this.sizeLines();
+    this.render(state, null, 1);
+    canvas.getContext('2d')?.drawImage(this.renderer.domElement, 0, 0, canvas.width, canvas.height);
+    this.renderer.setSize(width, height, false);
+    this.sizeLines();
+    this.draw();
   }
 
   /** @param {'low' | 'high'} quality */

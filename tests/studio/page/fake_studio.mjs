@@ -174,6 +174,9 @@ export class FakeStudio {
       done();
     } else if (type === 'gallery') {
       client.send(JSON.stringify({ type: 'gallery', re: id, scenes: [{ path: 'throw.json', name: 'A throw', notes: '', picture: null }, { path: 'dice.json', name: 'Four dice', notes: '', picture: null }] }));
+    } else if (type === 'why') {
+      const remedies = this.remedies ?? [];
+      client.send(JSON.stringify({ type: 'why', re: id, rev: message.rev, more: false, sentence: '', remedies }));
     } else if (type === 'list') {
       client.send(JSON.stringify({ type: 'files', re: id, path: '', files: [{ path: 'throw.json', name: 'throw.json', kind: 'scene' }, { path: 'more', name: 'more', kind: 'folder' }] }));
     } else if (type === 'open') {

@@ -33,15 +33,15 @@ async function closeNotice(page) {
   await page.mouse.move(5, 500);
 }
 
-/** Once nothing moves any more. */
-async function keep(page, name) {
+/** Once nothing moves any more. @param alone the id of the part of the page that is shown; none: all of it */
+async function keep(page, name, alone = '') {
   await page.evaluate(async () => {
     for (let was = -1; was !== globalThis.carom.frames(); ) {
       was = globalThis.carom.frames();
       await new Promise((next) => setTimeout(next, 300));
     }
   });
-  await page.screenshot({ path: join(folder, `${name}.png`) });
+  await (alone ? page.locator(`#${alone}`) : page).screenshot({ path: join(folder, `${name}.png`) });
 }
 
 const withStudio = (browser, scene, act, change) => closing(async (keep) => {
@@ -91,10 +91,21 @@ async function cannot(page) {
   const [x, y] = await place(page, 'hat', 0.2);
   await pull(page, [x, y], [x + 60, y - 50]);
   await letGo(page);
-  await until(page, '(s) => s.card !== null && s.notice?.key === "changes"');
+  await until(page, '(s) => s.card?.searching === false && s.notice?.key === "changes"', patience);
   await page.click('#notice button:has-text("Show")');
   await page.mouse.move(5, 500);
-  await keep(page, 'cannot');
+  await keep(page, 'cannot', 'view');
+}
+
+/** The book on the shelf in other ways; one of them is pointed at. */
+async function others(page) {
+  await page.click('#meet');
+  await until(page, '(s) => s.document.nails.every((n) => n.on && n.met) && s.motion.rev === s.document.rev', patience);
+  await page.click('#find-others');
+  await until(page, '(s) => s.others?.searching === false && [...document.querySelectorAll("#others canvas")].every((one) => one.dataset.drawn)', patience);
+  await closeNotice(page);
+  await page.hover('#others .strip button >> nth=2');
+  await keep(page, 'others', 'view');
 }
 
 /** The goals of the scene, met: the hat lands on the peg in the pose that is asked for. */
@@ -125,7 +136,7 @@ async function handedOn(keep_open, browser) {
 await closing(async (keep) => {
   const browser = keep(await launch());
   const acts = [['hat-on-coatrack.json', drag], ['hat-on-coatrack.json', nails, oneGoal], ['mug-on-mark.json', impact], ['hat-on-coatrack.json', cannot, narrow],
-    ['hat-on-coatrack.json', meet]];
+    ['hat-on-coatrack.json', meet], ['book-on-shelf.json', others]];
   for (const [scene, act, change] of acts) if (!only || act.name === only) await withStudio(browser, scene, act, change);
   if (!only || only === 'exported') await handedOn(keep, browser);
 });
