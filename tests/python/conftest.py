@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the Python package share."""
 
+import os
 import pathlib
 
 import pytest
 
 import carom
+
+os.environ.pop("LD_PRELOAD", None)  # of a sanitizer: not for the programs that tests run, and the one that reads its traces
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ROOT / "examples" / "scenes"
