@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: MIT
+"""What calling carom from Python costs, and how soon Ctrl-C is answered.
+
+    build/venv/bin/python bench/python/figures.py build/release [FIGURE]...
+
+with the build folder, in which the package and row_bench were built (scripts/build release carom_stub carom_row_bench).
+Writes bench/python/figures.csv, without names of figures; run it on a machine that does nothing else: times are of the clock.
+"""
+
+import csv
+import gc
+import json
+import os
+import pathlib
+import random
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+HERE = pathlib.Path(__file__).resolve().parent
+BUILD = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/release").resolve()
+sys.path.insert(0, str(BUILD / "python"))
+sys.path.insert(0, str(HERE.parents[1] / "tests" / "python"))
+
+import numpy as np  # noqa: E402
+
+import carom  # noqa: E402
+from test_interrupt import crowd_of  # noqa: E402
+
+# Three bounces in 1.6 s.
+BALL = {
+    "carom": 1,
+    "duration": 1.6,
+    "materials": {"rubber": {"elasticity": 0.8, "friction": 0.5}},
+    "bodies": [
+        {"name": "floor", "fixed": True, "material": "rubber", "shape": {"plane": {"normal": [0, 0, 1], "offset": 0}}},
+        {"name": "ball", "material": "rubber", "mass": 0.06, "shape": {"sphere": {"radius": 0.03}},
+         "position": [0, 0, 0.5], "velocity": [2, 0, 1], "angular_velocity": [0, 10, 0]},
+    ],
+}
+SCENES = HERE.parents[1] / "examples" / "scenes"
+
+Row = tuple[str, float, str, str]  # what, how much, of which unit, wanted
+
+
+def least(call: Callable[[], object], calls: int, rounds: int = 7) -> float:
+    """The least time of a call, s, of the processor: other processes count little."""
+    best = float("inf")
+    for _ in range(rounds):
+        began = time.process_time()
+        for _ in range(calls):
+            call()
+        best = min(best, (time.process_time() - began) / calls)
+    return best
+
+
+def rows_of_a_ball() -> Iterator[Row]:
+    scene = carom.Scene(BALL)
+    assert carom.simulate(scene).impacts == 3
+    seed = carom.Seed("ball", 1.6, position=(1, 0, 0))
+    of_cpp, of_python = float("inf"), float("inf")
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "ball.json"
+        path.write_text(json.dumps(BALL))
+        for _ in range(5):  # in turns: both see the same machine
+            run = subprocess.run([BUILD / "charts" / "row_bench", path, "ball", "7"], capture_output=True, text=True, check=True)
+            of_cpp = min(of_cpp, float(run.stdout))
+            of_python = min(of_python, least(lambda: carom.adjoint(carom.simulate(scene), seed), 2000) * 1e6)
+    yield "simulation and adjoint row of a ball with three bounces, C++", of_cpp, "us", ""
+    yield "the same, Python", of_python, "us", ""
+    yield "more in Python", of_python - of_cpp, "us", "<= 2.5"
+
+
+def samples() -> Iterator[Row]:
+    motion = carom.simulate(carom.Scene(BALL))
+    times = np.linspace(0, 1.6, 1000)
+    yield "sample of 1000 times", least(lambda: motion.sample("ball", times), 200) * 1e6, "us", "<= 100"
+
+
+def scenes() -> Iterator[Row]:
+    yield "scene of two bodies from a dict", least(lambda: carom.Scene(BALL), 300) * 1e6, "us", ""
+    code = "import numpy, time; began = time.process_time(); import carom; print(time.process_time() - began)"
+    environment = dict(os.environ, PYTHONPATH=str(BUILD / "python"))
+    took = [float(subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True).stdout)
+            for _ in range(7)]
+    yield "import after NumPy", min(took) * 1e3, "ms", "<= 10"
+
+
+def threads() -> Iterator[Row]:
+    """How many times as many calls two threads make, the median of runs in turns; two processes do what the machine can."""
+    scene = carom.Scene(BALL)
+    seed = carom.Seed("ball", 1.6, position=(1, 0, 0))
+    for what, calls, call in (
+            ("simulations with a row", 6000, lambda: carom.adjoint(carom.simulate(scene), seed)),
+            ("simulations of a crowd", 4, lambda crowd=carom.Scene(crowd_of(3)): carom.simulate(crowd, impact_limit=4000))):
+
+        def work(calls: int = calls, call: Callable[[], object] = call) -> None:
+            for _ in range(calls):
+                call()
+
+        def of_threads(count: int, work: Callable[[], None] = work) -> float:
+            workers = [threading.Thread(target=work) for _ in range(count)]
+            began = time.perf_counter()
+            for worker in workers:
+                worker.start()
+            for worker in workers:
+                worker.join()
+            return time.perf_counter() - began
+
+        def of_processes(count: int, work: Callable[[], None] = work) -> float:
+            began = time.perf_counter()
+            children = []
+            for _ in range(count):
+                child = os.fork()
+                if child == 0:
+                    work()
+                    os._exit(0)
+                children.append(child)
+            for child in children:
+                os.waitpid(child, 0)
+            return time.perf_counter() - began
+
+        of_threads(1)
+        took = [(of_threads(1), of_threads(2), of_processes(1), of_processes(2)) for _ in range(9)]
+        yield f"{what}, two threads beside one", statistics.median(2 * a / b for a, b, _, _ in took), "times", ">= 1.9"
+        yield f"{what}, two processes beside one", statistics.median(2 * c / d for _, _, c, d in took), "times", ""
+
+
+def answers(call: Callable[[], object], longest: float, tries: int, draw: random.Random) -> list[float]:
+    """From Ctrl-C, pressed at some time, to KeyboardInterrupt, ms."""
+    found: list[float] = []
+    while len(found) < tries:
+        pressed: list[float] = []
+
+        def press(after: float = draw.uniform(0.02, longest), pressed: list[float] = pressed) -> None:
+            time.sleep(after)
+            pressed.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        presser = threading.Thread(target=press)
+        try:
+            presser.start()
+            call()
+            presser.join()  # it came too late: between two calls
+            time.sleep(1)
+        except KeyboardInterrupt:
+            took = (time.perf_counter() - pressed[0]) * 1e3
+            if presser.is_alive() or took < 900:
+                found.append(took)
+            presser.join()
+    return found
+
+
+def interrupts() -> Iterator[Row]:
+    draw = random.Random(1)
+    for count in (3, 8):
+        crowd = carom.Scene(crowd_of(count))
+        took = answers(lambda crowd=crowd: carom.simulate(crowd, impact_limit=10**9, record_events=False), 0.5, 12, draw)
+        yield f"Ctrl-C in a simulation of {count**3} balls, median", statistics.median(took), "ms", ""
+        yield f"Ctrl-C in a simulation of {count**3} balls, longest", max(took), "ms", "<= 100"
+    for name in ("die-at-rest", "dice", "falling-rod", "box-over-edge", "mug", "hat-on-coatrack", "bowling", "pen_500"):
+        scene = carom.Scene.read(SCENES / f"{name}.json")
+        began = time.perf_counter()
+        timer = threading.Timer(2, os.kill, [os.getpid(), signal.SIGINT])
+        try:
+            timer.start()
+            carom.Edit.of(scene).solve(effort="thorough")
+        except KeyboardInterrupt:
+            pass
+        timer.cancel()
+        whole = time.perf_counter() - began
+        took = answers(lambda scene=scene: carom.Edit.of(scene).solve(effort="thorough"), 0.8 * whole, 12, draw)
+        yield f"Ctrl-C in the edit {name}, median", statistics.median(took), "ms", ""
+        yield f"Ctrl-C in the edit {name}, longest", max(took), "ms", "<= 200"
+
+
+def leaks() -> Iterator[Row]:
+    scene = carom.Scene(BALL)
+    seed = carom.Seed("ball", 1.6, position=(1, 0, 0))
+    edit = carom.Edit(scene)
+    edit.vary(carom.velocity("ball"))
+    edit.nail("ball", 1.0).position(2, 0, None)
+    program = edit.evaluator()
+
+    def resident() -> int:
+        gc.collect()
+        return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") // 1024
+
+    def work(count: int) -> None:
+        for _ in range(count):
+            motion = carom.simulate(scene)
+            carom.adjoint(motion, seed)
+            motion.sample("ball", [0.5, 1.0])
+            program.at(program.start).jacobian()
+
+    work(2000)
+    before = resident()
+    work(10000)
+    yield "memory after 10000 simulations, rows, samples and evaluations", resident() - before, "kB", "<= 0"
+
+
+FIGURES = {"rows": rows_of_a_ball, "samples": samples, "scenes": scenes, "threads": threads, "interrupts": interrupts, "leaks": leaks}
+
+
+def processor() -> str:
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":")[1].strip()
+    return "unknown"
+
+
+def main() -> None:
+    named = sys.argv[2:]
+    rows: list[Row] = []
+    for name, figure in FIGURES.items():
+        if named and name not in named:
+            continue
+        for row in figure():
+            rows.append(row)
+            what, value, unit, wanted = row
+            print(f"{what:64} {value:10.3f} {unit:6} {wanted}", flush=True)
+    if named:
+        return
+    with open(HERE / "figures.csv", "w", newline="") as out:
+        out.write(f"# {processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, Python {sys.version.split()[0]}, "
+                  f"NumPy {np.__version__}, carom {carom.__version__}, {time.strftime('%Y-%m-%d')}\n")
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(("figure", "value", "unit", "wanted"))
+        table.writerows((what, f"{value:.4g}", unit, wanted) for what, value, unit, wanted in rows)
+
+
+if __name__ == "__main__":
+    main()
