@@ -82,12 +82,24 @@ std::optional<double> reachAgainst(const Body& body, const Vec3& normal) {
   return extent.isEmpty() ? std::nullopt : std::optional(-extent.min().z());
 }
 
-bool isFree(Scene scene, std::size_t body, const Vec3& place) {
-  scene.bodies[body].position = place;
-  const int own = static_cast<int>(body);
-  const OdeContacts contacts(scene);
-  const std::vector<StartOverlap> overlaps = contacts.overlaps();
-  return std::ranges::none_of(overlaps, [&](const StartOverlap& one) { return one.a == own || one.b == own; });
+/// A body alone with those that it can overlap at a place, in front of them: in a scene of hundreds these are few.
+Scene neighboursAt(const Scene& scene, std::size_t body, const Vec3& place) {
+  Scene near;
+  near.materials = scene.materials;
+  near.bodies.push_back(scene.bodies[body]);
+  near.bodies[0].position = place;
+  const double own = radiusAbout(scene.bodies[body].shape, Vec3::Zero());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& other = scene.bodies[i];
+    const bool reaches = !((other.position - place).norm() > own + radiusAbout(other.shape, Vec3::Zero()));  // planes do everywhere
+    if (i != body && reaches) near.bodies.push_back(other);
+  }
+  return near;
+}
+
+bool isFree(const Scene& scene, std::size_t body, const Vec3& place) {
+  const OdeContacts contacts(neighboursAt(scene, body, place));
+  return std::ranges::none_of(contacts.overlaps(), [](const StartOverlap& one) { return one.a == 0 || one.b == 0; });
 }
 
 /// The nearest place along the axes where a body overlaps nothing, to a thousandth of its size; none within many sizes.

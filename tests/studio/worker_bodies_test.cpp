@@ -2,6 +2,9 @@
 // Scenes that begin empty, bodies that come, go, are copied and renamed, and numbers that are tried.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "tests/studio/pages.h"
 
 namespace carom::studio {
@@ -76,6 +79,28 @@ TEST_F(Bodies, WhatOverlapsIsNamedAndRefusedWholeWithAFreePlace) {
   const Json typed = lastOf(say({{"type", "set"}, {"edits", {{{"pointer", "/bodies/4/position"}, {"value", {0.05, 0, 0.1}}}}}}), "error");
   EXPECT_EQ(typed["code"], "overlap");
   EXPECT_EQ(typed["body"], "ball 3");
+}
+
+TEST(ManyBodies, TheFreePlaceIsFoundAmongHundreds) {
+  Json scene = Json::parse(kTestScene);
+  scene["controls"] = Json::array();
+  constexpr int kSide = 20;
+  for (int i = 0; i < kSide * kSide; ++i)
+    scene["bodies"].push_back({{"name", "pebble " + std::to_string(i + 2)}, {"fixed", true}, {"shape", {{"sphere", {{"radius", 0.1}}}}},
+                               {"position", {10 + 0.21 * (i % kSide), 0.21 * (i / kSide), 0.1}}});
+  WorkerTest test(scene.dump());
+  test.hello(1);
+  test.worker->step({});
+  const Json rev = lastOf(test.received.take(1), "state")["rev"];
+  const double x = 10 + 0.21 * 10 + 0.03, y = 0.21 * 10;
+  const Json added = {{"name", "ball"}, {"shape", {{"sphere", {{"radius", 0.1}}}}}, {"density", 600}, {"position", {x, y, 0.1}}};
+  const Json place = lastOf(test.ask(1, {{"type", "add_body"}, {"rev", rev}, {"body", added}}), "error")["place"];
+  ASSERT_EQ(place.size(), 3u);
+  // on top of the pebble that it is in: the others of the layer are farther, and the floor is below
+  const double up = std::sqrt(0.2 * 0.2 - 0.03 * 0.03);
+  EXPECT_EQ(place[0], x);
+  EXPECT_EQ(place[1], y);
+  EXPECT_TRUE(place[2] >= 0.1 + up - 1e-9 && place[2] <= 0.1 + up + 1e-3) << place;
 }
 
 TEST_F(Bodies, ABodyGoesWithWhatNamesIt) {
