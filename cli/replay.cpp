@@ -37,6 +37,7 @@ std::string describe(const SessionGesture& gesture) {
   if (gesture.constraint) text += " '" + gesture.constraint->body + "'";
   if (gesture.grabbed_nail) text += ", nail " + std::to_string(*gesture.grabbed_nail);
   if (gesture.kind == SessionGesture::Kind::nail_on) text += gesture.on ? ", switched on" : ", switched off";
+  if (gesture.kind == SessionGesture::Kind::keep_sequence) text += gesture.on ? ", on" : ", off";
   if (!gesture.name.empty()) text += ": " + gesture.name;
   if (gesture.kind == SessionGesture::Kind::drag && gesture.ending != SessionGesture::Ending::release)
     text += gesture.ending == SessionGesture::Ending::cancel ? ", cancelled" : ", then nailed";

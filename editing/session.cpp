@@ -121,6 +121,16 @@ void EditSession::setNailOn(NailId id, bool on) {
   s.record(std::move(gesture));
 }
 
+void EditSession::keepSequence(bool keep) {
+  State& s = *state_;
+  s.requireNoDrag("keepSequence");
+  SessionGesture gesture = s.newGesture(SessionGesture::Kind::keep_sequence);
+  gesture.on = keep;
+  s.options.sequence = keep ? SequencePolicy::stay : SequencePolicy::prefer_start;
+  s.stay("", s.last.motion);
+  s.record(std::move(gesture));
+}
+
 SessionUpdate EditSession::meetNails(std::stop_token stop) {
   state_->requireNoDrag("meetNails");
   return state_->meetNails(std::move(stop));

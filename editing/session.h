@@ -138,6 +138,10 @@ class EditSession {
   Vec3 grabbedPlace() const;        ///< m, position of the grabbed point
   Quat grabbedOrientation() const;  ///< of the grabbed body, shape to world
 
+  /// From here on no gesture changes the impact sequence (SequencePolicy::stay), or any may if its target is not reached
+  /// otherwise (prefer_start). Kept in the journal; no undo step.
+  void keepSequence(bool keep);
+
   /// Replaces the whole content, under a name for undo: typed numbers, added or removed bodies, another duration.
   /// Simulates it and solves nothing. Rejected as a whole if invalid. One undo step.
   void setContent(const SessionContent& content, const std::string& name);
@@ -167,7 +171,7 @@ class EditSession {
   /// Throws InputError for an unknown nail. A grabbed nail has its last target.
   const Constraint& constraintOf(NailId id) const;
   std::vector<NailState> nailStates() const;  ///< of all nails, oldest first, in the current motion
-  const SessionOptions& options() const;  ///< as they were given
+  const SessionOptions& options() const;  ///< as they were given, but for `sequence`, see keepSequence
 
   /// What the last gesture asked for and where it got to, see whyNot and alternativesTo. Not in a gesture.
   SessionSnapshot snapshot() const;

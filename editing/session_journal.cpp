@@ -8,7 +8,8 @@ namespace carom {
 using namespace adjoint_detail;
 
 const char* nameOf(SessionGesture::Kind kind) {
-  return nameIn({"controls", "nail", "unnail", "drag", "undo", "redo", "set_nail", "nail_on", "meet_nails", "content"}, kind);
+  return nameIn({"controls", "nail", "unnail", "drag", "undo", "redo", "set_nail", "nail_on", "meet_nails", "content", "keep_sequence"},
+                kind);
 }
 
 const char* nameOf(SessionGesture::Ending ending) {

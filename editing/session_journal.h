@@ -95,7 +95,7 @@ struct DragTarget {
 /// One gesture and its outcome.
 struct SessionGesture {
   /// Kind of gesture.
-  enum class Kind { controls, nail, unnail, drag, undo, redo, set_nail, nail_on, meet_nails, content };
+  enum class Kind { controls, nail, unnail, drag, undo, redo, set_nail, nail_on, meet_nails, content, keep_sequence };
   /// How a drag ended.
   enum class Ending { release, release_nailed, cancel, release_nailed_where_it_got };
 
@@ -104,7 +104,7 @@ struct SessionGesture {
   std::vector<Control> controls;         ///< controls: all of them from then on; drag: those added
   std::optional<Constraint> constraint;  ///< nail, set_nail; drag: the grab as a constraint at its start
   int nail = -1;    ///< nail, unnail, set_nail, nail_on, and a drag that left a nail: id of the nail
-  bool on = false;  ///< nail_on
+  bool on = false;  ///< nail_on, keep_sequence
   std::optional<SessionContent> content = {};  ///< content
   std::string name = {};                       ///< content: its name for undo
 

@@ -65,6 +65,8 @@ void SessionReplay::play(const SessionGesture& gesture, ReplayedGesture& out) {
       return session_.setNail({gesture.nail}, constraint());
     case Kind::nail_on:
       return session_.setNailOn({gesture.nail}, gesture.on);
+    case Kind::keep_sequence:
+      return session_.keepSequence(gesture.on);
     case Kind::meet_nails:
       session_.meetNails();
       return;

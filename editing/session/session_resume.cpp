@@ -51,6 +51,9 @@ void EditSession::State::resume(const SessionHistory& history) {
       for (const SessionNail& nail : moment.nails) next_nail = std::max(next_nail, nail.id.value + 1);
   for (const SessionNail& nail : now.nails) next_nail = std::max(next_nail, nail.id.value + 1);
   journal = history.journal;
+  for (const SessionGesture& gesture : journal.gestures)
+    if (gesture.kind == SessionGesture::Kind::keep_sequence)
+      options.sequence = gesture.on ? SequencePolicy::stay : SequencePolicy::prefer_start;
   last.motion = simulated(now.scene, now.duration);
   stay("", last.motion);
 }

@@ -168,7 +168,7 @@ void readContent(const Json& value, Scenes& scenes, SessionGesture& gesture, con
 
 Kind kindOf(const Json& gesture) {
   for (const Kind kind : {Kind::controls, Kind::nail, Kind::unnail, Kind::drag, Kind::undo, Kind::redo, Kind::set_nail,
-                          Kind::nail_on, Kind::meet_nails})
+                          Kind::nail_on, Kind::meet_nails, Kind::keep_sequence})
     if (gesture.contains(nameOf(kind))) return kind;
   return Kind::content;
 }
@@ -191,7 +191,8 @@ SessionGesture readGesture(const Json& value, Scenes& scenes, const std::string&
       gesture.constraint = readOneConstraint(value[nameOf(gesture.kind)], scenes, where + "/" + nameOf(gesture.kind));
       break;
     case Kind::nail_on:
-      gesture.on = value["nail_on"].get<bool>();
+    case Kind::keep_sequence:
+      gesture.on = value[nameOf(gesture.kind)].get<bool>();
       break;
     case Kind::unnail:
       gesture.nail = value["unnail"].get<int>();

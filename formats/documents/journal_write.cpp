@@ -96,7 +96,8 @@ void writeDeed(JsonWriter& out, const SessionGesture& gesture, const std::string
     case Kind::set_nail:
       return writeOne(out, "set_nail", *gesture.constraint, where);
     case Kind::nail_on:
-      out.members("nail_on", gesture.on);
+    case Kind::keep_sequence:
+      out.members(nameOf(gesture.kind), gesture.on);
       return;
     case Kind::unnail:
       out.members("unnail", gesture.nail);

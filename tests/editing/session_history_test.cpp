@@ -253,5 +253,27 @@ TEST(SessionErrors, WithoutControls) {
   EXPECT_TRUE(std::abs(u.distance - 0.1) <= 1e-12);
 }
 
+TEST(SessionSequences, AreKeptWhereTheyAreToBe) {
+  BoxSession s;
+  const std::size_t depth = s.session.undoDepth();
+  const auto drags = [&] {
+    bool left = false;
+    for (const Vec3& by : {Vec3(0.3, 0, 0.2), Vec3(-0.3, 0.1, 0), Vec3(0, 0.4, 0.1), Vec3(0.1, -0.4, 0.3)}) {
+      s.session.grab("box", 1.1);
+      s.session.dragTo(s.session.grabbedPlace() + by);
+      left = s.session.release().sequence_changed || left;
+      if (s.session.undoDepth() > depth) s.session.undo();
+    }
+    return left;
+  };
+  EXPECT_TRUE(drags()) << "or nothing is tested";
+  s.session.keepSequence(true);
+  EXPECT_FALSE(drags());
+  EXPECT_EQ(s.session.undoDepth(), depth) << "it is no step";
+  s.session.keepSequence(false);
+  EXPECT_TRUE(drags());
+  expectSameAgain(s.session, s.scene);
+}
+
 }  // namespace
 }  // namespace carom

@@ -29,13 +29,14 @@ void expectSame(const EditSession& a, const EditSession& b, const std::string& w
   }
   EXPECT_EQ(a.motion().signature(), b.motion().signature()) << where;
   EXPECT_EQ(a.journal().gestures.size(), b.journal().gestures.size()) << where;
+  EXPECT_EQ(a.options().sequence, b.options().sequence) << where;
 }
 
 /// One gesture of any kind, chosen by a seed.
 void gesture(EditSession& session, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> by(-0.04, 0.04);
-  switch (random() % 8) {
+  switch (random() % 9) {
     case 0:
       session.undo();
       break;
@@ -54,6 +55,9 @@ void gesture(EditSession& session, unsigned seed) {
       session.setContent(content, "a number");
       break;
     }
+    case 8:
+      session.keepSequence(random() % 2 == 0);
+      break;
     case 5:
       session.grab("box", 0.4);
       session.dragTo(session.grabbedPlace() + Vec3(by(random), by(random), by(random)));

@@ -165,7 +165,9 @@ SessionJournal recordedInAStudio() {
   session.release();
   session.undo();
   session.undo();
+  session.keepSequence(true);
   session.nail("box", 0.3, {.velocity = WantedVector(any, 0.3, any)});
+  session.keepSequence(false);
   return session.journal();
 }
 
