@@ -186,6 +186,7 @@ std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::st
   state["controls"] = controlsOf(session.controls());
   state["numbers"] = numbersOf(session.scene(), session.controls(), scene->opened().scene);
   state["nails"] = nailsOf(session);
+  state["keep_sequence"] = session.options().sequence == SequencePolicy::stay;
   state["undo"] = textOrNull(session.undoName());
   state["redo"] = textOrNull(session.redoName());
   state["held_by"] = textOrNull(held_by);
@@ -254,7 +255,7 @@ std::string filesMessage(const std::string& path, const std::vector<ListedFile>&
   for (const ListedFile& file : files)
     list.push_back({{"path", file.path},
                     {"name", file.name},
-                    {"kind", file.folder ? "folder" : "scene"},
+                    {"kind", file.folder ? "folder" : file.mesh ? "mesh" : "scene"},
                     {"bytes", file.bytes},
                     {"modified", file.modified}});
   return textOf({{"type", "files"}, {"path", path}, {"files", list}, {"recent", recent}});

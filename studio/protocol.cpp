@@ -139,6 +139,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
        [](const Json& m) -> What {
          return NailOn{nailOf(m), m["on"].get<bool>()};
        }},
+      {"keep_sequence", [](const Json& m) -> What { return KeepSequence{m["on"].get<bool>()}; }},
       {"unnail", [](const Json& m) -> What { return Unnail{nailOf(m)}; }},
       {"controls",
        [](const Json& m) -> What {
@@ -164,7 +165,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"alternatives", [](const Json& m) -> What { return Alternatives{integer(m, "rev"), m.value("count", 6)}; }},
       {"remedy", [](const Json& m) -> What { return TakeRemedy{integer(m, "rev"), m["name"].get<std::string>()}; }},
       {"adopt", [](const Json& m) -> What { return Adopt{integer(m, "rev"), m["index"].get<int>()}; }},
-      {"list", [](const Json& m) -> What { return List{m.value("path", std::string())}; }},
+      {"list", [](const Json& m) -> What { return List{m.value("path", std::string()), m.value("meshes", false)}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;
 }

@@ -83,6 +83,10 @@ struct NailOn {
   int nail = 0;
   bool on = true;
 };
+/// Whether no gesture changes the impact sequence from here on.
+struct KeepSequence {
+  bool on = false;
+};
 struct Unnail {
   int nail = 0;
 };
@@ -163,7 +167,8 @@ struct Adopt {
   int index = 0;  ///< of the motion
 };
 struct List {
-  std::string path;  ///< a folder
+  std::string path;     ///< a folder
+  bool meshes = false;  ///< mesh files in place of scenes
 };
 struct Gallery {};
 /// A socket went away; never read from a message.
@@ -178,7 +183,7 @@ struct Found {
 struct Command {
   std::int64_t id = 0;  ///< 0: nobody waits for an answer
   std::variant<Hello, Prove, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
-               Unnail, SetControls, SetNumbers, Try, AddBody, RemoveBody, CopyBody, RenameBody, NewScene, Open, Save, Export,
+               Unnail, KeepSequence, SetControls, SetNumbers, Try, AddBody, RemoveBody, CopyBody, RenameBody, NewScene, Open, Save, Export,
                Why, Alternatives, TakeRemedy, Adopt, List, Gallery, Gone, Found>
       what;  ///< what it asks for
 };

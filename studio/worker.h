@@ -94,6 +94,7 @@ class Worker {
   void perform(const Asker& asker, const SetNail& nail);
   void perform(const Asker& asker, const NailOn& nail);
   void perform(const Asker& asker, const Unnail& nail);
+  void perform(const Asker& asker, const KeepSequence& keep);
   void perform(const Asker& asker, const SetControls& set);
   void perform(const Asker& asker, const SetNumbers& set);
   void perform(const Asker& asker, const Try& what);

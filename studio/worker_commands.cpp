@@ -149,6 +149,12 @@ void Worker::perform(const Asker& asker, const Unnail& nail) {
   sayChange(asker, session.last());
 }
 
+void Worker::perform(const Asker& asker, const KeepSequence& keep) {
+  EditSession& session = sessionAtRest(asker);
+  session.keepSequence(keep.on);
+  sayChange(asker, session.last());
+}
+
 void Worker::perform(const Asker& asker, const SetControls& set) {
   EditSession& session = sessionAtRest(asker);
   requireRev(set.rev);
@@ -246,7 +252,7 @@ void Worker::perform(const Asker& asker, const Export& what) {
 }
 
 void Worker::perform(const Asker& asker, const List& list) {
-  tabs_.tell(asker.socket, answering(asker.id, filesMessage(list.path, workspace_.list(list.path), recent_.below(workspace_.folder()))));
+  tabs_.tell(asker.socket, answering(asker.id, filesMessage(list.path, workspace_.list(list.path, list.meshes), recent_.below(workspace_.folder()))));
 }
 
 void Worker::perform(const Asker& asker, const Gallery&) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -20,6 +21,7 @@ namespace carom::studio {
 namespace {
 
 constexpr const char* kScene = ".json";
+constexpr std::array kMeshes = {".obj", ".gltf", ".glb"};
 
 /// A file or folder, closed in any case.
 class Handle {
@@ -158,7 +160,7 @@ Workspace::Workspace(const std::string& folder) {
 
 Workspace::~Workspace() { ::close(root_); }
 
-std::vector<ListedFile> Workspace::list(const std::string& path) const {
+std::vector<ListedFile> Workspace::list(const std::string& path, bool meshes) const {
   const std::vector<std::string> parts = path.empty() ? std::vector<std::string>() : partsOf(path);
   const Handle folder = openFolder(root_, path, parts, parts.size());
   // fdopendir takes its descriptor, and one of its own has a place of its own in the folder
@@ -172,9 +174,11 @@ std::vector<ListedFile> Workspace::list(const std::string& path) const {
     struct stat status {};
     if (name.starts_with('.') || ::fstatat(folder.get(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
     const bool is_folder = S_ISDIR(status.st_mode);
-    if (!is_folder && !(S_ISREG(status.st_mode) && name.ends_with(kScene))) continue;
+    const auto ends = [&](const char* ending) { return name.ends_with(ending); };
+    const bool wanted = meshes ? std::ranges::any_of(kMeshes, ends) : ends(kScene);
+    if (!is_folder && !(S_ISREG(status.st_mode) && wanted)) continue;
     found.push_back({path.empty() ? name : path + "/" + name, name, is_folder,
-                     is_folder ? 0 : static_cast<std::uint64_t>(status.st_size), status.st_mtim.tv_sec});
+                     is_folder ? 0 : static_cast<std::uint64_t>(status.st_size), status.st_mtim.tv_sec, !is_folder && meshes});
   }
   std::sort(found.begin(), found.end(), [](const ListedFile& a, const ListedFile& b) {
     return std::pair(!a.folder, a.name) < std::pair(!b.folder, b.name);

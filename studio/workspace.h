@@ -31,9 +31,10 @@ struct OpenedFile {
 struct ListedFile {
   std::string path;           ///< relative to the folder of the workspace
   std::string name;           ///< the last part of it
-  bool folder = false;        ///< else a scene
-  std::uint64_t bytes = 0;    ///< of a scene
+  bool folder = false;        ///< else a scene or a mesh
+  std::uint64_t bytes = 0;    ///< of a file
   std::int64_t modified = 0;  ///< s since 1970
+  bool mesh = false;          ///< an OBJ or glTF file
 };
 
 /// A file that is not as it is thought to be: somebody else wrote it, or it is there where a new one was to be.
@@ -63,8 +64,8 @@ class Workspace {
   const std::string& folder() const { return folder_; }  ///< absolute
 
   /// Folders and scene documents of a folder, by name; "" is the folder itself. Names that begin with a dot and links
-  /// are left out.
-  std::vector<ListedFile> list(const std::string& path) const;
+  /// are left out. `meshes`: mesh files in place of scenes.
+  std::vector<ListedFile> list(const std::string& path, bool meshes = false) const;
   /// Reads a scene document (.json).
   OpenedFile open(const std::string& path) const;
   /// The folder of a file, as a path of this machine.

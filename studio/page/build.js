@@ -20,6 +20,19 @@ export const additions = [
   ['Cone', { name: 'cone', shape: { cone: { radius: 0.1, height: 0.2 } }, density: 600 }], ['Table', { name: 'table', shape: { box: { size: [1.2, 0.8, 0.04] } }, fixed: true }],
 ];
 
+/** What the next press puts down. @param {Pick<State, 'adding' | 'mesh'>} state @returns {object} as in documents */
+export const addedBody = ({ adding, mesh }) => (adding < additions.length ? additions[adding][1] : { name: nameOfFile(mesh), shape: { mesh: { file: mesh } }, density: 600 });
+
+/** "mug" of "assets/mug.obj". @param {string} path */
+export const nameOfFile = (path) => path.slice(path.lastIndexOf('/') + 1).replace(/\.[^.]*$/, '');
+
+/** A file of the folder as a document beside or below it names it. @param {string} file @param {string | null} document */
+export function fileFrom(file, document) {
+  const from = (document ?? '').split('/').slice(0, -1), to = file.split('/');
+  while (from.length && to.length > 1 && from[0] === to[0]) [from, to].forEach((parts) => parts.shift());
+  return [...from.map(() => '..'), ...to].join('/');
+}
+
 /** s: an arrow of a throw is as long as the body would go in that time. */
 export const arrowSeconds = 0.1;
 

@@ -4,6 +4,7 @@
 
 import { PlaceSender, placing } from './build.js';
 import { DragSender } from './connection.js';
+import { gridOf, turnStep } from './grid.js';
 import { evaluate } from './number_field_text.js';
 import { idleGesture } from './store.js';
 import { gripOf, refusal, toolFor } from './take.js';
@@ -31,10 +32,9 @@ export class Gesture {
     this.ended = ended;
     this.refused = refused;
     this.later = later;
-    this.number = 0;
+    this.number = this.dragId = 0;
     /** @type {DragSender | PlaceSender | null} */
     this.sender = null;
-    this.dragId = 0;
     /** @type {Move | Turn | null} */
     this.tool = null;
     /** @type {[number, number]} */
@@ -42,6 +42,7 @@ export class Gesture {
     /** @type {[number, number]} */
     this.pointer = [0, 0];
     this.byKey = false;
+    this.grid = 0;  // of the grid, the steps in which targets go; 0: none
   }
 
   get now() {
@@ -103,10 +104,7 @@ export class Gesture {
   /** @param {Hit} hit @param {boolean} by_key */
   begin(hit, by_key) {
     const why_not = refusal(this.store.state, hit);
-    if (why_not) {
-      this.store.set({ gesture: idleGesture, notice: { message: why_not } });
-      return;
-    }
+    if (why_not) return this.store.set({ gesture: idleGesture, notice: { message: why_not } });
     const { motion } = this.store.state;
     if (!motion) return;
     this.byKey = by_key;
@@ -148,20 +146,29 @@ export class Gesture {
 
   /** @param {string} body */
   sayThatThrowVaries(body) {
-    const undo = { name: 'Undo', act: () => void this.connection.send('undo') };
-    this.store.set({ notice: { message: `The throw of '${body}' may change now.`, actions: [undo] } });
+    this.store.set({ notice: { message: `The throw of '${body}' may change now.`, actions: [{ name: 'Undo', act: () => void this.connection.send('undo') }] } });
+  }
+
+  /** Targets go to the grid, or a tenth of it, from here on. @param {boolean} on @param {boolean} fine */
+  snapTo(on, fine) {
+    const grid = on ? (fine ? 0.1 : 1) : 0;
+    if (grid === this.grid) return;
+    this.grid = grid;
+    if (this.now.state === 'dragging') this.follow();
   }
 
   /** The hand is where the pointer is. */
   follow() {
     if (!this.tool) return;
+    const steps = this.now.hit?.handle === 'throw' ? 0 : this.grid;
+    this.tool.snap = steps * (this.tool instanceof Turn ? turnStep : gridOf(this.store.state.scene));
     this.offer(this.tool instanceof Turn ? this.tool.target(this.pointer) : this.tool.target(this.space.ray(...this.pointer)));
   }
 
   /** @param {import('./connection.js').DragTarget} target */
   offer(target) {
     this.sender?.offer(target);
-    this.put({ target: target.place, turn: target.orientation ?? null, seq: this.sender?.seq ?? 0 });
+    this.put({ target: target.place, turn: target.orientation ?? null, seq: this.sender?.seq ?? 0, snap: this.tool?.snap ?? 0 });
   }
 
   /** A letter in a drag. @param {'x' | 'y' | 'z'} letter @param {boolean} plane */

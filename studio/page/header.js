@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The bar on top: file menu, what is open, undo and redo by name, save; and the tools beside the view.
 
-import { additions } from './build.js';
+import { additions, fileFrom, nameOfFile } from './build.js';
 import { byId, el } from './dom.js';
 import { exportDialog } from './dialogs/export.js';
-import { openDialog } from './dialogs/open.js';
+import { meshDialog, openDialog } from './dialogs/open.js';
 import { keysDialog } from './dialogs/keys.js';
 import { moveDialog, tableDialog } from './dialogs/table.js';
 
@@ -18,7 +18,7 @@ export function showHeader(store, commands, gesture, picture) {
   button('help', () => void keysDialog(store));
   button('file', () => undefined);
   showMenu(store, commands, gesture, picture);
-  showAdding(store);
+  showAdding(store, commands);
   store.on(['document', 'connected'], ({ document, connected }) => {
     const usable = connected === 'open' && !!document?.open;
     names(undo, 'Undo', document?.undo ?? null, usable);
@@ -78,14 +78,18 @@ function choice(store, name, key, options) {
   return el('label', { class: 'choice' }, name, select);
 }
 
-/** What can be added, by a press on a surface. @param {import('./store.js').Store<State>} store */
-function showAdding(store) {
+/** What can be added, by a press on a surface. @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
+function showAdding(store, commands) {
   const menu = byId('add-menu'), add = byId('add');
-  menu.append(...additions.map(([name], i) => el('button', { type: 'button', class: 'row', onclick: () => {
-    menu.hidePopover();
-    store.set({ adding: i, selected: -1, notice: { message: `Press where the ${name.toLowerCase()} is to stand; Enter: in the middle; Esc: nowhere.`, key: 'adding' } });
+  const begin = (/** @type {number} */ adding, /** @type {string} */ name, mesh = '') => {
+    store.set({ adding, mesh, selected: -1, notice: { message: `Press where the ${name} is to stand; Enter: in the middle; Esc: nowhere.`, key: 'adding' } });
     byId('overlay').focus();
-  } }, name)));
+  };
+  const row = (/** @type {string} */ name, /** @type {() => void} */ act) => el('button', { type: 'button', class: 'row', onclick: () => (menu.hidePopover(), act()) }, name);
+  menu.append(...additions.map(([name], i) => row(name, () => begin(i, name.toLowerCase()))), row('Mesh file…', async () => {
+    const file = await meshDialog(commands);
+    if (file) begin(additions.length, nameOfFile(file), fileFrom(file, store.state.document?.path ?? null));
+  }));
   store.on(['document', 'connected'], ({ document, connected }) => (add.hidden = connected !== 'open' || !document?.open));
   store.on(['adding'], ({ adding, notice }) => {
     byId('overlay').classList.toggle('adding', adding >= 0);

@@ -2,7 +2,7 @@
 // Mouse and keys, taken to the gesture and the commands.
 
 import { actionOf, chordOf, takesKeys } from './keys.js';
-import { additions, surfaceUnder } from './build.js';
+import { addedBody, surfaceUnder } from './build.js';
 import { byId } from './dom.js';
 import { keysDialog } from './dialogs/keys.js';
 import { openDialog } from './dialogs/open.js';
@@ -17,7 +17,7 @@ const earlySpacing = 7;
 /** What is added stands on the surface below a place of the view. @param {Pick<Parts, 'store' | 'commands' | 'view'>} parts
  * @param {number} x @param {number} y px */
 function putDown({ store, commands, view }, x, y) {
-  const on = surfaceUnder(view, store.state, x, y), [, body] = additions[store.state.adding];
+  const on = surfaceUnder(view, store.state, x, y), body = addedBody(store.state);
   if (!on) return store.set({ notice: { message: 'There is no surface: press a body, or the floor.', key: 'adding' } });
   store.set({ adding: -1 });
   void commands.addBody(body, on);
@@ -50,6 +50,7 @@ export function listenToPointer({ store, gesture, commands, overlay, view }) {
   const heard = { x: NaN, y: NaN, time: 0 };
   /** @param {PointerEvent} event */
   const follow = (event) => {
+    gesture.snapTo(event.ctrlKey || event.metaKey, event.shiftKey);
     Object.assign(heard, { x: event.offsetX, y: event.offsetY, time: event.timeStamp });
     gesture.move(event.offsetX, event.offsetY);
   };
@@ -86,6 +87,7 @@ export function listenToPointer({ store, gesture, commands, overlay, view }) {
   });
   canvas.addEventListener('pointerleave', () => store.state.gesture.state === 'idle' && store.set({ hover: null }));
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  window.addEventListener('blur', () => gesture.snapTo(false, false));
   window.addEventListener('blur', () => store.state.gesture.nailing && gesture.put({ nailing: false }));
   store.on(['gesture'], ({ gesture: now }) => {
     canvas.classList.toggle('closed-hand', now.state === 'dragging' || now.state === 'pressed');
@@ -108,6 +110,11 @@ export function listenToPointer({ store, gesture, commands, overlay, view }) {
 /** @param {Parts} parts */
 export function listenToKeys({ store, gesture, commands, frame, overlay, view }) {
   const typing = /** @type {HTMLInputElement} */ (byId('typing'));
+  for (const kind of /** @type {const} */ (['keydown', 'keyup'])) {
+    window.addEventListener(kind, ({ key, ctrlKey, metaKey, shiftKey }) => {
+      if (['Control', 'Meta', 'Shift'].includes(key)) gesture.snapTo(ctrlKey || metaKey, shiftKey);
+    });
+  }
   window.addEventListener('keydown', (event) => {
     if (takesKeys(document.activeElement) || document.querySelector('dialog[open]') || event.altKey) return;
     const dragging = store.state.gesture.state === 'dragging';

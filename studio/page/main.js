@@ -20,6 +20,7 @@ import { showNails } from './panels/nails.js';
 import { forPeople } from './number_field_text.js';
 import { showNumbers } from './panels/numbers.js';
 import { showOthers } from './panels/others.js';
+import { showScene } from './panels/scene.js';
 import { showPlayer } from './player.js';
 import { makeStage } from './stage.js';
 import { initialState, Store } from './store.js';
@@ -84,6 +85,7 @@ function start() {
   showNumbers(store, commands);
   showNails(store, commands);
   showOthers(store, commands, small);
+  showScene(store, commands);
   showPlayer(store, commands);
   showEmpty(store, commands);
   showHint(store);

@@ -22,7 +22,7 @@
  *    shape?: Record<string, Record<string, number | number[]>>}} BodyState */
 /** @typedef {{type: 'state', re?: number, rev: number, open: boolean, path: string | null, name?: string,
  *    suggested?: string, saved: boolean, recovered?: number, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
- *    undo: string | null, redo: string | null, held_by: string | null, bodies: BodyState[],
+ *    keep_sequence?: boolean, undo: string | null, redo: string | null, held_by: string | null, bodies: BodyState[],
  *    materials?: {name: string, elasticity: number, friction: number}[]}} DocumentState */
 
 /** `nth`: of each body as which of its impacts it counts, 0 where it has none; `pairs`: who meets whom.
@@ -56,17 +56,17 @@
 /** The gesture under way, as the drawing parts see it.
  * @typedef {{state: 'idle' | 'pressed' | 'dragging' | 'typing' | 'settling', number: number, hit: Hit | null,
  *    target: Vec3 | null, turn: Quat | null, axis: string, seq: number, answered: number, settlingShown: boolean,
- *    nailing: boolean}} GestureState */
+ *    nailing: boolean, snap: number}} GestureState  snap: steps of the target, m or rad; 0: none */
 
 /** @typedef {'connecting' | 'loading' | 'open' | 'lost' | 'ended'} Connected */
 /** @typedef {{connected: Connected, progress: string, folder: string, document: DocumentState | null,
  *    scene: SceneShapes | null, motion: Motion | null, opened: Motion | null, savedMotion: Motion | null,
  *    before: Motion | null, showBefore: 'none' | 'opened' | 'saved' | 'changes', changesShown: boolean,
  *    time: number, playing: boolean,
- *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw', adding: number,
+ *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw', adding: number, mesh: string,
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
  *    others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  noticesStay: for tests, which take their time;
- *    looking: nothing can be changed; preview: of the others, the one that is pointed at; adding: which of `additions` the next press puts down, -1: none */
+ *    looking: nothing can be changed; preview: of the others, the one that is pointed at; adding: which of `additions` the next press puts down, the one behind them: the file `mesh`; -1: none */
 
 export {};

@@ -31,6 +31,7 @@ const std::map<std::string, Json>& examples() {
          {"grip", {{"orientation", true}, {"point", {0, 0, 0.1}}, {"components", {"x", "z"}}}},
          {"also_vary", {control}}},
         {{"type", "grab_nail"}, {"gesture", 4}, {"nail", 2}},
+        {{"type", "keep_sequence"}, {"on", true}},
         {{"type", "why"}, {"rev", 3}},
         {{"type", "alternatives"}, {"rev", 3}, {"count", 4}},
         {{"type", "remedy"}, {"rev", 3}, {"name", "Let gravity change"}},
@@ -63,7 +64,7 @@ const std::map<std::string, Json>& examples() {
         {{"type", "open"}, {"path", "a/b.json"}, {"gallery", true}, {"replace", true}},
         {{"type", "save"}, {"path", "b.json"}, {"replace", true}},
         {{"type", "export"}, {"format", "html"}, {"before", true}},
-        {{"type", "list"}, {"path", "a"}},
+        {{"type", "list"}, {"path", "a"}, {"meshes", true}},
         {{"type", "gallery"}},
     };
     std::map<std::string, Json> named;
@@ -112,6 +113,7 @@ TEST(Protocol, ReadsEveryMessage) {
   EXPECT_EQ(grab.grip.components, (std::vector<std::string>{"x", "z"}));
   EXPECT_FALSE(grab.also_vary.empty());
   EXPECT_EQ(example<GrabNail>("grab_nail").nail, 2);
+  EXPECT_TRUE(example<KeepSequence>("keep_sequence").on);
   EXPECT_EQ(example<Why>("why").rev, 3);
   EXPECT_EQ(example<Alternatives>("alternatives").count, 4);
   EXPECT_EQ(example<TakeRemedy>("remedy").name, "Let gravity change");
@@ -142,6 +144,7 @@ TEST(Protocol, ReadsEveryMessage) {
   EXPECT_TRUE(open.gallery && open.replace);
   EXPECT_EQ(example<Save>("save").path.value(), "b.json");
   EXPECT_EQ(example<List>("list").path, "a");
+  EXPECT_TRUE(example<List>("list").meshes);
   example<Gallery>("gallery");
 }
 
@@ -215,7 +218,7 @@ TEST(Protocol, AGrabMayHoldATurnAloneOrAContact) {
 TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
   const std::map<std::string, std::vector<const char*>> optional = {
       {"grab", {"grip", "also_vary"}},  {"drag", {"orientation", "components"}},     {"release", {"orientation", "components", "nail"}},
-      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before"}}, {"alternatives", {"count"}}};
+      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path", "meshes"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before"}}, {"alternatives", {"count"}}};
   for (const auto& [type, good] : examples()) {
     const auto known = optional.find(type);
     for (const auto& member : good.items()) {

@@ -108,6 +108,11 @@ TEST_F(WorkspaceTest, ListsFoldersAndScenesByName) {
   EXPECT_EQ(sub[1].bytes, 1u);
   EXPECT_GT(sub[1].modified, 0);
   EXPECT_EQ(all.list("sub").size(), 2u) << "a second time";
+  for (const char* name : {"mug.obj", "b.gltf", "c.glb", "d.mtl", ".e.obj"}) std::ofstream(outer / "root/sub" / name) << "v 0 0 0";
+  EXPECT_EQ(all.list("sub").size(), 2u) << "scenes alone";
+  names.clear();
+  for (const ListedFile& file : all.list("sub", true)) names.push_back(file.name + (file.mesh ? "" : "/"));
+  EXPECT_EQ(names, (std::vector<std::string>{"deep/", "b.gltf", "c.glb", "mug.obj"}));
   for (const char* name : {"..", "up", "aside", "sub/..", "a.json", "nowhere", "/"})
     EXPECT_THROW(all.list(name), InputError) << name;
 }

@@ -38,6 +38,26 @@ async function folderList(commands, path, enter, opened) {
   return list;
 }
 
+/** A mesh file of the folder, or of one within it; '' where none is chosen. @param {Commands} commands @returns {Promise<string>} */
+export async function meshDialog(commands) {
+  /** @type {(path: string) => void} */
+  let choose = () => {};
+  const files = el('div', {});
+  /** @param {string} path @returns {Promise<void>} */
+  const enter = async (path) => {
+    const answer = await commands.tell('list', { meshes: true, ...(path ? { path } : {}) }), above = path.includes('/') ? path.slice(0, path.lastIndexOf('/')) : '';
+    const rows = /** @type {{path: string, name: string, kind: string}[]} */ (answer?.files ?? []).map(({ path: at, name, kind }) =>
+      el('li', {}, el('button', { type: 'button', class: 'row', onclick: () => (kind === 'folder' ? void enter(at) : choose(at)) }, kind === 'folder' ? '▸ ' : '', name)));
+    files.replaceChildren(el('h3', {}, path || 'This folder'), el('ul', { class: 'files' }, ...(path ? [el('li', {}, el('button', { type: 'button', class: 'row', onclick: () => void enter(above) }, '↑ ..'))] : []),
+      ...rows, rows.length ? null : el('li', { class: 'dim' }, 'no OBJ or glTF files here')));
+  };
+  await enter('');
+  return dialog('Add a mesh', [files], (end) => {
+    choose = end;
+    return [el('button', { type: 'button', onclick: () => end('') }, 'Cancel')];
+  }, 'wide');
+}
+
 /** The scenes of the folder that were opened last; none where there are none. @param {Commands} commands */
 async function lastFiles(commands) {
   const answer = await commands.tell('list'), most = 6;

@@ -47,11 +47,17 @@ export function showBody(store, commands) {
     });
     return el('div', { class: 'body-row' }, el('span', { class: 'dim' }, name), el('div', { class: 'body-fields' }, ...all.map(({ field }) => field)));
   };
+  /** @param {BodyState} body @param {number} i @param {{name: string}[]} materials */
+  const materialChoice = (body, i, materials) => {
+    const names = materials.map(({ name }) => name), select = el('select', { 'aria-label': 'Material', onchange: () => void commands.setValue(`/bodies/${i}/material`, names[select.selectedIndex]) }, ...names.map((name) => el('option', {}, name)));
+    select.selectedIndex = names.indexOf(body.material ?? '');
+    return el('label', { class: 'body-choice' }, el('span', { class: 'dim' }, 'material'), select);
+  };
   store.on(['document', 'selected'], ({ document, selected }) => {
     const body = document?.open ? document.bodies[selected] : undefined;
     section.hidden = !body?.position;
     if (!body?.position) return void (structure = '');
-    const rows = rowsOf(body, selected), next = JSON.stringify([selected, body.name, body.fixed, rows.map(({ name }) => name)]);
+    const rows = rowsOf(body, selected), next = JSON.stringify([selected, body.name, body.fixed, body.material, document?.materials?.map(({ name: of }) => of), rows.map(({ name }) => name)]);
     if (next !== structure) {
       structure = next;
       updates = [];
@@ -63,7 +69,7 @@ export function showBody(store, commands) {
       });
       name.addEventListener('change', () => name.value.trim() && void commands.renameBody(body.name, name.value.trim()));
       const fixed = el('input', { type: 'checkbox', checked: body.fixed, disabled: !!body.kinematic || !!body.shape?.plane, onchange: () => void commands.fixBody(selected, !body.fixed) });
-      place.replaceChildren(name, el('label', { class: 'switch' }, fixed, 'fixed'), ...rows.map(fields), el('div', { class: 'body-buttons' },
+      place.replaceChildren(name, el('label', { class: 'switch' }, fixed, 'fixed'), ...(document?.materials?.length ? [materialChoice(body, selected, document.materials)] : []), ...rows.map(fields), el('div', { class: 'body-buttons' },
         el('button', { type: 'button', onclick: () => void commands.copyBody(body.name) }, 'Duplicate'),
         el('button', { type: 'button', onclick: () => void commands.removeBody(body.name) }, 'Delete')));
     }

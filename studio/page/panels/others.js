@@ -17,7 +17,12 @@ export function showOthers(store, commands, draw) {
   /** @type {Map<import('../types.js').Motion, HTMLCanvasElement>} drawn, or to be drawn next */
   let pictures = new Map(), said = '';
   find.onclick = () => void commands.findOthers();
-  store.on(['document'], ({ document: shown }) => (find.hidden = !shown?.open || !shown.controls.length));
+  const keep = byId('keep-sequence'), keeps = /** @type {HTMLInputElement} */ (keep.querySelector('input'));
+  keeps.onchange = () => void commands.tell('keep_sequence', { on: keeps.checked });
+  store.on(['document'], ({ document: shown }) => {
+    keep.hidden = find.hidden = !shown?.open || !shown.controls.length;
+    keeps.checked = !!shown?.keep_sequence;
+  });
   // what they meet is no longer what is asked for
   store.on(['document', 'gesture'], ({ others, document: shown, gesture }) => {
     if (!others || others.taking) return;

@@ -6,6 +6,7 @@
 /** @typedef {import('../types.js').Quat} Quat */
 /** @typedef {{origin: Vec3, direction: Vec3}} Ray  direction of length 1 */
 
+import { toStep } from '../grid.js';
 import { rotate } from '../motion.js';
 
 /** @param {Vec3} a @param {Vec3} b */
@@ -69,6 +70,7 @@ export class Move {
     /** @type {Vec3} */
     this.shift = [0, 0, 0];  // by arrow keys
     this.last = start;
+    this.snap = 0;  // m, steps of the target; 0: none
   }
 
   /** @param {string} axis */
@@ -96,7 +98,16 @@ export class Move {
   target(ray) {
     const from = this.pointOn(this.from), to = this.pointOn(ray);
     if (from && to) this.last = along(along(this.start, minus(to, from), 1), this.shift, 1);
-    return { place: this.last };
+    return { place: this.snapped() };
+  }
+
+  /** The target on the grid: in the coordinates that move, or along an own axis in steps from where it was. @returns {Vec3} */
+  snapped() {
+    const { axis, last, start, snap } = this, own = axis.startsWith('own') ? axisOf(axis, this.turn) : null;
+    if (!snap || (own && axis.includes('plane'))) return last;
+    if (own) return along(start, own, toStep(dot(minus(last, start), own), snap));
+    const moves = (/** @type {number} */ i) => !axis || axis.includes('plane') !== (axis.at(-1) === 'xyz'[i]);
+    return [0, 1, 2].map((i) => (moves(i) ? toStep(last[i], snap) : last[i])).reduce((place, c, i) => ((place[i] = c), place), /** @type {Vec3} */ ([0, 0, 0]));
   }
 
   /** @param {Ray} ray */

@@ -4,6 +4,7 @@
 /** @typedef {import('../types.js').Vec3} Vec3 */
 /** @typedef {import('../types.js').Quat} Quat */
 
+import { toStep } from '../grid.js';
 import { multiply, turnAbout, unit } from '../motion.js';
 import { axisOf, dot, length } from './move.js';
 
@@ -25,6 +26,7 @@ export class Turn {
     this.angle = 0;
     this.previous = this.direction(pointer);
     this.last = turn;
+    this.snap = 0;  // rad, steps of a turn about an axis; 0: none
   }
 
   /** @param {[number, number]} pointer */
@@ -55,7 +57,7 @@ export class Turn {
     this.previous = now;
     if (axis) {
       this.angle += dot(axis, this.view) > 0 ? -step : step;
-      this.last = multiply(turnAbout(axis, this.angle), this.turn);
+      this.last = multiply(turnAbout(axis, this.snap ? toStep(this.angle, this.snap) : this.angle), this.turn);
     } else {
       const dx = (pointer[0] - this.pointer[0]) * radiansPerPixel, dy = (pointer[1] - this.pointer[1]) * radiansPerPixel;
       this.last = multiply(multiply(turnAbout(this.up, dx), turnAbout(this.right, dy)), this.turn);

@@ -2,16 +2,12 @@
 // The ground as lines that fade with distance; never a plane, which costs a software renderer a third of a frame.
 
 import * as THREE from 'three';
+import { spacingOf } from '../grid.js';
 import { place } from './bodies.js';
 
 /** @typedef {import('../types.js').State} State */
 
 const lines = 21, upwards = new THREE.Vector3(0, 0, 1);
-
-/** m, between lines. @param {number} extent m */
-export function spacingOf(extent) {
-  return extent < 1.2 ? 0.1 : extent < 4 ? 0.25 : 1;
-}
 
 export class Ground {
   constructor() {

@@ -2,7 +2,7 @@
 // Drags at the start of the motion are numbers of the document: which, when, and how they are sent.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { arrowSeconds, PlaceSender, placing } from '../../../studio/page/build.js';
+import { addedBody, additions, arrowSeconds, fileFrom, PlaceSender, placing } from '../../../studio/page/build.js';
 
 const half = Math.SQRT1_2;
 const track = (center) => ({ body: 1, arcs: new Float64Array([0, 1, 2, 3, 0, 0, 0, 0, 0, 0]), turns: new Float32Array([0, 1, 0, 0, 0]), center });
@@ -11,6 +11,16 @@ const state = ({ fixed = false, controls = [], center = [0, 0, 0], orientation =
   document: { controls, bodies: [{ name: 'floor', fixed: true }, { name: 'box', fixed, position: [1, 2, 3], orientation, velocity: [4, 0, 0] }] },
 });
 const hit = (more = {}) => ({ kind: 'body', body: 1, time: 0, at: 0, place: [1, 2, 3], ...more });
+
+test('a mesh file is named as the document sees it, and the body after it', () => {
+  assert.equal(fileFrom('mug.obj', null), 'mug.obj');
+  assert.equal(fileFrom('parts/mug.obj', 'a.json'), 'parts/mug.obj');
+  assert.equal(fileFrom('mug.obj', 'scenes/a.json'), '../mug.obj');
+  assert.equal(fileFrom('scenes/parts/mug.obj', 'scenes/a.json'), 'parts/mug.obj');
+  assert.equal(fileFrom('other/mug.obj', 'scenes/deep/a.json'), '../../other/mug.obj');
+  assert.deepEqual(addedBody({ adding: additions.length, mesh: '../parts/mug.v2.obj' }), { name: 'mug.v2', shape: { mesh: { file: '../parts/mug.v2.obj' } }, density: 600 });
+  assert.equal(addedBody({ adding: 1, mesh: '' }), additions[1][1]);
+});
 
 test('a body is placed at the start, a fixed one at any time, and what may vary is left to the solver', () => {
   assert.deepEqual(placing(state(), hit(), false)({ place: [1, 2.5, 3.0000001] }), [{ pointer: '/bodies/1/position', value: [1, 2.5, 3] }]);

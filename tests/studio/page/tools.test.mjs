@@ -70,3 +70,28 @@ test('a body turns by the angle about its place on the screen', () => {
   near(rotate(typed.orientation, [1, 0, 0]), [0, 1, 0]);
   near([Math.hypot(...new Turn(options).target([180, 40]).orientation)], [1]);
 });
+
+test('on the grid a target goes in steps: all coordinates that move, or along an own axis from where it was', () => {
+  const snapped = (axis, start, to, snap = 0.25) => {
+    const one = move(start);
+    one.setAxis(axis);
+    one.snap = snap;
+    return one.target(ray(...to)).place;
+  };
+  near(snapped('', [1.1, 0, 3.1], [0.5, -0.2]), [1.5, 0, 3]);
+  near(snapped('x', [1.1, 0.07, 3.1], [0.5, 0]), [1.5, 0.07, 3.1]);
+  near(snapped('plane y', [1.1, 0.07, 3.1], [0.5, 0]), [1.5, 0.07, 3]);
+  near(snapped('own y', [1.1, 0.07, 3.1], [0.6, 0]), [1.6, 0.07, 3.1]);  // its y is -x here
+  near(snapped('x', [1.1, 0, 3.1], [0.5, 0], 0), [1.6, 0, 3.1]);
+});
+
+test('a turn about an axis goes in steps, and on from where the hand is when the steps end', () => {
+  const turn = new Turn({ start: [0, 0, 0], turn: [1, 0, 0, 0], view: [0, 1, 0], right: [1, 0, 0], up: [0, 0, 1], pointer: [110, 100], centre: [100, 100], axis: 'y' });
+  const degrees = ({ orientation: [w] }) => (2 * Math.acos(Math.min(1, Math.abs(w))) * 180) / Math.PI;
+  const at = (angle) => [100 + 10 * Math.cos((angle * Math.PI) / 180), 100 + 10 * Math.sin((angle * Math.PI) / 180)];
+  turn.snap = Math.PI / 12;
+  assert.ok(Math.abs(degrees(turn.target(at(50))) - 45) < 1e-6);
+  assert.ok(Math.abs(degrees(turn.target(at(54))) - 60) < 1e-6);
+  turn.snap = 0;
+  assert.ok(Math.abs(degrees(turn.target(at(54))) - 54) < 1e-6);
+});
