@@ -160,7 +160,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
          return Open{m["path"].get<std::string>(), m.value("gallery", false), m.value("replace", false)};
        }},
       {"save", readSave},
-      {"export", [](const Json& m) -> What { return Export{m["format"].get<std::string>(), m.value("before", false)}; }},
+      {"export", [](const Json& m) -> What { return Export{m["format"].get<std::string>(), m.value("before", false), m.value("keys", std::string()) == "cubic"}; }},
       {"why", [](const Json& m) -> What { return Why{integer(m, "rev")}; }},
       {"alternatives", [](const Json& m) -> What { return Alternatives{integer(m, "rev"), m.value("count", 6)}; }},
       {"remedy", [](const Json& m) -> What { return TakeRemedy{integer(m, "rev"), m["name"].get<std::string>()}; }},

@@ -146,6 +146,7 @@ struct Save {
 struct Export {
   std::string format;   ///< "glb", "py", "csv", "svg" or "html"
   bool before = false;  ///< beside the motion as it was opened, where the format has that
+  bool cubic = false;   ///< glb: a key per impact (GltfKeys::cubic)
 };
 /// What would help where a gesture did not reach its target.
 struct Why {

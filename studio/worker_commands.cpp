@@ -246,6 +246,7 @@ void Worker::perform(const Asker& asker, const Export& what) {
   } else {
     ExportOptions options;
     options.before = before.get();
+    if (what.cubic) options.gltf.keys = GltfKeys::cubic;
     bytes = motionText(what.format, stem, document, session.motion(), options);
   }
   tabs_.send(asker.socket, asker.id, stem + "." + what.format, std::move(bytes));

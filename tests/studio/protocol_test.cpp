@@ -63,7 +63,7 @@ const std::map<std::string, Json>& examples() {
         {{"type", "new"}, {"replace", true}},
         {{"type", "open"}, {"path", "a/b.json"}, {"gallery", true}, {"replace", true}},
         {{"type", "save"}, {"path", "b.json"}, {"replace", true}},
-        {{"type", "export"}, {"format", "html"}, {"before", true}},
+        {{"type", "export"}, {"format", "html"}, {"before", true}, {"keys", "cubic"}},
         {{"type", "list"}, {"path", "a"}, {"meshes", true}},
         {{"type", "gallery"}},
     };
@@ -218,7 +218,7 @@ TEST(Protocol, AGrabMayHoldATurnAloneOrAContact) {
 TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
   const std::map<std::string, std::vector<const char*>> optional = {
       {"grab", {"grip", "also_vary"}},  {"drag", {"orientation", "components"}},     {"release", {"orientation", "components", "nail"}},
-      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path", "meshes"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before"}}, {"alternatives", {"count"}}};
+      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path", "meshes"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before", "keys"}}, {"alternatives", {"count"}}};
   for (const auto& [type, good] : examples()) {
     const auto known = optional.find(type);
     for (const auto& member : good.items()) {

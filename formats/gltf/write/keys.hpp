@@ -13,7 +13,7 @@ namespace carom::formats_detail {
 inline constexpr double kRotationTolerance = 1e-3;
 /// Cubic translation keys of a body whose centre of mass is not its origin, and of one that slides round a bend, keep the
 /// origin this near to its path, in metres.
-inline constexpr double kCubicTolerance = 1e-5;
+inline constexpr double kCubicTolerance = 1e-6;
 /// Straight lines stay within this share of the radius of the body, if that is less than the tolerance asked for.
 inline constexpr double kShareOfRadius = 0.005;
 

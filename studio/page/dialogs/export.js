@@ -8,7 +8,7 @@ import { dialog } from './ask.js';
 
 /** What the button says, its format, and whether it can show the motion as it was opened. @type {[string, string, boolean][]} */
 const formats = [
-  ['Page for any browser (.html)', 'html', true], ['Picture with paths (.svg)', 'svg', true], ['glTF, for three.js and others (.glb)', 'glb', false],
+  ['Page for any browser (.html)', 'html', true], ['Picture with paths (.svg)', 'svg', true], ['glTF for the web, exact in flight (.glb)', 'glb cubic', false], ['glTF for Blender and all others (.glb)', 'glb', false],
   ['Script for Blender (.py)', 'py', false], ['Table (.csv)', 'csv', false],
 ];
 const types = /** @type {Record<string, string>} */ ({ html: 'text/html', svg: 'image/svg+xml', glb: 'model/gltf-binary', py: 'text/x-python', csv: 'text/csv' });
@@ -36,8 +36,9 @@ export async function exportDialog(store, commands, picture) {
     if (blob) keep(`${stem}.png`, blob);
     return;
   }
-  const file = await commands.tell('export', { format: answer, ...(box.checked && formats.some(([, format, compares]) => format === answer && compares) ? { before: true } : {}) });
-  if (file) keep(file.name, new Blob([file.bytes], { type: types[answer] }));
+  const [format, keys] = answer.split(' ');
+  const file = await commands.tell('export', { format, ...(keys ? { keys } : {}), ...(box.checked && formats.some(([, one, compares]) => one === answer && compares) ? { before: true } : {}) });
+  if (file) keep(file.name, new Blob([file.bytes], { type: types[format] }));
 }
 
 /** @param {Event} event of a button @param {string} format */
