@@ -42,9 +42,9 @@ JournalDocument readJournalFrom(const std::string& path) {
   return parseJournal(text, name, folder);
 }
 
-Imported importFrom(const std::string& path) {
-  if (!isStandard(path)) return importGltf(path);
-  return inFile(kInput, [] { return parseGltfScene(readInput(kLargestMeshFile), kHere); });
+Imported importFrom(const std::string& path, const ImportOptions& options) {
+  if (!isStandard(path)) return importGltf(path, options);
+  return inFile(kInput, [&] { return parseGltfScene(readInput(kLargestMeshFile), kHere, options); });
 }
 
 void requireOutput(const std::string& path) {

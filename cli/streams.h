@@ -19,7 +19,7 @@ std::string nameOfInput(const std::string& path);
 
 Document readSceneFrom(const std::string& path);
 JournalDocument readJournalFrom(const std::string& path);
-Imported importFrom(const std::string& path);
+Imported importFrom(const std::string& path, const ImportOptions& options = {});
 
 /// Before the work: throws FormatError where the file cannot be written. Standard output can.
 void requireOutput(const std::string& path);

@@ -34,6 +34,12 @@ int main() {
               imported.document.constraints.size(), report.warnings.size());
   for (const FileRepair& repair : imported.document.repairs)
     std::printf("%s: %s\n", repair.file.c_str(), repair.what.c_str());
+  const ImportOptions drawn{.as = ImportOptions::As::hull, .density = 700, .fixed = {"floor"}};  // of files without physics
+  try {
+    importGltf((folder / "motion.glb").string(), drawn);
+  } catch (const FormatError& error) {
+    std::printf("%s\n", error.message().c_str());
+  }
   const auto meshes = saveWithMeshes((folder / "again.json").string(), imported.document);
   std::printf("%zu mesh files beside the document\n", meshes.size());
 

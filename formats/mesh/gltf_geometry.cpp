@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "adjoint/base/errors.h"
 #include "formats/json/json.hpp"
@@ -36,9 +38,19 @@ class Elements {
   std::size_t count() const { return accessor_.count; }
 
   Vec3 position(std::size_t i) const {
-    float numbers[3] = {};
-    if (const unsigned char* from = element(i)) std::memcpy(numbers, from, sizeof numbers);
-    return {numbers[0], numbers[1], numbers[2]};
+    const unsigned char* from = element(i);
+    switch (accessor_.componentType) {
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return vector<std::int8_t>(from);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return vector<std::uint8_t>(from);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return vector<std::int16_t>(from);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return vector<std::uint16_t>(from);
+      default:
+        return vector<float>(from);
+    }
   }
 
   std::uint32_t index(std::size_t i) const {
@@ -47,6 +59,17 @@ class Elements {
   }
 
  private:
+  /// Integers of quantised positions count from -1 to 1, or from 0 to 1, where they are normalised.
+  template <class Number>
+  Vec3 vector(const unsigned char* from) const {
+    Number numbers[3] = {};
+    if (from != nullptr) std::memcpy(numbers, from, sizeof numbers);
+    Vec3 v(numbers[0], numbers[1], numbers[2]);
+    if (std::is_integral_v<Number> && accessor_.normalized)
+      v = (v / static_cast<double>(std::numeric_limits<Number>::max())).cwiseMax(-1);
+    return v;
+  }
+
   static std::size_t sizeOf(int component) {
     return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<unsigned>(component)));
   }
@@ -105,9 +128,13 @@ Elements positionsOf(const tinygltf::Model& model, const tinygltf::Primitive& pr
   const auto attribute = primitive.attributes.find("POSITION");
   if (attribute == primitive.attributes.end()) fail("/attributes", "no \"POSITION\"", "one");
   const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(attribute->second)];
-  if (accessor.type != TINYGLTF_TYPE_VEC3 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+  const auto& used = model.extensionsUsed;
+  const bool quantised = std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
+  const bool integers = quantised && accessor.componentType >= TINYGLTF_COMPONENT_TYPE_BYTE &&
+                        accessor.componentType <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+  if (accessor.type != TINYGLTF_TYPE_VEC3 || !(integers || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT))
     fail("/attributes/POSITION", "component type " + std::to_string(accessor.componentType),
-         "vectors of 3 floats (VEC3 of 5126)");
+         "vectors of 3 floats (VEC3 of 5126), or of integers with the extension KHR_mesh_quantization");
   return within("/attributes/POSITION", [&] { return Elements(model, attribute->second); });
 }
 

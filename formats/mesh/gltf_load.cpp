@@ -120,6 +120,9 @@ std::string readBufferFile(const std::string& uri, const std::string& folder, co
   const std::string name = fileName(uri);
   if (uri.find("://") != std::string::npos || name.empty() || hasControlCharacter(name))
     fail(where, quotedText(uri.substr(0, 60)), "the name of a file");
+  const std::filesystem::path inside = std::filesystem::path(name).lexically_normal();
+  if (inside.is_absolute() || *inside.begin() == "..")
+    fail(where, quotedText(name) + ", a file outside of the document's folder", "one in that folder, or below it");
   const std::filesystem::path path = std::filesystem::path(folder) / name;
   if (std::error_code error; std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
     fail(where, quotedText(name) + ", which is not a file", "the buffer's file");
@@ -133,6 +136,9 @@ std::string bufferBytes(const Json& buffer, const Container& container, bool fir
                         const std::string& where) {
   const auto found = buffer.find("uri");
   if (found == buffer.end()) {
+    const auto extensions = buffer.find("extensions");
+    if (extensions != buffer.end() && extensions->is_object() && extensions->contains("EXT_meshopt_compression"))
+      fail(where, "a buffer compressed by EXT_meshopt_compression", "one without compression");
     if (!container.has_binary || !first)
       fail(where, "a buffer without \"uri\"", container.has_binary ? "one, but for the first buffer" : "one");
     return std::string(container.binary);

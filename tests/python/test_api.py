@@ -59,6 +59,7 @@ RENAMED = {
     "SceneGradient": "SceneGradient",
     "importGltf": "import_gltf",
     "Imported": "import_gltf",
+    "ImportOptions": "import_gltf",
     "nthImpact": "nth_impact",
     "atRest": "at_rest",
     "atLeast": "at_least",

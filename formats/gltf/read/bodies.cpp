@@ -89,7 +89,9 @@ class Builder {
   }
 
   void addPart(Draft& draft, const PhysicsNode& node, const Frame& in_owner, const Quat& orientation) {
-    auto shape = shapes_.make(node, in_owner.stretch);
+    const Moving& motion = *draft.node.motion;
+    const bool derives = !motion.kinematic && !(motion.mass && motion.inertia_diagonal);
+    auto shape = shapes_.make(node, in_owner.stretch, derives);
     if (!shape) return;
     if (kindOf(*shape).endless) {
       report(node, "its plane is ignored: a moving body cannot be an infinite plane");

@@ -157,7 +157,7 @@ Quat axesOf(const ColliderShape& shape, const Mat3& stretch) {
   return turned_over ? Quat(0, 1, 0, 0) : Quat::Identity();
 }
 
-std::optional<Shape> ShapeMaker::make(const PhysicsNode& node, const Mat3& stretch) try {
+std::optional<Shape> ShapeMaker::make(const PhysicsNode& node, const Mat3& stretch, bool solid) try {
   const ColliderShape& shape = node.collider->shape;
   if (stretch.isZero(0)) {
     report_.warnings.push_back(node.label() + ": its collider is ignored: a scale of 0 turns it off");
@@ -168,7 +168,7 @@ std::optional<Shape> ShapeMaker::make(const PhysicsNode& node, const Mat3& stret
   if (!(std::abs(stretch.determinant()) > 0)) fail(node, "a scale of 0 along an axis of its mesh", "one without zeros");
   const double scale = stretch(0, 0);
   const bool uniform = scale > 0 && stretch == Mat3(scale * Mat3::Identity());
-  const auto surface = surfaceOf(*mesh, uniform ? Mat3(Mat3::Identity()) : stretch);
+  const auto surface = surfaceOf(*mesh, uniform ? Mat3(Mat3::Identity()) : stretch, solid);
   if (mesh->convex) return Hull{surface, uniform ? scale : 1, ""};
   return Mesh{surface, uniform ? scale : 1, ""};
 } catch (const InputError& error) {

@@ -17,14 +17,14 @@ namespace carom::gltf {
 
 using namespace formats_detail;
 
-std::shared_ptr<const Surface> ShapeMaker::surfaceOf(const MeshShape& shape, const Mat3& baked) {
-  Key key{shape.mesh, shape.node, shape.convex, {}};
+std::shared_ptr<const Surface> ShapeMaker::surfaceOf(const MeshShape& shape, const Mat3& baked, bool solid) {
+  Key key{shape.mesh, shape.node, shape.convex, {}, solid && !shape.convex};
   std::copy(baked.data(), baked.data() + 9, std::get<3>(key).begin());
   auto& surface = made_[key];
   if (!surface) {
     const Triangles soup = trianglesOf(shape, baked);
     if (shape.convex) return surface = convexHull(soup.vertices);
-    RepairedSurface made = formats_detail::surfaceOf({soup.vertices, soup.triangles, {}, {}}, false);
+    RepairedSurface made = formats_detail::surfaceOf({soup.vertices, soup.triangles, {}, {}}, solid);
     const std::string place = shape.mesh >= 0 ? "/meshes/" + std::to_string(shape.mesh) : "/nodes/" + std::to_string(shape.node);
     for (const std::string& repair : made.repairs) report_.warnings.push_back("mesh " + place + " was repaired: " + repair);
     surface = std::move(made.surface);
