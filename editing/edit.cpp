@@ -91,6 +91,7 @@ void checkEditOptions(const EditOptions& options) {
   check("max_iterations", options.max_iterations, options.max_iterations >= 0, "0 or more");
   check("time_budget_seconds", options.time_budget_seconds, options.time_budget_seconds >= 0, "a number >= 0");
   check("tolerance", options.tolerance, options.tolerance > 0 && std::isfinite(options.tolerance), "a number > 0");
+  check("graze_margin", options.graze_margin, options.graze_margin >= 0 && std::isfinite(options.graze_margin), "a number >= 0");
   check("seed", options.seed, options.seed >= 0 && options.seed <= kLastSeed, "0 to 1000");
   check("alternatives", options.alternatives, options.alternatives >= 1, "1 or more");
   check("threads", options.threads, options.threads >= 0, "0 (all cores) or more");

@@ -53,6 +53,9 @@ struct EditOptions {
   SequencePolicy sequence = SequencePolicy::smallest;                   ///< whether the impact sequence may change
   Effort effort = Effort::normal;                                   ///< work limit of the search
   SecondDerivatives second_derivatives = SecondDerivatives::exact;  ///< used by Ipopt
+  /// How far inside an answer goes where a needed impact would be lost at a smaller change, natural scales times weights; less
+  /// of it where it makes the objective larger by more than 1 %. 0: the smallest change itself, which may just graze.
+  double graze_margin = 1e-3;
   int alternatives = 1;  ///< number of distinct solutions to search for, see EditResult::alternatives
   /// 0 to 1000: seed of the sample sequence. The search is not exhaustive; another seed may find a smaller change.
   int seed = 0;

@@ -147,6 +147,7 @@ void conclude(const EditOptions& options, const EditSolution& solution, bool as_
     result.status = EditStatus::solved_sequence_changed;
     result.message += " The impact sequence has changed." + sentencesOf(result.sequence_changes);
   }
+  if (!solution.message.empty()) result.message += " " + solution.message;
   if (!result.reliability.reliable) result.message += " Its derivatives are unreliable: " + result.reliability.message + ".";
 }
 

@@ -11,6 +11,7 @@
 #include "editing/solve/projection.hpp"
 #include "editing/strategy/approach.hpp"
 #include "editing/strategy/impossible.hpp"
+#include "editing/strategy/inside_margin.hpp"
 #include "editing/strategy/local_solve.hpp"
 #include "editing/strategy/row_choice.hpp"
 #include "editing/strategy/samples.hpp"
@@ -220,6 +221,21 @@ void takeMoreSolutions(EditEvaluator& evaluator, SequenceSearch& across, EditSol
   }
 }
 
+/// Inside of where an impact that is needed would be lost, if that costs little and the whole motion confirms it.
+void leaveTheEdge(EditEvaluator& evaluator, EditSolution& solution) {
+  MovedInside moved = movedInside(evaluator, solution.point);
+  if (moved.point && !isConfirmed(evaluator, *moved.point)) return;
+  if (moved.point) solution.point = moved.point;
+  solution.message = std::move(moved.message);
+}
+
+EditSolution impossible(EditSolution solution, const Impossible& proof) {
+  solution.status = EditStatus::infeasible;
+  solution.message = proof.why;
+  solution.tells_all = proof.tells_all;
+  return solution;
+}
+
 }  // namespace
 
 EditSolution findSolution(EditEvaluator& evaluator) {
@@ -239,12 +255,7 @@ EditSolution findSolution(EditEvaluator& evaluator) {
     solution.status = EditStatus::solved;
     return solution;
   }
-  if (const Impossible impossible = whyImpossible(evaluator, *start); !impossible.why.empty()) {
-    solution.status = EditStatus::infeasible;
-    solution.message = impossible.why;
-    solution.tells_all = impossible.tells_all;
-    return solution;
-  }
+  if (const Impossible proof = whyImpossible(evaluator, *start); !proof.why.empty()) return impossible(std::move(solution), proof);
   const bool may_leave = evaluator.options().sequence != SequencePolicy::stay;
   const bool from_start = start->rows.available && evaluator.differentiate(*start);
   const RowChoice choice = from_start ? chooseRows(evaluator, start) : RowChoice{};
@@ -258,12 +269,13 @@ EditSolution findSolution(EditEvaluator& evaluator) {
   SequenceSearch across(evaluator, start);
   if (inside) across.add(inside);
   EditPointPtr confirmed;
+  const bool first_ends = planOf(evaluator.options().effort).first_ends;
   for (int tries = kTries; !confirmed && tries > 0; --tries) {
     if (may_leave) searchAcross(evaluator, across);
     if (across.solutions().empty()) break;
     const bool unsolved_inside = from_start && !contradicts && !inside;
-    if (may_leave && unsolved_inside && tries == kTries) solveInSequenceAgain(evaluator, choice, start, across);
-    across.polishSmallest();
+    if (may_leave && unsolved_inside && tries == kTries && !first_ends) solveInSequenceAgain(evaluator, choice, start, across);
+    if (!first_ends) across.polishSmallest();
     confirmed = smallestConfirmed(evaluator, across);
   }
   solution.point = confirmed ? confirmed : polished(evaluator, evaluator.best());
@@ -277,6 +289,7 @@ EditSolution findSolution(EditEvaluator& evaluator) {
     return solution;
   }
   solution.status = EditStatus::solved;
+  leaveTheEdge(evaluator, solution);
   if (may_leave && evaluator.options().alternatives > 1) takeMoreSolutions(evaluator, across, solution);
   return solution;
 }

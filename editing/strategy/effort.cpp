@@ -14,7 +14,8 @@ constexpr SearchPlan kFast{.first_rounds = 10,
                            .least_samples = 40,
                            .most_samples = 2048,
                            .local_solves = 8,
-                           .minimised = 2};
+                           .minimised = 2,
+                           .first_ends = true};
 constexpr SearchPlan kNormal{.first_rounds = 10,
                              .stopping = {.least = 2e4, .whole = 2.4e4, .largest_share = 4, .most = 2.7e6, .usual = 1.3e5,
                                           .unusual = 7e5, .rounds = 4, .least_expected = 0.25, .most_expected = 4, .in_all = 6.5e6},

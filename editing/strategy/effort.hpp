@@ -35,6 +35,7 @@ struct SearchPlan {
   int least_samples, most_samples;  ///< of one round; the more, the cheaper one of them is
   std::size_t local_solves;         ///< points of a round from which steps go onto the constraints
   std::size_t minimised;            ///< of those that arrive, the smallest, within their sequences
+  bool first_ends = false;          ///< the first solution that is confirmed ends the search, as its local solve left it
 };
 
 /// The plan of an effort.

@@ -210,7 +210,10 @@ std::vector<EditPointPtr> SequenceSearch::solveAllLocally(const std::vector<Edit
   threads_.inOrder(n, kLocalSolvesAhead, [&](std::size_t i) {
     // of those that are sure to be done, whoever else may be: the same on any number of threads
     LocalSolveOptions options = first;
-    for (std::size_t k = 0; k + kLocalSolvesAhead <= i; ++k) options = learn(options, ends[k]);
+    for (std::size_t k = 0; k + kLocalSolvesAhead <= i; ++k) {
+      options = learn(options, ends[k]);
+      if (plan_.first_ends && seek != Seek::others && ends[k] && isAllowed(*ends[k]) && evaluator_.reached(*ends[k])) return;
+    }
     const ContactPool::Loan loan(pool_);
     EditEvaluator branch = evaluator_.branch({{&loan.source()}}, true);
     ends[i] = way(branch, candidates[i], options);
@@ -238,8 +241,9 @@ void SequenceSearch::minimise(const std::vector<EditPointPtr>& solved, Seek seek
   arrived.resize(std::min(arrived.size(), plan_.minimised));
   for (const EditPointPtr& point : arrived) {
     // the smallest changes of all the others are looked at only when someone asks for them
-    const bool worth = seek == Seek::others || solutions_.empty() ||
-                       point->objective < kClearlySmaller * solutions_.front()->objective;
+    const bool worth = !(plan_.first_ends && seek != Seek::others) &&
+                       (seek == Seek::others || solutions_.empty() ||
+                        point->objective < kClearlySmaller * solutions_.front()->objective);
     if (!worth || evaluator_.halt() != Halt::none) {
       add(point);
       continue;

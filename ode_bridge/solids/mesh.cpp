@@ -77,6 +77,6 @@ void addMesh(PartMaker& part, const Mesh& s) {
 
 }  // namespace
 
-SolidKind solidRow(KindOf<Mesh>) { return {.add = addPart<Mesh, addMesh>, .name = numberedName}; }
+SolidKind solidRow(KindOf<Mesh>) { return {.add = addPart<Mesh, addMesh>, .name = numberedName, .numbered = true}; }
 
 }  // namespace carom::solids

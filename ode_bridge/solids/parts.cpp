@@ -38,6 +38,7 @@ F& PartMaker::place(std::vector<F>& family, const Vec3& p, const Vec3& direction
 
 int PartMaker::vertex(const Vec3& p, double radius) {
   place(solid_.vertices, p, Vec3::Zero()).radius = radius;
+  solid_.parts.back().box.extend(p);
   return count(solid_.vertices) - 1;
 }
 

@@ -70,6 +70,7 @@ struct SolidKind {
   Required<void(Solid&, const Shape&, const Placement&, const SolidKind& row)> add;
   /// What describe() calls feature `index` of a family, counted from the first of the part: "edge 12", "rim +z".
   Required<std::string(Family family, int index)> name;
+  bool numbered = false;         ///< its features have numbers, which tell nothing of their place
   bool Solid::*whole = nullptr;  ///< set of a solid that is one such shape about its origin
 };
 

@@ -47,6 +47,6 @@ void addHull(PartMaker& part, const Hull& s) {
 
 }  // namespace
 
-SolidKind solidRow(KindOf<Hull>) { return {.add = addPart<Hull, addHull>, .name = numberedName}; }
+SolidKind solidRow(KindOf<Hull>) { return {.add = addPart<Hull, addHull>, .name = numberedName, .numbered = true}; }
 
 }  // namespace carom::solids

@@ -112,6 +112,7 @@ struct Part {
   const char* kind = "";  ///< word of the shape: "box"
   const solids::SolidKind* row = nullptr;  ///< names its features
   std::array<int, 4> firsts{};             ///< where the part's features begin, by Family
+  Eigen::AlignedBox3d box;                 ///< of its vertices, part's axes, m
 
   int first(Family family) const { return firsts[static_cast<std::size_t>(family)]; }
 };
@@ -175,7 +176,8 @@ FeatureRates ratesOf(const Solid& solid, const Feature& feature);
 /// follow the dimensions linearly. Empty: 0.
 Eigen::Matrix3Xd pointRatesRate(const Solid& solid, const Eigen::VectorXd& dimension_rates);
 
-/// Such as "vertex +x-y+z", "edge 12", "face +z of part 2", "side", "rim +z"; "ball" and "plane" for the whole.
+/// Such as "vertex +x-y+z", "part 2 face +z", "side", "rim +z"; "ball" and "plane" for the whole. Of hulls and meshes with its
+/// number and where it is or faces, in the axes of the shape: "vertex 12 at +x-z", "face 3 facing +z".
 std::string nameOf(const Solid& solid, Family family, int index);
 
 }  // namespace carom::ode_bridge_detail

@@ -262,8 +262,8 @@ TEST(Solids, Names) {
   EXPECT_EQ(name(Cone{}, Family::face, 0), "base");
   EXPECT_EQ(name(Cone{}, Family::rim, 0), "rim");
   Random random(62);
-  EXPECT_EQ(name(randomHull(random, 9), Family::face, 3), "face 3");
-  EXPECT_EQ(name(bentStrip(1), Family::edge, 7), "edge 7");
+  EXPECT_EQ(name(randomHull(random, 9), Family::face, 3), "face 3 facing +y");
+  EXPECT_EQ(name(bentStrip(1), Family::edge, 7), "edge 7 at +x+y");
   const CompoundPart box{Box{}, Vec3::Zero(), Quat::Identity()}, ball{Sphere{}, Vec3::Zero(), Quat::Identity()};
   const CompoundPart inner{Compound{{ball, box}}, Vec3::Zero(), Quat::Identity()};
   EXPECT_EQ(name(Compound{{box, inner, box}}, Family::face, 5), "part 0 face +z");
