@@ -137,7 +137,9 @@ EditProblem derivativeProblem(Loaded& loaded) {
       // the cone of a tilt is no bound of its components
       if (findControlKind(control.vary)->owner != OwnerKind::impact) control.max.clear();
     }
-    EditProblem problem(document.scene, loaded.contacts, document.duration, unbounded, document.constraints);
+    std::vector<Constraint> rows = document.constraints;
+    for (Constraint& constraint : rows) constraint.soft.reset();  // their errors have derivatives, too
+    EditProblem problem(document.scene, loaded.contacts, document.duration, unbounded, rows);
     problem.step_limit = loaded.step_limit;
     return problem;
   });

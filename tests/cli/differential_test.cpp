@@ -102,7 +102,9 @@ class Trial {
     checkMotion(motion);
     ++outcomes_[nameOf(motion.status)];
     if (document.controls.empty() || document.constraints.empty()) return;
-    EditProblem problem(document.scene, contacts, document.duration, document.controls, document.constraints);
+    std::vector<Constraint> exact = document.constraints;
+    for (Constraint& constraint : exact) constraint.soft.reset();
+    EditProblem problem(document.scene, contacts, document.duration, document.controls, exact);
     problem.step_limit = kStepLimit;
     const Eigen::VectorXd values = problem.controls.startValues();
     const Motion edited = simulateAt(problem, values, problem.horizon);

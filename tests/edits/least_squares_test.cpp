@@ -57,7 +57,7 @@ TEST(LeastSquares, FitANoisyTrack) {
   EXPECT_NEAR(r.objective, 0.5 * r.fit.sum_of_squares, 0.5 * r.objective + 0.3);
 }
 
-// The example: from a guess whose box hits other corners, within a few deviations of what the recording was made with.
+// The example: from a guess with other impacts, within a few deviations of what the recording was made with.
 TEST(LeastSquares, FindATossedBox) {
   const EditResult r = solveDocument(readDocument(projectFile("examples/scenes/tossed-box.json")));
   ASSERT_TRUE(r.solved()) << r.message;

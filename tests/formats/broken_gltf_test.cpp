@@ -208,7 +208,7 @@ TEST(BrokenGltf, brokenDocuments) {
        [](Json& j) { j["buffers"][0]["uri"] = "https://example.org/a.bin"; },
        "/buffers/0/uri",
        {"the name of a file"}},
-      {"device", [](Json& j) { j["buffers"][0]["uri"] = "/dev/zero"; }, "/buffers/0/uri", {"which is not a file"}},
+      {"device", [](Json& j) { j["buffers"][0]["uri"] = "/dev/zero"; }, "/buffers/0/uri", {"a file outside of the document's folder"}},
       {"nan",
        [](Json& j) { setBuffer(j, std::string("\xff\xff\xff\x7f", 4) + formats_test::tetrahedronBytes().substr(4)); },
        "/meshes/0/primitives/0/attributes/POSITION",

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <regex>
+#include <string>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -115,22 +117,26 @@ TEST(SchemaAcceptance, AgreesWithTheLibraryOnBrokenDocuments) {
   EXPECT_GT(compared, 100);
 }
 
+/// What the walk leaves to the library: 1.0 where an integer is asked for, and integers that doubles do not have.
+bool isInDoubt(const std::string& text) {
+  return std::regex_search(text, std::regex("[0-9]\\.0[,}\\]]")) || text.find("18446744073709551615") != std::string::npos;
+}
+
 TEST(SchemaAcceptance, AgreesWithTheLibraryOnChangedDocuments) {
   const Json schema = sceneSchema();
   const Judge judge(schema);
   const std::vector<Json> documents = goodDocuments();
   DocumentMutator mutator(20261122, documents);
-  int accepted = 0, refused = 0, doubts = 0;
+  int accepted = 0, refused = 0;
   for (int k = 0; k < 500; ++k) {
     const Json document = mutator.mutated();
     const bool quick = keepsSchema(document, schema), full = judge.accepts(document);
     (full ? accepted : refused) += 1;
     ASSERT_FALSE(quick && !full) << "document " << k << " of seed 20261122: " << document.dump();
-    doubts += full && !quick ? 1 : 0;
+    if (full && !quick) EXPECT_TRUE(isInDoubt(document.dump())) << "document " << k << " of seed 20261122: " << document.dump();
   }
   EXPECT_GT(accepted, 50);
   EXPECT_GT(refused, 50);
-  EXPECT_LE(doubts, 2) << "1.0 where an integer is asked for";
 }
 
 // A false yes would let anything in: what the walk does not know makes its answer no, wherever it stands.
