@@ -142,7 +142,7 @@ CLASSES = {
     "EditSession": ("editing/session.h", "EditSession", {
         "constraints": "scene", "constraintOf": "scene", "nailStates": "nails", "content": "scene",
         "options": GIVEN,
-        "history": HISTORY, "snapshot": SNAPSHOT, "keepSequence": SNAPSHOT, "keepsSequence": SNAPSHOT, "journal": "write_journal"}),
+        "history": HISTORY, "snapshot": SNAPSHOT, "keepSequence": SNAPSHOT, "journal": "write_journal"}),
     "SessionReplay": ("editing/session_replay.h", "SessionReplay", {"next": "__next__", "session": "scene"}),
     "ReplayedGesture": ("editing/session_replay.h", "ReplayedGesture", {}),
     "NailState": ("editing/session.h", "NailState", {}),
