@@ -16,28 +16,28 @@ namespace {
 using Eigen::Index;
 
 // Motions that contacts oppose by less than this share of the others are not opposed, as a square.
-constexpr double kOpposed = 1e-16;
-// Loads along these that are a larger share of all are not held.
-constexpr double kHeldLoad = 1e-9;
+constexpr double kOpposed = 1e-13;
 // Forces that leave less than this share of the loads hold them, if they are within the cones but for such a share.
 constexpr double kBalanced = 1e-13;
+// What is left in rounding of forces and moments that cancel, as a share of them.
+constexpr double kCancels = 1e-13;
 // The interior point goes on until there is room, until there can be none by so many times what it lacks, or until rooms below
 // this get no better.
-constexpr double kRestKnown = 1e-8, kLacks = 100;
+constexpr double kRestKnown = 1e-8, kLacks = 100, kStillFar = 1e-6;
 constexpr int kRestSteps = 80, kRestNoBetter = 6;
 constexpr double kSameMotion = 1e-9;
 
 double roomOf(const RestProgram::Contact& c, const Vec3& f) {
-  const double pressure = c.normal.dot(f), across = (f - pressure * c.normal).norm();
-  if (c.friction > 0) return (pressure - across / c.friction) / c.unit;
-  return across > kBalanced * (pressure + c.unit) ? -across / c.unit : pressure / c.unit;
+  const double pressure = c.normal.dot(f);
+  if (!(c.friction > 0)) return pressure / c.unit;  // it is along the normal
+  return (pressure - (f - pressure * c.normal).norm() / c.friction) / c.unit;
 }
 
-// Velocities of the contact by those of its bodies, all in units of the square root of the mass.
-Eigen::Matrix<double, 3, 6> rowsOf(const RestProgram& program, const RestProgram::Contact& c, bool of_a) {
-  const double share = (of_a ? 1 : -1) / std::sqrt(program.mass[static_cast<std::size_t>(of_a ? c.a : c.b)]);
+// Velocities of the contact by those of one of its bodies.
+Eigen::Matrix<double, 3, 6> rowsOf(const RestProgram::Contact& c, bool of_a) {
+  const double sign = of_a ? 1 : -1;
   Eigen::Matrix<double, 3, 6> rows;
-  rows << share * Mat3::Identity(), -share * skew(of_a ? c.arm_a : c.arm_b);
+  rows << sign * Mat3::Identity(), -sign * skew(of_a ? c.arm_a : c.arm_b);
   return rows;
 }
 
@@ -65,7 +65,7 @@ Rows rowsOf(const RestProgram& program) {
     const Index count = c.friction > 0 ? 3 : 1;
     for (const bool of_a : {true, false})
       if (const int body = of_a ? c.a : c.b; body >= 0)
-        rows.H.block(rows.first[k], 6 * body, count, 6) = rows.axes[k].topRows(count) * rowsOf(program, c, of_a);
+        rows.H.block(rows.first[k], 6 * body, count, 6) = rows.axes[k].topRows(count) * rowsOf(c, of_a);
   }
   return rows;
 }
@@ -74,8 +74,6 @@ class RestSolver {
  public:
   explicit RestSolver(const RestProgram& program)
       : program_(program), rows_(rowsOf(program)), load_(program.load), eigen_(rows_.H.transpose() * rows_.H) {
-    for (std::size_t i = 0; i < program.mass.size(); ++i)
-      load_.segment<6>(6 * static_cast<Index>(i)) /= std::sqrt(program.mass[i]);
     const double most = eigen_.values.size() > 0 ? eigen_.values[eigen_.values.size() - 1] : 0;
     while (free_ < eigen_.values.size() && !(eigen_.values[free_] > kOpposed * most)) ++free_;
   }
@@ -84,21 +82,15 @@ class RestSolver {
     RestForces none;
     none.room = -std::numeric_limits<double>::infinity();
     none.force.assign(program_.contacts.size(), Vec3::Zero());
-    const Eigen::VectorXd unheld = eigen_.vectors.leftCols(free_).transpose() * load_;
     none.unbalanced = unbalancedBy(none.force);
-    if (free_ > 0 && unheld.cwiseAbs().maxCoeff() > kHeldLoad * load_.cwiseAbs().maxCoeff()) return none;
-    RestForces least = leastNorm();
-    if (least.room >= -kBalanced && least.unbalanced <= kBalanced * none.unbalanced) return least;
-    return mostRoom();
+    const RestForces least = balanced(Eigen::VectorXd::Zero(rows_.H.rows()));
+    if (!(least.unbalanced <= kBalanced * none.unbalanced)) return least;  // along motions that no contact opposes
+    return least.room >= -kBalanced ? least : mostRoom();
   }
 
  private:
   // Of the motions that contacts oppose.
   Eigen::MatrixXd opposed() const { return eigen_.vectors.rightCols(eigen_.vectors.cols() - free_); }
-
-  RestForces leastNorm() const {
-    return balanced(Eigen::VectorXd::Zero(rows_.H.rows()));
-  }
 
   // Forces next to these that undo the loads.
   RestForces balanced(Eigen::VectorXd f) const {
@@ -146,7 +138,8 @@ class RestSolver {
         f[rows_.first[k]] += room * program_.contacts[k].unit;
       }
       RestForces now = balanced(std::move(f));
-      since = now.room > best.room ? 0 : since + 1;
+      const bool far = point.unbalanced() > kStillFar;  // what there is room for shows near the solution alone
+      since = far || now.room > best.room ? 0 : since + 1;
       if (now.room > best.room) best = std::move(now);
       if (best.room >= 0) break;
       // no forces have more room than these by what the point still lacks
@@ -157,19 +150,24 @@ class RestSolver {
   }
 
   double unbalancedBy(const std::vector<Vec3>& force) const {
-    Eigen::VectorXd left = program_.load;
+    Eigen::VectorXd left = program_.load, size = program_.load.cwiseAbs();
     for (std::size_t k = 0; k < force.size(); ++k) {
       const RestProgram::Contact& c = program_.contacts[k];
       const auto add = [&](int body, double sign, const Vec3& arm) {
         if (body < 0) return;
+        const Vec3 moment = arm.cross(force[k]);
         left.segment<3>(6 * body) += sign * force[k];
-        left.segment<3>(6 * body + 3) += sign * arm.cross(force[k]);
+        left.segment<3>(6 * body + 3) += sign * moment;
+        size.segment<3>(6 * body) += force[k].cwiseAbs();
+        size.segment<3>(6 * body + 3) += moment.cwiseAbs();
       };
       add(c.a, 1, c.arm_a), add(c.b, -1, c.arm_b);
     }
     double most = 0;
     for (std::size_t i = 0; i < program_.mass.size(); ++i)
-      most = std::max(most, left.segment<6>(6 * static_cast<Index>(i)).cwiseAbs().maxCoeff() / program_.mass[i]);
+      most = std::max(most, (left.segment<6>(6 * static_cast<Index>(i)).cwiseAbs().maxCoeff() -
+                             kCancels * size.segment<6>(6 * static_cast<Index>(i)).maxCoeff()) /
+                                program_.mass[i]);
     return most;
   }
 

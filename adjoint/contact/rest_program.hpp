@@ -17,7 +17,7 @@ struct RestProgram {
     double friction = 0;    ///< mu
     double unit = 1;        ///< what is a large force there, N
   };
-  std::vector<double> mass;   ///< kg, of each body
+  std::vector<double> mass;   ///< kg, of each body: what is left of the loads counts as accelerations
   Eigen::VectorXd load;       ///< force and moment over reach, of each body, N
   std::vector<Contact> contacts;
 };
@@ -27,7 +27,7 @@ struct RestForces {
   std::vector<Vec3> force;  ///< N
   /// What all cones of friction have room for: mu (n.f - room unit) >= |f_t| at every contact; at the most 1.
   double room = 0;
-  /// What is left of the loads, as accelerations, m/s^2: the largest component.
+  /// What is left of the loads beyond rounding, as accelerations, m/s^2: the largest component.
   double unbalanced = 0;
 };
 

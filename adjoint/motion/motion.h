@@ -111,7 +111,7 @@ enum class MotionStatus {
   impact_limit,      ///< stopped after the allowed number of events
   cascade,           ///< impacts accumulate: infinitely many in finite time (Zeno)
   unresolved_impact,  ///< an impulse that does not separate the bodies (a tilt past the direction of approach), or a contact without a normal
-  unresolved_contact,  ///< bodies stay in a contact that is not modelled: on a moving body, or with no consistent mode of all contacts
+  unresolved_contact,  ///< bodies stay in a contact that is not modelled: one would move under another, or no mode of all contacts is consistent
   not_computable,     ///< numerical failure, see NotComputable
   step_limit,         ///< the step limit was reached, see SimulateOptions::step_limit
   stopped             ///< a stop was requested

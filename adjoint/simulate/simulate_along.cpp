@@ -7,13 +7,14 @@
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/refuse.hpp"
-#include "adjoint/flight/flight_symmetric.hpp"
 #include "adjoint/impact/impact.hpp"
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/simulate/followed_path.hpp"
+#include "adjoint/simulate/followed_scene.hpp"
 #include "adjoint/simulate/guard_root.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/simulator.hpp"
+#include "adjoint/simulate/supported_component.hpp"
 
 namespace carom {
 
@@ -22,32 +23,6 @@ using namespace adjoint_detail;
 namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-void requireSameParts(const Scene& was, const Scene& scene) {
-  const auto same = [](std::size_t found, std::size_t expected, const char* what) {
-    if (found != expected)
-      throw InputError("found a scene with " + std::to_string(found) + " " + what + ", expected the " +
-                       std::to_string(expected) + " of the motion that is followed");
-  };
-  same(scene.bodies.size(), was.bodies.size(), "bodies");
-  same(scene.materials.size(), was.materials.size(), "materials");
-  same(scene.tilts.size(), was.tilts.size(), "tilts");
-}
-
-/// The tiers of `like`, but for bodies whose moments have gained or lost a symmetry.
-Plan planFor(const Motion& like, const Scene& scene, const std::vector<BodyModel>& models) {
-  Plan plan = like.plan, everything;
-  for (std::size_t b = 0; b < models.size(); ++b) {
-    const BodyModel& was = (*like.models)[b];
-    if (!models[b].moving) continue;
-    const bool same = symmetryAxis(models[b].inertia) == symmetryAxis(was.inertia) &&
-                      models[b].center.isZero(0) == was.center.isZero(0);
-    if (same) continue;
-    if (everything.bodies.empty()) everything = makePlan(scene);
-    plan.bodies[b] = everything.bodies[b];
-  }
-  return plan;
-}
 
 /// Follows the events of a motion, one after another.
 class Follower {
@@ -249,11 +224,31 @@ class Follower {
     });
   }
 
-  void commit(const Event& was, const std::vector<State>& after) {
+  void commit(const Event& was, std::vector<State> after) {
     if (branchOf(event_.mode) != branchOf(was.mode)) along_.mode_changed = true;
+    closeComponent(after);
     std::vector<Arc> arcs;
-    for (std::size_t i = 0; i < after.size(); ++i) arcs.push_back(arcAfter(was, i, after[i]));
+    for (std::size_t i = 0; i < after.size(); ++i)
+      arcs.push_back(was.participants[i].stays ? arcOf(was.participants[i].body) : arcAfter(was, i, after[i]));
     builder_.add(std::move(event_), std::move(arcs));
+  }
+
+  bool isMoved(int body) const {
+    const BodyModel& model = (*motion_.models)[index(body)];
+    return model.moving && !model.kinematic;
+  }
+  bool liesOnAnother(const Contact& c) const { return c.lasts && isMoved(c.a) && isMoved(c.b); }
+
+  // The gaps of bodies that come to rest on each other close together.
+  void closeComponent(std::vector<State>& after) {
+    if (std::ranges::none_of(event_.contacts, [&](const Contact& c) { return liesOnAnother(c) && !c.held; })) return;
+    std::vector<SupportedComponent::Member> members;
+    std::vector<Contact> closed;
+    std::ranges::copy_if(event_.contacts, std::back_inserter(closed), &Contact::lasts);
+    for (std::size_t i = 0; i < after.size(); ++i)
+      if (const Participant& p = event_.participants[i]; !p.stays && isMoved(p.body)) members.push_back({p.body, after[i]});
+    closeGaps(motion_, members, closed);
+    for (const SupportedComponent::Member& m : members) after[static_cast<std::size_t>(event_.find(m.body) - event_.participants.data())] = m.state;
   }
 
   // A flight, or a path of the form that it was.
@@ -270,6 +265,8 @@ class Follower {
         held.contacts.push_back(c);
         held.contacts.back().pair = builder_.pairOf(c.a, c.b);
       }
+    if (std::ranges::any_of(held.contacts, [&](const Contact& c) { return liesOnAnother(c); }))
+      return makePathArc(motion_, restPathOf(motion_, p.body, start, pointersTo(held.contacts), like.closedForm()->loose), event_.time).arc;
     if (std::ranges::any_of(held.contacts, [](const Contact& c) { return !c.held; }))
       closeGaps(motion_, p.body, start, held.contacts);
     PathArc made = makePathArc(

@@ -188,12 +188,14 @@ class Simulator {
   void keep(std::size_t participant);
   SupportedComponent componentOf(const std::vector<int>& bodies, const std::vector<Contact>& closed) const;
   std::vector<Contact> lasting(const std::vector<int>& bodies) const;
+  std::vector<Contact> within(const std::vector<int>& part, const std::vector<Contact>& all) const;
   std::vector<int> movedBodies(bool with_supports) const;
   std::vector<std::vector<int>> pressedParts(const std::vector<int>& bodies, const std::vector<Contact>& closed) const;
   bool standsStill(const SupportedComponent& component, bool opposed, double no_slip) const;
-  std::optional<RestingComponent> restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed, double no_slip) const;
+  std::optional<RestingComponent> restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed, double no_slip,
+                                         bool on_all = false) const;
   void chooseComponents();
-  void chooseRest(const std::vector<int>& part, const std::vector<Contact>& closed);
+  void chooseRest(const std::vector<int>& touching, const std::vector<Contact>& closed);
   void holdAtRest(RestingComponent& rest);
   void rest(std::size_t participant);
   std::optional<FreeAcceleration> componentAcceleration(int body) const;

@@ -33,11 +33,6 @@ std::vector<std::vector<int>> connectedBy(const std::vector<int>& bodies, const 
 
 bool has(const std::vector<int>& bodies, int body) { return std::ranges::binary_search(bodies, body); }
 bool isOf(const std::vector<int>& bodies, const Contact& c) { return has(bodies, c.a) || has(bodies, c.b); }
-std::vector<Contact> contactsOf(const std::vector<int>& bodies, const std::vector<Contact>& all) {
-  std::vector<Contact> own;
-  std::ranges::copy_if(all, std::back_inserter(own), [&](const Contact& c) { return isOf(bodies, c); });
-  return own;
-}
 bool isSame(const Contact& c, const Contact& d) { return c.a == d.a && c.b == d.b && c.features == d.features; }
 
 }  // namespace
@@ -155,21 +150,25 @@ bool Simulator::standsStill(const SupportedComponent& component, bool opposed, d
   return true;
 }
 
-// A component at rest: on what presses without friction if that is enough, else on all that is closed.
+// A component at rest: on what presses without friction, or on all that is closed.
 std::optional<Simulator::RestingComponent> Simulator::restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed,
-                                                             double no_slip) const {
+                                                             double no_slip, bool on_all) const {
   const SupportedComponent component = componentOf(bodies, closed);
   if (!standsStill(component, true, no_slip)) return std::nullopt;
-  std::vector<const Contact*> on = component.pressed();
-  SupportedComponent::Rest rest = component.restOn(on);
-  if (!rest.holds && on.size() < closed.size()) {
-    rest = component.restOn(pointersTo(closed));
-    on = rest.bearing;
-  }
+  const SupportedComponent::Rest rest = component.restOn(on_all ? pointersTo(closed) : component.pressed());
   if (!rest.holds || !standsStill(component, rest.opposed, no_slip)) return std::nullopt;
   RestingComponent found{component.members(), {}, rest.opposed};
-  for (const Contact* c : on) found.on.push_back(*c);
+  for (const Contact* c : on_all ? rest.bearing : component.pressed()) found.on.push_back(*c);
   return found;
+}
+
+// Contacts of these bodies with each other and with what impulses do not move.
+std::vector<Contact> Simulator::within(const std::vector<int>& part, const std::vector<Contact>& all) const {
+  std::vector<Contact> own;
+  std::ranges::copy_if(all, std::back_inserter(own), [&](const Contact& c) {
+    return isOf(part, c) && (has(part, c.a) || !isMoved(c.a)) && (has(part, c.b) || !isMoved(c.b));
+  });
+  return own;
 }
 
 // Which participants rest on others, or under them. Contacts that press bodies together of which some are moved are kept in mind,
@@ -185,22 +184,30 @@ void Simulator::chooseComponents() {
   if (draft_.woken.empty() && std::ranges::none_of(event.contacts, joins)) return;  // far most often
   const std::vector<int> bodies = movedBodies(true);
   const std::vector<Contact> all = lasting(bodies);
-  for (const std::vector<int>& touching : connectedBy(bodies, pointersTo(all))) {
-    if (touching.size() == 1 && !isSupport(touching.front())) continue;
-    const std::vector<Contact> closed = contactsOf(touching, all);
-    for (const std::vector<int>& part : pressedParts(touching, closed))
-      if (part.size() > 1 || isSupport(part.front())) chooseRest(part, contactsOf(part, closed));
-  }
+  for (const std::vector<int>& touching : connectedBy(bodies, pointersTo(all)))
+    if (touching.size() > 1 || isSupport(touching.front())) chooseRest(touching, within(touching, all));
 }
 
-void Simulator::chooseRest(const std::vector<int>& part, const std::vector<Contact>& closed) {
-  if (std::optional<RestingComponent> rest = restOf(part, closed, hintOf(closed).no_slip)) return holdAtRest(*rest);
-  if (part.size() == 1) {
-    draft_.unheld.push_back(part.front());
-    return;
+// Parts that contacts press together rest by themselves; or all that touches, where friction needs what nothing presses.
+void Simulator::chooseRest(const std::vector<int>& touching, const std::vector<Contact>& closed) {
+  const double no_slip = hintOf(closed).no_slip;
+  std::vector<std::vector<int>> parts = pressedParts(touching, closed);
+  std::erase_if(parts, [&](const std::vector<int>& part) { return part.size() == 1 && !isSupport(part.front()); });
+  std::vector<std::optional<RestingComponent>> rests;
+  for (const std::vector<int>& part : parts) rests.push_back(restOf(part, within(part, closed), no_slip));
+  if (std::ranges::any_of(rests, [](const auto& rest) { return !rest; }))
+    if (auto whole = restOf(touching, closed, no_slip, true)) return holdAtRest(*whole);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (rests[i]) {
+      holdAtRest(*rests[i]);
+    } else if (parts[i].size() == 1) {
+      draft_.unheld.push_back(parts[i].front());
+    } else {
+      const std::vector<Contact> own = within(parts[i], closed);
+      for (const Contact* c : componentOf(parts[i], own).pressed())
+        if (isMoved(c->a) && isMoved(c->b)) draft_.pressing.push_back(*c);
+    }
   }
-  for (const Contact* c : componentOf(part, closed).pressed())
-    if (isMoved(c->a) && isMoved(c->b)) draft_.pressing.push_back(*c);
 }
 
 // The poses of what has come to rest close its gaps; what stays has more that holds it.
@@ -248,7 +255,8 @@ std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const
   const std::vector<int> bodies = movedBodies(false);
   const std::vector<Contact> all = lasting(bodies);
   for (const std::vector<int>& touching : connectedBy(bodies, pointersTo(all))) {
-    const std::vector<Contact> closed = contactsOf(touching, all);
+    std::vector<Contact> closed;
+    std::ranges::copy_if(all, std::back_inserter(closed), [&](const Contact& c) { return isOf(touching, c); });
     if (!has(touching, body) || std::ranges::none_of(closed, joins)) continue;
     if (restOf(touching, closed, 0)) return FreeAcceleration();
     const SupportedComponent component = componentOf(touching, closed);
@@ -281,9 +289,13 @@ std::vector<std::pair<std::vector<int>, std::vector<Contact>>> Simulator::placed
   for (const PlacedContact& p : placed)
     if (isFixed(p.a) != isFixed(p.b) && has(bodies, isFixed(p.a) ? p.b : p.a) && !overlapOf(p.a, p.b)) close(p);
   for (const std::vector<int>& all : connectedBy(bodies, pointersTo(touching))) {
-    const std::vector<Contact> closed = contactsOf(all, touching);
-    for (const std::vector<int>& part : pressedParts(all, closed))
-      if (part.size() > 1) parts.emplace_back(part, contactsOf(part, closed));
+    const std::vector<Contact> closed = within(all, touching);
+    std::vector<std::vector<int>> pressed = pressedParts(all, closed);
+    std::erase_if(pressed, [](const std::vector<int>& part) { return part.size() == 1; });
+    const auto rests = [&](const std::vector<int>& part) { return restOf(part, within(part, closed), 0).has_value(); };
+    const bool whole = pressed.size() == 1 && pressed.front() == all;
+    if (!whole && !std::ranges::all_of(pressed, rests)) pressed = {all};
+    for (const std::vector<int>& part : pressed) parts.emplace_back(part, within(part, closed));
   }
   return parts;
 }

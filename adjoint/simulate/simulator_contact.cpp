@@ -161,7 +161,7 @@ std::vector<Contact> Simulator::closedContacts(int body, bool& ends) {
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || (c.a != body && c.b != body)) continue;
     if (!isFixed(c.a == body ? c.b : c.a)) {
-      if (presses(c)) ends = true, endBeyond(c, "resting, rolling and sliding on moving bodies are not modelled yet");
+      if (presses(c)) ends = true, endBeyond(c, "one of them would move, and motion on bodies that can move is not modelled yet");
       continue;
     }
     closed.push_back(c);
