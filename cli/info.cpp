@@ -11,6 +11,7 @@
 #include "carom/version.h"
 #include "cli/build_facts.h"
 #include "cli/command.h"
+#include "cli/components.h"
 #include "cli/loading.h"
 #include "cli/options.h"
 #include "cli/table.h"
@@ -63,7 +64,7 @@ std::vector<ScenePlan::Lasting> lastingOf(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.immovable()) continue;
-    lasting[i] = {{ArcKind::rest, ArcKind::slide, ArcKind::roll, ArcKind::pivot}, "stays in contact with a moving body"};
+    lasting[i] = {{ArcKind::rest, ArcKind::slide, ArcKind::roll, ArcKind::pivot}, "moves while another body that can move presses on it"};
   }
   return lasting;
 }
@@ -81,6 +82,7 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
   plan.asked = edits ? "edit" : "simulate";
   plan.plan = makePlan(scene, edits ? problem.asked : std::vector<Asked>{});
   plan.lasting = lastingOf(scene);
+  plan.components = componentsAtStart(scene, loaded.contacts);
   loaded.contacts.begin(scene);
   plan.overlaps = loaded.contacts.overlaps();
   const int count = static_cast<int>(scene.bodies.size());
@@ -185,9 +187,21 @@ void printLasting(Output& out, const Scene& scene, const ScenePlan& plan) {
     all.add(scene.bodies[i].name, "    " + joined(kinds, ", ") + "; the motion ends where it " + lasting.ends + "\n");
   }
   if (all.empty()) return;
-  out.text() << "\nPersistent contact with fixed bodies (section 11 of the equations):\n";
+  out.text() << "\nPersistent contact with fixed bodies, and rest on others that rest (section 11 of the equations):\n";
   all.print(out);
-  out.text() << "  Persistent contact between moving bodies ends the motion.\n";
+}
+
+void printComponents(Output& out, const Scene& scene, const ScenePlan& plan) {
+  if (plan.components.empty()) return;
+  out.text() << "\nBodies on each other at the start:\n";
+  for (const ScenePlan::Component& component : plan.components) {
+    std::vector<std::string> names;
+    for (const int body : component.bodies) names.push_back(scene.bodies[static_cast<std::size_t>(body)].name);
+    const std::size_t more = names.size() > kMostBodies ? names.size() - kMostBodies : 0;
+    names.resize(names.size() - more);
+    out.text() << "  " << joined(names, ", ") << (more > 0 ? " and " + std::to_string(more) + " more" : "") << "\n    "
+               << (component.rests ? "rest: " : "end the motion: ") << component.why << "\n";
+  }
 }
 
 void printOverlaps(Output& out, const Scene& scene, const ScenePlan& plan) {
@@ -214,6 +228,7 @@ Exit describeScene(const std::string& path, Output& out) {
   printBodies(out, document.scene, plan);
   printPairs(out, document.scene, plan);
   printLasting(out, document.scene, plan);
+  printComponents(out, document.scene, plan);
   printOverlaps(out, document.scene, plan);
   return Exit::done;
 }

@@ -71,6 +71,11 @@ std::string infoJson(const Document& document, const ScenePlan& plan) {
     writeBodyPlan(out, body, plan.plan.bodies[i], plan.lasting[i]);
     ++i;
   });
+  out.objects("components", plan.components, Layout::line, [&](const ScenePlan::Component& component) {
+    std::vector<std::string> bodies;
+    for (const int body : component.bodies) bodies.push_back(scene.bodies[static_cast<std::size_t>(body)].name);
+    out.members("bodies", bodies, "rests", component.rests, "why", component.why);
+  });
   out.objects("overlaps", plan.overlaps, Layout::line,
               [&](const StartOverlap& overlap) { out.members("bodies", names(overlap), "depth", overlap.depth); });
   writeRepairs(out, document);

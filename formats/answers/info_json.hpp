@@ -27,10 +27,17 @@ struct ScenePlan {
     std::vector<ArcKind> kinds;  ///< empty of bodies that impacts do not move
     std::string ends;            ///< the motion ends where it does this, in words
   };
+  /// Bodies that the scene starts on each other.
+  struct Component {
+    std::vector<int> bodies;  ///< that contacts press together
+    bool rests = true;        ///< false: the motion ends there
+    std::string why;          ///< in words
+  };
   std::string asked;                   ///< what the tiers are chosen for: "edit" or "simulate"
   Plan plan;                           ///< of the bodies
   std::vector<Lasting> lasting;        ///< one a body
   std::vector<Pair> pairs;             ///< that can touch
+  std::vector<Component> components;   ///< at the start
   std::vector<StartOverlap> overlaps;  ///< at the start, without when they part
   int controls = 0;                    ///< numbers that may vary
   int rows = 0;                        ///< numbers that are held
@@ -40,7 +47,7 @@ struct ScenePlan {
 /// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
 /// principal moments (kg m^2), of those that differ kinematic, gravity_factor and collision_filter, tier, why,
 /// derivative_tier, derivative_why, of those that impacts move lasting_contact (kinds, as of LastingContact) and
-/// lasting_contact_ends (where it ends the motion)}, overlaps {bodies, depth}, repairs {file, what}, pairs {bodies, law, why, elasticity,
+/// lasting_contact_ends (where it ends the motion)}, components {bodies, rests, why} of bodies that the scene starts on each other, overlaps {bodies, depth}, repairs {file, what}, pairs {bodies, law, why, elasticity,
 /// friction, tangential_elasticity}, controls, rows.
 std::string infoJson(const Document& document, const ScenePlan& plan);
 

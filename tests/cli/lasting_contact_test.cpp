@@ -181,11 +181,33 @@ TEST(LastingContact, InfoSaysWhatABodyCanDo) {
   const auto kinds = [&](int body) { return answer["bodies"][static_cast<std::size_t>(body)]["lasting_contact"]; };
   for (int body : {0, 2}) EXPECT_EQ(kinds(body), (json{"rest", "slide", "roll", "pivot"}));
   EXPECT_FALSE(answer["bodies"][4].contains("lasting_contact"));
-  EXPECT_EQ(answer["bodies"][2]["lasting_contact_ends"], "stays in contact with a moving body");
+  EXPECT_EQ(answer["bodies"][2]["lasting_contact_ends"], "moves while another body that can move presses on it");
   const CommandRun run = runCommand({"info", everyPath()});
-  EXPECT_NE(run.out.find("  drop, bowl, block, still\n    rest, slide, roll, pivot; the motion ends where it stays in "),
+  EXPECT_NE(run.out.find("  drop, bowl, block, still\n    rest, slide, roll, pivot; the motion ends where it moves "),
             std::string::npos)
       << run.out;
+}
+
+// Two stacks, one of which cannot stand: the other rests.
+TEST(LastingContact, InfoNamesWhatLiesOnEachOther) {
+  const auto box = [](const char* name, double x, double z) {
+    return json{{"name", name}, {"mass", 1}, {"shape", {{"box", {{"size", {1, 1, 1}}}}}}, {"position", {x, 0, z}}};
+  };
+  json scene = {{"carom", 1}, {"duration", 1}, {"bodies", {box("low", 0, 0.5), box("high", 0.2, 1.5)}}};
+  scene["bodies"].push_back({{"name", "floor"}, {"fixed", true}, {"shape", {{"plane", {{"normal", {0, 0, 1}}, {"offset", 0}}}}}});
+  for (const bool stands : {true, false}) {
+    scene["bodies"][1]["position"][0] = stands ? 0.2 : 0.7;
+    const std::string path = writeTemporary("stack.json", scene.dump());
+    const json components = runJson({"info", path})["components"];
+    ASSERT_EQ(components.size(), 1u) << components;
+    EXPECT_EQ(components[0]["bodies"], (json{"low", "high"}));
+    EXPECT_EQ(components[0]["rests"], stands);
+    const CommandRun run = runCommand({"info", path});
+    EXPECT_NE(run.out.find(stands ? "  low, high\n    rest: forces within the cones of friction at 8 contacts hold all of them\n"
+                                  : "  low, high\n    end the motion: 'low' and 'high' stay in contact"),
+              std::string::npos)
+        << run.out;
+  }
 }
 
 }  // namespace
