@@ -233,7 +233,7 @@ TEST_P(OnScene, ValidateAcceptsAndInfoExplains) {
   EXPECT_EQ(membersOf(runJson({"validate", path()})),
             (Names{"bodies", "constraints", "controls", "file", "message", "repairs", "valid"}));
   const json info = runJson({"info", path()});
-  EXPECT_EQ(membersOf(info), (Names{"asked", "bodies", "controls", "duration", "name", "notes", "overlaps", "pairs", "repairs", "rows"}));
+  EXPECT_EQ(membersOf(info), (Names{"asked", "bodies", "components", "controls", "duration", "name", "notes", "overlaps", "pairs", "repairs", "rows"}));
   EXPECT_EQ(info["bodies"].size(), readDocument(path()).scene.bodies.size());
   for (const json& body : info["bodies"]) {
     Names members{"derivative_tier", "derivative_why", "dimensions", "name", "shape", "tier", "why"};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/cli/stacked_boxes.h"
 
+#include <tuple>
+
 namespace carom::test {
 
 void addStackedBoxes(nlohmann::json& scene, double drop) {
@@ -10,12 +12,12 @@ void addStackedBoxes(nlohmann::json& scene, double drop) {
                              {"material", "lead"},
                              {"shape", {{"box", {{"size", {2, 2, 0.2}}}}}},
                              {"position", {40, 0, 0}}});
-  for (const auto& [name, height] : {std::pair{"lower box", 0.2}, {"upper box", 0.4 + drop}})
+  for (const auto& [name, along, height] : {std::tuple{"lower box", 40.0, 0.2}, {"upper box", 40.11, 0.4 + drop}})
     scene["bodies"].push_back({{"name", name},
                                {"mass", 1},
                                {"material", "lead"},
                                {"shape", {{"box", {{"size", {0.2, 0.2, 0.2}}}}}},
-                               {"position", {40, 0, height}}});
+                               {"position", {along, 0, height}}});
 }
 
 }  // namespace carom::test
