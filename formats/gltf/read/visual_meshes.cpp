@@ -9,6 +9,7 @@
 #include "formats/base/short_text.hpp"
 #include "formats/gltf/read/other_physics.hpp"
 #include "formats/json/json_place.hpp"
+#include "formats/json/json_writer.hpp"
 #include "formats/mesh/gltf_geometry.hpp"
 
 namespace carom::gltf {
