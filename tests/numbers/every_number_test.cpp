@@ -33,7 +33,7 @@ constexpr std::size_t kSample = 700;
 #if defined(__SANITIZE_ADDRESS__)
 constexpr unsigned kSeconds = 100;
 #else
-constexpr unsigned kSeconds = 10;
+constexpr unsigned kSeconds = 60;
 #endif
 
 struct Call {
