@@ -69,7 +69,7 @@ PyEditResult solvedBy(const PyEdit& self, EditOptions options, const nb::object&
 
 PyEditResult solvedWith(const PyEdit& self, const std::string& effort, const std::string& sequence, int alternatives,
                         int seed, int threads, std::optional<double> time_budget, int max_iterations, double tolerance,
-                        const std::string& second_derivatives, bool certify, bool explain,
+                        double graze_margin, const std::string& second_derivatives, bool certify, bool explain,
                         std::optional<std::size_t> step_limit, const nb::object& progress) {
   EditOptions options;
   options.effort = valueOf<Effort>(
@@ -88,6 +88,7 @@ PyEditResult solvedWith(const PyEdit& self, const std::string& effort, const std
   if (time_budget) options.time_budget_seconds = *time_budget;
   options.max_iterations = max_iterations;
   options.tolerance = tolerance;
+  options.graze_margin = graze_margin;
   options.certify = certify;
   options.explain = explain;
   if (step_limit) options.step_limit = *step_limit;
@@ -99,7 +100,8 @@ constexpr const char* kSolveText =
     "unless time_budget (s) ends it. Ctrl-C raises KeyboardInterrupt.\n\n"
     "effort: work limit of the search, 'fast', 'normal' or 'thorough'. sequence: whether the impact sequence may change, "
     "'smallest', 'prefer_start' or 'stay'. alternatives: number of distinct solutions to search for. seed: of the sample "
-    "sequence. threads: 0 for all cores. tolerance: of every row, dimensionless. second_derivatives: 'exact', 'secant' or "
+    "sequence. threads: 0 for all cores. tolerance: of every row, dimensionless. graze_margin: how far inside an answer goes where a "
+    "needed impact would be lost at a smaller change; 0: the smallest change itself. second_derivatives: 'exact', 'secant' or "
     "'limited_memory'. certify, explain: fill in certificate, and why_not if it is not solved. step_limit: of each motion. "
     "progress: called with an EditProgress, in another thread; if it returns False, the edit ends with the status "
     "'cancelled', and if it raises, with that. It must not solve another edit.\n\n"
@@ -118,11 +120,12 @@ void bindSolve(nb::class_<PyEdit>& edit, nb::module_& module) {
            nb::arg("alternatives") = defaults.alternatives, nb::arg("seed") = defaults.seed,
            nb::arg("threads") = defaults.threads, nb::arg("time_budget") = none,
            nb::arg("max_iterations") = defaults.max_iterations, nb::arg("tolerance") = defaults.tolerance,
+           nb::arg("graze_margin") = defaults.graze_margin,
            nb::arg("second_derivatives") = "exact", nb::arg("certify") = true, nb::arg("explain") = true,
            nb::arg("step_limit") = none, nb::arg("progress") = none,
            nb::sig("def solve(self, *, effort: str = 'normal', sequence: str = 'smallest', alternatives: int = 1, seed: int "
                    "= 0, threads: int = 0, time_budget: float | None = None, max_iterations: int = 10000, tolerance: float "
-                   "= 1e-09, second_derivatives: str = 'exact', certify: bool = True, explain: bool = True, step_limit: "
+                   "= 1e-09, graze_margin: float = 0.001, second_derivatives: str = 'exact', certify: bool = True, explain: bool = True, step_limit: "
                    "int | None = None, progress: collections.abc.Callable[[EditProgress], bool | None] | None = None) -> "
                    "EditResult"),
            kSolveText);
