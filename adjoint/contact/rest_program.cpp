@@ -73,9 +73,13 @@ Rows rowsOf(const RestProgram& program) {
 class RestSolver {
  public:
   explicit RestSolver(const RestProgram& program)
-      : program_(program), rows_(rowsOf(program)), load_(program.load), eigen_(rows_.H.transpose() * rows_.H) {
-    const double most = eigen_.values.size() > 0 ? eigen_.values[eigen_.values.size() - 1] : 0;
-    while (free_ < eigen_.values.size() && !(eigen_.values[free_] > kOpposed * most)) ++free_;
+      : program_(program), rows_(rowsOf(program)) {
+    const SymmetricEigen<double> eigen(rows_.H.transpose() * rows_.H);
+    const double most = eigen.values.size() > 0 ? eigen.values[eigen.values.size() - 1] : 0;
+    Index free = 0;  // motions that no contact opposes
+    while (free < eigen.values.size() && !(eigen.values[free] > kOpposed * most)) ++free;
+    opposed_ = eigen.vectors.rightCols(eigen.vectors.cols() - free);
+    squares_ = eigen.values.tail(opposed_.cols());
   }
 
   RestForces solve() const {
@@ -89,22 +93,26 @@ class RestSolver {
   }
 
  private:
-  // Of the motions that contacts oppose.
-  Eigen::MatrixXd opposed() const { return eigen_.vectors.rightCols(eigen_.vectors.cols() - free_); }
-
   // Forces next to these that undo the loads.
   RestForces balanced(Eigen::VectorXd f) const {
-    const Eigen::MatrixXd V = opposed();
-    const Eigen::VectorXd values = eigen_.values.tail(V.cols());
     for (int round = 0; round < 2; ++round) {  // again for what rounding of the squares leaves
-      const Eigen::VectorXd left = load_ + rows_.H.transpose() * f;
-      f -= rows_.H * (V * (V.transpose() * left).cwiseQuotient(values));
+      const Eigen::VectorXd left = program_.load + rows_.H.transpose() * f;
+      f -= rows_.H * (opposed_ * (opposed_.transpose() * left).cwiseQuotient(squares_));
     }
-    return finished([&](std::size_t k, Index count) { return f.segment(rows_.first[k], count); });
+    RestForces out;
+    out.room = 1;
+    for (std::size_t k = 0; k < program_.contacts.size(); ++k) {
+      const RestProgram::Contact& c = program_.contacts[k];
+      const Index count = c.friction > 0 ? 3 : 1;
+      out.force.push_back(rows_.axes[k].topRows(count).transpose() * f.segment(rows_.first[k], count));
+      out.room = std::min(out.room, roomOf(c, out.force.back()));
+    }
+    out.unbalanced = unbalancedBy(out.force);
+    return out;
   }
 
   RestForces mostRoom() const {
-    const Eigen::MatrixXd V = opposed();
+    const Eigen::MatrixXd& V = opposed_;
     const auto n = static_cast<Index>(program_.contacts.size());
     const Index size = rows_.H.rows() + 1;
     Eigen::MatrixXd D(size, V.cols());
@@ -124,7 +132,7 @@ class RestSolver {
     D.row(size - 1) = -(V.transpose() * pushes).transpose();
     a[size - 1] = 1;
     cones.push_back(1);
-    const Eigen::VectorXd b = -(V.transpose() * (load_ / unit + pushes));
+    const Eigen::VectorXd b = -(V.transpose() * (program_.load / unit + pushes));
     InteriorPoint point(D, a, b, cones);
     RestForces best;
     best.room = -std::numeric_limits<double>::infinity();
@@ -171,26 +179,10 @@ class RestSolver {
     return most;
   }
 
-  template <class ForceOf>
-  RestForces finished(const ForceOf& forceOf) const {
-    RestForces out;
-    out.room = 1;
-    for (std::size_t k = 0; k < program_.contacts.size(); ++k) {
-      const RestProgram::Contact& c = program_.contacts[k];
-      const Index count = c.friction > 0 ? 3 : 1;
-      const Eigen::VectorXd f = forceOf(k, count);
-      out.force.push_back(rows_.axes[k].topRows(count).transpose() * f);
-      out.room = std::min(out.room, roomOf(c, out.force.back()));
-    }
-    out.unbalanced = unbalancedBy(out.force);
-    return out;
-  }
-
   const RestProgram& program_;
   Rows rows_;
-  Eigen::VectorXd load_;
-  SymmetricEigen<double> eigen_;
-  Index free_ = 0;  // motions that no contact opposes
+  Eigen::MatrixXd opposed_;  // motions that contacts oppose, orthonormal
+  Eigen::VectorXd squares_;  // of the velocities of contacts in these
 };
 
 }  // namespace

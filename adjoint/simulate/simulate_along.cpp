@@ -233,10 +233,7 @@ class Follower {
     builder_.add(std::move(event_), std::move(arcs));
   }
 
-  bool isMoved(int body) const {
-    const BodyModel& model = (*motion_.models)[index(body)];
-    return model.moving && !model.kinematic;
-  }
+  bool isMoved(int body) const { return !scene_.bodies[index(body)].immovable(); }
   bool liesOnAnother(const Contact& c) const { return c.lasts && isMoved(c.a) && isMoved(c.b); }
 
   // The gaps of bodies that come to rest on each other close together.

@@ -107,8 +107,6 @@ std::vector<const Contact*> SupportedComponent::pressed() const {
   return out;
 }
 
-std::vector<FreeAcceleration> SupportedComponent::pressedAccelerations() const { return pressed_; }
-
 // A matter of statics, as for one body: moments count by the arm of the farthest contact. Without loads and units.
 RestProgram SupportedComponent::programOf(const std::vector<const Contact*>& contacts) const {
   RestProgram program;

@@ -22,7 +22,7 @@ class SupportedComponent {
   /// Of the closed contacts, those that forces without friction have to keep closed, and those of the same faces.
   std::vector<const Contact*> pressed() const;
   /// Accelerations while such forces act, a member each.
-  std::vector<FreeAcceleration> pressedAccelerations() const;
+  const std::vector<FreeAcceleration>& pressedAccelerations() const { return pressed_; }
 
   /// Whether forces within the cones of friction of these contacts undo all loads, and, where they do, what bears one.
   struct Rest {
