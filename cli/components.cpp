@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "adjoint/base/errors.h"
 #include "adjoint/contact/contact_path.hpp"
 #include "adjoint/simulate/simulate.h"
 
@@ -16,18 +15,15 @@ using Component = formats_detail::ScenePlan::Component;
 // Of a motion of this length, s, what it begins with alone is asked.
 constexpr double kAtOnce = 1e-9;
 
-Component componentOf(const Motion& motion, const Event& event) {
-  Component component;
+std::string whyItRests(const Motion& motion, const Event& event) {
   bool opposed = true;
   for (const Participant& p : event.participants) {
-    component.bodies.push_back(p.body);
     const Arc& arc = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())];
     opposed = opposed && arc.closedForm() && !arc.closedForm()->loose;
   }
   const auto contacts = std::ranges::count_if(event.contacts, &Contact::lasts);
-  component.why = "forces within the cones of friction at " + std::to_string(contacts) + " contacts hold all of them" +
+  return "forces within the cones of friction at " + std::to_string(contacts) + " contacts hold all of them" +
                   (opposed ? "" : "; some motion of them is not opposed");
-  return component;
 }
 
 }  // namespace
@@ -39,15 +35,10 @@ std::vector<Component> componentsAtStart(const Scene& scene, OdeContacts& contac
   const Motion motion = simulate(scene, contacts, kAtOnce, options);
   for (const Event& event : motion.events) {
     if (event.kind != EventKind::placed || event.participants.size() < 2) continue;
-    if (&event == &motion.events.back() && motion.status == MotionStatus::unresolved_contact && motion.end == 0) {
-      Component ends;
-      for (const Participant& p : event.participants) ends.bodies.push_back(p.body);
-      ends.rests = false;
-      ends.why = motion.message;
-      found.push_back(std::move(ends));
-      continue;
-    }
-    found.push_back(componentOf(motion, event));
+    Component& component = found.emplace_back();
+    for (const Participant& p : event.participants) component.bodies.push_back(p.body);
+    component.rests = !(&event == &motion.events.back() && motion.status == MotionStatus::unresolved_contact && motion.end == 0);
+    component.why = component.rests ? whyItRests(motion, event) : motion.message;
   }
   return found;
 }

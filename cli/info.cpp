@@ -82,8 +82,7 @@ ScenePlan planOf(const Output& out, Loaded& loaded) {
   plan.asked = edits ? "edit" : "simulate";
   plan.plan = makePlan(scene, edits ? problem.asked : std::vector<Asked>{});
   plan.lasting = lastingOf(scene);
-  plan.components = componentsAtStart(scene, loaded.contacts);
-  loaded.contacts.begin(scene);
+  plan.components = componentsAtStart(scene, loaded.contacts);  // which looks for overlaps, too
   plan.overlaps = loaded.contacts.overlaps();
   const int count = static_cast<int>(scene.bodies.size());
   for (int a = 0; a < count; ++a)
