@@ -44,6 +44,9 @@ struct Attempts {
   std::size_t steps = 0;  ///< of work
 };
 
+/// Whether two contacts are between the same features of the same bodies.
+inline bool isSameContact(const Contact& c, const Contact& d) { return c.a == d.a && c.b == d.b && c.features == d.features; }
+
 /// The event loop behind `simulate`. Every body has one entry in the queue: its first impact, as far as it has been
 /// searched for, or the horizon of that search. An impact touches the entries of its own bodies only; an entry whose
 /// partner has been struck in the meantime is found out when its time comes, and the search goes on from there.
@@ -284,6 +287,7 @@ class Simulator {
   static std::size_t workIn(const Arc& arc) { return arc.series() * (arc.isIntegrated() ? kConstrainedStep : 1); }
   // Whether impacts move a body. They neither join through one that they do not move nor change its path.
   bool isFixed(int body) const { return arc_[index(body)]->stays(); }
+  bool joinsMoved(const Contact& c) const { return isMoved(c.a) && isMoved(c.b); }
   bool isMoved(int body) const {
     const BodyModel& model = (*motion_.models)[index(body)];
     return model.moving && !model.kinematic;

@@ -33,14 +33,13 @@ std::vector<std::vector<int>> connectedBy(const std::vector<int>& bodies, const 
 
 bool has(const std::vector<int>& bodies, int body) { return std::ranges::binary_search(bodies, body); }
 bool isOf(const std::vector<int>& bodies, const Contact& c) { return has(bodies, c.a) || has(bodies, c.b); }
-bool isSame(const Contact& c, const Contact& d) { return c.a == d.a && c.b == d.b && c.features == d.features; }
 
 }  // namespace
 
 // Whether a body rests on others, or under them, and takes part in the event without being moved.
 bool Simulator::isSupport(int body) const {
   if (!any_lasted_ || std::ranges::find(draft_.woken, body) != draft_.woken.end()) return false;
-  return std::ranges::any_of(contact_states_[index(body)].held, [&](const Contact& c) { return isMoved(c.a) && isMoved(c.b); });
+  return std::ranges::any_of(contact_states_[index(body)].held, [&](const Contact& c) { return joinsMoved(c); });
 }
 
 // All supports that a support is connected with, itself among them.
@@ -131,7 +130,7 @@ std::vector<Contact> Simulator::lasting(const std::vector<int>& bodies) const {
   std::vector<int> supports;
   std::ranges::copy_if(bodies, std::back_inserter(supports), [&](int body) { return isSupport(body); });
   for (Contact& c : heldOf(supports))
-    if (std::ranges::none_of(closed, [&](const Contact& d) { return isSame(c, d); })) closed.push_back(std::move(c));
+    if (std::ranges::none_of(closed, [&](const Contact& d) { return isSameContact(c, d); })) closed.push_back(std::move(c));
   dropFlatRims(closed);
   return closed;
 }
@@ -180,7 +179,7 @@ void Simulator::chooseComponents() {
   draft_.unheld.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (event.participants[i].stays) draft_.contact_state[i].held = heldOf({bodies_[i]});
-  const auto joins = [&](const Contact& c) { return c.lasts && isMoved(c.a) && isMoved(c.b); };
+  const auto joins = [&](const Contact& c) { return c.lasts && joinsMoved(c); };
   if (draft_.woken.empty() && std::ranges::none_of(event.contacts, joins)) return;  // far most often
   const std::vector<int> bodies = movedBodies(true);
   const std::vector<Contact> all = lasting(bodies);
@@ -205,17 +204,16 @@ void Simulator::chooseRest(const std::vector<int>& touching, const std::vector<C
     } else {
       const std::vector<Contact> own = within(parts[i], closed);
       for (const Contact* c : componentOf(parts[i], own).pressed())
-        if (isMoved(c->a) && isMoved(c->b)) draft_.pressing.push_back(*c);
+        if (joinsMoved(*c)) draft_.pressing.push_back(*c);
     }
   }
 }
 
 // The poses of what has come to rest close its gaps; what stays has more that holds it.
 void Simulator::holdAtRest(RestingComponent& rest) {
+  const auto comesToRest = [&](int body) { return isMoved(body) && !isSupport(body); };
   std::vector<Contact> on;
-  for (const Contact& c : rest.on)
-    if (!isSupport(c.a) || !isSupport(c.b)) on.push_back(c);
-  std::erase_if(on, [&](const Contact& c) { return (isSupport(c.a) && isFixed(c.b)) || (isSupport(c.b) && isFixed(c.a)); });
+  std::ranges::copy_if(rest.on, std::back_inserter(on), [&](const Contact& c) { return comesToRest(c.a) || comesToRest(c.b); });
   std::erase_if(rest.members, [&](const Member& m) { return isSupport(m.body); });
   if (std::ranges::any_of(on, [](const Contact& c) { return !c.held; })) closeGaps(motion_, rest.members, on);
   const auto participantOf = [&](int body) { return static_cast<std::size_t>(std::ranges::find(bodies_, body) - bodies_.begin()); };
@@ -250,7 +248,7 @@ void Simulator::keep(std::size_t participant) {
 // d^2/dt^2 of bodies that lie on each other, as after the event: none of those that do not.
 std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const {
   if (const Participant* p = draft_.event.find(body); p && p->stays) return FreeAcceleration();
-  const auto joins = [&](const Contact& c) { return c.lasts && isMoved(c.a) && isMoved(c.b); };
+  const auto joins = [&](const Contact& c) { return c.lasts && joinsMoved(c); };
   if (std::ranges::none_of(draft_.event.contacts, joins)) return std::nullopt;
   const std::vector<int> bodies = movedBodies(false);
   const std::vector<Contact> all = lasting(bodies);

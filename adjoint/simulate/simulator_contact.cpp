@@ -54,8 +54,7 @@ void Simulator::addConstrained() {
     for (int body : {contacts[k].a, contacts[k].b}) {
       if (isSupport(body)) continue;
       for (const Contact& h : contact_states_[index(body)].held) {
-        const auto known = std::ranges::find_if(
-            contacts, [&](const Contact& c) { return c.a == h.a && c.b == h.b && c.features == h.features; });
+        const auto known = std::ranges::find_if(contacts, [&](const Contact& c) { return isSameContact(c, h); });
         if (known != contacts.end()) {
           known->held = true;
           continue;
@@ -72,8 +71,8 @@ void Simulator::addConstrained() {
 
 // Whether a contact with a body that moves, which parts without speed, goes on pressing while what stands still holds them.
 bool Simulator::presses(const Contact& c) const {
-  if (!isMoved(c.a) || !isMoved(c.b)) return accelerationOf(c) < 0;
-  return std::ranges::any_of(draft_.pressing, [&](const Contact& d) { return d.a == c.a && d.b == c.b && d.features == c.features; });
+  if (!joinsMoved(c)) return accelerationOf(c) < 0;
+  return std::ranges::any_of(draft_.pressing, [&](const Contact& d) { return isSameContact(c, d); });
 }
 
 // How every participant goes on.
@@ -99,9 +98,7 @@ void Simulator::chooseArcs() {
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
     c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
-      return std::ranges::any_of(contact_state.held, [&](const Contact& h) {
-        return h.a == c.a && h.b == c.b && h.features == c.features;
-      });
+      return std::ranges::any_of(contact_state.held, [&](const Contact& h) { return isSameContact(c, h); });
     });
     if (c.lasts && !c.held && event.kind == EventKind::impact) event.kind = EventKind::capture;
   }
